@@ -121,6 +121,16 @@ pub(crate) fn error_in(found: &Error, recording: &Path) {
     }
 }
 
+/// A count on stderr, of work whose length is not known. It is invisible if stderr is not a terminal.
+pub(crate) fn spinner(what: &str) -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template(&format!("{{spinner}} {{human_pos}} {what} {{per_sec}}"))
+    {
+        bar.set_style(style);
+    }
+    bar
+}
+
 /// A progress bar on stderr. It is invisible if stderr is not a terminal.
 pub(crate) fn progress(length: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(length);

@@ -4,6 +4,9 @@ mod arguments;
 mod evaluate;
 mod job;
 mod output;
+mod poses;
+mod reach;
+mod reach_request;
 mod sweep;
 mod sweep_request;
 mod table;
@@ -11,8 +14,9 @@ mod table;
 pub(crate) use arguments::Arguments;
 
 use crate::{Exit, console};
-use calibrant::design::DesignProblem;
-use calibrant::io::{ResultPlaces, design_json};
+use calibrant::design::{Design, DesignProblem};
+use calibrant::error::{Error, InputError, Refusal};
+use calibrant::io::{Plan, ResultPlaces, design_json};
 use job::{Job, in_file};
 use output::{check_dense, exit_of, write};
 
@@ -21,6 +25,7 @@ impl crate::run::Run for Arguments {
         let names = [
             "design.json",
             "motion.csv",
+            "poses.csv",
             "motion_dense.csv",
             "evaluation.json",
             "evaluation.html",
@@ -46,22 +51,45 @@ impl crate::run::Run for Arguments {
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let job = Job::prepare(arguments)?;
+    if matches!(job.experiment.plan, Plan::Holds(_)) {
+        return poses::run(arguments, &job);
+    }
+    if arguments.add.is_some() {
+        let help = "--add is of poses, in a [holds] experiment";
+        let message = "this experiment has no poses to add to";
+        return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+    }
     let problem = job.problem(&arguments.experiment)?;
     check_dense(arguments, &problem)?;
     match (&arguments.evaluate, &arguments.sweep) {
         (Some(path), _) => evaluate::run(arguments, &job, &problem, path),
         (None, Some(request)) => sweep::run(arguments, &job, &problem, request),
+        (None, None) if !arguments.reach.is_empty() => reach::run(arguments, &job, &problem),
         (None, None) => run_design(arguments, &job, &problem),
     }
 }
 
 fn run_design(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> calibrant::Result<Exit> {
     let design = job.design(problem).map_err(|error| in_file(error, &arguments.experiment))?;
-    write(arguments, job, problem, &design)?;
+    finish(arguments, job, problem, &design, None)
+}
+
+/// Writes and shows a design, with a remark below its table.
+fn finish(
+    arguments: &Arguments,
+    job: &Job,
+    problem: &DesignProblem<'_>,
+    design: &Design,
+    remark: Option<&str>,
+) -> calibrant::Result<Exit> {
+    write(arguments, job, problem, design)?;
     if arguments.json {
-        console::print(&design_json(&design, problem, &job.settings));
+        console::print(&design_json(design, problem, &job.settings));
     } else {
-        console::print(&table::design(&design));
+        console::print(&table::design(design));
+        if let Some(remark) = remark {
+            console::print(&table::wrapped(remark));
+        }
         let output = &arguments.output;
         console::print(&format!(
             "\n{}\n{}\n",
@@ -69,5 +97,5 @@ fn run_design(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> 
             output.join("report.html").display()
         ));
     }
-    Ok(exit_of(&design))
+    Ok(exit_of(design))
 }

@@ -198,6 +198,6 @@ fn by_hand(plan: &HoldsPlan) -> HoldsSimulation {
         turn_s: 2.0,
         rate_hz: plan.rate_hz,
         gravity_mps2: plan.gravity.magnitude_mps2,
-        between_holds_sd_mps2: 0.0,
+        between_holds_sd_mps2: plan.between_holds_sd_mps2,
     }
 }

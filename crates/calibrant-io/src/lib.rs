@@ -11,6 +11,7 @@
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | corrected recordings, comparisons | | [`write_corrected_recording`], [`comparison_json`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
+//! | `design.json` and `evaluation.json` of poses, `poses.csv` | | [`write_pose_design`], [`write_pose_evaluation`], [`write_poses`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`write_noise`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_imu_truth`] |
@@ -46,6 +47,7 @@ mod machine_truth;
 mod machine_validation;
 mod motion;
 mod noise;
+mod pose_design;
 mod recording;
 mod reference_inspection;
 mod reference_log;
@@ -76,8 +78,8 @@ pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibr
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, LogNoise, MachinePlan,
-    MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions,
-    UnknownVariant, UrdfSource, nearest, read_columns,
+    MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, PoseOptions, Prior, ScaleBy,
+    StudyOptions, UnknownVariant, UrdfSource, nearest, read_columns,
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
@@ -90,6 +92,9 @@ pub use machine_calibration::{
 pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
+pub use pose_design::{
+    pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation, write_poses,
+};
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,

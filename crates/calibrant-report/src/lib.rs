@@ -12,6 +12,7 @@ mod html;
 mod machine;
 mod noise;
 pub mod number_format;
+mod poses;
 mod report_context;
 mod study;
 mod sweep;
@@ -33,6 +34,7 @@ pub use machine::{
     machine_validation_sentences, mounting_in_words,
 };
 pub use noise::{coefficient_name, noise_report};
+pub use poses::{evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
 pub use report_context::About;
 pub use study::study_report;
 pub use sweep::sweep_report;

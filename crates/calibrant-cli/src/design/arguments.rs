@@ -1,16 +1,20 @@
 //! The arguments of `calibrant design`.
 
-use super::sweep_request as sweep;
+use super::{reach_request as reach, sweep_request as sweep};
 use calibrant::io::CriterionLetter;
 use std::path::PathBuf;
 
-/// Design the motion whose recording determines the parameters best, with a bound that no other motion can beat.
+/// Design the motion, or the poses, whose recording determines the parameters best, with a bound that no other can beat.
 ///
+/// With [holds] in the experiment it finds the best poses, and writes design.json, poses.csv and report.html, a checklist to print. --evaluate RECORDING says how
+/// efficient recorded holds were. --from calibration.json --add 3 says which poses to record next. [design] says what is known of directions, and which are allowed.
+///
+/// With [motion] it finds the best motion.
 /// Writes design.json, motion.csv and report.html into DIR. `simulate` and `calibrate` take motion.csv as --motion. --evaluate adds evaluation.json and
 /// evaluation.html. --sweep writes sweep.json, sweep.csv and report.html instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The experiment file, with a [motion] (see `calibrant init`).
+    /// The experiment file, with a [motion] or [holds] (see `calibrant init`).
     pub(super) experiment: PathBuf,
     /// An earlier calibration.json of this sensor. The design starts at its estimate, and uses its information. Repeatable: the information adds up, and the last file gives the estimate.
     #[arg(long, value_name = "JSON")]
@@ -18,13 +22,20 @@ pub(crate) struct Arguments {
     /// Also write motion_dense.csv: position, velocity, acceleration and jerk at this rate.
     #[arg(long, value_name = "HZ", value_parser = rate, conflicts_with = "sweep")]
     pub(super) sample_rate: Option<f64>,
-    /// Evaluate this motion: its information against that of the best motion, and the limits that it breaks.
-    #[arg(long, value_name = "CSV", conflicts_with = "sweep")]
+    /// Evaluate this motion, or this recording of holds: its information against that of the best, and the limits that a motion breaks.
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["sweep", "reach"])]
     pub(super) evaluate: Option<PathBuf>,
     /// Design for several values of one quantity: duration=5,10,20, or duration=FROM:TO:COUNT (geometric), or FROM:TO:COUNT:linear. Other quantities:
     /// acceleration, jerk, intercept, velocity, displacement, rate, noise.
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep::parse)]
     pub(super) sweep: Option<sweep::Request>,
+    /// Find the fewest poses, or the shortest motion, with which a parameter has this standard deviation: scale.x=50ppm, bias.z=0.2mg. Repeatable. It proves a
+    /// number below which none can.
+    #[arg(long, value_name = "NAME=SD", value_parser = reach::parse, conflicts_with_all = ["sweep", "evaluate"])]
+    pub(super) reach: Vec<reach::Request>,
+    /// Number of poses, in place of holds.poses: those to add to an earlier calibration (--from).
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200), conflicts_with_all = ["sweep", "evaluate", "reach"])]
+    pub(super) add: Option<u32>,
     /// Criterion to minimise: A, D, E, M, c or I (default: from [design]).
     #[arg(long, value_name = "LETTER", value_parser = letter)]
     pub(super) criterion: Option<CriterionLetter>,

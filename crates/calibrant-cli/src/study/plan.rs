@@ -93,7 +93,7 @@ impl<'a> Material<'a> {
             trust,
             known_ends: plan.known_ends,
             limits: limits.clone(),
-            criterion: experiment.criterion(&nominal)?,
+            criterion: experiment.criterion(&experiment.sensor.parameter_list(), &nominal)?,
             initial: None,
             sensors: self.sensors.unwrap_or(experiment.study.sensors),
             motions_shown: experiment.study.motions,

@@ -3,9 +3,9 @@
 use super::hold_information::HoldInformation;
 use super::problem::PoseProblem;
 use super::result::{PoseBound, efficiency};
-use super::search::{relaxed, singular};
+use super::search::{named, relaxed, singular};
 use super::spectral_projected_gradient::Poses;
-use calibrant_core::error::{Error, NotIdentifiable, Result, UndeterminedGroup};
+use calibrant_core::error::{Error, NotIdentifiable, Result};
 use calibrant_core::information::undetermined;
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -46,15 +46,9 @@ pub fn evaluate_poses(
     let sum = information.sum(poses.directions.iter().map(|u| (u, 1.0)));
     let f = information.of_parameters(&sum);
     let names = problem.list.names();
-    let groups: Vec<_> = undetermined(&f, &f.diagonal())
-        .iter()
-        .map(|group| UndeterminedGroup {
-            parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
-            free_combinations: group.free_combinations,
-            reason: format!("the directions of the {} holds are too few or too similar", directions.len()),
-            remedy: "hold the sensor in more directions".into(),
-        })
-        .collect();
+    let reason = format!("the directions of the {} holds are too few or too similar", directions.len());
+    let groups =
+        named(&undetermined(&f, &f.diagonal()), &names, &reason, "hold the sensor in more directions");
     if !groups.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
     }

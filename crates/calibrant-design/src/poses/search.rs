@@ -14,7 +14,7 @@ use super::spectral_projected_gradient::{Descent, Poses};
 use super::{Allowed, DirectionKnowledge};
 use crate::{AT_BEST, DesignSettings};
 use calibrant_core::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
-use calibrant_core::information::{Criterion, undetermined};
+use calibrant_core::information::{Criterion, Undetermined, undetermined};
 use calibrant_core::simulate::{Purpose, Rng, stream};
 use nalgebra::Vector3;
 use rand::RngExt;
@@ -183,55 +183,77 @@ fn improve(
     value.is_finite().then_some((value, poses))
 }
 
-/// Refuses directions that leave parameters undetermined, and too few poses.
-fn check(problem: &PoseProblem, information: &HoldInformation, seed: u64) -> Result<()> {
-    let names = problem.list.names();
-    let groups = |directions: &[Vector3<f64>]| {
-        let sum = information.sum(directions.iter().map(|u| (u, 1.0)));
-        let f = information.of_parameters(&sum);
+/// The fewest poses that determine all parameters, found by lot.
+///
+/// # Errors
+/// [`Error::NotIdentifiable`] where the allowed directions leave parameters undetermined however many there are.
+pub(super) fn fewest_that_determine(
+    problem: &PoseProblem,
+    information: &HoldInformation,
+    seed: u64,
+) -> Result<usize> {
+    let free = |directions: &[Vector3<f64>]| {
+        let f = information.of_parameters(&information.sum(directions.iter().map(|u| (u, 1.0))));
         undetermined(&f, &f.diagonal())
     };
     let (all, _) = problem.allowed.grid(8);
-    let free = groups(&all);
-    if !free.is_empty() {
-        let unknown = problem.directions == DirectionKnowledge::Unknown;
-        let groups = free
-            .iter()
-            .map(|group| UndeterminedGroup {
-                parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
-                free_combinations: group.free_combinations,
-                reason: "the allowed directions are not enough, however often each is held".into(),
-                remedy: if unknown {
-                    "allow more directions in design.allowed, or say design.directions = \"known\"".into()
-                } else {
-                    "allow more directions in design.allowed".into()
-                },
-            })
-            .collect();
+    let left = free(&all);
+    if !left.is_empty() {
+        let reason = "the allowed directions are not enough, however often each is held";
+        let remedy = match problem.directions {
+            DirectionKnowledge::Unknown => {
+                "allow more directions in design.allowed, or say design.directions = \"known\""
+            }
+            DirectionKnowledge::Known { .. } => "allow more directions in design.allowed",
+        };
+        let groups = named(&left, &problem.list.names(), reason, remedy);
         return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
     }
     let mut rng = stream(seed, Purpose::Motion, 1);
     let mut suffices = |poses: usize| {
         (0..TRIED).any(|_| {
             let some: Vec<_> = (0..poses).map(|_| problem.allowed.draw(&mut rng)).collect();
-            groups(&some).is_empty()
+            free(&some).is_empty()
         })
     };
-    let fewest = (1..MOST).find(|&poses| suffices(poses)).unwrap_or(MOST);
-    if problem.poses < fewest {
-        let group = UndeterminedGroup {
-            parameters: Vec::new(),
-            free_combinations: 0,
-            reason: format!(
-                "{} for {} parameters, which need at least {fewest}",
-                if problem.poses == 1 { "one pose".into() } else { format!("{} poses", problem.poses) },
-                names.len()
-            ),
-            remedy: format!("hold the sensor in at least {fewest} poses"),
-        };
-        return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })));
+    Ok((1..MOST).find(|&poses| suffices(poses)).unwrap_or(MOST))
+}
+
+/// Refuses too few poses, and directions that leave parameters undetermined.
+fn check(problem: &PoseProblem, information: &HoldInformation, seed: u64) -> Result<()> {
+    let fewest = fewest_that_determine(problem, information, seed)?;
+    if problem.poses >= fewest {
+        return Ok(());
     }
-    Ok(())
+    let group = UndeterminedGroup {
+        parameters: Vec::new(),
+        free_combinations: 0,
+        reason: format!(
+            "{} for {} parameters, which need at least {fewest}",
+            if problem.poses == 1 { "one pose".into() } else { format!("{} poses", problem.poses) },
+            problem.list.len()
+        ),
+        remedy: format!("hold the sensor in at least {fewest} poses"),
+    };
+    Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })))
+}
+
+/// Groups of undetermined parameters with their names.
+pub(super) fn named(
+    groups: &[Undetermined],
+    names: &[String],
+    reason: &str,
+    remedy: &str,
+) -> Vec<UndeterminedGroup> {
+    groups
+        .iter()
+        .map(|group| UndeterminedGroup {
+            parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
+            free_combinations: group.free_combinations,
+            reason: reason.into(),
+            remedy: remedy.into(),
+        })
+        .collect()
 }
 
 pub(super) fn singular() -> Error {

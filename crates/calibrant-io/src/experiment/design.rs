@@ -2,6 +2,7 @@
 
 use super::known_keys;
 use super::number_range::Bounds;
+use super::poses::{self, PoseOptions};
 use super::spreads::need_spreads;
 use super::toml_document::Section;
 use calibrant_core::error::Result;
@@ -74,6 +75,8 @@ pub struct DesignOptions {
     pub seed: u64,
     /// Is a lower bound wanted that no admissible motion can beat?
     pub certificate: bool,
+    /// What a design of poses may choose from.
+    pub poses: PoseOptions,
 }
 
 impl Default for DesignOptions {
@@ -86,6 +89,7 @@ impl Default for DesignOptions {
             starts: 30,
             seed: 1,
             certificate: true,
+            poses: PoseOptions::default(),
         }
     }
 }
@@ -94,6 +98,10 @@ impl Default for DesignOptions {
 pub(super) fn read(section: &Section<'_>, sensor: &Sensor, list: &ParameterList) -> Result<DesignOptions> {
     use CriterionLetter::{A, C, D, E, I, M};
     let otherwise = DesignOptions::default();
+    let poses = poses::read(section)?;
+    // with known directions there is no gauge
+    let all = sensor.parameter_list();
+    let list = if poses.known { &all } else { list };
     let criterion = section.get("criterion").map_or(Ok(otherwise.criterion), |entry| {
         entry.word(&[("A", A), ("D", D), ("E", E), ("M", M), ("c", C), ("I", I)])
     })?;
@@ -107,6 +115,7 @@ pub(super) fn read(section: &Section<'_>, sensor: &Sensor, list: &ParameterList)
         starts: section.get("starts").map_or(Ok(otherwise.starts), |entry| entry.size(1, 1_000_000))?,
         seed: section.get("seed").map_or(Ok(otherwise.seed), |entry| entry.whole(0, u64::MAX))?,
         certificate: section.get("certificate").map_or(Ok(otherwise.certificate), |entry| entry.flag())?,
+        poses,
     };
     match criterion {
         C if options.weights.iter().all(|(_, weight)| *weight == 0.0) => {

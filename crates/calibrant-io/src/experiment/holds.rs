@@ -39,6 +39,8 @@ pub struct HoldsPlan {
     pub face_sd_rad: Option<f64>,
     /// Standard deviation of the drift of each bias from the first hold to the last, m/s². By default 2 mg, as while a MEMS sensor warms up.
     pub bias_drift_sd_mps2: f64,
+    /// Scatter between holds that the noise does not explain, m/s², for a simulated recording and a design of poses.
+    pub between_holds_sd_mps2: f64,
     /// Shortest stationary interval that counts as a hold, s.
     pub minimum_hold_s: f64,
     /// Number of poses of a simulated recording.
@@ -66,7 +68,7 @@ impl HoldsPlan {
 
 /// Usual drift of a bias over a recording, m/s².
 const BIAS_DRIFT_SD_MPS2: f64 = 0.02;
-/// Range of it.
+/// Range of it, and of the scatter between holds.
 const BIAS_DRIFT: Bounds = Bounds::from(0.0, 100.0, "m/s²");
 
 /// Reads `[holds]`. The gyroscope of an IMU senses Earth's rate: a latitude beside a value of gravity serves
@@ -100,6 +102,7 @@ pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
         directions,
         face_sd_rad: face_sd.map(f64::to_radians),
         bias_drift_sd_mps2: number("bias_drift_sd_mps2", &BIAS_DRIFT, BIAS_DRIFT_SD_MPS2)?,
+        between_holds_sd_mps2: number("between_holds_sd_mps2", &BIAS_DRIFT, 0.0)?,
         minimum_hold_s: number("minimum_hold_s", &DURATION, 1.0)?,
         poses,
         hold_s,

@@ -6,12 +6,12 @@ use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::criterion::{
     AOptimality, COptimality, Criterion, DOptimality, EOptimality, IOptimality, MOptimality,
 };
-use calibrant_core::sensor::SensorParameters;
+use calibrant_core::sensor::{ParameterList, SensorParameters};
 use calibrant_design::{DesignProblem, DesignSettings};
 use nalgebra::{DMatrix, DVector};
 
 impl Experiment {
-    /// The criterion that `[design]` minimises, for a sensor like `at`.
+    /// The criterion that `[design]` minimises, for these parameters of a sensor like `at`.
     ///
     /// With `scale_by = "datasheet"` the parameters are divided by their spread (for c the variances by its
     /// square). I needs no scale.
@@ -19,13 +19,12 @@ impl Experiment {
     /// # Errors
     /// [`Error::Experiment`] where c has no weight, I no range or no correction (`S` singular), or a spread
     /// is missing.
-    pub fn criterion(&self, at: &SensorParameters) -> Result<Criterion> {
+    pub fn criterion(&self, list: &ParameterList, at: &SensorParameters) -> Result<Criterion> {
         let reject = |key: &str, message: &str, help: &str| {
             Error::experiment(
                 InputError::new(Refusal::KeyMissing, message, help).about_key(format!("design.{key}")),
             )
         };
-        let list = self.sensor.parameter_list();
         let scale = match self.design.scale_by {
             ScaleBy::None => DVector::repeat(list.len(), 1.0),
             ScaleBy::Datasheet => {
@@ -63,7 +62,7 @@ impl Experiment {
                         "range_mps2 = 20.0 in [design]",
                     )
                 })?;
-                Criterion::I(IOptimality::new(&list, at, range).ok_or_else(|| {
+                Criterion::I(IOptimality::new(list, at, range).ok_or_else(|| {
                     reject(
                         "criterion",
                         "the matrix S cannot be inverted, so there is no corrected reading",
@@ -92,11 +91,32 @@ impl Experiment {
             )));
         };
         let list = self.sensor.parameter_list();
+        let (at, prior) = self.known_before(&list, earlier)?;
+        Ok(DesignProblem {
+            sensor: &self.sensor,
+            intervals: plan.intervals,
+            interval_s: plan.interval_s,
+            rate_hz: plan.rate_hz,
+            trust: plan.trust,
+            known_ends: plan.known_ends,
+            limits: &self.limits,
+            criterion: self.criterion(&list, &at)?,
+            at,
+            prior,
+        })
+    }
+
+    /// The sensor at which a design begins, and the information that is there already.
+    pub(super) fn known_before(
+        &self,
+        list: &ParameterList,
+        earlier: &[EarlierCalibration],
+    ) -> Result<(SensorParameters, Option<DMatrix<f64>>)> {
         let mut at = self.sensor.nominal();
         let mut prior: Option<DMatrix<f64>> = None;
         let mut datasheets = 0;
         for calibration in earlier {
-            at = Some(calibration.sensor_of(&list, self.sensor.unit)?);
+            at = Some(calibration.sensor_of(list, self.sensor.unit)?);
             let information = calibration.information();
             prior = Some(prior.map_or_else(|| information.clone(), |sum| sum + information));
             datasheets += usize::from(calibration.has_datasheet_prior);
@@ -119,18 +139,7 @@ impl Experiment {
                 prior = Some(prior.map_or_else(|| datasheet.clone(), |sum| sum + &datasheet));
             }
         }
-        Ok(DesignProblem {
-            sensor: &self.sensor,
-            intervals: plan.intervals,
-            interval_s: plan.interval_s,
-            rate_hz: plan.rate_hz,
-            trust: plan.trust,
-            known_ends: plan.known_ends,
-            limits: &self.limits,
-            criterion: self.criterion(&at)?,
-            at,
-            prior,
-        })
+        Ok((at, prior))
     }
 
     /// The settings of the search that `[design]` gives.

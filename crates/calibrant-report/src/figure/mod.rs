@@ -10,6 +10,7 @@ mod clipping;
 mod colour;
 mod correlation;
 mod design_population;
+mod device;
 mod ellipse;
 mod frame;
 mod gyroscope_at_rest;
@@ -36,6 +37,7 @@ pub(super) use before_after::{holds_before_and_after, recording_before_and_after
 pub(super) use clipping::renumbered;
 pub(super) use correlation::{correlation_map, correlation_map_of};
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
+pub(super) use device::device;
 pub(super) use ellipse::confidence_ellipses;
 pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_at_rest::still_gyroscope;
@@ -49,7 +51,7 @@ pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_
 pub(super) use population::{p_values, parameter_errors, parameters_against_truth, standardised_errors};
 pub(super) use residuals::{autocorrelations, histograms, residuals_over_time};
 pub(super) use rotations::rotation_errors;
-pub(super) use sphere::hold_directions;
+pub(super) use sphere::{hold_directions, pose_directions};
 pub(super) use starts::start_values;
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;

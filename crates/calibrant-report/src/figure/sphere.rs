@@ -14,9 +14,12 @@ const HALF: f64 = 212.0;
 
 /// Directions of the specific force in the sensor's frame, one numbered point for each hold.
 pub(crate) fn hold_directions(holds: &HoldCalibration) -> String {
-    let hemispheres: String = [("upper half, z ≥ 0", true), ("lower half, z < 0", false)]
-        .map(|(name, upper)| hemisphere(holds, name, upper))
-        .concat();
+    let points: Vec<Point> = holds
+        .holds
+        .iter()
+        .enumerate()
+        .filter_map(|(i, hold)| direction(hold).map(|d| (i + 1, d, hold.used)))
+        .collect();
     let legend = format!(
         "<ul class=\"legend\"><li>{}used</li>{}</ul>",
         key(&dot(17.0, 7.0)),
@@ -29,17 +32,36 @@ pub(crate) fn hold_directions(holds: &HoldCalibration) -> String {
     let caption = "Specific force over its magnitude in the true frame, with the number of the hold. Both halves are seen from \
                    +z. Equal areas on the sphere are equal areas here. Rings are 30° apart, and the rim is z = 0. Good: points in \
                    all parts of both halves. An empty region is a direction in which the calibration extrapolates.";
-    framed("Orientations of the holds", &legend, &hemispheres, 2, caption)
+    framed("Orientations of the holds", &legend, &hemispheres(&points, &[]), 2, caption)
 }
 
-fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
-    let points: Vec<(usize, (f64, f64), bool)> = holds
-        .holds
+/// Directions of poses in the sensor's frame, numbered, and those of the approximate design that bounds them.
+pub(crate) fn pose_directions(poses: &[Vector3<f64>], approximate: &[Vector3<f64>]) -> String {
+    let points: Vec<Point> = poses.iter().enumerate().map(|(k, u)| (k + 1, *u, true)).collect();
+    let legend = format!(
+        "<ul class=\"legend\"><li>{}pose</li><li>{}direction of the approximate design</li></ul>",
+        key(&dot(17.0, 7.0)),
+        key(&ring(17.0, 7.0))
+    );
+    let caption = "The direction that is up in each pose, in the sensor's axes. Both halves are seen from +z. Equal areas on the sphere are \
+                   equal areas here. Rings are 30° apart, and the rim is z = 0.";
+    framed("Directions of the poses", &legend, &hemispheres(&points, approximate), 2, caption)
+}
+
+/// A number, a direction, and whether it is used.
+type Point = (usize, Vector3<f64>, bool);
+
+fn hemispheres(points: &[Point], rings: &[Vector3<f64>]) -> String {
+    [("upper half, z ≥ 0", true), ("lower half, z < 0", false)]
+        .map(|(name, upper)| hemisphere(points, rings, name, upper))
+        .concat()
+}
+
+fn hemisphere(points: &[Point], rings: &[Vector3<f64>], name: &str, upper: bool) -> String {
+    let points: Vec<(usize, (f64, f64), bool)> = points
         .iter()
-        .enumerate()
-        .filter_map(|(i, hold)| direction(hold).map(|d| (i + 1, d, hold.used)))
         .filter(|(_, d, _)| (d.z >= 0.0) == upper)
-        .map(|(number, d, used)| (number, projected(&d), used))
+        .map(|(number, d, used)| (*number, projected(d), *used))
         .collect();
     let mut svg = format!(
         "<svg viewBox=\"{0} {1} {2} {3}\" role=\"img\" aria-label=\"{name}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"#1b1f24\">\
@@ -65,6 +87,10 @@ fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
         svg.push_str(&format!(
             "<text x=\"{x}\" y=\"{y}\" font-size=\"13\" text-anchor=\"middle\">{label}</text>"
         ));
+    }
+    for direction in rings.iter().filter(|direction| (direction.z >= 0.0) == upper) {
+        let (x, y) = projected(direction);
+        svg.push_str(&ring(x, y));
     }
     for &(_, (x, y), used) in &points {
         svg.push_str(&if used { dot(x, y) } else { cross(x, y) });
@@ -129,6 +155,13 @@ fn projected(direction: &Vector3<f64>) -> (f64, f64) {
 
 fn dot(x: f64, y: f64) -> String {
     format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.8\" fill=\"{}\"/>", colour::BLUE)
+}
+
+fn ring(x: f64, y: f64) -> String {
+    format!(
+        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>",
+        colour::ORANGE
+    )
 }
 
 fn cross(x: f64, y: f64) -> String {

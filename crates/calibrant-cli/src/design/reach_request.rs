@@ -1,0 +1,122 @@
+//! Parses the request of `calibrant design --reach`.
+
+use calibrant::design::Goal;
+use calibrant::error::{Error, InputError, Refusal};
+use calibrant::sensor::{ParameterList, ReadingUnit};
+
+/// A parameter, and the standard deviation that it should have.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Request {
+    pub(super) name: String,
+    value: f64,
+    /// As it was written.
+    pub(super) text: String,
+    dimension: Dimension,
+}
+
+/// What a value is measured in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Dimension {
+    /// The parameter's own unit.
+    Own,
+    /// A share: of scale factors and cross-axis sensitivities.
+    Share,
+    /// m/s²: of biases.
+    Acceleration,
+}
+
+/// The units, with their size.
+const UNITS: [(&str, f64, Dimension); 9] = [
+    ("ppm", 1e-6, Dimension::Share),
+    ("%", 1e-2, Dimension::Share),
+    ("mg", 9.806_65e-3, Dimension::Acceleration),
+    ("ug", 9.806_65e-6, Dimension::Acceleration),
+    ("µg", 9.806_65e-6, Dimension::Acceleration),
+    ("mm/s2", 1e-3, Dimension::Acceleration),
+    ("mm/s²", 1e-3, Dimension::Acceleration),
+    ("m/s2", 1.0, Dimension::Acceleration),
+    ("m/s²", 1.0, Dimension::Acceleration),
+];
+
+/// Reads `scale.x=50ppm` or `bias.z=0.2mg`.
+pub(crate) fn parse(text: &str) -> Result<Request, String> {
+    let (name, value) =
+        text.split_once('=').ok_or("write NAME=SD, for example scale.x=50ppm or bias.z=0.2mg")?;
+    let value = value.trim();
+    let (number, size, dimension) = UNITS
+        .iter()
+        .find_map(|(unit, size, dimension)| {
+            value.strip_suffix(unit).map(|number| (number, *size, *dimension))
+        })
+        .unwrap_or((value, 1.0, Dimension::Own));
+    let number: f64 =
+        number.trim().parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0).ok_or_else(
+            || {
+                let units = UNITS.map(|(unit, ..)| unit).join(", ");
+                format!("\"{value}\" is not a number above 0 with one of the units {units}")
+            },
+        )?;
+    Ok(Request { name: name.trim().to_owned(), value: number * size, text: value.to_owned(), dimension })
+}
+
+/// The goals for these parameters. Shares and accelerations count for readings in counts through the `gain`
+/// of the axis, counts per m/s².
+pub(super) fn goals(
+    requests: &[Request],
+    list: &ParameterList,
+    unit: ReadingUnit,
+    gain: f64,
+) -> calibrant::Result<Vec<Goal>> {
+    requests.iter().map(|request| goal(request, list, unit, gain)).collect()
+}
+
+fn goal(request: &Request, list: &ParameterList, unit: ReadingUnit, gain: f64) -> calibrant::Result<Goal> {
+    let reject = |message: String, help: String| {
+        Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))
+    };
+    let Some(parameter) = list.position(&request.name) else {
+        let message = format!("--reach: this sensor has no parameter \"{}\"", request.name);
+        return reject(message, format!("its parameters are {}", list.names().join(", ")));
+    };
+    let is_bias = request.name.starts_with("bias.");
+    let fits = match request.dimension {
+        Dimension::Own => true,
+        Dimension::Share => !is_bias,
+        Dimension::Acceleration => is_bias,
+    };
+    if !fits {
+        let message = format!("--reach: {} is not measured in the unit of {}", request.name, request.text);
+        let help = if is_bias { "give mg, ug or m/s2" } else { "give ppm or %" };
+        return reject(message, help.into());
+    }
+    let is_counted = unit == ReadingUnit::Counts && request.dimension != Dimension::Own;
+    Ok(Goal { parameter, sd: request.value * if is_counted { gain } else { 1.0 } })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use calibrant::sensor::SensorModel;
+
+    #[test]
+    fn goals_have_the_units_of_data_sheets() {
+        let list = ParameterList::new(3, SensorModel::ScaleBias);
+        let of = |text: &str, unit| {
+            let request = parse(text).expect("a request");
+            goals(&[request], &list, unit, 400.0).map(|goals| (goals[0].parameter, goals[0].sd))
+        };
+        let mps2 = ReadingUnit::MetrePerSecondSquared;
+        let (parameter, sd) = of("scale.y=50ppm", mps2).expect("a goal");
+        assert_eq!(parameter, 4);
+        assert!((sd - 5e-5).abs() < 1e-18);
+        assert!((of("bias.x=1mg", mps2).expect("a goal").1 - 9.80665e-3).abs() < 1e-15);
+        assert!(
+            (of("bias.x=1mg", ReadingUnit::Counts).expect("a goal").1 - 400.0 * 9.80665e-3).abs() < 1e-12
+        );
+        assert!((of("bias.x=0.01", ReadingUnit::Counts).expect("a goal").1 - 0.01).abs() < 1e-15);
+        assert!(of("scale.x=1mg", mps2).is_err() && of("scale.q=1ppm", mps2).is_err());
+        for wrong in ["scale.x", "scale.x=-1", "scale.x=much", "scale.x=5furlong"] {
+            assert!(parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}

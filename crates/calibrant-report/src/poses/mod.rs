@@ -1,0 +1,172 @@
+//! The report page on poses: verdict, a checklist with pictures, predicted standard deviations, directions.
+
+mod attitude;
+
+pub use attitude::pose_in_words;
+
+use super::About;
+use super::figure::{DisplayUnit, device, pose_directions};
+use super::html::{Page, escape, facts, verdict_box};
+use super::number_format::{self, significant};
+use super::table::{Cell, Table};
+use attitude::Attitude;
+use calibrant_core::sensor::ReadingUnit;
+use calibrant_design::poses::{PoseBound, PoseDesign, PoseEvaluation, PoseProblem};
+use nalgebra::{DVector, Vector3};
+
+/// Efficiency from which on nothing is left to gain.
+const AS_GOOD_AS_ANY: f64 = 0.99;
+/// Efficiency below which another set of poses is worth its while.
+const WORTH_CHANGING: f64 = 0.7;
+
+/// The best poses as one HTML file that can be printed and ticked off. Self-contained.
+#[must_use]
+pub fn pose_report(
+    design: &PoseDesign,
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+    has_gyroscope: bool,
+    about: &About,
+) -> String {
+    let mut page = begin(about);
+    let efficiency = design.efficiency(&problem.criterion);
+    let (word, rest) = if efficiency >= AS_GOOD_AS_ANY {
+        ("✓ Proved optimal.", String::new())
+    } else {
+        (
+            "✓ Found.",
+            " More is not ruled out by the bound, which holds for fractions of poses too.".to_owned(),
+        )
+    };
+    let sentence = format!(
+        "{} have at least {} of the information that any {} allowed poses can have.{rest}",
+        number_format::counted(design.directions.len(), "pose"),
+        number_format::percent(efficiency),
+        design.directions.len()
+    );
+    page.push(verdict_box("good", word, &sentence, &[("Findings", about.findings.clone())]));
+    page.section(
+        "The poses",
+        "Hold the device still in each pose, in this order. The room is drawn with its vertical upwards. Turns are right-handed, about \
+         the device's own axes as they lie then.",
+    );
+    page.paragraph(if has_gyroscope {
+        "The order is chosen so that the turns between the poses determine the gyroscope. Turn from one pose to the next by the shortest way."
+    } else {
+        "The order needs little turning."
+    });
+    page.push(checklist(&design.directions));
+    results(&mut page, (&design.directions, &design.sd(), &design.bound), problem, unit);
+    page.finish(&about.title, &about.footer())
+}
+
+/// The evaluation of holds as one HTML file: how efficient they were. `directions`: that of each hold.
+#[must_use]
+pub fn pose_evaluation_report(
+    evaluation: &PoseEvaluation,
+    directions: &[Vector3<f64>],
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+    about: &About,
+) -> String {
+    let mut page = begin(about);
+    let efficiency = evaluation.efficiency;
+    let (class, word) = match efficiency {
+        _ if efficiency >= AS_GOOD_AS_ANY => ("good", "✓ As good as any."),
+        _ if efficiency >= WORTH_CHANGING => ("good", "✓ Good poses."),
+        _ => ("caution", "! Better poses exist."),
+    };
+    page.push(verdict_box(class, word, &evaluation_in_words(evaluation, directions.len()), &[]));
+    results(&mut page, (directions, &evaluation.sd(), &evaluation.bound), problem, unit);
+    page.finish(&about.title, &about.footer())
+}
+
+/// The efficiency of holds in a sentence or two.
+#[must_use]
+pub fn evaluation_in_words(evaluation: &PoseEvaluation, holds: usize) -> String {
+    let efficiency = evaluation.efficiency;
+    let more = if efficiency < AS_GOOD_AS_ANY {
+        format!(
+            " {} recordings in these poses give as much information as one in the best.",
+            significant(1.0 / efficiency, 3)
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "The {holds} holds are {} efficient against the best approximate design of {holds} poses.{more}",
+        number_format::percent(efficiency)
+    )
+}
+
+fn begin(about: &About) -> Page {
+    let mut page = Page::default();
+    page.push(format!("<h1>{}</h1>", escape(&about.title)));
+    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+    page
+}
+
+/// A card for each pose: a box to tick, the picture, the words, the unit vector.
+fn checklist(directions: &[Vector3<f64>]) -> String {
+    let cards: String = directions
+        .iter()
+        .enumerate()
+        .map(|(k, u)| {
+            let attitude = Attitude::of(u);
+            let number = |value: f64| number_format::signed(value, 3);
+            format!(
+                "<li><p><span class=\"box\"></span> <strong>{}</strong></p>{}<p>{}</p><p class=\"up\">up: ({}, {}, {})</p></li>",
+                k + 1,
+                device(attitude.room_from_sensor(), &attitude.words()),
+                escape(&attitude.words()),
+                number(u.x),
+                number(u.y),
+                number(u.z)
+            )
+        })
+        .collect();
+    format!("<ol class=\"poses\">{cards}</ol>")
+}
+
+/// Standard deviations, directions, and how the bound is meant.
+fn results(
+    page: &mut Page,
+    (directions, sd, bound): (&[Vector3<f64>], &DVector<f64>, &PoseBound),
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+) {
+    page.section(
+        "Predicted standard deviations",
+        "Standard deviations that a calibration from these poses will state, if the noise is as assumed.",
+    );
+    page.push(predicted(problem, sd, unit));
+    let criterion = &problem.criterion;
+    page.paragraph(&format!(
+        "The poses are compared by criterion {}, {} (C is the covariance of the parameters{}).",
+        criterion.letter(),
+        criterion.formula(),
+        criterion.scaling()
+    ));
+    page.section("The directions", "");
+    page.push(pose_directions(directions, &bound.directions));
+    page.subsection("The lower bound");
+    page.paragraph(
+        "The bound is that of the approximate design, in which any share of the recording may be spent in each direction. By the \
+         equivalence theorem of Kiefer and Wolfowitz no set of poses can be better. The bound is 0.07 % low, because the \
+         directions are examined on a grid.",
+    );
+}
+
+fn predicted(problem: &PoseProblem, sd: &DVector<f64>, reading: ReadingUnit) -> String {
+    let mut table = Table::new("", &["parameter", "unit", "predicted sd"]);
+    for (quantity, sd) in problem.list.quantities().iter().zip(sd.iter()) {
+        let unit = DisplayUnit::suited_to(quantity.unit(reading), [*sd]);
+        let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
+        table.row(vec![
+            Cell::Name(quantity.name()),
+            Cell::Text(symbol.into()),
+            Cell::Number(significant(sd * unit.factor, 4)),
+        ]);
+    }
+    table.html()
+}
