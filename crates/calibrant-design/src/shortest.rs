@@ -66,7 +66,8 @@ pub fn shortest_motion(
                 return Ok(false);
             }
             let bound = certificate::lower_bound(&trial, &settings.interruption)?;
-            let sd = bound.map(|bound| bound.certificate(&problem.criterion, f64::INFINITY).sd_lower_bound);
+            let sd =
+                bound.map(|bound| bound.certificate(&problem.criterion, f64::INFINITY, 0.0).sd_lower_bound);
             let worst = sd.map_or(0.0, |sd| {
                 Goal::worst(goals, |k| sd.get(k).copied().filter(|sd| sd.is_finite()).unwrap_or(0.0))
             });

@@ -45,6 +45,8 @@ struct DesignFile<'a> {
     #[serde(flatten)]
     optimal: EvaluationFields<'a>,
     certificate: Option<CertificateFields<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    floor: Option<FloorFields<'a>>,
     limits: LimitsFields,
     limit_use: Vec<LimitUseFields>,
     initial: EvaluationFields<'a>,
@@ -65,6 +67,7 @@ impl<'a> DesignFile<'a> {
                 .certificate
                 .as_ref()
                 .map(|certificate| CertificateFields::of(certificate, &design.parameters)),
+            floor: FloorFields::of(design),
             limits: LimitsFields::of(&design.limits, axes),
             limit_use: LimitUseFields::all(&limit_use(&design.limits, axes, &design.optimal.motion)),
             initial: EvaluationFields::of(&design.initial, &design.criterion, &design.parameters, axes),
@@ -178,6 +181,32 @@ impl<'a> CertificateFields<'a> {
             sd_lower_bounds: parameters.iter().zip(&certificate.sd_lower_bound).map(bound).collect(),
             explanation: &certificate.explanation,
         }
+    }
+}
+
+/// What no motion changes: the share of gravity's tilt. The gap of the certificate is taken above it.
+#[derive(Serialize)]
+struct FloorFields<'a> {
+    criterion_value: f64,
+    sd: Vec<SdFloorFields<'a>>,
+}
+
+#[derive(Serialize)]
+struct SdFloorFields<'a> {
+    name: &'a str,
+    unit: &'static str,
+    sd: f64,
+}
+
+impl<'a> FloorFields<'a> {
+    fn of(design: &'a Design) -> Option<Self> {
+        let of_parameter = |(parameter, &sd): (&'a Parameter, &f64)| SdFloorFields {
+            name: &parameter.name,
+            unit: parameter.unit,
+            sd,
+        };
+        let sd: Vec<_> = design.parameters.iter().zip(&design.floor_sd).map(of_parameter).collect();
+        (!sd.is_empty()).then_some(Self { criterion_value: design.floor, sd })
     }
 }
 

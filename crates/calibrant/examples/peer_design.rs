@@ -153,6 +153,7 @@ fn answer(case: &Value) -> Result<Value, Failure> {
         rate_hz: number(&case["rate_hz"])?,
         trust,
         known_ends: if case["known_ends"] == "both" { KnownEnds::Both } else { KnownEnds::Start },
+        gravity: None,
         limits: &limits,
         criterion: criterion(&case["criterion"], &sensor, &at)?,
         prior: None,
