@@ -27,7 +27,7 @@ pub(super) fn design(
         .collect();
     let criterion = &problem.criterion;
     let sentence = format!(
-        "{} {} of {} ended there.",
+        "{} {} of {} ended at this value.",
         design_in_words(design, design.efficiency(criterion)),
         design.starts_at_best,
         counted(design.starts, "start")

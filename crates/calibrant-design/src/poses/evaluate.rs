@@ -10,7 +10,7 @@ use super::result::{PoseBound, efficiency};
 use super::search::relaxed;
 use super::spectral_projected_gradient::Poses;
 use calibrant_core::error::{Error, NotIdentifiable, Result};
-use calibrant_core::information::undetermined;
+use calibrant_core::information::{covariance, undetermined};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Given poses, and how near they are to the best possible.
@@ -32,6 +32,16 @@ impl PoseEvaluation {
     pub fn sd(&self) -> DVector<f64> {
         self.covariance.diagonal().map(f64::sqrt)
     }
+}
+
+/// The covariance that the holds alone give, p × p: without gravity and a drift. `None` where they leave
+/// parameters undetermined. Directions as for [`evaluate_poses`].
+#[must_use]
+pub fn covariance_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -> Option<DMatrix<f64>> {
+    let information = HoldInformation::new(problem)?;
+    let sum = information.sum(directions.iter().map(|u| (u, 1.0)));
+    let f = information.of_parameters(&sum);
+    if undetermined(&f, &f.diagonal()).is_empty() { covariance(&f) } else { None }
 }
 
 /// The information of these poses, given as directions of the specific force (up) in the sensor's axes, in the

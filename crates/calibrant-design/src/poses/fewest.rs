@@ -1,8 +1,9 @@
 //! The fewest poses with which parameters are determined well enough.
 //!
-//! The variance of one parameter is criterion c with this weight alone. Its bound for n poses therefore bounds
-//! the variance that any n poses give, whatever the criterion of the design. It falls with n, so that the
-//! numbers for which it is too large are those below one number. That number is found by bisection.
+//! Where the goals are reached, a sum of variances with weights 1/goal² is at most the number of goals. Such a sum
+//! is criterion c. Its bound for n poses bounds the sum that any n poses give, whatever the criterion of the
+//! design. A further pose never adds to a variance, so that the numbers that are too small are those below one
+//! number. That number is found by bisection, for each goal alone and for all together.
 //!
 //! The number that suffices is found from designs by the criterion of the problem. The variances of the holds
 //! fall about as 1/n, which gives the next n to try; bisection then ends the search. A drift and the grid of
@@ -48,10 +49,11 @@ pub fn fewest_poses(
     let information = HoldInformation::new(problem).ok_or_else(singular)?;
     let fewest = fewest_that_determine(problem, &information, settings.seed)?;
     let limits = variances_of_holds(problem, goals)?;
+    let questions = questions(&limits, problem.list.len());
     let possible = |poses: usize| -> Result<bool> {
-        Ok(limits.iter().all(|(parameter, most)| {
-            least_variance(problem, &information, *parameter, poses, settings.seed) <= *most
-        }))
+        Ok(questions
+            .iter()
+            .all(|weights| least_sum(problem, &information, weights, poses, settings.seed) <= 1.0))
     };
     if !possible(MOST)? {
         let message = format!("more than {MOST} poses are needed to reach the standard deviations asked for");
@@ -104,17 +106,30 @@ fn variances_of_holds(problem: &PoseProblem, goals: &[Goal]) -> Result<Vec<(usiz
     goals.iter().map(of).collect()
 }
 
-/// No n allowed poses give this parameter a smaller variance.
-fn least_variance(
+/// Weights with which a weighted sum of variances is at most 1 where the limits are kept: for each limit alone,
+/// and for all together.
+fn questions(limits: &[(usize, f64)], parameters: usize) -> Vec<DVector<f64>> {
+    let alone = |&(parameter, most): &(usize, f64)| {
+        let mut weights = DVector::zeros(parameters);
+        weights[parameter] = 1.0 / most;
+        weights
+    };
+    let mut all: Vec<DVector<f64>> = limits.iter().map(alone).collect();
+    if all.len() > 1 {
+        all.push(all.iter().sum::<DVector<f64>>() / all.len() as f64);
+    }
+    all
+}
+
+/// No n allowed poses give a smaller sum of variances with these weights.
+fn least_sum(
     problem: &PoseProblem,
     information: &HoldInformation,
-    parameter: usize,
+    weights: &DVector<f64>,
     poses: usize,
     seed: u64,
 ) -> f64 {
-    let mut weights = DVector::zeros(problem.list.len());
-    weights[parameter] = 1.0;
-    let criterion = Criterion::C(COptimality { weights });
+    let criterion = Criterion::C(COptimality { weights: weights.clone() });
     let alone = PoseProblem { criterion, poses, ..problem.clone() };
     // the best directions for one parameter may leave others undetermined, where there is no bound
     relaxed(&alone, information, seed).map_or(0.0, |found| found.bound.max(0.0))

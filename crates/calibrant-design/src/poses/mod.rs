@@ -36,7 +36,7 @@ mod tests;
 mod turns;
 
 pub use allowed::Allowed;
-pub use evaluate::{PoseEvaluation, evaluate_poses};
+pub use evaluate::{PoseEvaluation, covariance_of_holds, evaluate_poses};
 pub use fewest::{FewestPoses, fewest_poses};
 pub use problem::{DirectionKnowledge, PoseNuisance, PoseProblem};
 pub use result::{PoseBound, PoseDesign};

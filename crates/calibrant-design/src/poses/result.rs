@@ -42,6 +42,14 @@ pub struct PoseBound {
     pub shares: Vec<f64>,
 }
 
+impl PoseBound {
+    /// How efficient poses with this value of the criterion are, from 0 to 1, for a number of parameters.
+    #[must_use]
+    pub fn efficiency_of(&self, criterion: &Criterion, value: f64, parameters: usize) -> f64 {
+        efficiency(criterion, value, self.value, parameters)
+    }
+}
+
 /// How efficient a design with this value is, from 0 to 1: the bound by the value. For D it is
 /// `exp((bound − value) / p)`.
 ///

@@ -33,7 +33,7 @@ impl Experiment {
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
             mean_sd: self.mean_sd(plan, &at, between)?,
-            nuisance: self.nuisance(plan, &at),
+            nuisance: self.nuisance(plan, &at, self.design.poses.known),
             list,
             at,
             gravity_mps2: plan.gravity.magnitude_mps2,
@@ -70,7 +70,7 @@ impl Experiment {
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
             mean_sd,
-            nuisance: self.nuisance(plan, &at),
+            nuisance: self.nuisance(plan, &at, known.is_some()),
             list,
             at,
             gravity_mps2: plan.gravity.magnitude_mps2,
@@ -101,8 +101,10 @@ impl Experiment {
         if known { self.sensor.parameter_list() } else { plan.gauge.parameter_list(self.sensor.model) }
     }
 
-    fn nuisance(&self, plan: &HoldsPlan, at: &SensorParameters) -> PoseNuisance {
-        let gain = |axis: usize| at.matrix.row(axis).norm();
+    /// A calibration of an accelerometer alone in known directions allows for no drift.
+    fn nuisance(&self, plan: &HoldsPlan, at: &SensorParameters, known: bool) -> PoseNuisance {
+        let has_drift = !known || self.imu.is_some();
+        let gain = |axis: usize| if has_drift { at.matrix.row(axis).norm() } else { 0.0 };
         PoseNuisance {
             gravity_sd_mps2: plan.gravity.sd_mps2,
             drift_sd: Vector3::from_fn(|axis, _| plan.bias_drift_sd_mps2 * gain(axis)),
