@@ -15,14 +15,14 @@ use calibrant::Error;
 use calibrant::design::initial_motion;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, write_motion, write_motion_truth,
-    write_recording, write_truth,
+    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, read_poses, write_motion,
+    write_motion_truth, write_recording, write_truth,
 };
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
     HoldsSimulation, Purpose, draw_gravity, draw_sensor, perturb, sample_times, simulate_holds,
-    simulate_recording, stream,
+    simulate_holds_in, simulate_recording, stream,
 };
 use nalgebra::Vector3;
 use random::Random;
@@ -35,7 +35,11 @@ impl crate::run::Run for Arguments {
         ResultPlaces {
             directory: Some(self.output.clone()),
             results: names.map(|name| self.output.join(name)).to_vec(),
-            inputs: std::iter::once(&self.experiment).chain(&self.motion).cloned().collect(),
+            inputs: std::iter::once(&self.experiment)
+                .chain(&self.motion)
+                .chain(&self.poses)
+                .cloned()
+                .collect(),
         }
     }
 
@@ -48,6 +52,13 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
     let random = Random { seed, recording: arguments.recording.into() };
+    let takes_poses = matches!(&experiment.plan, Plan::Holds(plan) if plan.directions.is_none());
+    if arguments.poses.is_some() && (!takes_poses || experiment.imu.is_some()) {
+        let message =
+            "--poses is for an accelerometer that is held by hand, in directions that [holds] does not list";
+        let help = "leave it away, or see `calibrant init static-poses`";
+        return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+    }
     let samples = match (&experiment.plan, &experiment.imu) {
         (Plan::Motion(plan), _) => {
             check_simulable(&experiment.sensor, &arguments.experiment)?;
@@ -177,6 +188,8 @@ fn simulate_poses(
     plan: &HoldsPlan,
     random: Random,
 ) -> calibrant::Result<usize> {
+    let poses = arguments.poses.as_deref().map(read_poses).transpose()?;
+    let plan = &HoldsPlan { poses: poses.as_ref().map_or(plan.poses, Vec::len), ..plan.clone() };
     length::check_holds(plan)?;
     let sensor = &experiment.sensor;
     let mut rng = random.sensor();
@@ -191,7 +204,13 @@ fn simulate_poses(
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let recording = match &on_table {
         Some(steps) => imu::accelerometer_on_table(sensor, &truth, plan, steps, &mut rng)?,
-        None => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan), &mut rng).0,
+        None => {
+            let setup = by_hand(plan);
+            match &poses {
+                Some(poses) => simulate_holds_in(&truth, &noise, sensor.unit, poses, &setup, &mut rng).0,
+                None => simulate_holds(&truth, &noise, sensor.unit, &setup, &mut rng).0,
+            }
+        }
     };
     let output = &arguments.output;
     write_truth(&output.join("truth.json"), random.seed, &list, sensor.unit, &truth)?;

@@ -18,7 +18,7 @@ mod table_recording;
 pub use crate::motion::sample_times;
 pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_thermal};
 pub use gravity::{TrueGravity, draw_gravity};
-pub use holds::{HoldsSimulation, simulate_holds};
+pub use holds::{HoldsSimulation, simulate_holds, simulate_holds_in};
 pub use imu::simulate_imu;
 pub use imu_setup::{ImuSimulation, TURN_S};
 pub use initial_motion::initial_motion;
