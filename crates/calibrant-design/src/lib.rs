@@ -29,9 +29,11 @@ mod sequential_programming;
 mod settings;
 mod short_program;
 mod shortest;
+mod smooth_criterion;
 mod solve;
 pub mod study;
 mod sweep;
+mod tangent_bound;
 mod work;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};

@@ -2,6 +2,7 @@
 
 use super::AxisChain;
 use super::bounds::StateBounds;
+use super::increment_design::IncrementDesign;
 use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
 use crate::{Certificate, DesignProblem, Interruption};
 use calibrant_core::error::Result;
@@ -69,7 +70,11 @@ pub(crate) fn lower_bound(
     };
     let variances = DVector::from_vec(variances);
     let smallest = DMatrix::from_diagonal(&variances);
-    let value = problem.criterion.value(&smallest) * independence(&problem.criterion, &smallest);
+    let mut value = problem.criterion.value(&smallest) * independence(&problem.criterion, &smallest);
+    if let Some(together) = bounds.increment_design(&quantities).filter(|together| !(*together <= value)) {
+        value = together;
+        bounds.explain("criterion: the process noise alone, as if the readings were perfect, and the best distribution of the jerk in place of a motion; close where the process noise dominates and intervals are many");
+    }
     Ok(value.is_finite().then(|| LowerBound { value, variances, explanation: bounds.explanation() }))
 }
 
@@ -233,13 +238,9 @@ impl Bounds<'_> {
         let active: Vec<usize> = problem.sensor.active_axes().iter().map(|axis| axis.index()).collect();
         let full = problem.sensor.model == SensorModel::Full;
         let Some(inverse) = problem.at.matrix.try_inverse() else { return f64::INFINITY };
-        let limits = problem.effective_limits().axis(column);
-        let bounds = StateBounds::of(&self.chain(column, 0.0, f64::INFINITY));
-        bounds
-            .a
-            .windows(2)
-            .map(|a| {
-                let u = limits.jerk.unwrap_or(f64::INFINITY).min((a[0] + a[1]) / problem.interval_s);
+        self.largest_jerk(column)
+            .into_iter()
+            .map(|u| {
                 if u == 0.0 {
                     return 0.0;
                 }
@@ -262,5 +263,36 @@ impl Bounds<'_> {
                 sum
             })
             .sum()
+    }
+
+    /// Largest jerk of each interval that the limits leave to an axis.
+    fn largest_jerk(&self, axis: usize) -> Vec<f64> {
+        let jerk = self.problem.effective_limits().axis(axis).jerk.unwrap_or(f64::INFINITY);
+        let bounds = StateBounds::of(&self.chain(axis, 0.0, f64::INFINITY));
+        bounds.a.windows(2).map(|a| jerk.min((a[0] + a[1]) / self.problem.interval_s)).collect()
+    }
+
+    /// The bound of [`super::increment_design`], for a full sensor with a noisy motion from a known start.
+    fn increment_design(&self, quantities: &[Quantity]) -> Option<f64> {
+        let problem = self.problem;
+        let Trust::Noisy(noise) = problem.trust else { return None };
+        let is_full = problem.sensor.model == SensorModel::Full && problem.sensor.axes == 3;
+        if !is_full || problem.known_ends != KnownEnds::Start {
+            return None;
+        }
+        let jerk = [0, 1, 2].map(|axis| self.largest_jerk(axis));
+        let on_biases =
+            problem.prior.as_ref().map_or_else(|| self.still.clone(), |prior| &self.still + prior);
+        let design = IncrementDesign {
+            criterion: &problem.criterion,
+            quantities,
+            matrix: problem.at.matrix,
+            noise,
+            jerk: (0..problem.intervals).map(|i| Vector3::from_fn(|axis, _| jerk[axis][i])).collect(),
+            start: Vector3::from_fn(|axis, _| StateBounds::of(&self.chain(axis, 0.0, f64::INFINITY)).a[0]),
+            on_biases: &on_biases,
+            prior: problem.prior.as_ref(),
+        };
+        design.bound(self.interruption)
     }
 }

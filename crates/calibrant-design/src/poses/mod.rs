@@ -25,7 +25,6 @@ mod hold_information;
 mod problem;
 mod result;
 mod search;
-mod smooth_criterion;
 mod spectral_projected_gradient;
 #[cfg(test)]
 mod tests;
