@@ -33,9 +33,27 @@ pub struct Design {
     pub limits: Limits,
     /// The lower bound, where it was wanted and found.
     pub certificate: Option<Certificate>,
+    /// The gap that the search was to reach, where one was asked for.
+    pub gap_goal: Option<GapGoal>,
+}
+
+/// A gap to the lower bound at which a search ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapGoal {
+    /// The gap: relative, for criterion D in nats.
+    pub gap: f64,
+    /// Number of starts after which the search would have ended in any case, over all axes.
+    pub most_starts: usize,
 }
 
 impl Design {
+    /// Is the gap that was asked for proved? `None` where none was asked for.
+    #[must_use]
+    pub fn gap_is_reached(&self) -> Option<bool> {
+        let goal = self.gap_goal?;
+        Some(self.certificate.as_ref().is_some_and(|certificate| certificate.gap <= goal.gap))
+    }
+
     /// Number of starts that converged.
     #[must_use]
     pub fn starts_converged(&self) -> usize {

@@ -22,6 +22,23 @@ pub(crate) struct LowerBound {
 }
 
 impl LowerBound {
+    /// The bound on the criterion.
+    pub(crate) fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The bound on the criterion of the parameters at these places, which share no information with the
+    /// others.
+    pub(crate) fn of_part(&self, criterion: &Criterion, places: &[usize]) -> f64 {
+        if places.len() == self.variances.len() {
+            return self.value;
+        }
+        let own = DVector::from_iterator(places.len(), places.iter().map(|&place| self.variances[place]));
+        let smallest = DMatrix::from_diagonal(&own);
+        let criterion = criterion.restricted(places);
+        criterion.value(&smallest) * independence(&criterion, &smallest)
+    }
+
     /// The certificate of a design whose criterion has this value.
     pub(crate) fn certificate(self, criterion: &Criterion, value: f64) -> Certificate {
         Certificate {
