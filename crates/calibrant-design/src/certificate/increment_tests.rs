@@ -112,8 +112,8 @@ fn random(rng: &mut Rng) -> (Limits, SensorParameters, InputNoise, usize, Option
 #[test]
 fn no_random_motion_and_no_optimum_beats_the_bound() {
     let sensor = full();
-    let mut near = 0;
-    for number in 0..12 {
+    let quantities = sensor.parameter_list().quantities().to_vec();
+    for number in 0..6 {
         let mut rng = stream(13, Purpose::Motion, number);
         let (limits, at, noise, intervals, prior) = random(&mut rng);
         let scale = DVector::from_fn(12, |i, _| if i < 3 { 0.1 } else { 0.005 });
@@ -130,8 +130,21 @@ fn no_random_motion_and_no_optimum_beats_the_bound() {
                 criterion: criterion.clone(),
                 prior: prior.clone(),
             };
-            let bound = super::lower_bound(&problem, &Interruption::default());
-            let bound = bound.expect("determined").expect("bounded").value();
+            let rest = JerkControlledMotion::uniform(0.5, vec![Vector3::zeros(); intervals + 1]);
+            let setting = problem.setting().expect("a setting");
+            let still = setting.information(&rest.expect("a motion")).expect("determined");
+            let (most, jerk) = (limits.acceleration_mps2.expect("set"), limits.jerk_mps3.expect("set"));
+            let increments = IncrementDesign {
+                criterion: &criterion,
+                quantities: &quantities,
+                matrix: at.matrix,
+                noise,
+                jerk: vec![jerk.inf(&(most * 4.0)); intervals],
+                start: most,
+                on_biases: &prior.as_ref().map_or_else(|| still.clone(), |prior| &still + prior),
+                prior: prior.as_ref(),
+            };
+            let bound = increments.bound(&Interruption::default()).expect("bounded");
             let gap = |motion: &JerkControlledMotion| {
                 criterion.gap(evaluate(&problem, motion).expect("evaluated").value, bound)
             };
@@ -140,15 +153,33 @@ fn no_random_motion_and_no_optimum_beats_the_bound() {
                 assert!(gap(&motion) >= -1e-9, "{number} {}", criterion.letter());
             }
             // one criterion of each problem, in turn: a search takes longer
-            if place == number as usize % 6 {
-                let settings = DesignSettings { starts: 2, certificate: false, ..DesignSettings::default() };
+            if place == number as usize {
+                let settings = DesignSettings { starts: 1, certificate: false, ..DesignSettings::default() };
                 let best = design(&problem, &settings, &|_| ()).expect("solved");
                 let gap = gap(&best.optimal.motion);
                 assert!(gap >= -1e-9, "{number} {} {gap}", criterion.letter());
-                let size = if let Criterion::D(_) = criterion { 12.0 } else { 1.0 };
-                near += usize::from(gap < 0.5 * size);
             }
         }
     }
-    assert!(near >= 6, "{near} of 12 bounds are within 50 %");
+}
+
+/// The stage of 20 intervals, full and noisy. The best motion known has 1.848 827e-5.
+#[test]
+fn the_bound_of_the_stage_is_five_percent_below_its_best_motion() {
+    let sensor = full();
+    let quantities = sensor.parameter_list().quantities().to_vec();
+    let criterion = Criterion::A(AOptimality { scale: DVector::repeat(12, 1.0) });
+    let design = IncrementDesign {
+        criterion: &criterion,
+        quantities: &quantities,
+        matrix: Matrix3::identity(),
+        noise: InputNoise { floor_mps3: 0.01, ratio: 0.01 },
+        jerk: vec![Vector3::repeat(30.0); 20],
+        start: Vector3::repeat(10.0),
+        // at rest, to within what the biases add
+        on_biases: &DMatrix::from_diagonal_element(12, 12, 5e7),
+        prior: None,
+    };
+    let bound = design.bound(&Interruption::default()).expect("bounded");
+    assert!((1.753e-5..1.848_827e-5).contains(&bound), "{bound}");
 }
