@@ -57,9 +57,10 @@ pub fn design(
         (found?, bound?)
     };
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
+    let floor = problem.floor();
     let initial = evaluate(problem, &initial)?;
     let optimal = evaluate(problem, &best)?;
-    let certificate = bound.map(|bound| bound.certificate(&problem.criterion, optimal.value));
+    let certificate = bound.map(|bound| bound.certificate(&problem.criterion, optimal.value, floor));
     let interrupted = settings.interruption.is_asked();
     Ok(Design {
         status: if interrupted { DesignStatus::Interrupted } else { found.status },
@@ -75,5 +76,7 @@ pub fn design(
             .map(|gap| GapGoal { gap, most_starts: settings.starts * problem.sensor.axes }),
         limits,
         certificate,
+        floor,
+        floor_sd: problem.floor_sd(),
     })
 }

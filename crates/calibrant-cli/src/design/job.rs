@@ -107,7 +107,10 @@ impl Job {
         let bound = match (so_far.bound(), value) {
             (Some(bound), Some(value)) => Some(format!(
                 "gap {}",
-                super::table::gap(&problem.criterion, problem.criterion.gap(value, bound))
+                super::table::gap(
+                    &problem.criterion,
+                    problem.criterion.gap(value - problem.floor(), bound - problem.floor())
+                )
             )),
             (Some(bound), None) => Some(format!("bound {}", shown(bound))),
             (None, _) => self.settings.certificate.then(|| "bound …".to_owned()),

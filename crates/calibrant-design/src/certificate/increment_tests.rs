@@ -129,6 +129,7 @@ fn no_random_motion_and_no_optimum_beats_the_bound() {
                 limits: &limits,
                 criterion: criterion.clone(),
                 prior: prior.clone(),
+                gravity: None,
             };
             let rest = JerkControlledMotion::uniform(0.5, vec![Vector3::zeros(); intervals + 1]);
             let setting = problem.setting().expect("a setting");

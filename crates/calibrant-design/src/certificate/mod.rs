@@ -27,6 +27,7 @@ mod axis_chain;
 mod bound_tightening;
 mod bounds;
 mod dual_bound;
+mod gravity;
 mod increment_design;
 mod largest_gain;
 mod moment_relaxation;
