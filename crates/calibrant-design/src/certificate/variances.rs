@@ -90,7 +90,9 @@ pub(crate) fn lower_bound(
     };
     let variances = DVector::from_vec(variances);
     let mut value = bounds.criterion(&variances);
-    if let Some(together) = bounds.increment_design(&quantities).filter(|together| !(*together <= value)) {
+    if let Some(together) =
+        bounds.increment_design(&quantities).filter(|together| value.is_nan() || *together > value)
+    {
         value = together;
         bounds.explain("criterion: the process noise alone, as if the readings were perfect, and the best distribution of the jerk in place of a motion; close where the process noise dominates and intervals are many");
     }
