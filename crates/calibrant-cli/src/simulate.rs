@@ -16,13 +16,13 @@ use calibrant::design::initial_motion;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, read_poses, write_motion,
-    write_recording, write_truth,
+    write_motion_truth, write_recording, write_truth,
 };
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_holds_in,
-    simulate_recording, stream,
+    HoldsSimulation, Purpose, draw_gravity, draw_sensor, perturb, sample_times, simulate_holds,
+    simulate_holds_in, simulate_recording, stream,
 };
 use nalgebra::Vector3;
 use random::Random;
@@ -150,7 +150,7 @@ fn simulate_motion(
     random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let limits = experiment.limits.within_range(sensor.range_mps2);
+    let limits = experiment.limits.within_range(plan.range_left(sensor));
     let given = arguments.motion.as_deref();
     let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
     length::check_motion(&motion, plan.rate_hz)?;
@@ -163,14 +163,21 @@ fn simulate_motion(
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let times = sample_times(&motion, plan.rate_hz);
-    let moved = happened.as_ref().unwrap_or(&motion);
-    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, moved, &times, &mut rng);
+    let gravity = plan.gravity.as_ref().map(|gravity| draw_gravity(gravity, &mut rng));
+    let at_rest = gravity.map_or_else(Vector3::zeros, |gravity| gravity.force_mps2);
+    let sensed = happened.as_ref().unwrap_or(&motion).plus(&at_rest)?;
+    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &sensed, &times, &mut rng);
     let output = &arguments.output;
     write_motion(&output.join("motion.csv"), &motion, sensor.axes)?;
     if let Some(happened) = &happened {
         write_motion(&output.join("true_motion.csv"), happened, sensor.axes)?;
     }
-    write_truth(&output.join("truth.json"), random.seed, &sensor.parameter_list(), sensor.unit, &truth)?;
+    let list = sensor.parameter_list();
+    let path = output.join("truth.json");
+    match &gravity {
+        Some(gravity) => write_motion_truth(&path, random.seed, &list, sensor.unit, &truth, gravity)?,
+        None => write_truth(&path, random.seed, &list, sensor.unit, &truth)?,
+    }
     write_recording(&output.join("recording.csv"), &recording)?;
     Ok(recording.len())
 }

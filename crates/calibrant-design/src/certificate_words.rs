@@ -17,6 +17,10 @@ impl Design {
             Some(certificate) => self.certified(certificate),
             None => self.uncertified(),
         };
+        let mut found = format!("{found}{}", self.tilt());
+        if let Some(goal) = self.gap_statement() {
+            found = format!("{found} {goal}");
+        }
         match self.status {
             DesignStatus::Converged => found,
             DesignStatus::IterationLimit | DesignStatus::Stalled => {
@@ -28,8 +32,52 @@ impl Design {
         }
     }
 
+    /// The gap that was asked for, and the gap that there is; `None` where none was asked for.
+    #[must_use]
+    pub fn gap_statement(&self) -> Option<String> {
+        let goal = self.gap_goal?;
+        let shown = |gap: f64| match self.criterion {
+            Criterion::D(_) => format!("{} nats", short(gap.max(0.0))),
+            _ if gap < 1.0 => percent(gap),
+            _ => format!("{} %", short(100.0 * gap)),
+        };
+        let starts = format!("{} of {} starts", self.starts.len(), goal.most_starts);
+        Some(match (&self.certificate, self.gap_is_reached()) {
+            (Some(certificate), Some(true)) => format!(
+                "The gap of {} that was asked for is proved: it is {}, reached after {starts}.",
+                shown(goal.gap),
+                shown(certificate.gap)
+            ),
+            (Some(certificate), _) => format!(
+                "The gap of {} that was asked for is NOT reached: it is {} after {starts}. Either a better motion exists, or the bound is loose.",
+                shown(goal.gap),
+                shown(certificate.gap)
+            ),
+            (None, _) => {
+                format!("The gap of {} that was asked for is NOT proved: there is no bound.", shown(goal.gap))
+            }
+        })
+    }
+
+    /// What the tilt of gravity gives to the biases.
+    fn tilt(&self) -> String {
+        let name = |k: usize| {
+            let parameter = &self.parameters[k];
+            format!("{} {}{}", parameter.name, short(self.floor_sd[k]), unit(parameter.unit))
+        };
+        let named: Vec<String> =
+            (0..self.floor_sd.len()).filter(|&k| self.floor_sd[k] > 0.0).map(name).collect();
+        match named.as_slice() {
+            [] => String::new(),
+            all => format!(
+                " Whatever the motion, the tilt and the magnitude of gravity alone give an sd of {}.",
+                all.join(", ")
+            ),
+        }
+    }
+
     fn certified(&self, certificate: &Certificate) -> String {
-        let (letter, value) = (self.criterion.letter(), self.optimal.value);
+        let (letter, value) = (self.criterion.letter(), self.optimal.value - self.floor);
         let criterion = if let Criterion::D(_) = self.criterion {
             // a typical sd is exp(Φ_D / 2p)
             let sd = (certificate.gap / (2.0 * self.parameters.len() as f64)).exp_m1();
@@ -43,9 +91,10 @@ impl Design {
             let gap = certificate.gap;
             let near =
                 if gap < 1.0 { format!("within {} of the bound", percent(gap)) } else { times(1.0 + gap) };
+            let above = if self.floor > 0.0 { ", above the share of the tilt," } else { "" };
             format!(
-                "No admissible motion can bring criterion {letter} below {}; this motion has {}, {near}",
-                short(certificate.lower_bound),
+                "No admissible motion can bring criterion {letter}{above} below {}; this motion has {}, {near}",
+                short(certificate.lower_bound - self.floor),
                 short(value),
             )
         };

@@ -33,9 +33,38 @@ pub struct Design {
     pub limits: Limits,
     /// The lower bound, where it was wanted and found.
     pub certificate: Option<Certificate>,
+    /// The gap that the search was to reach, where one was asked for.
+    pub gap_goal: Option<GapGoal>,
+    /// The part of the criterion that no motion changes: the share of gravity's tilt ([`DesignProblem::floor`](crate::DesignProblem::floor)).
+    /// Gaps compare what is above it.
+    pub floor: f64,
+    /// Standard deviation that gravity's tilt alone gives each parameter, whatever the motion. Empty without gravity.
+    pub floor_sd: Vec<f64>,
+}
+
+/// A gap to the lower bound at which a search ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapGoal {
+    /// The gap: relative, for criterion D in nats.
+    pub gap: f64,
+    /// Number of starts after which the search would have ended in any case, over all axes.
+    pub most_starts: usize,
 }
 
 impl Design {
+    /// How much worse a value of the criterion is than `best`, above the part that no motion changes.
+    #[must_use]
+    pub fn gap(&self, value: f64, best: f64) -> f64 {
+        self.criterion.gap(value - self.floor, best - self.floor)
+    }
+
+    /// Is the gap that was asked for proved? `None` where none was asked for.
+    #[must_use]
+    pub fn gap_is_reached(&self) -> Option<bool> {
+        let goal = self.gap_goal?;
+        Some(self.certificate.as_ref().is_some_and(|certificate| certificate.gap <= goal.gap))
+    }
+
     /// Number of starts that converged.
     #[must_use]
     pub fn starts_converged(&self) -> usize {
@@ -114,7 +143,8 @@ pub struct StartOutcome {
     pub axes: Vec<Axis>,
     /// Number of the start among those of these axes, from 0; 0 is the initial motion.
     pub number: usize,
-    /// Value of the criterion, for the parameters of one of these axes, where it began.
+    /// Value of the criterion, for the parameters of one of these axes, where it began. With gravity it is that of
+    /// the covariance that the motion decides: without the part that no motion changes.
     pub initial_value: f64,
     /// Value where it ended.
     pub value: f64,
@@ -129,7 +159,8 @@ pub struct StartOutcome {
 pub struct Certificate {
     /// The bound.
     pub lower_bound: f64,
-    /// How far the design is from the bound: `value/bound − 1`, for criterion D the difference in nats.
+    /// How far the design is from the bound: `value/bound − 1`, for criterion D the difference in nats. Both are taken
+    /// above the part that no motion changes.
     pub gap: f64,
     /// Smallest standard deviation that any admissible motion can give each parameter.
     pub sd_lower_bound: Vec<f64>,

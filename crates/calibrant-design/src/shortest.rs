@@ -116,7 +116,7 @@ fn is_possible(problem: &DesignProblem<'_>, goals: &[Goal], settings: &DesignSet
         return Ok(false);
     }
     let Some(bound) = certificate::lower_bound(problem, &settings.interruption)? else { return Ok(true) };
-    let least = bound.certificate(&problem.criterion, f64::INFINITY).sd_lower_bound;
+    let least = bound.certificate(&problem.criterion, f64::INFINITY, 0.0).sd_lower_bound;
     // a parameter without a bound may have any standard deviation
     let of = |k: usize| least.get(k).copied().filter(|sd| sd.is_finite()).unwrap_or(0.0);
     Ok(Goal::worst(goals, of) <= 1.0)
@@ -156,6 +156,7 @@ mod tests {
             limits: &limits,
             criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
             prior: None,
+            gravity: None,
         });
     }
 

@@ -53,6 +53,8 @@ struct DesignFile<'a> {
     optimal: EvaluationFields<'a>,
     certificate: Option<CertificateFields<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    floor: Option<FloorFields<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<ReachFields>,
     limits: LimitsFields,
     limit_use: Vec<LimitUseFields>,
@@ -80,6 +82,7 @@ impl<'a> DesignFile<'a> {
                 .certificate
                 .as_ref()
                 .map(|certificate| CertificateFields::of(certificate, &design.parameters)),
+            floor: FloorFields::of(design),
             reach: reached.map(|reached| ReachFields::of(reached, &names)),
             limits: LimitsFields::of(&design.limits, axes),
             limit_use: LimitUseFields::all(&limit_use(&design.limits, axes, &design.optimal.motion)),
@@ -197,6 +200,32 @@ impl<'a> CertificateFields<'a> {
     }
 }
 
+/// What no motion changes: the share of gravity's tilt. The gap of the certificate is taken above it.
+#[derive(Serialize)]
+struct FloorFields<'a> {
+    criterion_value: f64,
+    sd: Vec<SdFloorFields<'a>>,
+}
+
+#[derive(Serialize)]
+struct SdFloorFields<'a> {
+    name: &'a str,
+    unit: &'static str,
+    sd: f64,
+}
+
+impl<'a> FloorFields<'a> {
+    fn of(design: &'a Design) -> Option<Self> {
+        let of_parameter = |(parameter, &sd): (&'a Parameter, &f64)| SdFloorFields {
+            name: &parameter.name,
+            unit: parameter.unit,
+            sd,
+        };
+        let sd: Vec<_> = design.parameters.iter().zip(&design.floor_sd).map(of_parameter).collect();
+        (!sd.is_empty()).then_some(Self { criterion_value: design.floor, sd })
+    }
+}
+
 /// The given limits, with the sensor's range among them.
 #[derive(Serialize)]
 pub(super) struct LimitsFields {
@@ -268,10 +297,20 @@ impl LimitUseFields {
 
 #[derive(Serialize)]
 struct SolverFields {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gap_goal: Option<GapGoalFields>,
     starts: usize,
     starts_converged: usize,
     iterations: usize,
     outcomes: Vec<StartFields>,
+}
+
+/// The gap that the search was to reach.
+#[derive(Serialize)]
+struct GapGoalFields {
+    gap: f64,
+    reached: bool,
+    most_starts: usize,
 }
 
 #[derive(Serialize)]
@@ -295,6 +334,11 @@ impl SolverFields {
             status: start.status.name(),
         };
         Self {
+            gap_goal: design.gap_goal.map(|goal| GapGoalFields {
+                gap: goal.gap,
+                reached: design.gap_is_reached() == Some(true),
+                most_starts: goal.most_starts,
+            }),
             starts: design.starts.len(),
             starts_converged: design.starts_converged(),
             iterations: design.iterations,

@@ -15,6 +15,7 @@ mod diagnostics;
 mod earth_rate;
 mod estimate;
 mod files;
+mod gravity;
 mod holds;
 mod imu;
 mod imu_recordings;
