@@ -16,6 +16,7 @@ use crate::Interruption;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// `constant + Σ coefficient · y_column`.
 #[derive(Debug, Clone, Default)]
@@ -30,6 +31,8 @@ pub(super) struct Row {
 pub(super) struct MomentProgram {
     /// Number of unknowns.
     pub(super) columns: usize,
+    /// The unknowns of each clique of a chain.
+    pub(super) cliques: Vec<Range<usize>>,
     /// Unknowns that cannot be negative: means of squares.
     pub(super) squares: Vec<usize>,
     /// The objective, which is maximised.
@@ -108,20 +111,37 @@ impl MomentProgram {
             return None;
         }
         self.project(&mut z);
+        let mut bound = self.dual_value(objective, &z);
+        bound.solved |= ended;
+        Some(bound)
+    }
 
-        let mut residual = q;
-        let mut size = 0.0;
-        for (column, residual) in residual.iter_mut().enumerate() {
-            for place in a.colptr[column]..a.colptr[column + 1] {
-                let product = a.nzval[place] * z[a.rowval[place]];
-                *residual += product;
-                size += product.abs();
-            }
+    /// The bound that follows from a z in the dual cone.
+    pub(super) fn dual_value(&self, objective: &Row, z: &[f64]) -> DualBound {
+        let mut residual = vec![0.0; self.columns];
+        for &(column, coefficient) in &objective.terms {
+            residual[column] -= coefficient;
         }
-        let mut value = objective.constant;
-        for (b, z) in b.iter().zip(&z) {
-            value += b * z;
-            size += (b * z).abs();
+        let (mut value, mut size) = (objective.constant, 0.0);
+        let mut z = z.iter();
+        let mut add = |row: &Row, scale: f64| {
+            let Some(z) = z.next() else { return };
+            let z = scale * z;
+            value += row.constant * z;
+            size += (row.constant * z).abs();
+            for &(column, coefficient) in &row.terms {
+                residual[column] -= coefficient * z;
+                size += (coefficient * z).abs();
+            }
+        };
+        self.zero.iter().chain(&self.nonnegative).for_each(|row| add(row, 1.0));
+        for (size, triangle) in &self.semidefinite {
+            let mut entries = triangle.iter();
+            for j in 0..*size {
+                for (i, row) in entries.by_ref().take(j + 1).enumerate() {
+                    add(row, if i == j { 1.0 } else { std::f64::consts::SQRT_2 });
+                }
+            }
         }
         // what remains is −rᵀy: at most |r_j| each, and nothing where r_j and y_j are not negative
         let mut remains: Vec<f64> = residual.iter().map(|r| r.abs()).collect();
@@ -129,8 +149,8 @@ impl MomentProgram {
             remains[column] = (-residual[column]).max(0.0);
         }
         let correction = remains.iter().sum::<f64>() + ROUNDING * (size + value.abs());
-        let solved = ended || correction <= NEAR_ENOUGH * value.abs();
-        Some(DualBound { value: value + correction, correction, solved })
+        let solved = correction <= NEAR_ENOUGH * value.abs();
+        DualBound { value: value + correction, correction, solved }
     }
 
     /// `A y + s = b`, s in the cones: zero, not negative, then the matrices as scaled triangles.

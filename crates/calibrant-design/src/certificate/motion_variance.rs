@@ -137,12 +137,12 @@ pub(super) fn bound_within(
         && !(velocity && l.rest == Rest::Both);
     let with_order = |sum: bool, order: u8| {
         let states = States { velocity, displacement, sum };
-        let width = if velocity && !sum && order == 2 && (3..=MOST_WIDE).contains(&n) { 2 } else { 1 };
+        let variables = if velocity && !sum && order == 2 { 5 } else { 4 };
         let part = ChainPart {
             chain,
             bounds: &bounds,
             range: 0..n,
-            width,
+            variables,
             states,
             open: false,
             inside: &INSIDE,
@@ -222,7 +222,7 @@ fn segments(
                     chain,
                     bounds,
                     range: range.clone(),
-                    width: 1,
+                    variables: 4,
                     states,
                     open: true,
                     inside: &INSIDE,
