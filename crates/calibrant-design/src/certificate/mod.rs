@@ -27,6 +27,7 @@ mod bound_tightening;
 mod bounds;
 mod dual_bound;
 mod moment_relaxation;
+mod moment_solver;
 mod motion_variance;
 mod polynomial;
 mod variances;

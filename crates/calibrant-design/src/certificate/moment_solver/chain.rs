@@ -30,25 +30,40 @@ pub(super) struct Factored {
     exit: Option<DMatrix<f64>>,
 }
 
-/// Relative size of what is added to a diagonal. The rigorous bound does not depend on it.
-const SHIFT: f64 = 1e-14;
+/// A pivot below this share of its diagonal entry is rounding.
+const ROUNDING: f64 = 1e-15;
+/// What such a pivot becomes, relative to its diagonal entry: nothing moves along it.
+const FIXED: f64 = 1e20;
 
+/// The Cholesky factor of a positive semidefinite matrix, of which the lower triangle counts. Directions that
+/// rounding hides are fixed.
 fn factored(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
-    let size = matrix.diagonal().amax();
-    let mut shift = SHIFT;
-    for i in 0..matrix.nrows() {
-        matrix[(i, i)] += shift * (matrix[(i, i)] + 1e-2 * size) + f64::MIN_POSITIVE;
-    }
-    for _ in 0..4 {
-        if let Some(factor) = Cholesky::new(matrix.clone()) {
-            return Some(factor);
+    let n = matrix.nrows();
+    let data = matrix.as_mut_slice();
+    let original: Vec<f64> = (0..n).map(|i| data[i * n + i]).collect();
+    for j in 0..n {
+        let (done, rest) = data.split_at_mut(j * n);
+        let column = &mut rest[j..n];
+        for k in 0..j {
+            let factor = done[k * n + j];
+            if factor != 0.0 {
+                column.iter_mut().zip(&done[k * n + j..(k + 1) * n]).for_each(|(x, y)| *x -= factor * y);
+            }
         }
-        shift *= 1e2;
-        for i in 0..matrix.nrows() {
-            matrix[(i, i)] += shift * size;
+        let pivot = if column[0] > ROUNDING * original[j] {
+            column[0].sqrt()
+        } else if original[j] >= 0.0 {
+            (FIXED * original[j]).sqrt().max(1.0)
+        } else {
+            return None;
+        };
+        if !pivot.is_finite() {
+            return None;
         }
+        column[0] = pivot;
+        column[1..].iter_mut().for_each(|x| *x /= pivot);
     }
-    None
+    Some(Cholesky::pack_dirty(matrix))
 }
 
 impl Factored {

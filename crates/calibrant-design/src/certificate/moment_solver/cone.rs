@@ -54,7 +54,8 @@ impl Rows {
 
     /// Adds `tr(A_i X⁻¹ A_j Z)` to the lower triangle of H.
     fn add_normal(&self, inverse: &DMatrix<f64>, z: &DMatrix<f64>, h: &mut DMatrix<f64>) {
-        let columns = h.ncols();
+        let (n, columns) = (self.size, h.ncols());
+        let column = |m: &DMatrix<f64>, k: usize| m.as_slice()[k * n..(k + 1) * n].to_vec();
         let places: Vec<_> = self.places().collect();
         let mut product = vec![0.0; columns];
         for (&(p, q), (_, own)) in places.iter().zip(&self.entries) {
@@ -63,16 +64,17 @@ impl Rows {
             }
             product.fill(0.0);
             let half = if p == q { 0.5 } else { 1.0 };
-            for (&(r, s), (_, other)) in places.iter().zip(&self.entries) {
-                let mut k = half
-                    * (inverse[(q, r)] * z[(s, p)]
-                        + inverse[(p, r)] * z[(s, q)]
-                        + inverse[(q, s)] * z[(r, p)]
-                        + inverse[(p, s)] * z[(r, q)]);
-                if r == s {
-                    k *= 0.5;
+            let (inverse_p, inverse_q) = (column(inverse, p), column(inverse, q));
+            let (z_p, z_q) = (column(z, p), column(z, q));
+            let mut entries = self.entries.iter();
+            for s in 0..n {
+                let (p_s, q_s, zp_s, zq_s) =
+                    (half * inverse_p[s], half * inverse_q[s], half * z_p[s], half * z_q[s]);
+                for (r, (_, other)) in entries.by_ref().take(s + 1).enumerate() {
+                    let k = inverse_q[r] * zp_s + inverse_p[r] * zq_s + q_s * z_p[r] + p_s * z_q[r];
+                    let k = if r == s { 0.5 * k } else { k };
+                    other.iter().for_each(|&(j, a)| product[j] += k * a);
                 }
-                other.iter().for_each(|&(j, a)| product[j] += k * a);
             }
             for &(i, a) in own {
                 let column = &mut h.as_mut_slice()[i * columns + i..(i + 1) * columns];
@@ -159,9 +161,9 @@ impl Block {
         self.correction = symmetric(&self.inverse * &self.step_x * &self.step_z);
     }
 
-    /// Largest steps that keep X and Z positive semidefinite.
-    pub(super) fn largest_steps(&self) -> [f64; 2] {
-        [largest_step(&self.x, &self.step_x), largest_step(&self.z, &self.step_z)]
+    /// The largest steps up to these that keep X and Z positive semidefinite.
+    pub(super) fn shorten(&self, steps: [f64; 2]) -> [f64; 2] {
+        [shorten(&self.x, &self.step_x, steps[0]), shorten(&self.z, &self.step_z, steps[1])]
     }
 
     pub(super) fn advance(&mut self, steps: [f64; 2]) {
@@ -179,10 +181,14 @@ fn symmetric(m: DMatrix<f64>) -> DMatrix<f64> {
     (&m + m.transpose()) * 0.5
 }
 
-/// Largest α with `M + α D ⪰ 0`, infinite where there is none.
-fn largest_step(m: &DMatrix<f64>, direction: &DMatrix<f64>) -> f64 {
+/// The largest α up to `most` with `M + α D ⪰ 0`.
+fn shorten(m: &DMatrix<f64>, direction: &DMatrix<f64>, most: f64) -> f64 {
     if m.nrows() == 1 {
-        return if direction[0] < 0.0 { -m[0] / direction[0] } else { f64::INFINITY };
+        return if direction[0] < 0.0 { most.min(-m[0] / direction[0]) } else { most };
+    }
+    // few blocks limit a step, and a factorisation is cheaper than eigenvalues
+    if Cholesky::new(m + direction * most).is_some() {
+        return most;
     }
     let Some(factor) = Cholesky::new(m.clone()) else { return 0.0 };
     let l = factor.l_dirty();
@@ -191,5 +197,5 @@ fn largest_step(m: &DMatrix<f64>, direction: &DMatrix<f64>) -> f64 {
     let mut scaled = scaled.transpose();
     l.solve_lower_triangular_mut(&mut scaled);
     let smallest = symmetric(scaled).symmetric_eigenvalues().min();
-    if smallest < 0.0 { -1.0 / smallest } else { f64::INFINITY }
+    if smallest < 0.0 { most.min(-1.0 / smallest) } else { most }
 }

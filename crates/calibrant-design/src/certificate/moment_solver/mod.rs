@@ -24,11 +24,11 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// Where X and Z begin, as multiples of the identity.
-const BEGIN: (f64, f64) = (1.0, 0.1);
+const BEGIN: (f64, f64) = (1.0, 0.01);
 /// Share of the way to the boundary that a step takes.
-const NEARLY: f64 = 0.95;
-/// Relative gap at which the method ends.
-const GAP: f64 = 1e-4;
+const NEARLY: f64 = 0.9;
+/// Iterations in a row that do not improve the bound, at which the method ends.
+const IDLE: u32 = 3;
 /// Steps below this mean that the method is stuck.
 const STUCK: f64 = 1e-3;
 
@@ -62,23 +62,24 @@ pub(super) struct Solved {
     pub(super) iterations: u32,
 }
 
-/// Solves a program whose columns belong to the cliques of a chain. `None` where it must not.
-pub(super) fn solve(program: &MomentProgram, patience: Patience<'_>) -> Option<Solved> {
+/// Solves a program whose columns belong to the cliques of a chain, to this relative accuracy. `None` where it
+/// must not.
+pub(super) fn solve(program: &MomentProgram, tolerance: f64, patience: Patience<'_>) -> Option<Solved> {
     let mut iteration = Iteration::new(program);
     let mut best: Option<DualBound> = None;
     let mut iterations = 0;
+    let mut idle = 0;
     while iterations < patience.max_iterations && !patience.interruption.is_asked() {
         let Some(step) = iteration.advance() else { break };
         iterations += 1;
         let bound = program.dual_value(&program.objective, &iteration.multipliers());
-        if std::env::var("TRACE").is_ok() {
-            eprintln!("{iterations} mu {:.2e} steps {:.3} {:.3} bound {:.6} corr {:.1e}", iteration.mu(), step[0], step[1], bound.value, bound.correction);
-        }
-        let done = iteration.gap() <= GAP * bound.value.abs() && bound.correction <= GAP * bound.value.abs();
-        if best.as_ref().is_none_or(|best| bound.value < best.value) {
+        let done = iteration.gap() <= tolerance * bound.value.abs() && bound.correction <= tolerance * bound.value.abs();
+        let value = best.as_ref().map_or(f64::INFINITY, |best| best.value);
+        idle = if bound.value < value - tolerance * value.abs() { 0 } else { idle + 1 };
+        if bound.value < value {
             best = Some(bound);
         }
-        if done || step[1] < STUCK {
+        if done || step[1] < STUCK || idle == IDLE {
             break;
         }
     }
@@ -212,6 +213,7 @@ impl<'a> Iteration<'a> {
             let (mut y, mut l) = factor.solve(&right, &rows);
             // one step of iterative refinement
             let rest: Vec<DVector<f64>> = (0..cliques.len())
+                .into_par_iter()
                 .map(|k| &right[k] - &h[k] * &y[k] - pulled(couplings, &l, k, y[k].len()))
                 .collect();
             let rest_rows: Vec<DVector<f64>> = couplings
@@ -226,15 +228,14 @@ impl<'a> Iteration<'a> {
                 .par_iter_mut()
                 .zip(&y)
                 .map(|(clique, step)| {
-                    let mut steps = [f64::INFINITY; 2];
+                    let mut steps = [1.0 / NEARLY; 2];
                     for block in &mut clique.blocks {
                         block.direct(mu, step);
-                        let own = block.largest_steps();
-                        steps = [steps[0].min(own[0]), steps[1].min(own[1])];
+                        steps = block.shorten(steps);
                     }
                     steps
                 })
-                .reduce(|| [f64::INFINITY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
+                .reduce(|| [1.0 / NEARLY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
             Direction { y, lambda: l, largest }
         };
         let predictor = direct(&mut self.cliques, 0.0);
