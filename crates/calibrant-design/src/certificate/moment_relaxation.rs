@@ -9,7 +9,7 @@
 //!   clique of intervals. These are its nodes and the states that the limits need at its start (velocity,
 //!   displacement, the running sum of the samples).
 //! - For every limit `|ℓ(z)| ≤ 1`, the matrix of one degree less, weighted with `1 − ℓ²`, is positive
-//!   semidefinite. Limits that hold for all t hold at some places of each interval.
+//!   semidefinite. Limits that hold for all t hold at the quarters of each interval.
 //! - With moments up to the fourth degree, `(1 − ℓ²)(1 − k²)` has no negative mean for any two limits. With
 //!   those up to the sixth degree these add nothing that pays for their time.
 //! - Two neighbours agree on all moments of the node and the states that they share.

@@ -53,10 +53,10 @@ impl BoundKind {
                 "a moment relaxation of the whole motion that leaves out what the mean acceleration costs: loose where the best motion is not balanced"
             }
             Self::Chain { states: true, mean: true } => {
-                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at some times in each interval: usually loose by some percent of a standard deviation"
+                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval: usually loose by some percent of a standard deviation"
             }
             Self::Chain { states: true, .. } => {
-                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at some times in each interval and leaves out what the mean acceleration costs: usually loose by some percent of a standard deviation"
+                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval and leaves out what the mean acceleration costs: usually loose by some percent of a standard deviation"
             }
             Self::Stretches => {
                 "the motion is long, so its stretches were bounded one by one as if each could start and end anywhere: loose where they cannot"
@@ -75,8 +75,6 @@ impl BoundKind {
 const MAX_ITERATIONS: u32 = 100;
 /// Places inside each interval at which limits on velocity and displacement are imposed.
 const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-/// The same with moments up to degree 6: more places cost time there, and change little.
-const INSIDE_HIGH_ORDER: [f64; 1] = [0.5];
 /// Most intervals for moments up to degree 6 with states. They take about a second.
 const MOST_HIGH_ORDER: usize = 40;
 /// Most variables of a clique: with moments up to degree 4 and up to degree 6.
@@ -133,7 +131,13 @@ pub(super) fn bound_within(
     };
     consider(by_jerk(chain, &bounds));
     if n > most {
-        consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, patience, most_order));
+        consider(segments(
+            chain,
+            &bounds,
+            States { velocity, displacement, sum: false },
+            patience,
+            most_order,
+        ));
         return Some(best);
     }
     // the running sum is one more state; beside velocity and displacement only to second order. Rest at the
@@ -180,10 +184,15 @@ fn by_jerk(chain: &AxisChain, bounds: &StateBounds) -> Option<MotionVarianceBoun
 
 impl<'a> ChainPart<'a> {
     /// A part whose cliques and places fit its order.
-    fn new(chain: &'a AxisChain, bounds: &'a StateBounds, range: Range<usize>, states: States, order: u8) -> Self {
-        let (variables, inside): (_, &[f64]) =
-            if order > 2 { (VARIABLES.1, &INSIDE_HIGH_ORDER) } else { (VARIABLES.0, &INSIDE) };
-        Self { chain, bounds, range, variables, states, open: false, inside, order }
+    fn new(
+        chain: &'a AxisChain,
+        bounds: &'a StateBounds,
+        range: Range<usize>,
+        states: States,
+        order: u8,
+    ) -> Self {
+        let variables = if order > 2 { VARIABLES.1 } else { VARIABLES.0 };
+        Self { chain, bounds, range, variables, states, open: false, inside: &INSIDE, order }
     }
 }
 
@@ -219,8 +228,7 @@ fn segments(
     let mut known: Vec<(Range<usize>, MotionVarianceBound)> = Vec::new();
     for first in (0..n).step_by(SEGMENT_INTERVALS) {
         let range = first..(first + SEGMENT_INTERVALS).min(n);
-        let same =
-            |other: &Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
+        let same = |other: &Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
         let part = if let Some((_, part)) = known.iter().find(|(other, _)| same(other)) {
             part.clone()
         } else {
@@ -232,7 +240,8 @@ fn segments(
             };
             let relaxed = if known.len() < MOST_SEGMENTS {
                 let order = if states.velocity && !moves { most_order } else { 2 };
-                let part = ChainPart { open: true, ..ChainPart::new(chain, bounds, range.clone(), states, order) };
+                let part =
+                    ChainPart { open: true, ..ChainPart::new(chain, bounds, range.clone(), states, order) };
                 relax(&part, patience, BoundKind::Stretches)
             } else {
                 None

@@ -68,7 +68,11 @@ fn factored(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
 
 impl Factored {
     /// Factors a clique's H, of which the lower triangle counts.
-    pub(super) fn new(h: &DMatrix<f64>, entry: Option<&DMatrix<f64>>, exit: Option<&DMatrix<f64>>) -> Option<Self> {
+    pub(super) fn new(
+        h: &DMatrix<f64>,
+        entry: Option<&DMatrix<f64>>,
+        exit: Option<&DMatrix<f64>>,
+    ) -> Option<Self> {
         let factor = factored(h.clone())?;
         let solved = |rows: &DMatrix<f64>| {
             let mut b = rows.transpose();
@@ -83,7 +87,8 @@ impl Factored {
 impl<'a> ChainFactor<'a> {
     /// Factors the chain of cliques.
     pub(super) fn new(cliques: Vec<Factored>, couplings: &'a [Coupling]) -> Option<Self> {
-        let (mut diagonal, mut below): (Vec<Cholesky<f64, Dyn>>, Vec<DMatrix<f64>>) = (Vec::new(), Vec::new());
+        let (mut diagonal, mut below): (Vec<Cholesky<f64, Dyn>>, Vec<DMatrix<f64>>) =
+            (Vec::new(), Vec::new());
         for k in 0..couplings.len() {
             let (exit, entry) = (cliques[k].exit.as_ref()?, cliques[k + 1].entry.as_ref()?);
             let mut block = exit.tr_mul(exit) + entry.tr_mul(entry);
@@ -100,7 +105,11 @@ impl<'a> ChainFactor<'a> {
     }
 
     /// Solves for the steps of the moments and of the multipliers.
-    pub(super) fn solve(&self, r: &[DVector<f64>], s: &[DVector<f64>]) -> (Vec<DVector<f64>>, Vec<DVector<f64>>) {
+    pub(super) fn solve(
+        &self,
+        r: &[DVector<f64>],
+        s: &[DVector<f64>],
+    ) -> (Vec<DVector<f64>>, Vec<DVector<f64>>) {
         let scaled: Vec<DVector<f64>> = self
             .cliques
             .iter()
@@ -115,7 +124,9 @@ impl<'a> ChainFactor<'a> {
         for k in 0..self.couplings.len() {
             let mut right = -&s[k];
             for (part, clique) in [(&self.cliques[k].exit, k), (&self.cliques[k + 1].entry, k + 1)] {
-                right += part.as_ref().map_or_else(|| DVector::zeros(s[k].len()), |part| part.tr_mul(&scaled[clique]));
+                right += part
+                    .as_ref()
+                    .map_or_else(|| DVector::zeros(s[k].len()), |part| part.tr_mul(&scaled[clique]));
             }
             if k > 0 {
                 right -= self.below[k - 1].tr_mul(&lambda[k - 1]);

@@ -36,8 +36,7 @@ impl Rows {
     pub(super) fn matrix(&self, y: &DVector<f64>, constant: bool) -> DMatrix<f64> {
         let mut x = DMatrix::zeros(self.size, self.size);
         for ((p, q), (c, terms)) in self.places().zip(&self.entries) {
-            let value =
-                terms.iter().map(|&(i, a)| a * y[i]).sum::<f64>() + if constant { *c } else { 0.0 };
+            let value = terms.iter().map(|&(i, a)| a * y[i]).sum::<f64>() + if constant { *c } else { 0.0 };
             x[(p, q)] = value;
             x[(q, p)] = value;
         }

@@ -73,7 +73,8 @@ pub(super) fn solve(program: &MomentProgram, tolerance: f64, patience: Patience<
         let Some(step) = iteration.advance() else { break };
         iterations += 1;
         let bound = program.dual_value(&program.objective, &iteration.multipliers());
-        let done = iteration.gap() <= tolerance * bound.value.abs() && bound.correction <= tolerance * bound.value.abs();
+        let done = iteration.gap() <= tolerance * bound.value.abs()
+            && bound.correction <= tolerance * bound.value.abs();
         let value = best.as_ref().map_or(f64::INFINITY, |best| best.value);
         idle = if bound.value < value - tolerance * value.abs() { 0 } else { idle + 1 };
         if bound.value < value {
@@ -118,7 +119,8 @@ impl<'a> Iteration<'a> {
             Some((k, cliques[k].blocks.len() - 1))
         };
         let nonnegative = program.nonnegative.iter().map(|row| place(1, std::slice::from_ref(row))).collect();
-        let semidefinite = program.semidefinite.iter().map(|(size, triangle)| place(*size, triangle)).collect();
+        let semidefinite =
+            program.semidefinite.iter().map(|(size, triangle)| place(*size, triangle)).collect();
 
         // a row that is zero couples the clique of its first column to the next one, or is of the last alone
         let count = cliques.len().saturating_sub(1);
@@ -126,7 +128,8 @@ impl<'a> Iteration<'a> {
         let mut zero = Vec::new();
         for row in &program.zero {
             let owner = |column: usize| program.cliques.partition_point(|range| range.end <= column);
-            let k = row.terms.iter().map(|term| owner(term.0)).min().unwrap_or(0).min(count.saturating_sub(1));
+            let k =
+                row.terms.iter().map(|term| owner(term.0)).min().unwrap_or(0).min(count.saturating_sub(1));
             zero.push((k, rows[k].len()));
             rows[k].push(row);
         }
