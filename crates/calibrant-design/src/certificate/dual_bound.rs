@@ -7,7 +7,8 @@
 //!
 //! So the solver's z need not solve anything. A shift of its eigenvalues moves it into the dual cone. The
 //! bound adds in full what remains of its equations, and the roundings of this computation. A solver that
-//! stops early gives a looser bound, never a wrong one.
+//! stops early gives a looser bound, never a wrong one. Linear programs are solved by Clarabel, the moment
+//! relaxations by a method of our own.
 //!
 //! # References
 //! `jansson2008`
@@ -183,7 +184,7 @@ impl MomentProgram {
     }
 
     /// Moves z into the dual cone.
-    fn project(&self, z: &mut [f64]) {
+    pub(super) fn project(&self, z: &mut [f64]) {
         let (free, rest) = z.split_at_mut(self.zero.len());
         debug_assert_eq!(free.len(), self.zero.len());
         let (plain, mut rest) = rest.split_at_mut(self.nonnegative.len());

@@ -1,6 +1,6 @@
 //! One positive semidefinite block `X = C + Σ y_i A_i ⪰ 0` of a clique, and its multiplier Z.
 //!
-//! The direction is that of Helmberg, Kojima and Monteiro. From `Z = μ X⁻¹`, with `sym M = (M + Mᵀ)/2`,
+//! The direction is that of Helmberg, Rendl, Vanderbei and Wolkowicz (HKM). From `Z = μ X⁻¹`, with `sym M = (M + Mᵀ)/2`,
 //!
 //! `ΔZ = μ X⁻¹ − Z − sym(X⁻¹ ΔX Z) − sym(X⁻¹ ΔX_p ΔZ_p)`, `ΔX = Σ Δy_i A_i + R`,
 //!
@@ -184,6 +184,9 @@ fn symmetric(m: DMatrix<f64>) -> DMatrix<f64> {
 fn shorten(m: &DMatrix<f64>, direction: &DMatrix<f64>, most: f64) -> f64 {
     if m.nrows() == 1 {
         return if direction[0] < 0.0 { most.min(-m[0] / direction[0]) } else { most };
+    }
+    if !direction.iter().all(|x| x.is_finite()) {
+        return 0.0;
     }
     // few blocks limit a step, and a factorisation is cheaper than eigenvalues
     if Cholesky::new(m + direction * most).is_some() {

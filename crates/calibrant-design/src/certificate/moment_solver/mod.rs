@@ -66,25 +66,31 @@ pub(super) struct Solved {
 /// must not.
 pub(super) fn solve(program: &MomentProgram, tolerance: f64, patience: Patience<'_>) -> Option<Solved> {
     let mut iteration = Iteration::new(program);
-    let mut best: Option<DualBound> = None;
-    let mut iterations = 0;
-    let mut idle = 0;
+    let mut best: Option<(f64, Vec<f64>)> = None;
+    let (mut iterations, mut idle) = (0, 0);
     while iterations < patience.max_iterations && !patience.interruption.is_asked() {
         let Some(step) = iteration.advance() else { break };
         iterations += 1;
-        let bound = program.dual_value(&program.objective, &iteration.multipliers());
+        let multipliers = iteration.multipliers();
+        let bound = program.dual_value(&program.objective, &multipliers);
         let done = iteration.gap() <= tolerance * bound.value.abs()
             && bound.correction <= tolerance * bound.value.abs();
-        let value = best.as_ref().map_or(f64::INFINITY, |best| best.value);
+        let value = best.as_ref().map_or(f64::INFINITY, |best| best.0);
         idle = if bound.value < value - tolerance * value.abs() { 0 } else { idle + 1 };
         if bound.value < value {
-            best = Some(bound);
+            best = Some((bound.value, multipliers));
         }
         if done || step[1] < STUCK || idle == IDLE {
             break;
         }
     }
-    best.map(|bound| Solved { bound, iterations })
+    // every Z is positive definite but for rounding, which the shift covers
+    let (_, mut z) = best?;
+    if !z.iter().all(|z| z.is_finite()) {
+        return None;
+    }
+    program.project(&mut z);
+    Some(Solved { bound: program.dual_value(&program.objective, &z), iterations })
 }
 
 impl<'a> Iteration<'a> {
@@ -203,7 +209,7 @@ impl<'a> Iteration<'a> {
             .collect();
         let lambda = &self.lambda;
         let couplings = &self.couplings;
-        let direct = |cliques: &mut [Clique], mu: f64| -> Direction {
+        let direct = |cliques: &mut [Clique], mu: f64| -> Option<Direction> {
             let right: Vec<DVector<f64>> = cliques
                 .par_iter()
                 .enumerate()
@@ -227,6 +233,9 @@ impl<'a> Iteration<'a> {
             let (dy, dl) = factor.solve(&rest, &rest_rows);
             y.iter_mut().zip(dy).for_each(|(y, dy)| *y += dy);
             l.iter_mut().zip(dl).for_each(|(l, dl)| *l += dl);
+            if !y.iter().chain(&l).all(|step| step.iter().all(|x| x.is_finite())) {
+                return None;
+            }
             let largest = cliques
                 .par_iter_mut()
                 .zip(&y)
@@ -239,9 +248,9 @@ impl<'a> Iteration<'a> {
                     steps
                 })
                 .reduce(|| [1.0 / NEARLY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
-            Direction { y, lambda: l, largest }
+            Some(Direction { y, lambda: l, largest })
         };
-        let predictor = direct(&mut self.cliques, 0.0);
+        let predictor = direct(&mut self.cliques, 0.0)?;
         let steps = predictor.largest.map(|step| step.min(1.0));
         let size: usize = self.cliques.iter().flat_map(|clique| &clique.blocks).map(Block::size).sum();
         let reached: f64 =
@@ -249,11 +258,8 @@ impl<'a> Iteration<'a> {
                 / size as f64;
         let centering = (reached / mu).clamp(0.0, 1.0).powi(2).max(1e-4);
         self.cliques.par_iter_mut().for_each(|clique| clique.blocks.iter_mut().for_each(Block::correct));
-        let direction = direct(&mut self.cliques, centering * mu);
+        let direction = direct(&mut self.cliques, centering * mu)?;
         let steps = direction.largest.map(|step| (NEARLY * step).min(1.0));
-        if !steps.iter().all(|step| step.is_finite()) {
-            return None;
-        }
         self.cliques.par_iter_mut().zip(&direction.y).for_each(|(clique, step)| {
             clique.y += step * steps[0];
             clique.blocks.iter_mut().for_each(|block| block.advance(steps));
