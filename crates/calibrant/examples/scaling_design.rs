@@ -34,6 +34,7 @@ fn main() -> calibrant::Result<()> {
                 rate_hz: 10.0,
                 trust,
                 known_ends: KnownEnds::Start,
+                gravity: None,
                 limits,
                 criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
                 prior: None,

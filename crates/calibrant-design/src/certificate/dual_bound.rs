@@ -74,12 +74,8 @@ const ROUNDING: f64 = 1e-12;
 const NEAR_ENOUGH: f64 = 0.02;
 
 impl MomentProgram {
-    /// Solves the program and bounds it. `None` where the solver refused to start, or must not.
-    pub(super) fn bound(&self, patience: Patience<'_>) -> Option<DualBound> {
-        self.bound_of(&self.objective, patience)
-    }
-
-    /// The same with another objective.
+    /// Solves the program with this objective by Clarabel and bounds it. `None` where the solver refused to start,
+    /// or must not.
     pub(super) fn bound_of(&self, objective: &Row, patience: Patience<'_>) -> Option<DualBound> {
         if patience.interruption.is_asked() {
             return None;

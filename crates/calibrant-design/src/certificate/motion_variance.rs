@@ -75,7 +75,7 @@ impl BoundKind {
 const MAX_ITERATIONS: u32 = 100;
 /// Places inside each interval at which limits on velocity and displacement are imposed.
 const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-/// Most intervals for moments up to degree 6 with states. They take about a second.
+/// Most intervals for moments up to degree 6 with states. They take two seconds of processor time.
 const MOST_HIGH_ORDER: usize = 40;
 /// Most variables of a clique: with moments up to degree 4 and up to degree 6.
 const VARIABLES: (usize, usize) = (5, 4);

@@ -169,11 +169,6 @@ impl Block {
         self.x += &self.step_x * steps[0];
         self.z += &self.step_z * steps[1];
     }
-
-    /// Adds `tr(A_i Z)` to entry i.
-    pub(super) fn add_multiplier(&self, sum: &mut DVector<f64>) {
-        self.rows.add_traces(&self.z, sum);
-    }
 }
 
 fn symmetric(m: DMatrix<f64>) -> DMatrix<f64> {
