@@ -31,6 +31,7 @@ mod gravity;
 mod increment_design;
 mod largest_gain;
 mod moment_relaxation;
+mod moment_solver;
 mod motion_variance;
 mod polynomial;
 mod variances;
