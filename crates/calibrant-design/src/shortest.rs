@@ -157,7 +157,6 @@ mod tests {
             limits: &limits,
             criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
             prior: None,
-            gravity: None,
         });
     }
 
