@@ -5,6 +5,7 @@ mod evaluate;
 mod job;
 mod output;
 mod pose_evaluation;
+mod pose_output;
 mod pose_table;
 mod poses;
 mod reach;
@@ -15,12 +16,12 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console};
-use calibrant::design::{Design, DesignProblem};
+use crate::Exit;
+use calibrant::design::DesignProblem;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{Plan, Reached, ResultPlaces, design_json};
+use calibrant::io::{Plan, ResultPlaces};
 use job::{Job, in_file};
-use output::{check_dense, exit_of, write};
+use output::{check_dense, finish};
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
@@ -74,30 +75,4 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 fn run_design(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> calibrant::Result<Exit> {
     let design = job.design(problem).map_err(|error| in_file(error, &arguments.experiment))?;
     finish(arguments, job, problem, &design, None)
-}
-
-/// Writes and shows a design, with the goals that it reaches and a sentence on them.
-fn finish(
-    arguments: &Arguments,
-    job: &Job,
-    problem: &DesignProblem<'_>,
-    design: &Design,
-    reached: Option<(&Reached, &str)>,
-) -> calibrant::Result<Exit> {
-    write(arguments, job, problem, design, reached)?;
-    if arguments.json {
-        console::print(&design_json(design, reached.map(|(reached, _)| reached), problem, &job.settings));
-    } else {
-        console::print(&table::design(design));
-        if let Some((_, sentence)) = reached {
-            console::print(&table::wrapped(sentence));
-        }
-        let output = &arguments.output;
-        console::print(&format!(
-            "\n{}\n{}\n",
-            output.join("motion.csv").display(),
-            output.join("report.html").display()
-        ));
-    }
-    Ok(exit_of(design))
 }

@@ -2,11 +2,38 @@
 
 use super::arguments::Arguments;
 use super::job::Job;
+use super::table;
 use crate::{Exit, budget, console};
 use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
-use calibrant::io::{Reached, write_atomically, write_dense_motion, write_design, write_motion};
+use calibrant::io::{Reached, design_json, write_atomically, write_dense_motion, write_design, write_motion};
 use calibrant::report::design_report;
+
+/// Writes and shows a design, with the goals that it reaches and a sentence on them.
+pub(super) fn finish(
+    arguments: &Arguments,
+    job: &Job,
+    problem: &DesignProblem<'_>,
+    design: &Design,
+    reached: Option<(&Reached, &str)>,
+) -> calibrant::Result<Exit> {
+    write(arguments, job, problem, design, reached)?;
+    if arguments.json {
+        console::print(&design_json(design, reached.map(|(reached, _)| reached), problem, &job.settings));
+    } else {
+        console::print(&table::design(design));
+        if let Some((_, sentence)) = reached {
+            console::print(&table::wrapped(sentence));
+        }
+        let output = &arguments.output;
+        console::print(&format!(
+            "\n{}\n{}\n",
+            output.join("motion.csv").display(),
+            output.join("report.html").display()
+        ));
+    }
+    Ok(exit_of(design))
+}
 
 /// Writes all results of a design.
 pub(super) fn write(

@@ -1,7 +1,7 @@
 //! `calibrant design --evaluate` of recorded holds: how efficient they were.
 
 use super::job::{Job, in_file};
-use super::poses::{about, write_page};
+use super::pose_output::{about, write_page};
 use super::table::wrapped;
 use super::{Arguments, pose_table};
 use crate::{Exit, console};

@@ -1,18 +1,15 @@
 //! `calibrant design` of a `[holds]` experiment: the best poses.
 
 use super::job::{Job, in_file};
+use super::pose_output::{about, write_page};
 use super::reach_request::{asked, goals};
 use super::table::wrapped;
 use super::{Arguments, pose_evaluation, pose_table};
 use crate::{Exit, console};
-use calibrant::design::poses::{
-    DirectionKnowledge, FewestPoses, PoseDesign, PoseProblem, design_poses, fewest_poses,
-};
+use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, design_poses, fewest_poses};
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{Reached, pose_design_json, write_atomically, write_pose_design, write_poses};
-use calibrant::report::number_format::significant;
-use calibrant::report::{About, pose_in_words, pose_report};
-use std::path::Path;
+use calibrant::io::{Reached, pose_design_json, write_pose_design, write_poses};
+use calibrant::report::{pose_in_words, pose_report};
 
 pub(super) fn run(arguments: &Arguments, job: &Job) -> calibrant::Result<Exit> {
     refuse_options_of_a_motion(arguments)?;
@@ -109,24 +106,4 @@ fn goal_sentence(arguments: &Arguments, design: &PoseDesign, reached: &Reached) 
         None => String::new(),
     };
     format!("{poses} {}.{proof}", asked(&arguments.reach))
-}
-
-pub(super) fn write_page(path: &Path, html: &str) -> calibrant::Result<()> {
-    write_atomically(path, |out| out.write_all(html.as_bytes()))
-}
-
-pub(super) fn about(arguments: &Arguments, problem: &PoseProblem, title: &str) -> About {
-    let directions = match problem.directions {
-        DirectionKnowledge::Unknown => "unknown: only |f| = g".into(),
-        DirectionKnowledge::Known { sd_rad: 0.0 } => "known exactly".into(),
-        DirectionKnowledge::Known { sd_rad } => format!("known to {}°", significant(sd_rad.to_degrees(), 3)),
-    };
-    let mut facts = vec![
-        ("Experiment".to_owned(), arguments.experiment.display().to_string()),
-        ("Poses".to_owned(), problem.poses.to_string()),
-        ("Directions".to_owned(), directions),
-    ];
-    facts.extend(arguments.from.iter().map(|path| ("Known before".to_owned(), path.display().to_string())));
-    let program = format!("calibrant {}", env!("CARGO_PKG_VERSION"));
-    About { title: title.into(), facts, program, ..About::default() }
 }

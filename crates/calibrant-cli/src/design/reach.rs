@@ -1,8 +1,9 @@
 //! `calibrant design --reach` of a motion: the shortest one that is good enough.
 
+use super::Arguments;
 use super::job::{Job, in_file};
+use super::output::finish;
 use super::reach_request::{asked, goals};
-use super::{Arguments, finish};
 use crate::{Exit, console};
 use calibrant::design::{DesignProblem, shortest_motion};
 use calibrant::io::Reached;
