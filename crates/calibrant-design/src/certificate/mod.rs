@@ -43,6 +43,8 @@ pub(super) use variances::{LowerBound, lower_bound};
 use lapack_over_nalgebra as _;
 
 #[cfg(test)]
+mod design_tests;
+#[cfg(test)]
 mod increment_tests;
 #[cfg(test)]
 mod tests;
