@@ -82,6 +82,8 @@ pub(crate) struct ChainSolution {
     pub(crate) gained: f64,
     /// By how much it may still be above the minimum.
     pub(crate) gap: f64,
+    /// Number of iterations.
+    #[cfg(test)]
     pub(crate) iterations: usize,
 }
 
@@ -107,7 +109,13 @@ impl ChainProgram {
             let newton =
                 if done || iterations == ITERATIONS { None } else { self.newton(&slack, &multipliers) };
             let Some(newton) = newton else {
-                return Some(ChainSolution { stages: x, gained, gap: gap + residual, iterations });
+                return Some(ChainSolution {
+                    stages: x,
+                    gained,
+                    gap: gap + residual,
+                    #[cfg(test)]
+                    iterations,
+                });
             };
             let gradient = self.gradient(&x, &forms);
             let direction = |centre: &dyn Fn(usize) -> f64| {
@@ -132,7 +140,13 @@ impl ChainProgram {
             let (step, fall, rise) = direction(&|k| centre - fall[k] * rise[k]);
             let most = (BOUNDARY * furthest(&slack, &fall).min(furthest(&multipliers, &rise))).min(1.0);
             if most.is_nan() || most < STUCK {
-                return Some(ChainSolution { stages: x, gained, gap: gap + residual, iterations });
+                return Some(ChainSolution {
+                    stages: x,
+                    gained,
+                    gap: gap + residual,
+                    #[cfg(test)]
+                    iterations,
+                });
             }
             for (x, step) in x.iter_mut().flatten().zip(step.iter().flatten()) {
                 *x += step * most;
@@ -318,3 +332,7 @@ fn furthest(values: &[f64], change: &[f64]) -> f64 {
     let each = values.iter().zip(change).filter(|(_, change)| **change < 0.0);
     each.map(|(value, change)| -value / change).fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+#[path = "chain_program_tests.rs"]
+mod tests;

@@ -18,12 +18,24 @@ use nalgebra::Vector3;
 pub(super) struct Peaks(Vec<InsideBreach>);
 
 /// A limit between the nodes that a motion keeps with more than this share to spare is forgotten.
-const SPARE: f64 = 0.1;
+const SPARE: f64 = 0.02;
 
 impl Peaks {
-    /// Adds the peaks beyond a limit.
+    /// Adds the peaks beyond a limit. Of each interval the last two stay: the peak moves little from one motion to
+    /// the next.
     pub(super) fn update(&mut self, region: &Region, a: &[f64]) {
         self.0.extend(region.broken_inside(a));
+        let mut newer = vec![[0; 2]; region.intervals()];
+        let mut kept = Vec::new();
+        for peak in self.0.drain(..).rev() {
+            let count = &mut newer[peak.interval][usize::from(peak.state == State::Velocity)];
+            if *count < 2 {
+                kept.push(peak);
+            }
+            *count += 1;
+        }
+        kept.reverse();
+        self.0 = kept;
     }
 
     /// Forgets those that a motion keeps by far.
