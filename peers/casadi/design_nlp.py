@@ -95,7 +95,9 @@ def axes_information(problem, axes, whole, stimulus, spread):
     places, designs = [], []
     for row in axes:
         places += problem.places(row)
-        designs.append(ca.horzcat(whole[:, 0], *[stimulus[:, column] for column in problem.columns(row)]))
+        # gravity is a constant beside the motion
+        sensed = [stimulus[:, column] + whole[:, 0] * float(problem.force[column]) for column in problem.columns(row)]
+        designs.append(ca.horzcat(whole[:, 0], *sensed))
     design = ca.diagcat(*designs)
     if not problem.noisy:
         whitened = design / problem.noise[axes[0]]
@@ -211,7 +213,7 @@ class Program:
     def _objective(self):
         letter = self.problem.letter
         if letter == "D":
-            return -2 * sum(ca.sum1(ca.log(ca.diag(cholesky(self._scaled(*block))))) for block in self.blocks)
+            return sum(self._log_determinant(*block) for block in self.blocks)
         if letter == "E":
             return self._largest_eigenvalue()
         inverses = [(places, forward(cholesky(f), ca.SX.eye(len(places)))) for places, f in self.blocks]
@@ -224,6 +226,23 @@ class Program:
             for i, j in zip(*np.nonzero(w)):
                 total += w[i, j] * ca.dot(inverse[:, int(i)], inverse[:, int(j)])
         return OBJECTIVE * total / self.reference
+
+    def _log_determinant(self, places, f):
+        """ln det (F^-1 + N) of scaled parameters, N = R R' the share of the tilt: ln det (I + R' F R) - ln det F."""
+        scaled = self._scaled(places, f)
+        value = -2 * ca.sum1(ca.log(ca.diag(cholesky(scaled))))
+        share = self.problem.tilt_share()
+        scale = self.problem.scale[places]
+        own = share[np.ix_(places, places)] / np.outer(scale, scale)
+        if not own.any():
+            return value
+        # blocks are treated by themselves: an upright sensor with a diagonal matrix
+        others = np.setdiff1d(np.arange(len(share)), places)
+        assert not share[np.ix_(places, others)].any()
+        eigenvalues, vectors = np.linalg.eigh(own)
+        root = ca.DM(vectors[:, eigenvalues > 1e-12] * np.sqrt(eigenvalues[eigenvalues > 1e-12]))
+        inner = ca.SX.eye(root.shape[1]) + ca.mtimes([root.T, scaled, root])
+        return value + 2 * ca.sum1(ca.log(ca.diag(cholesky(inner))))
 
     def _largest_variance(self, inverses):
         t = self._unknown("t", 1, 0)

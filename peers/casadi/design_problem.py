@@ -45,6 +45,9 @@ class DesignProblem:
         self.scale = np.array(case["criterion"].get("scale") or np.ones(len(self.names)), dtype=float)
         self.weights = case["criterion"].get("weights") or {}
         self.range = case["criterion"].get("range_mps2")
+        gravity = case.get("gravity")
+        self.force = np.array(gravity["force_mps2"])[: self.axes] if gravity else np.zeros(self.axes)
+        self.offset_covariance = np.array(gravity["offset_covariance"])[: self.axes, : self.axes] if gravity else None
         self._sample(case["rate_hz"])
 
     def _sample(self, rate_hz):
@@ -89,6 +92,7 @@ class DesignProblem:
         g = np.zeros((n * m, len(self.names)))
         v = np.diag(np.repeat(self.noise**2, m))
         spread = [added @ self.process_covariance(motion, axis) @ added.T for axis in range(n)]
+        alpha = alpha + self.force
         for row in range(n):
             own = slice(row * m, (row + 1) * m)
             g[own, self.places(row)] = np.column_stack([np.ones(m), alpha[:, list(self.columns(row))]])
@@ -99,11 +103,18 @@ class DesignProblem:
         whitened = np.linalg.solve(np.linalg.cholesky(v), g)
         return whitened.T @ whitened
 
+    def tilt_share(self):
+        """Of the covariance: gravity's offset o ~ N(0, P) is a constant S o of the readings, as is the bias."""
+        share = np.zeros((len(self.names), len(self.names)))
+        if self.offset_covariance is not None:
+            share[: self.axes, : self.axes] = self.matrix @ self.offset_covariance @ self.matrix.T
+        return share
+
     def covariance(self, motion):
-        """F^-1, the columns of F scaled to unit diagonal first."""
+        """F^-1, the columns of F scaled to unit diagonal first; and the share of the tilt."""
         f = self.information(motion)
         d = 1 / np.sqrt(np.diag(f))
-        return np.outer(d, d) * np.linalg.inv(f * np.outer(d, d))
+        return np.outer(d, d) * np.linalg.inv(f * np.outer(d, d)) + self.tilt_share()
 
     def trace_weights(self):
         """W of the criteria that are tr(W C).
@@ -143,7 +154,7 @@ class DesignProblem:
 
     def floor_of_value(self):
         """What biases alone cost whatever the motion does, in A: sum_r (sigma_r / scale_r)^2 / M; else 0."""
-        if self.letter != "A":
+        if self.letter != "A" or self.offset_covariance is not None:
             return 0.0
         return float(((self.noise / self.scale[: self.axes]) ** 2).sum() / self.samples)
 

@@ -3,6 +3,9 @@
     minimise over p, a:  1/2 sum_k |(y_k - S alpha(t_k; a) - b) / sigma|^2
                        + 1/2 sum_i |((a_{i+1} - a_i)/dtau_i - u_i) / sigma_u,i|^2      with a_0 (and a_N) known
 
+Where gravity gamma acts, the stimulus is alpha + gamma + o, and the offset o (tilt and magnitude) is an unknown with the prior
+1/2 o' P^-1 o.
+
 Each problem is written down as it reads, in the node accelerations, with exact second derivatives and without any of
 calibrant's structure; nothing is shared between the two programs but the JSON file. A third answer decides who is right where they
 differ: Gauss-Newton with residuals and gradients in extended precision, written in NumPy.
@@ -57,7 +60,11 @@ class Problem:
         self.sigma = np.array(case["noise_mps2"])
         self.nominal = np.array(case["nominal"])
         self.full = case["model"] == "full"
-        self.known = case["trust"] == "known"
+        self.known = case["trust"].startswith("known")
+        # gravity: its force, and a factor of the covariance of its unknown offset o, the last unknowns of z
+        gravity = case.get("gravity")
+        self.force = np.array(gravity["force_mps2"]) if gravity else np.zeros(3)
+        self.offset_root = np.linalg.cholesky(np.array(gravity["offset_covariance"])) if gravity else None
         self.jerk_sd = None if case["jerk_sd_mps3"] is None else np.array(case["jerk_sd_mps3"])
         self.size = len(self.nominal)
         self.nodes = len(self.tau)
@@ -80,7 +87,19 @@ class Problem:
         if self.jerk_sd is None:
             nearest = np.abs(self.t[None, :] - self.tau[:, None]).argmin(axis=1)
             nodes[self.free] = self.y[nearest[self.free]]
-        return np.concatenate([self.nominal, nodes[self.free].ravel()])
+        if self.jerk_sd is None and self.offset_root is not None:
+            nodes[self.free] -= self.force
+        offset = np.zeros(3 * (self.offset_root is not None))
+        return np.concatenate([self.nominal, nodes[self.free].ravel(), offset])
+
+    def force_at_rest(self, z, zeros):
+        """What the sensor senses beside the motion, gamma + o."""
+        force = zeros(3, 1)
+        for axis in range(3):
+            force[axis, 0] = self.force[axis]
+            if self.offset_root is not None:
+                force[axis, 0] += z[self.size + 3 * len(self.free) + axis]
+        return force
 
     def unpack(self, z, zeros):
         """Bias, matrix and nodes of a vector of unknowns; `zeros(rows, columns)` makes a matrix of z's kind."""
@@ -101,12 +120,15 @@ class Problem:
 
 def symbolic(problem):
     """Unknowns, residuals r with cost 1/2 r'r, and equality constraints (increments without noise), in CasADi's SX."""
-    z = ca.SX.sym("z", problem.size + 3 * len(problem.free))
+    z = ca.SX.sym("z", len(problem.start()))
     b, matrix, nodes = problem.unpack(z, ca.SX.zeros)
+    at_rest = problem.force_at_rest(z, ca.SX.zeros)
     residuals, constraints = [], []
+    if problem.offset_root is not None:
+        residuals.append(ca.mtimes(ca.DM(np.linalg.inv(problem.offset_root)), at_rest - problem.force))
     for k, i in enumerate(problem.interval):
         alpha = (1 - problem.lam[k]) * nodes[int(i), :].T + problem.lam[k] * nodes[int(i) + 1, :].T
-        residuals.append((problem.y[k] - ca.mtimes(matrix, alpha) - b) / problem.sigma)
+        residuals.append((problem.y[k] - ca.mtimes(matrix, alpha + at_rest) - b) / problem.sigma)
     if problem.jerk_sd is not None and not problem.known:
         for i, sd in enumerate(problem.jerk_sd):
             excess = (nodes[i + 1, :] - nodes[i, :]) / problem.dtau[i] - problem.jerk[i].reshape(1, 3)
@@ -179,7 +201,8 @@ def referee(problem, z, constraints, jacobian):
         t, tau = problem.t.astype(np.longdouble), problem.tau.astype(np.longdouble)
         dtau = np.diff(tau)
         lam = ((t - tau[problem.interval]) / dtau[problem.interval])[:, None]
-        alpha = (1 - lam) * nodes[problem.interval] + lam * nodes[problem.interval + 1]
+        at_rest = problem.force_at_rest(z, lambda rows, columns: np.zeros((rows, columns), dtype=np.longdouble))
+        alpha = (1 - lam) * nodes[problem.interval] + lam * nodes[problem.interval + 1] + at_rest.T
         sigma = problem.sigma.astype(np.longdouble)
         data = (problem.y - alpha @ matrix.T - b) / sigma
         # derivatives by hand: each residual is bilinear in (S, a)
@@ -203,6 +226,12 @@ def referee(problem, z, constraints, jacobian):
         r = [data.ravel()]
         rows = [j]
         gap = []
+        if problem.offset_root is not None:
+            inverse = np.linalg.inv(problem.offset_root).astype(np.longdouble)
+            for row in range(3):
+                j[3 * samples + row, -3:] = -matrix[row] / sigma[row]
+            r.append(inverse @ (at_rest[:, 0] - problem.force))
+            rows.append(np.hstack([np.zeros((3, len(z) - 3), dtype=np.longdouble), inverse]))
         if problem.jerk_sd is not None and not problem.known:
             command = np.diff(problem.command.astype(np.longdouble), axis=0) / dtau[:, None]
             excess = np.diff(nodes, axis=0) / dtau[:, None] - command
@@ -309,12 +338,14 @@ def compare(case):
         "chi2": float(abs(r.ravel() @ r.ravel() - answer["chi2"]) / answer["chi2"]),
     }
     if len(problem.free):
-        node_sd = np.sqrt(np.diag(c)[problem.size :])
+        motion = slice(problem.size, problem.size + 3 * len(problem.free))
+        node_sd = np.sqrt(np.diag(c)[motion])
         node_sd = np.where(node_sd > 0, node_sd, 1)
-        row["motion_sd"] = float(np.abs((solution[problem.size :] - nodes[problem.free].ravel()) / node_sd).max())
+        row["motion_sd"] = float(np.abs((solution[motion] - nodes[problem.free].ravel()) / node_sd).max())
     else:
         row["motion_sd"] = 0.0
-        row["numpy_s"] = least_squares_time(problem)
+        if problem.offset_root is None:
+            row["numpy_s"] = least_squares_time(problem)
     return row
 
 

@@ -4,6 +4,8 @@ mod arguments;
 mod evaluate;
 mod job;
 mod output;
+mod pose_evaluation;
+mod pose_table;
 mod poses;
 mod reach;
 mod reach_request;
@@ -16,7 +18,7 @@ pub(crate) use arguments::Arguments;
 use crate::{Exit, console};
 use calibrant::design::{Design, DesignProblem};
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{Plan, ResultPlaces, design_json};
+use calibrant::io::{Plan, Reached, ResultPlaces, design_json};
 use job::{Job, in_file};
 use output::{check_dense, exit_of, write};
 
@@ -74,21 +76,21 @@ fn run_design(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> 
     finish(arguments, job, problem, &design, None)
 }
 
-/// Writes and shows a design, with a remark below its table.
+/// Writes and shows a design, with the goals that it reaches and a sentence on them.
 fn finish(
     arguments: &Arguments,
     job: &Job,
     problem: &DesignProblem<'_>,
     design: &Design,
-    remark: Option<&str>,
+    reached: Option<(&Reached, &str)>,
 ) -> calibrant::Result<Exit> {
-    write(arguments, job, problem, design)?;
+    write(arguments, job, problem, design, reached)?;
     if arguments.json {
-        console::print(&design_json(design, problem, &job.settings));
+        console::print(&design_json(design, reached.map(|(reached, _)| reached), problem, &job.settings));
     } else {
         console::print(&table::design(design));
-        if let Some(remark) = remark {
-            console::print(&table::wrapped(remark));
+        if let Some((_, sentence)) = reached {
+            console::print(&table::wrapped(sentence));
         }
         let output = &arguments.output;
         console::print(&format!(

@@ -15,13 +15,14 @@ use calibrant::Error;
 use calibrant::design::initial_motion;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, write_motion, write_recording,
-    write_truth,
+    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, read_poses, write_motion,
+    write_motion_truth, write_recording, write_truth,
 };
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording, stream,
+    HoldsSimulation, Purpose, draw_gravity, draw_sensor, perturb, sample_times, simulate_holds,
+    simulate_holds_in, simulate_recording, stream,
 };
 use nalgebra::Vector3;
 use random::Random;
@@ -34,7 +35,11 @@ impl crate::run::Run for Arguments {
         ResultPlaces {
             directory: Some(self.output.clone()),
             results: names.map(|name| self.output.join(name)).to_vec(),
-            inputs: std::iter::once(&self.experiment).chain(&self.motion).cloned().collect(),
+            inputs: std::iter::once(&self.experiment)
+                .chain(&self.motion)
+                .chain(&self.poses)
+                .cloned()
+                .collect(),
         }
     }
 
@@ -47,6 +52,13 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
     let random = Random { seed, recording: arguments.recording.into() };
+    let takes_poses = matches!(&experiment.plan, Plan::Holds(plan) if plan.directions.is_none());
+    if arguments.poses.is_some() && (!takes_poses || experiment.imu.is_some()) {
+        let message =
+            "--poses is for an accelerometer that is held by hand, in directions that [holds] does not list";
+        let help = "leave it away, or see `calibrant init static-poses`";
+        return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+    }
     let samples = match (&experiment.plan, &experiment.imu) {
         (Plan::Motion(plan), _) => {
             check_simulable(&experiment.sensor, &arguments.experiment)?;
@@ -138,7 +150,7 @@ fn simulate_motion(
     random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let limits = experiment.limits.within_range(sensor.range_mps2);
+    let limits = experiment.limits.within_range(plan.range_left(sensor));
     let given = arguments.motion.as_deref();
     let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
     length::check_motion(&motion, plan.rate_hz)?;
@@ -151,14 +163,21 @@ fn simulate_motion(
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let times = sample_times(&motion, plan.rate_hz);
-    let moved = happened.as_ref().unwrap_or(&motion);
-    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, moved, &times, &mut rng);
+    let gravity = plan.gravity.as_ref().map(|gravity| draw_gravity(gravity, &mut rng));
+    let at_rest = gravity.map_or_else(Vector3::zeros, |gravity| gravity.force_mps2);
+    let sensed = happened.as_ref().unwrap_or(&motion).plus(&at_rest)?;
+    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &sensed, &times, &mut rng);
     let output = &arguments.output;
     write_motion(&output.join("motion.csv"), &motion, sensor.axes)?;
     if let Some(happened) = &happened {
         write_motion(&output.join("true_motion.csv"), happened, sensor.axes)?;
     }
-    write_truth(&output.join("truth.json"), random.seed, &sensor.parameter_list(), sensor.unit, &truth)?;
+    let list = sensor.parameter_list();
+    let path = output.join("truth.json");
+    match &gravity {
+        Some(gravity) => write_motion_truth(&path, random.seed, &list, sensor.unit, &truth, gravity)?,
+        None => write_truth(&path, random.seed, &list, sensor.unit, &truth)?,
+    }
     write_recording(&output.join("recording.csv"), &recording)?;
     Ok(recording.len())
 }
@@ -169,6 +188,8 @@ fn simulate_poses(
     plan: &HoldsPlan,
     random: Random,
 ) -> calibrant::Result<usize> {
+    let poses = arguments.poses.as_deref().map(read_poses).transpose()?;
+    let plan = &HoldsPlan { poses: poses.as_ref().map_or(plan.poses, Vec::len), ..plan.clone() };
     length::check_holds(plan)?;
     let sensor = &experiment.sensor;
     let mut rng = random.sensor();
@@ -183,7 +204,13 @@ fn simulate_poses(
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let recording = match &on_table {
         Some(steps) => imu::accelerometer_on_table(sensor, &truth, plan, steps, &mut rng)?,
-        None => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan), &mut rng).0,
+        None => {
+            let setup = by_hand(plan);
+            match &poses {
+                Some(poses) => simulate_holds_in(&truth, &noise, sensor.unit, poses, &setup, &mut rng).0,
+                None => simulate_holds(&truth, &noise, sensor.unit, &setup, &mut rng).0,
+            }
+        }
     };
     let output = &arguments.output;
     write_truth(&output.join("truth.json"), random.seed, &list, sensor.unit, &truth)?;

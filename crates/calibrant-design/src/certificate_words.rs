@@ -17,6 +17,7 @@ impl Design {
             Some(certificate) => self.certified(certificate),
             None => self.uncertified(),
         };
+        let found = format!("{found}{}", self.tilt());
         match self.status {
             DesignStatus::Converged => found,
             DesignStatus::IterationLimit | DesignStatus::Stalled => {
@@ -28,8 +29,25 @@ impl Design {
         }
     }
 
+    /// What the tilt of gravity gives to the biases.
+    fn tilt(&self) -> String {
+        let name = |k: usize| {
+            let parameter = &self.parameters[k];
+            format!("{} {}{}", parameter.name, short(self.floor_sd[k]), unit(parameter.unit))
+        };
+        let named: Vec<String> =
+            (0..self.floor_sd.len()).filter(|&k| self.floor_sd[k] > 0.0).map(name).collect();
+        match named.as_slice() {
+            [] => String::new(),
+            all => format!(
+                " Whatever the motion, the tilt and the magnitude of gravity alone give an sd of {}.",
+                all.join(", ")
+            ),
+        }
+    }
+
     fn certified(&self, certificate: &Certificate) -> String {
-        let (letter, value) = (self.criterion.letter(), self.optimal.value);
+        let (letter, value) = (self.criterion.letter(), self.optimal.value - self.floor);
         let criterion = if let Criterion::D(_) = self.criterion {
             // a typical sd is exp(Φ_D / 2p)
             let sd = (certificate.gap / (2.0 * self.parameters.len() as f64)).exp_m1();
@@ -43,9 +61,10 @@ impl Design {
             let gap = certificate.gap;
             let near =
                 if gap < 1.0 { format!("within {} of the bound", percent(gap)) } else { times(1.0 + gap) };
+            let above = if self.floor > 0.0 { ", above the share of the tilt," } else { "" };
             format!(
-                "No admissible motion can bring criterion {letter} below {}; this motion has {}, {near}",
-                short(certificate.lower_bound),
+                "No admissible motion can bring criterion {letter}{above} below {}; this motion has {}, {near}",
+                short(certificate.lower_bound - self.floor),
                 short(value),
             )
         };

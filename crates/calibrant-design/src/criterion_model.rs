@@ -16,8 +16,13 @@ pub(super) struct Curvature {
     pub(super) forms: Vec<DMatrix<f64>>,
 }
 
-/// A criterion that is the largest of several smooth ones: their values, and the curvature of each.
-pub(super) fn pieces(criterion: &Criterion, c: &DMatrix<f64>) -> Vec<(f64, Curvature)> {
+/// A criterion that is the largest of several smooth ones: their values, and the curvature of each. D may have a
+/// floor, a constant part of the covariance beside `c`.
+pub(super) fn pieces(
+    criterion: &Criterion,
+    c: &DMatrix<f64>,
+    floor: Option<&DMatrix<f64>>,
+) -> Vec<(f64, Curvature)> {
     match criterion {
         Criterion::M(m) => (0..c.nrows())
             .map(|k| {
@@ -27,7 +32,10 @@ pub(super) fn pieces(criterion: &Criterion, c: &DMatrix<f64>) -> Vec<(f64, Curva
                 (value, linear(c, &[w]))
             })
             .collect(),
-        Criterion::D(_) => vec![(criterion.value(c), log_determinant(c))],
+        Criterion::D(_) => match floor {
+            Some(floor) => vec![(criterion.value(&(floor + c)), above_a_floor(c, floor))],
+            None => vec![(criterion.value(c), log_determinant(c))],
+        },
         Criterion::E(_) => {
             let first = c * criterion.derivative(c) * c;
             vec![(criterion.value(c), Curvature { first, forms: Vec::new() })]
@@ -103,6 +111,25 @@ fn log_determinant(c: &DMatrix<f64>) -> Curvature {
     Curvature { first: c.clone(), forms }
 }
 
+/// `Φ = ln det (floor + C)`: `Ω = C (floor + C)⁻¹ C = R Rᵀ` and `½ ‖Lᵀ dF R‖²`, `L Lᵀ = 2 C − Ω`. The bend of the
+/// logarithm is left in.
+fn above_a_floor(c: &DMatrix<f64>, floor: &DMatrix<f64>) -> Curvature {
+    let size = c.nrows();
+    let right = (floor + c).cholesky().and_then(|factor| factor.unpack().solve_lower_triangular(c));
+    let Some(right) = right.map(|right| right.transpose()) else {
+        return Curvature { first: DMatrix::zeros(size, size), forms: Vec::new() };
+    };
+    let first = &right * right.transpose();
+    let mut forms = Vec::new();
+    if let Some(left) = (c * 2.0 - &first).cholesky().map(|factor| factor.unpack()) {
+        for j in 0..size {
+            let x = left.column(j).into_owned();
+            forms.extend((0..size).map(|k| symmetric_product(&x, &right.column(k).into_owned())));
+        }
+    }
+    Curvature { first, forms }
+}
+
 /// `½ (x yᵀ + y xᵀ)`.
 fn symmetric_product(x: &DVector<f64>, y: &DVector<f64>) -> DMatrix<f64> {
     let product = x * y.transpose();
@@ -142,7 +169,7 @@ mod tests {
             Criterion::E(EOptimality { scale: scale.clone() }),
             Criterion::I(i),
         ] {
-            for (value, model) in pieces(&criterion, &c_of(0.0)) {
+            for (value, model) in pieces(&criterion, &c_of(0.0), None) {
                 let slope = -model.first.dot(&step());
                 let bend: f64 = model.forms.iter().map(|form| form.dot(&step()).powi(2)).sum();
                 assert!(value.is_finite() && slope.is_finite() && bend >= 0.0);
@@ -163,5 +190,26 @@ mod tests {
         let bend = d(1.0) - 2.0 * d(0.0) + d(-1.0);
         let forms: f64 = model.forms.iter().map(|form| form.dot(&step()).powi(2)).sum();
         assert!((-forms * d(0.0) / 6.0 / bend - 1.0).abs() < 1e-4, "{forms} {bend}");
+    }
+
+    #[test]
+    fn the_model_above_a_floor_is_that_of_differences() {
+        let floor = DMatrix::from_fn(6, 6, |i, j| if i == j && i < 3 { 0.3 } else { 0.0 });
+        let scale = DVector::repeat(6, 1.0);
+        let c_of = |t: f64| (information() + step() * t).try_inverse().expect("regular");
+        let d = |t: f64| (&floor + c_of(t)).determinant().ln();
+        let criterion = Criterion::D(DOptimality { scale });
+        let (value, model) = pieces(&criterion, &c_of(0.0), Some(&floor)).remove(0);
+        assert!((value - d(0.0)).abs() < 1e-12);
+        let slope = (8.0 * (d(1.0) - d(-1.0)) - (d(2.0) - d(-2.0))) / 12.0;
+        assert!((-model.first.dot(&step()) / slope - 1.0).abs() < 1e-7, "{slope}");
+        let bend = d(1.0) - 2.0 * d(0.0) + d(-1.0);
+        let forms: f64 = model.forms.iter().map(|form| form.dot(&step()).powi(2)).sum();
+        assert!((forms / bend - 1.0).abs() < 1e-4, "{forms} {bend}");
+        // without a floor it is the logarithm's own, its bend left in
+        let none = above_a_floor(&c_of(0.0), &DMatrix::zeros(6, 6));
+        let own: f64 = none.forms.iter().map(|form| form.dot(&step()).powi(2)).sum();
+        let plain = |t: f64| c_of(t).determinant().ln();
+        assert!((own / (plain(1.0) - 2.0 * plain(0.0) + plain(-1.0)) - 1.0).abs() < 1e-4);
     }
 }

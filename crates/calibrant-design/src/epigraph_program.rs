@@ -77,11 +77,12 @@ impl<const D: usize, const P: usize> Part<D, P> {
     fn pieces(&self, a: &[SVector<f64, D>], weights: &[f64], bend: f64) -> Option<Model<D>> {
         let at = self.information.linearise(a)?;
         let c = self.covariance(&at)?;
-        let fixed = |omega: &DMatrix<f64>| SMatrix::<f64, P, P>::from_fn(|i, j| omega[(i, j)]);
+        let fixed =
+            |omega: &DMatrix<f64>| self.on_information(&SMatrix::<f64, P, P>::from_fn(|i, j| omega[(i, j)]));
         let along = |omega: &DMatrix<f64>| {
             self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
         };
-        let pieces = super::criterion_model::pieces(&self.criterion, &c);
+        let pieces = super::criterion_model::pieces(&self.criterion, &c, self.floor_of_d());
         let mut model = Model { pieces: Vec::new(), bends: Vec::new(), matrix: None };
         let total: f64 = weights.iter().take(pieces.len()).sum();
         for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {
@@ -99,7 +100,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         }
         if let Criterion::E(e) = &self.criterion {
             // S F_lin S, entry by entry
-            let f = at.information + self.prior;
+            let f = self.inverse_covariance(&at);
             let mut entries = Vec::new();
             for j in 0..P {
                 for i in 0..=j {

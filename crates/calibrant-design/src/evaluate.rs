@@ -3,7 +3,7 @@
 use super::{DesignProblem, Evaluation};
 use calibrant_core::error::{Result, UndeterminedGroup};
 use calibrant_core::information::{MotionFacts, MotionInformation, Undetermined, View};
-use calibrant_core::information::{covariance, explain, undetermined};
+use calibrant_core::information::{covariance, explain, undetermined, with_biases};
 use calibrant_core::motion::{JerkControlledMotion, Trust, sample_times};
 
 /// Predicts the covariance of a calibration from a recording of `motion`. Intervals and limits of the problem are not used.
@@ -14,11 +14,18 @@ use calibrant_core::motion::{JerkControlledMotion, Trust, sample_times};
 pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
     let setting = problem.setting()?;
     let mut information = setting.information(motion)?;
-    if let Some(prior) = &problem.prior {
+    let gravity = problem.gravity_marginal();
+    if let Some(prior) = gravity.as_ref().map(|gravity| &gravity.prior).or(problem.prior.as_ref()) {
         information += prior;
     }
     let groups = undetermined(&information, &information.diagonal());
-    let c = if groups.is_empty() { covariance(&information) } else { None };
+    let mut c = if groups.is_empty() { covariance(&information) } else { None };
+    if let Some(gravity) = &gravity {
+        c = c.map(|c| gravity.covariance(&c));
+        if let Some(of_parameters) = gravity.information(&information) {
+            information = of_parameters;
+        }
+    }
     Ok(Evaluation {
         motion: motion.clone(),
         value: c.as_ref().map_or(f64::INFINITY, |c| problem.criterion.value(c)),
@@ -42,7 +49,8 @@ fn reasons(
     if let Trust::Noisy(_) = problem.trust {
         // is the motion itself at fault, or its noise?
         let mut exact = MotionInformation { trust: Trust::Known, ..setting.clone() }.information(motion)?;
-        if let Some(prior) = &problem.prior {
+        let gravity = problem.gravity_marginal();
+        if let Some(prior) = gravity.as_ref().map(|gravity| &gravity.prior).or(problem.prior.as_ref()) {
             exact += prior;
         }
         let without_noise = undetermined(&exact, &exact.diagonal());
@@ -60,5 +68,6 @@ fn reasons(
         samples: sample_times(motion, problem.rate_hz).len(),
         view,
     };
+    let groups = with_biases(&groups, &list, &slots, problem.gravity.as_ref());
     Ok(explain(&list, &groups, &slots, facts))
 }

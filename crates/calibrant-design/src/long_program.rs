@@ -123,8 +123,11 @@ impl<const D: usize, const P: usize> Part<D, P> {
     fn model(&self, a: &[SVector<f64, D>], bend: f64) -> Option<Model<D>> {
         let at = self.information.linearise(a)?;
         let c = self.covariance(&at)?;
-        let (_, Curvature { first, forms }) = pieces(&self.criterion, &c).pop()?;
-        let omega = SMatrix::<f64, P, P>::from_fn(|i, j| first[(i, j)]);
+        let (_, Curvature { first, forms }) = pieces(&self.criterion, &c, self.floor_of_d()).pop()?;
+        let on_information =
+            |form: &DMatrix<f64>| self.on_information(&SMatrix::<f64, P, P>::from_fn(|i, j| form[(i, j)]));
+        let omega = on_information(&first);
+        let forms: Vec<_> = forms.iter().map(on_information).collect();
         let derivative = self.information.derivative(&at, &omega);
         let total = self.information.total(a, &derivative);
         let noisy = self.information.input_noise().is_some_and(|(_, ratio)| ratio > 0.0);
@@ -191,7 +194,7 @@ fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f
 
 /// The forms `⟨Ω_m, dF⟩` of the change of the motion, combined so that the sum of their squares is the same and none is
 /// superfluous.
-fn independent<const P: usize>(forms: &[DMatrix<f64>], changes: &[SMatrix<f64, P, P>]) -> DMatrix<f64> {
+fn independent<const P: usize>(forms: &[SMatrix<f64, P, P>], changes: &[SMatrix<f64, P, P>]) -> DMatrix<f64> {
     // symmetric matrices by their upper triangles
     let places: Vec<(usize, usize)> = (0..P).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
     let forms = DMatrix::from_fn(forms.len(), places.len(), |m, at| {

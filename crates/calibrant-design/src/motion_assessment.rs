@@ -3,7 +3,7 @@
 use super::{Design, DesignProblem, Evaluation, LimitUse, evaluate, limit_use};
 use calibrant_core::error::Result;
 use calibrant_core::information::Criterion;
-use calibrant_core::motion::JerkControlledMotion;
+use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::Parameter;
 
 /// A motion, the information that it gives, and how that compares.
@@ -56,10 +56,11 @@ impl Assessment {
     }
 
     fn against(&self, best: f64) -> Option<f64> {
+        let floor = self.optimum.as_ref().map_or(0.0, |design| design.floor);
         let value = self.evaluation.value;
         let efficiency = match self.criterion {
             Criterion::D(_) => ((best - value) / self.parameters.len() as f64).exp(),
-            _ => best / value,
+            _ => (best - floor) / (value - floor),
         };
         (efficiency.is_finite() && value.is_finite() && best.is_finite()).then_some(efficiency)
     }
@@ -92,7 +93,7 @@ pub fn assess(
         criterion: problem.criterion.clone(),
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         evaluation: evaluate(problem, motion)?,
-        limits: limit_use(&problem.effective_limits(), problem.sensor.axes, motion),
+        limits: limits_of(problem, motion)?,
         optimum,
         other_setting: (!same).then_some(OtherSetting {
             intervals: motion.intervals(),
@@ -101,4 +102,15 @@ pub fn assess(
             experiment_duration_s,
         }),
     })
+}
+
+/// Use of the limits. A sensor's range holds for what it senses, gravity among it, which a design keeps by symmetric limits.
+fn limits_of(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Vec<LimitUse>> {
+    let axes = problem.sensor.axes;
+    let (Some(gravity), Some(range)) = (problem.gravity, problem.sensor.range_mps2) else {
+        return Ok(limit_use(&problem.effective_limits(), axes, motion));
+    };
+    let range = Limits::default().within_range(Some(range));
+    let sensed = limit_use(&range, axes, &motion.plus(&gravity.force_mps2)?);
+    Ok(limit_use(problem.limits, axes, motion).into_iter().chain(sensed).collect())
 }

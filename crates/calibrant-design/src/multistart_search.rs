@@ -10,7 +10,7 @@
 //! like its initial motion: optima come in pairs, `a` and `−a`, and often more.
 
 use super::admissible_region::Region;
-use super::part::{Nodes, Part};
+use super::part::{Nodes, Part, PartGravity};
 use super::sequential_programming::LocalOptimum;
 use super::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
 use calibrant_core::error::Result;
@@ -74,6 +74,7 @@ pub(super) fn search(
         let alone = DesignProblem {
             criterion: Criterion::D(DOptimality { scale: DVector::repeat(whole.prior.nrows(), 1.0) }),
             prior: None,
+            gravity: None,
             ..problem.clone()
         };
         let axes = [0, 1, 2].map(|axis| part(&alone, setting.single(axis, initial), limits, inside, slack));
@@ -104,13 +105,14 @@ fn part<const D: usize, const P: usize>(
     slack: f64,
 ) -> Part<D, P> {
     let slots = information.slots;
+    let gravity = problem.gravity_marginal();
+    let prior = gravity.as_ref().map(|gravity| &gravity.prior).or(problem.prior.as_ref());
     Part {
         regions: information.axes.map(|axis| Region::new(limits.axis(axis), &information.tau)),
         criterion: problem.criterion.restricted(&slots),
-        prior: problem
-            .prior
-            .as_ref()
+        prior: prior
             .map_or_else(SMatrix::zeros, |prior| SMatrix::from_fn(|i, j| prior[(slots[i], slots[j])])),
+        gravity: gravity.as_ref().and_then(|gravity| PartGravity::of(gravity, &slots)),
         inside: information.nodes(inside),
         slack,
         information,
@@ -123,6 +125,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         self.regions.iter().zip(&other.regions).all(|(one, two)| one.limits == two.limits)
             && self.criterion == other.criterion
             && self.prior == other.prior
+            && self.gravity == other.gravity
             && self.inside == other.inside
             && self.information.is_like(&other.information)
     }

@@ -1,10 +1,10 @@
 //! The design problem: sensor, motion grid, limits and criterion.
 
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::information::{Criterion, MotionInformation};
-use calibrant_core::motion::{KnownEnds, Limits, Trust};
+use calibrant_core::information::{Criterion, GravityMarginal, MotionInformation};
+use calibrant_core::motion::{KnownEnds, Limits, MotionGravity, Trust};
 use calibrant_core::sensor::{Axis, Sensor, SensorModel, SensorParameters};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 
 /// Find the motion whose recording determines the parameters best:
 ///
@@ -25,6 +25,8 @@ pub struct DesignProblem<'a> {
     pub trust: Trust,
     /// Which ends of the motion will be known.
     pub known_ends: KnownEnds,
+    /// Gravity, where the sensor will sense it beside the motion.
+    pub gravity: Option<MotionGravity>,
     /// The limits of the arm.
     pub limits: &'a Limits,
     /// The criterion that is minimised.
@@ -34,10 +36,35 @@ pub struct DesignProblem<'a> {
 }
 
 impl DesignProblem<'_> {
-    /// The limits with the sensor's range among them.
+    /// The limits with the sensor's range among them, less what gravity takes of it.
     #[must_use]
     pub fn effective_limits(&self) -> Limits {
-        self.limits.within_range(self.sensor.range_mps2)
+        self.limits.within_range(self.range_left())
+    }
+
+    /// The range of the sensor that is left for the motion.
+    fn range_left(&self) -> Option<Vector3<f64>> {
+        let range = self.sensor.range_mps2?;
+        Some(self.gravity.map_or(range, |gravity| gravity.range_left(&range)))
+    }
+
+    /// The way from the readings at rest, of which a recording informs, to the biases. `None` without gravity.
+    #[must_use]
+    pub fn gravity_marginal(&self) -> Option<GravityMarginal> {
+        let list = self.sensor.parameter_list();
+        self.gravity.map(|gravity| GravityMarginal::new(&list, &self.at, &gravity, self.prior.as_ref()))
+    }
+
+    /// The part of the criterion that no motion changes: that of the tilt, for A, c and I. It is 0 without gravity, and for
+    /// criteria that are no sum.
+    #[must_use]
+    pub fn floor(&self) -> f64 {
+        match self.criterion {
+            Criterion::A(_) | Criterion::C(_) | Criterion::I(_) => {
+                self.gravity_marginal().map_or(0.0, |gravity| self.criterion.value(&gravity.floor))
+            }
+            Criterion::D(_) | Criterion::E(_) | Criterion::M(_) => 0.0,
+        }
     }
 
     /// The conditions of the experiment.
@@ -46,6 +73,12 @@ impl DesignProblem<'_> {
     /// As [`MotionInformation::new`].
     pub fn setting(&self) -> Result<MotionInformation> {
         MotionInformation::new(self.sensor, self.at, self.trust, self.known_ends, self.rate_hz)
+    }
+
+    /// Standard deviation that gravity's tilt alone gives each parameter. Empty without gravity.
+    pub(crate) fn floor_sd(&self) -> Vec<f64> {
+        let floor = self.gravity_marginal().map(|gravity| gravity.floor);
+        floor.map_or_else(Vec::new, |floor| floor.diagonal().iter().map(|v| v.max(0.0).sqrt()).collect())
     }
 
     /// Groups of axes that share nothing, and so can be designed one after the other. They are every axis of
@@ -61,6 +94,19 @@ impl DesignProblem<'_> {
     }
 
     pub(crate) fn check(&self) -> Result<()> {
+        if let Some(left) = self.range_left() {
+            let active = self.sensor.active_axes().iter();
+            if let Some(axis) = active.copied().find(|axis| left[axis.index()] <= 0.0) {
+                return Err(Error::infeasible(
+                    InputError::new(
+                        Refusal::MotionInfeasible,
+                        format!("gravity alone exceeds the range of the sensor on axis {axis}"),
+                        "raise sensor.range_mps2, or mount the sensor otherwise",
+                    )
+                    .about_key("sensor.range_mps2"),
+                ));
+            }
+        }
         let limits = self.effective_limits();
         for &axis in self.sensor.active_axes() {
             let l = limits.axis(axis.index());

@@ -33,9 +33,20 @@ pub struct Design {
     pub limits: Limits,
     /// The lower bound, where it was wanted and found.
     pub certificate: Option<Certificate>,
+    /// The part of the criterion that no motion changes: the share of gravity's tilt ([`DesignProblem::floor`](crate::DesignProblem::floor)).
+    /// Gaps compare what is above it.
+    pub floor: f64,
+    /// Standard deviation that gravity's tilt alone gives each parameter, whatever the motion. Empty without gravity.
+    pub floor_sd: Vec<f64>,
 }
 
 impl Design {
+    /// How much worse a value of the criterion is than `best`, above the part that no motion changes.
+    #[must_use]
+    pub fn gap(&self, value: f64, best: f64) -> f64 {
+        self.criterion.gap(value - self.floor, best - self.floor)
+    }
+
     /// Number of starts that converged.
     #[must_use]
     pub fn starts_converged(&self) -> usize {
@@ -114,7 +125,8 @@ pub struct StartOutcome {
     pub axes: Vec<Axis>,
     /// Number of the start among those of these axes, from 0; 0 is the initial motion.
     pub number: usize,
-    /// Value of the criterion, for the parameters of one of these axes, where it began.
+    /// Value of the criterion, for the parameters of one of these axes, where it began. With gravity it is that of
+    /// the covariance that the motion decides: without the part that no motion changes.
     pub initial_value: f64,
     /// Value where it ended.
     pub value: f64,
@@ -129,7 +141,8 @@ pub struct StartOutcome {
 pub struct Certificate {
     /// The bound.
     pub lower_bound: f64,
-    /// How far the design is from the bound: `value/bound − 1`, for criterion D the difference in nats.
+    /// How far the design is from the bound: `value/bound − 1`, for criterion D the difference in nats. Both are taken
+    /// above the part that no motion changes.
     pub gap: f64,
     /// Smallest standard deviation that any admissible motion can give each parameter.
     pub sd_lower_bound: Vec<f64>,

@@ -15,9 +15,9 @@ use super::long_program::LongProgram;
 use super::part::{Nodes, Part};
 use super::short_program::ShortProgram;
 use super::{DesignSettings, DesignStatus};
-use calibrant_core::information::{Criterion, Linearised, covariance};
+use calibrant_core::information::Criterion;
 use calibrant_core::motion::Trust;
-use nalgebra::{DMatrix, SVector};
+use nalgebra::SVector;
 
 /// The result of one start of the search.
 #[derive(Debug, Clone)]
@@ -75,14 +75,9 @@ impl<const D: usize, const P: usize> Part<D, P> {
         self.information
             .linearise(a)
             .and_then(|at| self.covariance(&at))
-            .map(|c| self.criterion.value(&c))
+            .map(|c| self.criterion_at(&c))
             .filter(|value| value.is_finite())
             .unwrap_or(f64::INFINITY)
-    }
-
-    pub(super) fn covariance(&self, at: &Linearised<D, P>) -> Option<DMatrix<f64>> {
-        let f = at.information + self.prior;
-        covariance(&DMatrix::from_fn(P, P, |i, j| f[(i, j)]))
     }
 
     /// Improves an admissible motion.

@@ -43,9 +43,11 @@ pub fn design(
     );
     let found = found?;
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
+    let floor = problem.floor();
     let initial = evaluate(problem, &initial)?;
     let optimal = evaluate(problem, &best)?;
-    let certificate = bound?.flatten().map(|bound| bound.certificate(&problem.criterion, optimal.value));
+    let certificate =
+        bound?.flatten().map(|bound| bound.certificate(&problem.criterion, optimal.value, floor));
     let interrupted = settings.interruption.is_asked();
     Ok(Design {
         status: if interrupted { DesignStatus::Interrupted } else { found.status },
@@ -57,5 +59,7 @@ pub fn design(
         starts: found.starts,
         limits,
         certificate,
+        floor,
+        floor_sd: problem.floor_sd(),
     })
 }

@@ -10,7 +10,7 @@ use super::json;
 use super::shared_fields::{FitFields, MotionFields, matrix_rows};
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Calibration, Recovered, RecoveredMotion, Validation};
+use calibrant_core::estimate::{Calibration, Recovered, RecoveredGravity, RecoveredMotion, Validation};
 use serde::Serialize;
 use std::path::Path;
 
@@ -112,13 +112,47 @@ impl<'a> CalibrationFile<'a> {
 #[derive(Serialize)]
 struct RecoveredMotionFields {
     trust: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gravity: Option<GravityFields>,
     #[serde(flatten)]
     fields: MotionFields,
+}
+
+/// Gravity beside a motion, and its tilt, which was estimated with the parameters.
+#[derive(Serialize)]
+struct GravityFields {
+    /// Specific force of the sensor at rest, as given, m/s².
+    force_mps2: [f64; 3],
+    /// Standard uncertainty of its magnitude, m/s².
+    sd_mps2: f64,
+    /// Standard deviation of the tilt beforehand, rad.
+    tilt_prior_sd_rad: f64,
+    tilt: Vec<TiltFields>,
+}
+
+#[derive(Serialize)]
+struct TiltFields {
+    name: String,
+    value_rad: f64,
+    sd_rad: f64,
+}
+
+impl GravityFields {
+    fn of(recovered: &RecoveredGravity) -> Self {
+        let gravity = &recovered.gravity;
+        let tilt = |(name, value_rad, sd_rad)| TiltFields { name, value_rad, sd_rad };
+        Self {
+            force_mps2: gravity.force_mps2.into(),
+            sd_mps2: gravity.sd_mps2,
+            tilt_prior_sd_rad: gravity.tilt_sd_rad,
+            tilt: recovered.tilts().into_iter().map(tilt).collect(),
+        }
+    }
 }
 
 impl RecoveredMotionFields {
     fn of(recovered: &RecoveredMotion, axes: usize) -> Self {
         let fields = MotionFields::of(&recovered.motion, axes, Some(&recovered.acceleration_sd_mps2));
-        Self { trust: recovered.trust, fields }
+        Self { trust: recovered.trust, gravity: recovered.gravity.as_ref().map(GravityFields::of), fields }
     }
 }

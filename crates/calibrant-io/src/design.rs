@@ -1,6 +1,7 @@
 //! Writes `design.json`: a design with everything needed to repeat it, to judge it and to drive the arm.
 
 use super::json;
+use super::reach::{ReachFields, Reached};
 use super::shared_fields::{InUnit, MotionFields, matrix_rows, per_axis};
 use calibrant_core::error::{Result, UndeterminedGroup};
 use calibrant_core::information::Criterion;
@@ -24,16 +25,22 @@ use std::path::Path;
 pub fn write_design(
     path: &Path,
     design: &Design,
+    reached: Option<&Reached>,
     problem: &DesignProblem<'_>,
     settings: &DesignSettings,
 ) -> Result<()> {
-    json::write_json(path, &DesignFile::of(design, problem, settings))
+    json::write_json(path, &DesignFile::of(design, reached, problem, settings))
 }
 
 /// The text that [`write_design`] writes.
 #[must_use]
-pub fn design_json(design: &Design, problem: &DesignProblem<'_>, settings: &DesignSettings) -> String {
-    json::to_json(&DesignFile::of(design, problem, settings))
+pub fn design_json(
+    design: &Design,
+    reached: Option<&Reached>,
+    problem: &DesignProblem<'_>,
+    settings: &DesignSettings,
+) -> String {
+    json::to_json(&DesignFile::of(design, reached, problem, settings))
 }
 
 #[derive(Serialize)]
@@ -45,6 +52,10 @@ struct DesignFile<'a> {
     #[serde(flatten)]
     optimal: EvaluationFields<'a>,
     certificate: Option<CertificateFields<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    floor: Option<FloorFields<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<ReachFields>,
     limits: LimitsFields,
     limit_use: Vec<LimitUseFields>,
     initial: EvaluationFields<'a>,
@@ -53,7 +64,13 @@ struct DesignFile<'a> {
 }
 
 impl<'a> DesignFile<'a> {
-    fn of(design: &'a Design, problem: &DesignProblem<'_>, settings: &DesignSettings) -> Self {
+    fn of(
+        design: &'a Design,
+        reached: Option<&Reached>,
+        problem: &DesignProblem<'_>,
+        settings: &DesignSettings,
+    ) -> Self {
+        let names: Vec<String> = design.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let axes = problem.sensor.axes;
         Self {
             schema: 1,
@@ -65,6 +82,8 @@ impl<'a> DesignFile<'a> {
                 .certificate
                 .as_ref()
                 .map(|certificate| CertificateFields::of(certificate, &design.parameters)),
+            floor: FloorFields::of(design),
+            reach: reached.map(|reached| ReachFields::of(reached, &names)),
             limits: LimitsFields::of(&design.limits, axes),
             limit_use: LimitUseFields::all(&limit_use(&design.limits, axes, &design.optimal.motion)),
             initial: EvaluationFields::of(&design.initial, &design.criterion, &design.parameters, axes),
@@ -178,6 +197,32 @@ impl<'a> CertificateFields<'a> {
             sd_lower_bounds: parameters.iter().zip(&certificate.sd_lower_bound).map(bound).collect(),
             explanation: &certificate.explanation,
         }
+    }
+}
+
+/// What no motion changes: the share of gravity's tilt. The gap of the certificate is taken above it.
+#[derive(Serialize)]
+struct FloorFields<'a> {
+    criterion_value: f64,
+    sd: Vec<SdFloorFields<'a>>,
+}
+
+#[derive(Serialize)]
+struct SdFloorFields<'a> {
+    name: &'a str,
+    unit: &'static str,
+    sd: f64,
+}
+
+impl<'a> FloorFields<'a> {
+    fn of(design: &'a Design) -> Option<Self> {
+        let of_parameter = |(parameter, &sd): (&'a Parameter, &f64)| SdFloorFields {
+            name: &parameter.name,
+            unit: parameter.unit,
+            sd,
+        };
+        let sd: Vec<_> = design.parameters.iter().zip(&design.floor_sd).map(of_parameter).collect();
+        (!sd.is_empty()).then_some(Self { criterion_value: design.floor, sd })
     }
 }
 

@@ -9,6 +9,7 @@ use calibrant_core::sensor::{
     ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
 /// Largest calibration file, bytes. The file holds the motion, but not the residuals.
@@ -30,7 +31,22 @@ pub struct EarlierCalibration {
     pub covariance: DMatrix<f64>,
     /// Is the datasheet's prior in it already?
     pub has_datasheet_prior: bool,
+    /// Scatter between its holds that the noise does not explain, m/s², where it had holds.
+    pub between_holds_sd_mps2: Option<f64>,
     information: DMatrix<f64>,
+}
+
+/// The part of a calibration that tells of its holds.
+#[derive(Deserialize, Default)]
+struct WithHolds {
+    #[serde(default)]
+    holds: Holds,
+}
+
+#[derive(Deserialize, Default)]
+struct Holds {
+    #[serde(default)]
+    between_holds_sd_mps2: Option<f64>,
 }
 
 /// Reads a `calibration.json` that [`write_calibration`](super::write_calibration) wrote.
@@ -137,7 +153,9 @@ fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     /// The remedy for a file that is no prior.
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
     let reject = |message: &str| Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, AGAIN)));
-    let (imu, has_datasheet_prior) = read_estimates(text_decoding::as_text(bytes)?)?;
+    let text = text_decoding::as_text(bytes)?;
+    let (imu, has_datasheet_prior) = read_estimates(text)?;
+    let WithHolds { holds } = serde_json::from_str(text).unwrap_or_default();
     let imu = imu.only(SensorKind::Accelerometer);
     let Some(unit) = imu.accelerometer_unit.filter(|_| !imu.quantities.is_empty()) else {
         return reject("it has no parameters of an accelerometer");
@@ -156,6 +174,7 @@ fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
         values: imu.quantities.iter().map(|quantity| quantity.value(&imu.parameters)).collect(),
         covariance: matrix,
         has_datasheet_prior,
+        between_holds_sd_mps2: holds.between_holds_sd_mps2.filter(|sd| sd.is_finite() && *sd >= 0.0),
         information,
     })
 }

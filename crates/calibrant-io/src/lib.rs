@@ -11,10 +11,11 @@
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | corrected recordings, comparisons | | [`write_corrected_recording`], [`comparison_json`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
-//! | `design.json` and `evaluation.json` of poses, `poses.csv` | | [`write_pose_design`], [`write_pose_evaluation`], [`write_poses`] |
+//! | `design.json` and `evaluation.json` of poses | | [`write_pose_design`], [`write_pose_evaluation`] |
+//! | `poses.csv` | [`read_poses`] | [`write_poses`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`write_noise`] |
-//! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_imu_truth`] |
+//! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
 //! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
@@ -48,6 +49,8 @@ mod machine_validation;
 mod motion;
 mod noise;
 mod pose_design;
+mod poses;
+mod reach;
 mod recording;
 mod reference_inspection;
 mod reference_log;
@@ -92,9 +95,9 @@ pub use machine_calibration::{
 pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
-pub use pose_design::{
-    pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation, write_poses,
-};
+pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
+pub use poses::{read_poses, write_poses};
+pub use reach::Reached;
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
@@ -114,4 +117,4 @@ pub use sampling::Sampling;
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
-pub use truth::{truth_json, write_imu_truth, write_truth};
+pub use truth::{truth_json, write_imu_truth, write_motion_truth, write_truth};

@@ -1,7 +1,8 @@
-//! Writes the best poses: `design.json` and `poses.csv`, and the evaluation of holds.
+//! Writes the best poses, `design.json`, and the evaluation of holds.
 
-use super::atomic_output::{program, write_csv};
+use super::atomic_output::program;
 use super::json;
+use super::reach::{ReachFields, Reached};
 use super::shared_fields::matrix_rows;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::ReadingUnit;
@@ -17,16 +18,22 @@ use std::path::Path;
 pub fn write_pose_design(
     path: &Path,
     design: &PoseDesign,
+    reached: Option<&Reached>,
     problem: &PoseProblem,
     unit: ReadingUnit,
 ) -> Result<()> {
-    json::write_json(path, &design_file(design, problem, unit))
+    json::write_json(path, &design_file(design, reached, problem, unit))
 }
 
 /// The text that [`write_pose_design`] writes.
 #[must_use]
-pub fn pose_design_json(design: &PoseDesign, problem: &PoseProblem, unit: ReadingUnit) -> String {
-    json::to_json(&design_file(design, problem, unit))
+pub fn pose_design_json(
+    design: &PoseDesign,
+    reached: Option<&Reached>,
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+) -> String {
+    json::to_json(&design_file(design, reached, problem, unit))
 }
 
 /// Writes the `evaluation.json` of holds.
@@ -54,20 +61,6 @@ pub fn pose_evaluation_json(
     json::to_json(&evaluation_file(evaluation, directions, problem, unit))
 }
 
-/// Writes `poses.csv`: the direction that is up in each pose, in the sensor's axes, and the pose in words.
-///
-/// # Errors
-/// As [`write_pose_design`].
-pub fn write_poses(path: &Path, directions: &[Vector3<f64>], words: &[String]) -> Result<()> {
-    write_csv(path, "", |out| {
-        writeln!(out, "pose,up_x,up_y,up_z,words")?;
-        for (k, (u, words)) in directions.iter().zip(words).enumerate() {
-            writeln!(out, "{},{:?},{:?},{:?},\"{words}\"", k + 1, u.x, u.y, u.z)?;
-        }
-        Ok(())
-    })
-}
-
 #[derive(Serialize)]
 struct PoseFile {
     schema: u32,
@@ -83,6 +76,8 @@ struct PoseFile {
     certificate: CertificateFields,
     #[serde(skip_serializing_if = "Option::is_none")]
     solver: Option<SolverFields>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<ReachFields>,
     setting: SettingFields,
 }
 
@@ -124,15 +119,23 @@ struct SettingFields {
     directions: &'static str,
     direction_sd_rad: Option<f64>,
     has_prior: bool,
+    gravity_sd_mps2: f64,
+    bias_drift_sd: [f64; 3],
 }
 
-fn design_file(design: &PoseDesign, problem: &PoseProblem, unit: ReadingUnit) -> PoseFile {
+fn design_file(
+    design: &PoseDesign,
+    reached: Option<&Reached>,
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+) -> PoseFile {
     let solver = SolverFields { starts: design.starts, starts_at_best: design.starts_at_best };
     PoseFile {
         kind: "poses",
         status: if design.interrupted { "interrupted" } else { "converged" },
         efficiency: design.efficiency(&problem.criterion),
         solver: Some(solver),
+        reach: reached.map(|reached| ReachFields::of(reached, &problem.list.names())),
         ..file((&design.covariance, design.value, &design.bound), &design.directions, problem, unit)
     }
 }
@@ -157,7 +160,7 @@ fn file(
     problem: &PoseProblem,
     unit: ReadingUnit,
 ) -> PoseFile {
-    let rows = |vectors: &[Vector3<f64>]| vectors.iter().map(|v| [v.x, v.y, v.z]).collect();
+    let rows = |vectors: &[Vector3<f64>]| vectors.iter().map(components).collect();
     let predicted = |(k, quantity): (usize, &calibrant_core::sensor::Quantity)| PredictedFields {
         name: quantity.name(),
         unit: quantity.unit(unit),
@@ -182,10 +185,11 @@ fn file(
             shares: bound.shares.clone(),
         },
         solver: None,
+        reach: None,
         setting: SettingFields {
             poses: directions.len(),
             gravity_mps2: problem.gravity_mps2,
-            mean_sd: [problem.mean_sd.x, problem.mean_sd.y, problem.mean_sd.z],
+            mean_sd: components(&problem.mean_sd),
             directions: match problem.directions {
                 DirectionKnowledge::Unknown => "unknown",
                 DirectionKnowledge::Known { .. } => "known",
@@ -195,6 +199,12 @@ fn file(
                 DirectionKnowledge::Known { sd_rad } => Some(sd_rad),
             },
             has_prior: problem.prior.is_some(),
+            gravity_sd_mps2: problem.nuisance.gravity_sd_mps2,
+            bias_drift_sd: components(&problem.nuisance.drift_sd),
         },
     }
+}
+
+fn components(v: &Vector3<f64>) -> [f64; 3] {
+    [v.x, v.y, v.z]
 }

@@ -5,6 +5,7 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::{
     Gauge, ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
+use calibrant_core::simulate::TrueGravity;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::path::Path;
@@ -21,6 +22,23 @@ pub fn write_truth(
     truth: &SensorParameters,
 ) -> Result<()> {
     json::write_json(path, &TruthFile::of(seed, list, unit, truth))
+}
+
+/// Writes `truth.json` of a motion with gravity: as [`write_truth`], and the gravity that the sensor sensed.
+///
+/// # Errors
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
+pub fn write_motion_truth(
+    path: &Path,
+    seed: u64,
+    list: &ParameterList,
+    unit: ReadingUnit,
+    truth: &SensorParameters,
+    gravity: &TrueGravity,
+) -> Result<()> {
+    let gravity =
+        Some(TrueGravityFields { force_mps2: gravity.force_mps2.into(), tilt_rad: gravity.tilt_rad.into() });
+    json::write_json(path, &TruthFile { gravity, ..TruthFile::of(seed, list, unit, truth) })
 }
 
 /// The text that [`write_truth`] writes.
@@ -91,6 +109,7 @@ pub(super) fn imu_truth(
         gauge,
         reference_c,
         parameters,
+        gravity: None,
         fixed,
     }
 }
@@ -133,9 +152,20 @@ pub(super) struct TruthFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     reference_c: Option<f64>,
     parameters: Vec<TrueParameter>,
+    /// The gravity beside a commanded motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gravity: Option<TrueGravityFields>,
     /// The values that a calibration of the experiment takes as given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     fixed: Vec<TrueParameter>,
+}
+
+#[derive(Serialize)]
+struct TrueGravityFields {
+    /// Specific force of the sensor at rest, m/s².
+    force_mps2: [f64; 3],
+    /// Tilt about each axis, rad.
+    tilt_rad: [f64; 3],
 }
 
 #[derive(Serialize)]
@@ -160,6 +190,7 @@ impl TruthFile {
             gauge: gauge_of(list.quantities(), &truth.matrix),
             reference_c: None,
             parameters: list.quantities().iter().map(parameter).collect(),
+            gravity: None,
             fixed: Vec::new(),
         }
     }

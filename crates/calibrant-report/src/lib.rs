@@ -34,7 +34,7 @@ pub use machine::{
     machine_validation_sentences, mounting_in_words,
 };
 pub use noise::{coefficient_name, noise_report};
-pub use poses::{evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
+pub use poses::{design_in_words, evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
 pub use report_context::About;
 pub use study::study_report;
 pub use sweep::sweep_report;

@@ -12,7 +12,7 @@ use calibrant::information::Criterion;
 use calibrant::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
-use calibrant::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
+use calibrant::motion::{InputNoise, KnownEnds, Limits, MotionGravity, Rest, Trust};
 use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Matrix3, Vector3};
 use serde_json::{Value, json};
@@ -67,7 +67,28 @@ fn cases() -> Vec<Value> {
     cases.push(stage("scale-bias", false, 3.0 * 4.117_6e-10));
     cases.push(stage("full", false, 1.340_7e-9));
     cases.push(stage("full", true, 1.881_5e-5));
+    cases.push(under_gravity("A", 0.0));
+    cases.push(under_gravity("D", MotionGravity::USUAL_TILT_SD_DEG.to_radians()));
     cases
+}
+
+/// A full sensor under gravity, on a stage that lifts it. With criterion A the axes are exactly level: the share of a
+/// tilt would hide that of the motion.
+fn under_gravity(letter: &str, tilt_sd_rad: f64) -> Value {
+    let mut case = case("D3", 3, "full", letter);
+    case["name"] = json!("under gravity, full");
+    case["limits"]["acceleration_mps2"] = json!(10.0);
+    case["limits"]["velocity_mps"] = json!(2.0);
+    case["limits"]["displacement_m"] = json!(0.5);
+    let gravity = MotionGravity { tilt_sd_rad, ..MotionGravity::of_force(Vector3::new(0.0, 0.0, 9.806_65)) };
+    let covariance: Vec<Vec<f64>> =
+        gravity.offset_covariance().row_iter().map(|row| row.iter().copied().collect()).collect();
+    case["gravity"] = json!({
+        "force_mps2": gravity.force_mps2.as_slice(),
+        "tilt_sd_rad": tilt_sd_rad,
+        "offset_covariance": covariance,
+    });
+    case
 }
 
 /// A stage with limits on velocity and displacement, for 10 s: what a user types first.
@@ -153,6 +174,7 @@ fn answer(case: &Value) -> Result<Value, Failure> {
         rate_hz: number(&case["rate_hz"])?,
         trust,
         known_ends: if case["known_ends"] == "both" { KnownEnds::Both } else { KnownEnds::Start },
+        gravity: gravity(&case["gravity"])?,
         limits: &limits,
         criterion: criterion(&case["criterion"], &sensor, &at)?,
         prior: None,
@@ -229,6 +251,15 @@ fn limits(value: &Value) -> Result<Limits, Failure> {
         },
         ..Limits::default()
     })
+}
+
+fn gravity(value: &Value) -> Result<Option<MotionGravity>, Failure> {
+    if value.is_null() {
+        return Ok(None);
+    }
+    let force: Vec<f64> = list(&value["force_mps2"])?.iter().map(number).collect::<Result<_, _>>()?;
+    let force = Vector3::from_column_slice(&force);
+    Ok(Some(MotionGravity { tilt_sd_rad: number(&value["tilt_sd_rad"])?, ..MotionGravity::of_force(force) }))
 }
 
 /// Bias and matrix. Axes that the sensor does not have are perfect.

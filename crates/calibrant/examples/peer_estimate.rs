@@ -11,7 +11,7 @@
 mod common;
 
 use calibrant::estimate::{Calibration, Recovered};
-use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Trust};
+use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, MotionGravity, Trust};
 use calibrant::sensor::SensorModel;
 use common::case::Case;
 use nalgebra::{DMatrix, Vector3};
@@ -56,6 +56,23 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             both.command.known_ends = KnownEnds::Both;
             cases.push(record("noisy, both ends", model_name, seed, &both)?);
         }
+    }
+    // with gravity on every axis, whose tilt is a nuisance
+    for (model, trust) in [
+        (SensorModel::ScaleBias, Trust::Known),
+        (SensorModel::ScaleBias, Trust::Noisy(NOISE)),
+        (SensorModel::ScaleBias, Trust::Unknown),
+        (SensorModel::Full, Trust::Known),
+        (SensorModel::Full, Trust::Noisy(NOISE)),
+    ] {
+        let mut case = Case::new(model, trust, INTERVALS, INTERVAL_S, RATE_HZ, 1);
+        let gravity = MotionGravity::of_force(Vector3::new(3.0, -4.0, 8.4));
+        let tilted = gravity.force_mps2 + Vector3::new(0.05, 0.06, 0.01);
+        let constant = case.truth.matrix * tilted;
+        case.recording.readings.iter_mut().for_each(|y| *y += constant);
+        case.command.gravity = Some(gravity);
+        let model_name = if model == SensorModel::Full { "full" } else { "scale-bias" };
+        cases.push(record(&format!("{}, gravity", trust.name()), model_name, 1, &case)?);
     }
     let document = json!({
         "calibrant": env!("CARGO_PKG_VERSION"),
@@ -104,6 +121,10 @@ fn record(trust: &str, model: &str, seed: u64, case: &Case) -> Result<Value, Box
         "readings_mps2": rows(&case.recording.readings),
         "node_times_s": motion.times_s(),
         "commanded_mps2": rows(motion.acceleration_mps2()),
+        "gravity": case.command.gravity.map(|gravity| json!({
+            "force_mps2": gravity.force_mps2.as_slice(),
+            "offset_covariance": rows(&gravity.offset_covariance().column_iter().map(Into::into).collect::<Vec<_>>()),
+        })),
         "noise_mps2": case.sensor.noise_mps2.map(|noise| noise.as_slice().to_vec()),
         "jerk_sd_mps3": jerk_sd.map(|sd| rows(&sd)),
         "parameters": case.sensor.parameter_list().names(),

@@ -76,7 +76,7 @@ fn measure(model: &str, trust: &str, intervals: usize, per_interval: usize) -> R
     let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &happened, &times, &mut rng);
     drop((happened, times));
     let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
-    let command = CommandedMotion { motion, trust, known_ends };
+    let command = CommandedMotion { motion, trust, known_ends, gravity: None };
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
 

@@ -17,12 +17,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let largest: usize = arguments.next().map_or(Ok(3000), |argument| argument.parse())?;
     let starts: usize = arguments.next().map_or(Ok(4), |argument| argument.parse())?;
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
-    println!("| sensor | trust | N | starts | iterations per start | ms per iteration | µs per iteration and interval | total, s | value | not converged |");
+    println!(
+        "| sensor | trust | N | starts | iterations per start | ms per iteration | µs per iteration and interval | total, s | value | not converged |"
+    );
     println!("|---|---|--:|--:|--:|--:|--:|--:|--:|--:|");
     let noisy = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
     for model in [SensorModel::ScaleBias, SensorModel::Full] {
         for trust in [Trust::Known, noisy] {
-            for intervals in [30, 100, 300, 1000, 3000].into_iter().filter(|&intervals| intervals <= largest) {
+            for intervals in [30, 100, 300, 1000, 3000].into_iter().filter(|&intervals| intervals <= largest)
+            {
                 let started = Instant::now();
                 let design = of(model, trust, intervals, starts)?;
                 let seconds = started.elapsed().as_secs_f64();
@@ -64,6 +67,7 @@ fn of(model: SensorModel, trust: Trust, intervals: usize, starts: usize) -> cali
         rate_hz: 100.0,
         trust,
         known_ends: KnownEnds::Start,
+        gravity: None,
         limits: &limits,
         criterion: Criterion::A(AOptimality {
             scale: DVector::repeat(sensor.parameter_list().names().len(), 1.0),

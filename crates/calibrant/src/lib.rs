@@ -53,7 +53,7 @@
 //! let times = sample_times(&motion, 10.0);
 //! let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &motion, &times, &mut rng);
 //!
-//! let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
+//! let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
 //! let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
 //! let calibration = calibrate(&problem, &CalibrationSettings::default())?;
 //! let error = calibration.values[0] - truth.bias.x;

@@ -21,7 +21,7 @@ pub(super) fn run(
     calibrant::design::evaluate(problem, &motion)?;
     let optimum = match job.design(problem) {
         Ok(design) => {
-            write(arguments, job, problem, &design)?;
+            write(arguments, job, problem, &design, None)?;
             Ok(design)
         }
         Err(error) if error.is_infeasible() || error.is_not_identifiable() => Err(error.to_string()),

@@ -5,7 +5,7 @@ use super::job::Job;
 use crate::{Exit, budget, console};
 use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
-use calibrant::io::{write_atomically, write_dense_motion, write_design, write_motion};
+use calibrant::io::{Reached, write_atomically, write_dense_motion, write_design, write_motion};
 use calibrant::report::design_report;
 
 /// Writes all results of a design.
@@ -14,15 +14,23 @@ pub(super) fn write(
     job: &Job,
     problem: &DesignProblem<'_>,
     design: &Design,
+    reached: Option<(&Reached, &str)>,
 ) -> calibrant::Result<()> {
     let (output, axes) = (&arguments.output, problem.sensor.axes);
     // outputs that can fail come first
     if let Some(rate_hz) = arguments.sample_rate {
         write_dense_motion(&output.join("motion_dense.csv"), &design.optimal.motion, axes, rate_hz)?;
     }
-    write_design(&output.join("design.json"), design, problem, &job.settings)?;
+    write_design(
+        &output.join("design.json"),
+        design,
+        reached.map(|(reached, _)| reached),
+        problem,
+        &job.settings,
+    )?;
     write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
-    let about = job.about(arguments, problem, "Design of a motion".into());
+    let mut about = job.about(arguments, problem, "Design of a motion".into());
+    about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));
     let html = design_report(design, &about);
     write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
 }

@@ -2,7 +2,8 @@
 
 use calibrant::design::Goal;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::sensor::{ParameterList, ReadingUnit};
+use calibrant::io::nearest;
+use calibrant::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
 
 /// A parameter, and the standard deviation that it should have.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,24 +60,39 @@ pub(crate) fn parse(text: &str) -> Result<Request, String> {
     Ok(Request { name: name.trim().to_owned(), value: number * size, text: value.to_owned(), dimension })
 }
 
-/// The goals for these parameters. Shares and accelerations count for readings in counts through the `gain`
-/// of the axis, counts per m/s².
+/// What is asked for, in words: `scale.x to 50ppm and bias.z to 0.2mg`.
+pub(super) fn asked(requests: &[Request]) -> String {
+    let words: Vec<String> =
+        requests.iter().map(|request| format!("{} to {}", request.name, request.text)).collect();
+    words.join(" and ")
+}
+
+/// The goals for these parameters. Shares and accelerations count for readings in counts through the gain of
+/// the parameter's axis, counts per m/s².
 pub(super) fn goals(
     requests: &[Request],
     list: &ParameterList,
     unit: ReadingUnit,
-    gain: f64,
+    at: &SensorParameters,
 ) -> calibrant::Result<Vec<Goal>> {
-    requests.iter().map(|request| goal(request, list, unit, gain)).collect()
+    requests.iter().map(|request| goal(request, list, unit, at)).collect()
 }
 
-fn goal(request: &Request, list: &ParameterList, unit: ReadingUnit, gain: f64) -> calibrant::Result<Goal> {
+fn goal(
+    request: &Request,
+    list: &ParameterList,
+    unit: ReadingUnit,
+    at: &SensorParameters,
+) -> calibrant::Result<Goal> {
     let reject = |message: String, help: String| {
         Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))
     };
     let Some(parameter) = list.position(&request.name) else {
         let message = format!("--reach: this sensor has no parameter \"{}\"", request.name);
-        return reject(message, format!("its parameters are {}", list.names().join(", ")));
+        let names = list.names();
+        let near = nearest(&request.name, names.iter().map(String::as_str));
+        let hint = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+        return reject(message, format!("{hint}its parameters are {}", names.join(", ")));
     };
     let is_bias = request.name.starts_with("bias.");
     let fits = match request.dimension {
@@ -89,6 +105,11 @@ fn goal(request: &Request, list: &ParameterList, unit: ReadingUnit, gain: f64) -
         let help = if is_bias { "give mg, ug or m/s2" } else { "give ppm or %" };
         return reject(message, help.into());
     }
+    let (Quantity::Bias(axis)
+    | Quantity::Scale(axis)
+    | Quantity::CrossAxis(axis, _)
+    | Quantity::Symmetric(axis, _)) = list.quantities()[parameter];
+    let gain = at.matrix.row(axis.index()).norm();
     let is_counted = unit == ReadingUnit::Counts && request.dimension != Dimension::Own;
     Ok(Goal { parameter, sd: request.value * if is_counted { gain } else { 1.0 } })
 }
@@ -97,13 +118,16 @@ fn goal(request: &Request, list: &ParameterList, unit: ReadingUnit, gain: f64) -
 mod tests {
     use super::*;
     use calibrant::sensor::SensorModel;
+    use nalgebra::Matrix3;
 
     #[test]
     fn goals_have_the_units_of_data_sheets() {
         let list = ParameterList::new(3, SensorModel::ScaleBias);
         let of = |text: &str, unit| {
             let request = parse(text).expect("a request");
-            goals(&[request], &list, unit, 400.0).map(|goals| (goals[0].parameter, goals[0].sd))
+            let gain = if unit == ReadingUnit::Counts { 400.0 } else { 1.0 };
+            let at = SensorParameters { matrix: Matrix3::identity() * gain, ..SensorParameters::identity() };
+            goals(&[request], &list, unit, &at).map(|goals| (goals[0].parameter, goals[0].sd))
         };
         let mps2 = ReadingUnit::MetrePerSecondSquared;
         let (parameter, sd) = of("scale.y=50ppm", mps2).expect("a goal");

@@ -37,13 +37,18 @@ pub(crate) fn design(design: &Design) -> String {
 
 fn criterion(design: &Design) -> String {
     let (criterion, digits) = (&design.criterion, 5);
+    let above = if design.floor > 0.0 {
+        format!(", above {} of the tilt, which no motion changes", significant(design.floor, 4))
+    } else {
+        String::new()
+    };
     format!(
-        "criterion {} ({}{}): {} initial, {} optimal\n",
+        "criterion {} ({}{}): {} initial, {} optimal{above}\n",
         criterion.letter(),
         criterion.formula(),
         criterion.scaling(),
-        significant(design.initial.value, digits),
-        significant(design.optimal.value, digits)
+        significant(design.initial.value - design.floor, digits),
+        significant(design.optimal.value - design.floor, digits)
     )
 }
 

@@ -31,6 +31,9 @@ pub(crate) struct Arguments {
     /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: the random initial motion). On a machine: a log of its joints or poses.
     #[arg(long, value_name = "CSV")]
     pub(super) motion: Option<PathBuf>,
+    /// The poses of an accelerometer that is held by hand, such as those of `design`: columns up_x, up_y, up_z (default: spread over the sphere, turned at random).
+    #[arg(long, value_name = "CSV")]
+    pub(super) poses: Option<PathBuf>,
     /// Seed of all random numbers (default: from [study], else 1).
     #[arg(long, allow_negative_numbers = true)]
     pub(super) seed: Option<u64>,

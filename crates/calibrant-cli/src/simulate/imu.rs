@@ -52,6 +52,7 @@ pub(super) fn run(
         rate_hz: holds.rate_hz,
         gravity_mps2: holds.gravity.magnitude_mps2,
         accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise_a),
+        between_holds_sd_mps2: holds.between_holds_sd_mps2,
         gyroscope_noise: one_for_all(SensorKind::Gyroscope, &noise_g),
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
@@ -155,6 +156,7 @@ pub(super) fn accelerometer_on_table(
         rate_hz: holds.rate_hz,
         gravity_mps2: holds.gravity.magnitude_mps2,
         accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise),
+        between_holds_sd_mps2: holds.between_holds_sd_mps2,
         accelerometer_unit: sensor.unit,
         face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
         ..ImuSimulation::default()

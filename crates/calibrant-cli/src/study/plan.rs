@@ -92,6 +92,7 @@ impl<'a> Material<'a> {
             rate_hz: plan.rate_hz,
             trust,
             known_ends: plan.known_ends,
+            gravity: plan.gravity,
             limits: limits.clone(),
             criterion: experiment.criterion(&experiment.sensor.parameter_list(), &nominal)?,
             initial: None,
@@ -136,8 +137,7 @@ fn calibration(
     motion: JerkControlledMotion,
     sensors: usize,
 ) -> (CommandedMotion, f64, usize) {
-    let command = CommandedMotion { motion, trust: plan.trust, known_ends: plan.known_ends };
-    (command, plan.rate_hz, sensors)
+    (plan.command(motion), plan.rate_hz, sensors)
 }
 
 /// The settings of the studies.

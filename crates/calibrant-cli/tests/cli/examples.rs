@@ -35,16 +35,12 @@ fn blocks(text: &str) -> Vec<(&str, Vec<&str>)> {
     blocks
 }
 
-/// Runs a README: the lines of `sh` blocks that begin with `calibrant`. A comment may give another exit
+/// Runs the commands of a text: the lines of `sh` blocks that begin with `calibrant`. A comment may give another exit
 /// status than 0. The last command must have printed the lines of the `text` block below, in this order; `…`
 /// stands for omitted lines.
-fn follow(name: &str, commands: usize) {
-    let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples", name].iter().collect();
-    let bench = Bench::new();
-    copy(&bench, &folder, "");
-    let readme = bench.read("README.md");
+fn follow_text(bench: &Bench, name: &str, text: &str, commands: usize) {
     let (mut ran, mut printed) = (0, String::new());
-    for (language, lines) in blocks(&readme) {
+    for (language, lines) in blocks(text) {
         if language == "sh" {
             for line in lines.iter().filter_map(|line| line.strip_prefix("calibrant ")) {
                 let (arguments, comment) = line.split_once(" #").unwrap_or((line, ""));
@@ -61,11 +57,19 @@ fn follow(name: &str, commands: usize) {
             let mut rest = printed.lines();
             for line in lines.iter().map(|line| line.trim()).filter(|line| *line != "…") {
                 let found = rest.any(|printed| printed.trim() == line);
-                assert!(found, "{name}: README.md says\n{line}\nbut the program\n{printed}");
+                assert!(found, "{name}: the text says\n{line}\nbut the program\n{printed}");
             }
         }
     }
     assert_eq!(ran, commands, "{name}: number of commands");
+}
+
+/// Runs the README of an example, in its folder.
+fn follow(name: &str, commands: usize) {
+    let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples", name].iter().collect();
+    let bench = Bench::new();
+    copy(&bench, &folder, "");
+    follow_text(&bench, name, &bench.read("README.md"), commands);
 }
 
 #[test]
@@ -114,6 +118,21 @@ fn rate_table() {
 }
 
 #[test]
+fn best_poses() {
+    follow("10_best_poses", 8);
+}
+
+/// The guide takes its first poses from example 10.
+#[test]
+fn guide_to_the_design_of_poses() {
+    let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../.."].iter().collect();
+    let bench = Bench::new();
+    copy(&bench, &root.join("examples/10_best_poses"), "");
+    let guide = std::fs::read_to_string(root.join("docs/design-poses.md")).expect("the guide");
+    follow_text(&bench, "design-poses.md", &guide, 7);
+}
+
+#[test]
 fn every_example_is_followed() {
     let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples"].iter().collect();
     let mut names: Vec<_> = std::fs::read_dir(root)
@@ -134,7 +153,8 @@ fn every_example_is_followed() {
             "06_whole_imu",
             "07_robot_arm",
             "08_motion_capture",
-            "09_rate_table"
+            "09_rate_table",
+            "10_best_poses"
         ]
     );
 }

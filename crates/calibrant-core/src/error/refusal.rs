@@ -145,6 +145,9 @@ refusals! {
     GravityRemoved "gravity-removed"
         "Gravity has been removed from the acceleration."
         "Export the sensor's own readings.";
+    GravityContradicted "gravity-contradicted"
+        "The readings on a commanded motion contain gravity that was not given, or lack gravity that was."
+        "Correct gravity_mps2 in [motion], as the message says.";
     SignLost "sign-lost"
         "Negative numbers were written as positive ones."
         "Subtract the range from the large readings.";

@@ -32,7 +32,7 @@ use std::borrow::Cow;
 /// let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
 /// let nodes = vec![Vector3::new(-9.0, 0.0, 0.0), Vector3::new(9.0, 0.0, 0.0)];
 /// let motion = JerkControlledMotion::uniform(1.0, nodes)?;
-/// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
+/// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
 /// let recording = Recording {
 ///     times_s: vec![0.0, 0.5, 1.0],
 ///     readings: [-8.91, 0.09, 9.09].map(|y| Vector3::new(y, 0.0, 0.0)).to_vec(),

@@ -30,6 +30,7 @@ mod problem;
 mod propagated;
 mod quantisation;
 mod quantised_noise;
+mod recovered_gravity;
 mod result;
 mod settings;
 pub(crate) mod statistics;
@@ -55,6 +56,7 @@ pub use imu::{
 };
 pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
+pub use recovered_gravity::RecoveredGravity;
 pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;

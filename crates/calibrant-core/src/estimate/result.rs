@@ -1,5 +1,6 @@
 //! The result of a calibration.
 
+use super::RecoveredGravity;
 use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use crate::diagnostic::{Change, Diagnostic};
@@ -344,6 +345,8 @@ pub struct RecoveredMotion {
     pub acceleration_sd_mps2: Vec<Vector3<f64>>,
     /// Trust in the command: `known`, `noisy`, `unknown`.
     pub trust: &'static str,
+    /// Gravity that the sensor sensed beside the motion, with its tilt. `None` where none was given.
+    pub gravity: Option<RecoveredGravity>,
     /// Residuals `y − S s − b` of the samples used, in the unit of the readings.
     pub residuals: Vec<Vector3<f64>>,
     /// Index into the recording of the first residual's sample: the samples within the motion are contiguous.

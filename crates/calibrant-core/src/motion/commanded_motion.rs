@@ -1,6 +1,6 @@
 //! The commanded motion and how far it is trusted (`[motion] trust`). Plain data: no estimation here.
 
-use super::JerkControlledMotion;
+use super::{JerkControlledMotion, MotionGravity};
 use nalgebra::Vector3;
 
 /// How far the commanded motion is trusted. The report's problems (5), (6) and (3) are one problem with three
@@ -62,4 +62,6 @@ pub struct CommandedMotion {
     pub trust: Trust,
     /// Which ends are known. Trust `unknown` needs both, trust `known` needs no answer.
     pub known_ends: KnownEnds,
+    /// Gravity, where the sensor senses it beside the motion. `None`: the motion is all that it senses.
+    pub gravity: Option<MotionGravity>,
 }

@@ -84,6 +84,14 @@ impl JerkControlledMotion {
         Self::new(times_s, acceleration_mps2)
     }
 
+    /// The same motion with a constant added to its acceleration.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn plus(&self, constant_mps2: &Vector3<f64>) -> Result<Self> {
+        Self::new(self.times_s.clone(), self.acceleration_mps2.iter().map(|a| a + constant_mps2).collect())
+    }
+
     /// Number of intervals N.
     #[must_use]
     pub fn intervals(&self) -> usize {

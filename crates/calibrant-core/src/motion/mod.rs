@@ -7,6 +7,7 @@ mod gravity;
 mod hold;
 mod jerk_controlled;
 mod limits;
+mod motion_gravity;
 mod motion_state;
 mod sample_times;
 
@@ -17,5 +18,6 @@ pub use hold::Hold;
 pub(crate) use hold::to_ms;
 pub use jerk_controlled::JerkControlledMotion;
 pub use limits::{AxisLimits, Limits, Rest};
+pub use motion_gravity::MotionGravity;
 pub use motion_state::MotionState;
 pub use sample_times::{IntervalSums, sample_times};

@@ -44,6 +44,19 @@ pub fn simulate_holds(
         })
         .collect();
     directions.shuffle(rng);
+    simulate_holds_in(sensor, noise, unit, &directions, setup, rng)
+}
+
+/// The recording of a sensor in these directions (up, unit vectors in the true frame), in this order, and the
+/// true specific force in each hold, m/s². `setup.poses` is not used.
+pub fn simulate_holds_in(
+    sensor: &SensorParameters,
+    noise: &Vector3<f64>,
+    unit: ReadingUnit,
+    directions: &[Vector3<f64>],
+    setup: &HoldsSimulation,
+    rng: &mut Rng,
+) -> (Recording, Vec<Vector3<f64>>) {
     let mut normal = || -> f64 { StandardNormal.sample(rng) };
     let forces: Vec<_> = directions.iter().map(|direction| direction * setup.gravity_mps2).collect();
     let samples = |duration: f64| (duration * setup.rate_hz).round().max(1.0) as usize;

@@ -51,5 +51,9 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
             }
         }
     }
+    let hold_s = samples(setup.hold_s) as f64 * step;
+    let period_s = hold_s + samples(setup.turn_s) as f64 * step;
+    let holds = (0..setup.poses).map(|pose| pose as f64 * period_s - 0.5 * step);
+    stimuli.disturb(holds.map(|start| (start, start + hold_s)), setup.between_holds_sd_mps2, rng);
     stimuli.record(imu, setup, rng)
 }

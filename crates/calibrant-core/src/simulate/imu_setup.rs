@@ -21,6 +21,8 @@ pub struct ImuSimulation {
     pub gravity_mps2: f64,
     /// Noise of one accelerometer sample, in the unit of its readings.
     pub accelerometer_noise: f64,
+    /// Standard deviation of a disturbance of the accelerometer that is constant over a hold, m/s².
+    pub between_holds_sd_mps2: f64,
     /// Noise of one gyroscope sample, in the unit of its readings.
     pub gyroscope_noise: f64,
     /// Unit of the accelerometer's readings.
@@ -46,6 +48,7 @@ impl Default for ImuSimulation {
             rate_hz: 100.0,
             gravity_mps2: 9.806_65,
             accelerometer_noise: 0.01,
+            between_holds_sd_mps2: 0.0,
             gyroscope_noise: 2e-3,
             accelerometer_unit: ReadingUnit::MetrePerSecondSquared,
             gyroscope_unit: ReadingUnit::RadianPerSecond,

@@ -26,6 +26,22 @@ impl Stimuli {
         self.rates.push(rate);
     }
 
+    /// Adds to the forces in each of these intervals of time (start and end, s) a disturbance of its own.
+    pub(super) fn disturb(&mut self, holds: impl Iterator<Item = (f64, f64)>, sd_mps2: f64, rng: &mut Rng) {
+        if sd_mps2 <= 0.0 {
+            return;
+        }
+        for (start_s, end_s) in holds {
+            let disturbance = Vector3::from_fn(|_, _| {
+                let z: f64 = StandardNormal.sample(rng);
+                sd_mps2 * z
+            });
+            let first = self.times_s.partition_point(|t| *t < start_s);
+            let end = self.times_s.partition_point(|t| *t < end_s);
+            self.forces[first..end].iter_mut().for_each(|force| *force += disturbance);
+        }
+    }
+
     /// The readings of both sensors at the temperature of each sample. The noise of the accelerometer is
     /// drawn first, then that of the gyroscope.
     pub(super) fn record(self, imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -> ImuRecording {

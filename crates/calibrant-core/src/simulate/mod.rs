@@ -4,6 +4,7 @@
 //! do not depend on the number of threads or on the order in which items are made.
 
 mod drawn_imu;
+mod gravity;
 mod holds;
 mod imu;
 mod imu_setup;
@@ -16,7 +17,8 @@ mod table_recording;
 
 pub use crate::motion::sample_times;
 pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_thermal};
-pub use holds::{HoldsSimulation, simulate_holds};
+pub use gravity::{TrueGravity, draw_gravity};
+pub use holds::{HoldsSimulation, simulate_holds, simulate_holds_in};
 pub use imu::simulate_imu;
 pub use imu_setup::{ImuSimulation, TURN_S};
 pub use initial_motion::initial_motion;

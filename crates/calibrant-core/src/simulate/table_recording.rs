@@ -97,6 +97,9 @@ pub fn simulate_table(
         let of_earth = sensor_from_world * setup.earth_rate_radps;
         stimuli.push(t, sensor_from_world * up, rate + of_earth);
     }
+    let holds = steps.iter().filter(|step| matches!(step.action, TableAction::Hold(_)));
+    let holds = holds.map(|step| (step.start_s, step.end_s));
+    stimuli.disturb(holds, setup.between_holds_sd_mps2, rng);
     stimuli.record(imu, setup, rng)
 }
 

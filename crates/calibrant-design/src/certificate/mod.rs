@@ -26,6 +26,7 @@ mod axis_chain;
 mod bound_tightening;
 mod bounds;
 mod dual_bound;
+mod gravity;
 mod moment_relaxation;
 mod motion_variance;
 mod polynomial;

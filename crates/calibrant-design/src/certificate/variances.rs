@@ -2,6 +2,7 @@
 
 use super::AxisChain;
 use super::bounds::StateBounds;
+use super::gravity::{GravityBound, MeanFacts, largest_mean};
 use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
 use crate::{Certificate, DesignProblem, Interruption};
 use calibrant_core::error::Result;
@@ -21,11 +22,11 @@ pub(crate) struct LowerBound {
 }
 
 impl LowerBound {
-    /// The certificate of a design whose criterion has this value.
-    pub(crate) fn certificate(self, criterion: &Criterion, value: f64) -> Certificate {
+    /// The certificate of a design whose criterion has this value. No motion changes its part `floor`.
+    pub(crate) fn certificate(self, criterion: &Criterion, value: f64, floor: f64) -> Certificate {
         Certificate {
             lower_bound: self.value,
-            gap: criterion.gap(value, self.value),
+            gap: criterion.gap(value - floor, self.value - floor),
             sd_lower_bound: self.variances.iter().map(|variance| variance.sqrt()).collect(),
             explanation: self.explanation,
         }
@@ -46,11 +47,13 @@ pub(crate) fn lower_bound(
     let setting = problem.setting()?;
     let rest =
         JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;
+    let still = setting.information(&rest)?;
     let mut bounds = Bounds {
         problem,
         noise: setting.noise,
         sums: IntervalSums::all(&rest, problem.rate_hz),
-        still: setting.information(&rest)?,
+        gravity: GravityBound::of(problem, &setting, &rest, &still),
+        still,
         ramp: if problem.trust == Trust::Unknown {
             Some(setting.information(&ramp(problem)?)?)
         } else {
@@ -68,8 +71,7 @@ pub(crate) fn lower_bound(
         return Ok(None);
     };
     let variances = DVector::from_vec(variances);
-    let smallest = DMatrix::from_diagonal(&variances);
-    let value = problem.criterion.value(&smallest) * independence(&problem.criterion, &smallest);
+    let value = bounds.criterion(&variances);
     Ok(value.is_finite().then(|| LowerBound { value, variances, explanation: bounds.explanation() }))
 }
 
@@ -99,6 +101,7 @@ struct Bounds<'a> {
     problem: &'a DesignProblem<'a>,
     noise: Vector3<f64>,
     sums: Vec<IntervalSums>,
+    gravity: Option<GravityBound>,
     /// Information at rest. On the biases it does not depend on the motion; with process noise it is largest
     /// at rest.
     still: DMatrix<f64>,
@@ -114,8 +117,10 @@ struct Bounds<'a> {
 impl Bounds<'_> {
     /// Lower bound on the variance of the parameter at a place; `None` where there is none.
     fn variance(&mut self, place: usize, quantity: Quantity, all: &[Quantity]) -> Option<f64> {
-        let prior = |i: usize, j: usize| self.problem.prior.as_ref().map_or(0.0, |prior| prior[(i, j)]);
+        let known = self.gravity.as_ref().map(|gravity| &gravity.prior).or(self.problem.prior.as_ref());
+        let prior = |i: usize, j: usize| known.map_or(0.0, |prior| prior[(i, j)]);
         let (row, column) = match quantity {
+            Quantity::Bias(_) if self.gravity.is_some() => return self.bias_under_gravity(place, all),
             Quantity::Bias(_) => {
                 let information = self.still[(place, place)] + prior(place, place);
                 return Some(1.0 / (information * (1.0 + ROUNDING)));
@@ -179,6 +184,67 @@ impl Bounds<'_> {
         (information.is_finite() && information > 0.0).then(|| 1.0 / (information * (1.0 + ROUNDING)))
     }
 
+    /// Lower bound on the variance of the bias at a place, with gravity.
+    fn bias_under_gravity(&mut self, place: usize, all: &[Quantity]) -> Option<f64> {
+        let gravity = self.gravity.as_ref()?;
+        let (base, force) = (gravity.biases[(place, place)], gravity.force);
+        let least_known = gravity.least_known[place];
+        let mut most = 0.0_f64;
+        for (k, &quantity) in all.iter().enumerate() {
+            let column = match quantity {
+                Quantity::Scale(axis) if axis.index() == place => place,
+                Quantity::CrossAxis(row, column) if row.index() == place => column.index(),
+                _ => continue,
+            };
+            if self.problem.prior.is_some() || force[column] == 0.0 {
+                continue;
+            }
+            let single = self.problem.sensor.model == SensorModel::ScaleBias;
+            let facts = MeanFacts {
+                trust: self.problem.trust,
+                known_ends: self.problem.known_ends,
+                rate_hz: self.problem.rate_hz,
+                least_known,
+                noise: self.noise[place] * self.noise[place],
+                increments: match self.problem.trust {
+                    Trust::Noisy(input) => self.increments(input, place, column),
+                    _ => f64::INFINITY,
+                },
+                ends: self
+                    .ramp
+                    .as_ref()
+                    .filter(|_| single)
+                    .map(|ramp| (self.still[(place, place)], ramp[(k, k)])),
+            };
+            let beyond = force[column].abs() - largest_mean(&self.chain(column, 0.0, f64::INFINITY), &facts);
+            if beyond > 0.0 {
+                most = most.max(beyond * beyond * self.variance(k, quantity, all)?);
+            }
+        }
+        Some((base + most) * (1.0 - ROUNDING))
+    }
+
+    /// Lower bound on the criterion from those on the variances.
+    fn criterion(&self, variances: &DVector<f64>) -> f64 {
+        let criterion = &self.problem.criterion;
+        let mut smallest = DMatrix::from_diagonal(variances);
+        let Some(gravity) = &self.gravity else {
+            return criterion.value(&smallest) * independence(criterion, &smallest);
+        };
+        match criterion {
+            Criterion::A(_) | Criterion::C(_) | Criterion::I(_) => {
+                let above = variances.zip_map(&gravity.floor.diagonal(), |all, floor| (all - floor).max(0.0));
+                let above = DMatrix::from_diagonal(&above);
+                criterion.value(&gravity.floor) + criterion.value(&above) * independence(criterion, &above)
+            }
+            Criterion::D(_) => {
+                smallest.view_mut((0, 0), gravity.biases.shape()).copy_from(&gravity.biases);
+                criterion.value(&smallest)
+            }
+            Criterion::E(_) | Criterion::M(_) => criterion.value(&smallest),
+        }
+    }
+
     fn explain(&mut self, reason: &str) {
         if !self.reasons.iter().any(|known| known == reason) {
             self.reasons.push(reason.to_owned());
@@ -187,6 +253,9 @@ impl Bounds<'_> {
 
     fn explanation(&self) -> String {
         let bias = match self.problem.trust {
+            _ if self.gravity.is_some() => {
+                "biases: the tilt, the noise of the readings averaged over all samples, and the error of the scale factors times the part of gravity that the mean of the motion cannot cancel"
+            }
             Trust::Known => "biases: the noise of the readings averaged over all samples",
             Trust::Noisy(_) => {
                 "biases: as if the scale factors were known and the process noise at its floor"

@@ -6,6 +6,7 @@
 use super::bound::bound;
 use super::hold_information::HoldInformation;
 use super::problem::PoseProblem;
+use super::result::PoseBound;
 use super::smooth_criterion::SmoothCriterion;
 use super::spectral_projected_gradient::{Descent, Poses};
 use calibrant_core::information::Criterion;
@@ -17,6 +18,19 @@ pub(super) struct Approximate {
     pub(super) bound: f64,
     /// Directions and the number of poses at each.
     pub(super) poses: Poses,
+}
+
+impl Approximate {
+    /// The bound, for a set of poses with this value.
+    pub(super) fn bound_of(self, value: f64) -> PoseBound {
+        let all: f64 = self.poses.shares.iter().sum();
+        PoseBound {
+            // rounding
+            value: self.bound.min(value),
+            directions: self.poses.directions,
+            shares: self.poses.shares.iter().map(|share| share / all).collect(),
+        }
+    }
 }
 
 /// Rounds of descent and new directions.

@@ -1,22 +1,26 @@
 //! The information of given poses, against the best possible.
 
+use super::Allowed;
+use super::drift::Drift;
+use super::enough::{named, singular};
+use super::expected::with_gravity;
 use super::hold_information::HoldInformation;
 use super::problem::PoseProblem;
 use super::result::{PoseBound, efficiency};
-use super::search::{named, relaxed, singular};
+use super::search::relaxed;
 use super::spectral_projected_gradient::Poses;
 use calibrant_core::error::{Error, NotIdentifiable, Result};
-use calibrant_core::information::undetermined;
+use calibrant_core::information::{covariance, undetermined};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Given poses, and how near they are to the best possible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseEvaluation {
-    /// Expected covariance of the parameters, p × p.
+    /// The covariance that a calibration will state, p × p: that of the holds, with gravity and a drift.
     pub covariance: DMatrix<f64>,
-    /// The criterion.
+    /// The criterion of the holds alone.
     pub value: f64,
-    /// The bound for as many allowed poses.
+    /// The bound for as many poses in any directions.
     pub bound: PoseBound,
     /// From 0 to 1: at least this share of the best possible.
     pub efficiency: f64,
@@ -30,8 +34,18 @@ impl PoseEvaluation {
     }
 }
 
-/// The information of these poses, given as directions of the specific force (up) in the sensor's axes.
-/// They are compared with as many allowed ones. All count the same.
+/// The covariance that the holds alone give, p × p: without gravity and a drift. `None` where they leave
+/// parameters undetermined. Directions as for [`evaluate_poses`].
+#[must_use]
+pub fn covariance_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -> Option<DMatrix<f64>> {
+    let information = HoldInformation::new(problem)?;
+    let sum = information.sum(directions.iter().map(|u| (u, 1.0)));
+    let f = information.of_parameters(&sum);
+    if undetermined(&f, &f.diagonal()).is_empty() { covariance(&f) } else { None }
+}
+
+/// The information of these poses, given as directions of the specific force (up) in the sensor's axes, in the
+/// order in which they were taken. They are compared with as many in any directions. All count the same.
 ///
 /// # Errors
 /// [`Error::NotIdentifiable`] where they leave parameters undetermined.
@@ -40,7 +54,7 @@ pub fn evaluate_poses(
     directions: &[Vector3<f64>],
     seed: u64,
 ) -> Result<PoseEvaluation> {
-    let problem = PoseProblem { poses: directions.len(), ..problem.clone() };
+    let problem = PoseProblem { poses: directions.len(), allowed: Allowed::Anywhere, ..problem.clone() };
     let information = HoldInformation::new(&problem).ok_or_else(singular)?;
     let poses = Poses::equal(directions.iter().map(Vector3::normalize).collect());
     let sum = information.sum(poses.directions.iter().map(|u| (u, 1.0)));
@@ -52,15 +66,12 @@ pub fn evaluate_poses(
     if !groups.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
     }
-    let covariance = poses.covariance(&information).ok_or_else(singular)?;
-    let value = problem.criterion.value(&covariance);
-    let relaxed = relaxed(&problem, &information, seed).ok_or_else(singular)?;
-    let all: f64 = relaxed.poses.shares.iter().sum();
-    let bound = PoseBound {
-        value: relaxed.bound,
-        directions: relaxed.poses.directions,
-        shares: relaxed.poses.shares.iter().map(|share| share / all).collect(),
-    };
+    let without = poses.covariance(&information).ok_or_else(singular)?;
+    let value = problem.criterion.value(&without);
+    let drift = Drift::of(&information, &poses.directions, without, &problem.nuisance.drift_sd);
+    let order: Vec<usize> = (0..directions.len()).collect();
+    let covariance = with_gravity(&problem, drift.covariance(&order));
+    let bound = relaxed(&problem, &information, seed).ok_or_else(singular)?.bound_of(value);
     let efficiency = efficiency(&problem.criterion, value, bound.value, names.len());
     Ok(PoseEvaluation { covariance, value, bound, efficiency })
 }

@@ -59,7 +59,7 @@ impl HoldInformation {
     }
 
     /// `N⁻¹`.
-    fn weight(&self, u: &Vector3<f64>) -> Matrix3<f64> {
+    pub(super) fn weight(&self, u: &Vector3<f64>) -> Matrix3<f64> {
         match self.directions {
             DirectionKnowledge::Unknown => {
                 let v = self.inverse_transpose * u;
@@ -97,6 +97,13 @@ impl HoldInformation {
     /// `M = M₀ + Σ w_k m(u_k)` from the sum on the entries, p × p.
     pub(super) fn of_parameters(&self, sum: &OnEntries) -> DMatrix<f64> {
         self.entries.tr_mul(&(sum * &self.entries)) + &self.prior
+    }
+
+    /// `Gᵀ N⁻¹`, p × 3.
+    pub(super) fn on_reading(&self, u: &Vector3<f64>) -> DMatrix<f64> {
+        let (weight, phi) = (self.weight(u), self.regressors(u));
+        let on_entries = DMatrix::from_fn(12, 3, |entry, axis| phi[entry % 4] * weight[(entry / 4, axis)]);
+        self.entries.tr_mul(&on_entries)
     }
 
     pub(super) fn prior(&self) -> &DMatrix<f64> {

@@ -18,10 +18,14 @@
 mod allowed;
 mod approximate;
 mod bound;
+mod drift;
+mod enough;
 mod evaluate;
 mod exchange;
+mod expected;
 mod fewest;
 mod hold_information;
+mod order;
 mod problem;
 mod result;
 mod search;
@@ -29,12 +33,11 @@ mod smooth_criterion;
 mod spectral_projected_gradient;
 #[cfg(test)]
 mod tests;
-mod turn_order;
+mod turns;
 
 pub use allowed::Allowed;
-pub use evaluate::{PoseEvaluation, evaluate_poses};
+pub use evaluate::{PoseEvaluation, covariance_of_holds, evaluate_poses};
 pub use fewest::{FewestPoses, fewest_poses};
-pub use problem::{DirectionKnowledge, PoseProblem};
+pub use problem::{DirectionKnowledge, PoseNuisance, PoseProblem};
 pub use result::{PoseBound, PoseDesign};
 pub use search::design_poses;
-pub use turn_order::order_for_turns;

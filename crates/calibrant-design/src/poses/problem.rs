@@ -40,4 +40,27 @@ pub struct PoseProblem {
     pub prior: Option<DMatrix<f64>>,
     /// Number of poses n.
     pub poses: usize,
+    /// What the calibration allows for beside the holds.
+    pub nuisance: PoseNuisance,
+}
+
+/// What adds to the standard deviations of a calibration, and is the same for all sets of poses or depends on
+/// their order alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseNuisance {
+    /// Standard uncertainty of gravity, m/s².
+    pub gravity_sd_mps2: f64,
+    /// Standard deviation of the drift of each bias from the first pose to the last, in the unit of the
+    /// readings; 0 for none.
+    pub drift_sd: Vector3<f64>,
+    /// Shall the turns between the poses determine a gyroscope?
+    pub has_gyroscope: bool,
+}
+
+impl PoseNuisance {
+    /// Nothing.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { gravity_sd_mps2: 0.0, drift_sd: Vector3::zeros(), has_gyroscope: false }
+    }
 }

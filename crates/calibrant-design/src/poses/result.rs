@@ -9,9 +9,9 @@ pub struct PoseDesign {
     /// Direction of the specific force (up) in each pose, unit vectors in the sensor's axes, in the order in
     /// which they should be taken.
     pub directions: Vec<Vector3<f64>>,
-    /// Expected covariance of the parameters, p × p.
+    /// The covariance that a calibration will state, p × p: that of the holds, with gravity and a drift.
     pub covariance: DMatrix<f64>,
-    /// The criterion.
+    /// The criterion of the holds alone. Gravity adds the same to every set, and a drift depends on the order.
     pub value: f64,
     /// The bound that no set of as many poses can beat.
     pub bound: PoseBound,
@@ -42,8 +42,20 @@ pub struct PoseBound {
     pub shares: Vec<f64>,
 }
 
+impl PoseBound {
+    /// How efficient poses with this value of the criterion are, from 0 to 1, for a number of parameters.
+    #[must_use]
+    pub fn efficiency_of(&self, criterion: &Criterion, value: f64, parameters: usize) -> f64 {
+        efficiency(criterion, value, self.value, parameters)
+    }
+}
+
 /// How efficient a design with this value is, from 0 to 1: the bound by the value. For D it is
-/// `exp((bound − value) / p)`. With an efficiency of one half, twice as many recordings are needed.
+/// `exp((bound − value) / p)`.
+///
+/// Both are ratios of an information `φ(M)` that doubles when all poses are taken twice (`pukelsheim2006`):
+/// `1/Φ(M⁻¹)`, for D `det(M)^(1/p)`. So the efficiency means the same for all criteria. Without a prior, 1/2 says
+/// that twice as many recordings are needed.
 pub(super) fn efficiency(criterion: &Criterion, value: f64, bound: f64, parameters: usize) -> f64 {
     match criterion {
         Criterion::D(_) => ((bound - value) / parameters as f64).exp(),

@@ -4,17 +4,21 @@
 //! improved by exchange, over the allowed list or the directions of the approximate design, and then by
 //! descent where directions may move. The best is kept.
 
+use super::Allowed;
 use super::approximate::{Approximate, approximate};
+use super::drift::Drift;
+use super::enough::{check, singular};
 use super::exchange::exchange;
+use super::expected::with_gravity;
 use super::hold_information::HoldInformation;
+use super::order::best_order;
 use super::problem::PoseProblem;
-use super::result::{PoseBound, PoseDesign};
+use super::result::PoseDesign;
 use super::smooth_criterion::SmoothCriterion;
 use super::spectral_projected_gradient::{Descent, Poses};
-use super::{Allowed, DirectionKnowledge};
 use crate::{AT_BEST, DesignSettings};
-use calibrant_core::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
-use calibrant_core::information::{Criterion, Undetermined, undetermined};
+use calibrant_core::error::Result;
+use calibrant_core::information::Criterion;
 use calibrant_core::simulate::{Purpose, Rng, stream};
 use nalgebra::Vector3;
 use rand::RngExt;
@@ -22,10 +26,6 @@ use rayon::prelude::*;
 
 /// Directions with which the approximate design begins.
 const BEGINNING: usize = 60;
-/// Random sets that are tried for each number of poses, to see whether it suffices.
-const TRIED: usize = 20;
-/// Most poses that are tried.
-const MOST: usize = 100;
 /// Starts that run between two looks at the interruption.
 const ROUND: usize = 8;
 /// Iterations of a descent.
@@ -46,7 +46,7 @@ const ITERATIONS: usize = 400;
 /// use calibrant_core::information::criterion::{Criterion, DOptimality};
 /// use calibrant_core::sensor::{Gauge, SensorModel, SensorParameters};
 /// use calibrant_design::DesignSettings;
-/// use calibrant_design::poses::{Allowed, DirectionKnowledge, PoseProblem, design_poses};
+/// use calibrant_design::poses::{Allowed, DirectionKnowledge, PoseNuisance, PoseProblem, design_poses};
 /// use nalgebra::{DVector, Vector3};
 ///
 /// let criterion = Criterion::D(DOptimality { scale: DVector::repeat(9, 1.0) });
@@ -60,6 +60,7 @@ const ITERATIONS: usize = 400;
 ///     criterion: criterion.clone(),
 ///     prior: None,
 ///     poses: 12,
+///     nuisance: PoseNuisance::none(),
 /// };
 /// let design = design_poses(&problem, &DesignSettings::default(), &|_| {})?;
 /// assert!(design.efficiency(&criterion) > 0.999);
@@ -99,17 +100,14 @@ pub fn design_poses(
     let values: Vec<f64> = found.iter().map(|(value, _)| *value).collect();
     let (value, poses) =
         found.into_iter().min_by(|one, other| one.0.total_cmp(&other.0)).ok_or_else(singular)?;
-    let covariance = poses.covariance(&information).ok_or_else(singular)?;
-    let all: f64 = relaxed.poses.shares.iter().sum();
+    let without = poses.covariance(&information).ok_or_else(singular)?;
+    let drift = Drift::of(&information, &poses.directions, without, &problem.nuisance.drift_sd);
+    let order = best_order(problem, &poses.directions, &drift, settings.seed);
     Ok(PoseDesign {
-        directions: poses.directions,
-        covariance,
+        directions: order.iter().map(|&pose| poses.directions[pose]).collect(),
+        covariance: with_gravity(problem, drift.covariance(&order)),
         value,
-        bound: PoseBound {
-            value: relaxed.bound.min(value),
-            directions: relaxed.poses.directions,
-            shares: relaxed.poses.shares.iter().map(|share| share / all).collect(),
-        },
+        bound: relaxed.bound_of(value),
         starts,
         starts_at_best: values.iter().filter(|other| problem.criterion.gap(**other, value) < AT_BEST).count(),
         interrupted,
@@ -181,86 +179,4 @@ fn improve(
     }
     let value = problem.criterion.value(&poses.covariance(information)?);
     value.is_finite().then_some((value, poses))
-}
-
-/// The fewest poses that determine all parameters, found by lot.
-///
-/// # Errors
-/// [`Error::NotIdentifiable`] where the allowed directions leave parameters undetermined however many there are.
-pub(super) fn fewest_that_determine(
-    problem: &PoseProblem,
-    information: &HoldInformation,
-    seed: u64,
-) -> Result<usize> {
-    let free = |directions: &[Vector3<f64>]| {
-        let f = information.of_parameters(&information.sum(directions.iter().map(|u| (u, 1.0))));
-        undetermined(&f, &f.diagonal())
-    };
-    let (all, _) = problem.allowed.grid(8);
-    let left = free(&all);
-    if !left.is_empty() {
-        let reason = "the allowed directions are not enough, however often each is held";
-        let remedy = match problem.directions {
-            DirectionKnowledge::Unknown => {
-                "allow more directions in design.allowed, or say design.directions = \"known\""
-            }
-            DirectionKnowledge::Known { .. } => "allow more directions in design.allowed",
-        };
-        let groups = named(&left, &problem.list.names(), reason, remedy);
-        return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
-    }
-    let mut rng = stream(seed, Purpose::Motion, 1);
-    let mut suffices = |poses: usize| {
-        (0..TRIED).any(|_| {
-            let some: Vec<_> = (0..poses).map(|_| problem.allowed.draw(&mut rng)).collect();
-            free(&some).is_empty()
-        })
-    };
-    Ok((1..MOST).find(|&poses| suffices(poses)).unwrap_or(MOST))
-}
-
-/// Refuses too few poses, and directions that leave parameters undetermined.
-fn check(problem: &PoseProblem, information: &HoldInformation, seed: u64) -> Result<()> {
-    let fewest = fewest_that_determine(problem, information, seed)?;
-    if problem.poses >= fewest {
-        return Ok(());
-    }
-    let group = UndeterminedGroup {
-        parameters: Vec::new(),
-        free_combinations: 0,
-        reason: format!(
-            "{} for {} parameters, which need at least {fewest}",
-            if problem.poses == 1 { "one pose".into() } else { format!("{} poses", problem.poses) },
-            problem.list.len()
-        ),
-        remedy: format!("hold the sensor in at least {fewest} poses"),
-    };
-    Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })))
-}
-
-/// Groups of undetermined parameters with their names.
-pub(super) fn named(
-    groups: &[Undetermined],
-    names: &[String],
-    reason: &str,
-    remedy: &str,
-) -> Vec<UndeterminedGroup> {
-    groups
-        .iter()
-        .map(|group| UndeterminedGroup {
-            parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
-            free_combinations: group.free_combinations,
-            reason: reason.into(),
-            remedy: remedy.into(),
-        })
-        .collect()
-}
-
-pub(super) fn singular() -> Error {
-    let help = "check the sensor's gain, or the calibration that the design begins with";
-    Error::experiment(InputError::new(
-        Refusal::CalibrationUnsuited,
-        "the sensor's matrix has no inverse",
-        help,
-    ))
 }

@@ -1,14 +1,14 @@
 //! Best poses against closed forms of the theory of design.
 
 use super::hold_information::HoldInformation;
-use super::{Allowed, DirectionKnowledge, PoseProblem, design_poses, evaluate_poses};
+use super::{Allowed, DirectionKnowledge, PoseNuisance, PoseProblem, design_poses, evaluate_poses};
 use crate::DesignSettings;
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::{AOptimality, DOptimality, EOptimality, MOptimality};
 use calibrant_core::sensor::{Gauge, ParameterList, SensorModel, SensorParameters};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-fn problem(directions: DirectionKnowledge, poses: usize) -> PoseProblem {
+pub(super) fn problem(directions: DirectionKnowledge, poses: usize) -> PoseProblem {
     let list = match directions {
         DirectionKnowledge::Unknown => Gauge::Symmetric.parameter_list(SensorModel::Full),
         DirectionKnowledge::Known { .. } => ParameterList::new(3, SensorModel::Full),
@@ -23,6 +23,7 @@ fn problem(directions: DirectionKnowledge, poses: usize) -> PoseProblem {
         allowed: Allowed::Anywhere,
         prior: None,
         poses,
+        nuisance: PoseNuisance::none(),
     }
 }
 

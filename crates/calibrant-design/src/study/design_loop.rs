@@ -8,7 +8,9 @@ use crate::{Design, DesignProblem, DesignSettings, DesignStatus, design, evaluat
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationProblem, Stimulus, calibrate};
 use calibrant_core::information::Criterion;
-use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Limits, Trust};
+use calibrant_core::motion::{
+    CommandedMotion, JerkControlledMotion, KnownEnds, Limits, MotionGravity, Trust,
+};
 use calibrant_core::sensor::{Sensor, SensorParameters};
 use calibrant_core::simulate::{Purpose, Rng, draw_sensor, initial_motion, stream};
 use nalgebra::{DMatrix, DVector};
@@ -29,6 +31,8 @@ pub struct DesignStudyProblem<'a> {
     pub trust: Trust,
     /// Which ends of it are known.
     pub known_ends: KnownEnds,
+    /// Gravity, where the sensors sense it beside the motion.
+    pub gravity: Option<MotionGravity>,
     /// The limits of the motion.
     pub limits: Limits,
     /// The criterion that the designs minimise.
@@ -53,6 +57,7 @@ impl<'a> DesignStudyProblem<'a> {
             rate_hz: self.rate_hz,
             trust: self.trust,
             known_ends: self.known_ends,
+            gravity: self.gravity,
             limits: &self.limits,
             criterion: self.criterion.clone(),
             prior,
@@ -190,8 +195,12 @@ fn calibrate_on(
     rng: &mut Rng,
 ) -> Result<Calibration> {
     let sensor = problem.sensor;
-    let command =
-        CommandedMotion { motion: motion.clone(), trust: problem.trust, known_ends: problem.known_ends };
+    let command = CommandedMotion {
+        motion: motion.clone(),
+        trust: problem.trust,
+        known_ends: problem.known_ends,
+        gravity: problem.gravity,
+    };
     let (_, recording) = record(sensor, truth, &command, problem.rate_hz, rng)?;
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
     calibrate(&problem, &settings.calibration)

@@ -54,6 +54,7 @@ pub fn trace_surface(sensor: &Sensor, settings: &SurfaceSettings) -> Result<Trac
         rate_hz: settings.rate_hz,
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
+        gravity: None,
         limits: &limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
         prior: None,

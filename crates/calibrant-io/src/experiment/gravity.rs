@@ -5,10 +5,13 @@ use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 
+/// Least and largest magnitude of gravity, m/s².
+pub(super) const LEAST: f64 = 0.1;
+pub(super) const LARGEST: f64 = 100.0;
 /// Range of gravity.
-const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
+const GRAVITY: Bounds = Bounds::from(LEAST, LARGEST, "m/s²");
 /// Range of the standard uncertainty of gravity.
-const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
+pub(super) const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
 /// Range of the latitude.
 pub(super) const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
 /// Range of the height above the sea.

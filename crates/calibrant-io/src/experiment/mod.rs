@@ -19,6 +19,7 @@ mod machine_mount;
 mod machine_simulation;
 mod machine_source;
 mod motion;
+mod motion_gravity;
 mod number_range;
 mod plan;
 mod pose_problem;

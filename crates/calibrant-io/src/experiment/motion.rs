@@ -1,9 +1,14 @@
 //! Reads `[motion]`: a commanded motion, its intervals and how far it is trusted.
 
+use super::motion_gravity;
 use super::number_range::Bounds;
 use super::toml_document::Section;
 use calibrant_core::error::Result;
-use calibrant_core::motion::{InputNoise, KnownEnds, Trust};
+use calibrant_core::motion::{
+    CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, MotionGravity, Trust,
+};
+use calibrant_core::sensor::Sensor;
+use nalgebra::Vector3;
 
 /// Range of a sample rate.
 pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
@@ -27,13 +32,31 @@ pub struct MotionPlan {
     pub trust: Trust,
     /// Which ends have a known acceleration.
     pub known_ends: KnownEnds,
+    /// Gravity in the sensor's axes, where it is given.
+    pub gravity: Option<MotionGravity>,
+}
+
+impl MotionPlan {
+    /// The command of this motion.
+    #[must_use]
+    pub fn command(&self, motion: JerkControlledMotion) -> CommandedMotion {
+        CommandedMotion { motion, trust: self.trust, known_ends: self.known_ends, gravity: self.gravity }
+    }
+
+    /// The range of a sensor, less what gravity takes of it.
+    #[must_use]
+    pub fn range_left(&self, sensor: &Sensor) -> Option<Vector3<f64>> {
+        let range = sensor.range_mps2?;
+        Some(self.gravity.map_or(range, |gravity| gravity.range_left(&range)))
+    }
 }
 
 /// Reads `[motion]`.
-pub(super) fn read(section: &Section<'_>) -> Result<MotionPlan> {
+pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<MotionPlan> {
     let (intervals, interval_s, rate_hz) = read_grid(section, None)?;
     let (trust, known_ends) = read_trust(section)?;
-    Ok(MotionPlan { intervals, interval_s, rate_hz, trust, known_ends })
+    let gravity = motion_gravity::read(section, sensor)?;
+    Ok(MotionPlan { intervals, interval_s, rate_hz, trust, known_ends, gravity })
 }
 
 /// Reads intervals, their duration and the sample rate. A section that varies another takes its missing keys

@@ -4,62 +4,120 @@ use super::holds::HoldsPlan;
 use super::{Experiment, Plan};
 use crate::EarlierCalibration;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{ParameterList, SensorParameters};
-use calibrant_design::poses::{DirectionKnowledge, PoseProblem};
+use calibrant_design::poses::{DirectionKnowledge, PoseNuisance, PoseProblem};
 use nalgebra::Vector3;
 
 impl Experiment {
-    /// The parameters that a calibration from poses estimates: those of the gauge, or all where the directions
-    /// of the holds are known.
-    #[must_use]
-    pub fn pose_parameters(&self, plan: &HoldsPlan) -> ParameterList {
-        if self.design.poses.known {
-            self.sensor.parameter_list()
-        } else {
-            plan.gauge.parameter_list(self.sensor.model)
-        }
-    }
-
     /// The problem of the best poses of a `[holds]` experiment, with the information of earlier calibrations,
     /// which adds up. `poses`: their number in place of `holds.poses`.
     ///
-    /// The mean of a hold has the variance of its white noise, and that between holds.
+    /// The mean of a hold has the variance of its white noise and that between holds. The latter is that of
+    /// `[holds]`, or of an earlier calibration where that is larger.
     ///
     /// # Errors
     /// [`Error::Experiment`] without `[holds]`, with no noise at all, or as
     /// [`design_problem`](Self::design_problem).
     pub fn pose_problem(&self, earlier: &[EarlierCalibration], poses: Option<usize>) -> Result<PoseProblem> {
-        let Plan::Holds(plan) = &self.plan else {
-            let message = format!("poses need a [holds] experiment, this one has {}", self.plan.section());
-            let help = "see `calibrant init static-poses`";
-            return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
-        };
-        let list = self.pose_parameters(plan);
+        let plan = self.holds()?;
+        let list = self.pose_parameters(plan, self.design.poses.known);
         let (at, prior) = self.known_before(&list, earlier)?;
-        let sd_rad = plan.face_sd_rad.unwrap_or(0.0);
-        Ok(PoseProblem {
+        let between = earlier.iter().filter_map(|earlier| earlier.between_holds_sd_mps2);
+        let between = between.fold(plan.between_holds_sd_mps2, f64::max);
+        let directions = if self.design.poses.known {
+            DirectionKnowledge::Known { sd_rad: plan.face_sd_rad.unwrap_or(0.0) }
+        } else {
+            DirectionKnowledge::Unknown
+        };
+        let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
-            mean_sd: self.mean_sd(plan, &at)?,
+            mean_sd: self.mean_sd(plan, &at, between)?,
+            nuisance: self.nuisance(plan, &at, self.design.poses.known),
             list,
             at,
             gravity_mps2: plan.gravity.magnitude_mps2,
-            directions: if self.design.poses.known {
-                DirectionKnowledge::Known { sd_rad }
-            } else {
-                DirectionKnowledge::Unknown
-            },
+            directions,
             allowed: self.design.poses.allowed.clone(),
             prior,
             poses: poses.unwrap_or(plan.poses),
-        })
+        };
+        // earlier calibrations assumed the same gravity, so its error does not average out
+        Ok(if earlier.is_empty() { problem } else { problem.with_gravity_out_of_prior() })
+    }
+
+    /// The problem whose poses are the holds that this calibration used, and their directions in order of time:
+    /// with what it found of the sensor, of its noise and of the face alignment.
+    ///
+    /// # Errors
+    /// As [`pose_problem`](Self::pose_problem).
+    pub fn recorded_poses(&self, calibration: &Calibration) -> Result<(PoseProblem, Vec<Vector3<f64>>)> {
+        let plan = self.holds()?;
+        let Some(holds) = calibration.holds() else { return Err(self.without_holds()) };
+        let directions: Vec<Vector3<f64>> = holds.used().map(|hold| hold.force_mps2.normalize()).collect();
+        let at = calibration.imu.accelerometer;
+        let count = directions.len().max(1) as f64;
+        let white: Vector3<f64> = holds
+            .used()
+            .map(|result| result.hold.sd.component_mul(&result.hold.sd) / result.hold.samples() as f64)
+            .sum();
+        let mean_sd = Vector3::from_fn(|axis, _| {
+            let between = holds.between_holds_sd_mps2 * at.matrix.row(axis).norm();
+            (white[axis] / count).sqrt().hypot(between)
+        });
+        let known = holds.tilt.map(|tilt| DirectionKnowledge::Known { sd_rad: tilt.sd_rad });
+        let list = self.pose_parameters(plan, known.is_some());
+        let problem = PoseProblem {
+            criterion: self.criterion(&list, &at)?,
+            mean_sd,
+            nuisance: self.nuisance(plan, &at, known.is_some()),
+            list,
+            at,
+            gravity_mps2: plan.gravity.magnitude_mps2,
+            directions: known.unwrap_or(DirectionKnowledge::Unknown),
+            allowed: self.design.poses.allowed.clone(),
+            prior: None,
+            poses: directions.len(),
+        };
+        Ok((problem, directions))
+    }
+
+    fn holds(&self) -> Result<&HoldsPlan> {
+        match &self.plan {
+            Plan::Holds(plan) => Ok(plan),
+            _ => Err(self.without_holds()),
+        }
+    }
+
+    fn without_holds(&self) -> Error {
+        let message = format!("poses need a [holds] experiment, this one has {}", self.plan.section());
+        let help = "see `calibrant init static-poses`";
+        Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help))
+    }
+
+    /// The parameters that a calibration from poses estimates: those of the gauge, or all where the directions
+    /// of the holds are known.
+    fn pose_parameters(&self, plan: &HoldsPlan, known: bool) -> ParameterList {
+        if known { self.sensor.parameter_list() } else { plan.gauge.parameter_list(self.sensor.model) }
+    }
+
+    /// A calibration of an accelerometer alone in known directions allows for no drift.
+    fn nuisance(&self, plan: &HoldsPlan, at: &SensorParameters, known: bool) -> PoseNuisance {
+        let has_drift = !known || self.imu.is_some();
+        let gain = |axis: usize| if has_drift { at.matrix.row(axis).norm() } else { 0.0 };
+        PoseNuisance {
+            gravity_sd_mps2: plan.gravity.sd_mps2,
+            drift_sd: Vector3::from_fn(|axis, _| plan.bias_drift_sd_mps2 * gain(axis)),
+            has_gyroscope: self.imu.is_some(),
+        }
     }
 
     /// Standard deviation of the mean reading of a hold.
-    fn mean_sd(&self, plan: &HoldsPlan, at: &SensorParameters) -> Result<Vector3<f64>> {
+    fn mean_sd(&self, plan: &HoldsPlan, at: &SensorParameters, between_mps2: f64) -> Result<Vector3<f64>> {
         let gain = at.matrix.diagonal();
         let samples = (plan.hold_s * plan.rate_hz).max(1.0);
         let white = self.sensor.noise(&gain).unwrap_or_else(Vector3::zeros) / samples.sqrt();
-        let sd = white.zip_map(&gain, |white, gain| white.hypot(plan.between_holds_sd_mps2 * gain));
+        let sd = white.zip_map(&gain, |white, gain| white.hypot(between_mps2 * gain));
         if sd.amin() > 0.0 {
             return Ok(sd);
         }

@@ -99,6 +99,7 @@ impl Experiment {
             rate_hz: plan.rate_hz,
             trust: plan.trust,
             known_ends: plan.known_ends,
+            gravity: plan.gravity,
             limits: &self.limits,
             criterion: self.criterion(&list, &at)?,
             at,

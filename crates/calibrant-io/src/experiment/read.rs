@@ -215,7 +215,7 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
     match (motion, holds, machine) {
         (Some(section), None, None) => {
             need_noise(root, sensor)?;
-            Ok(Plan::Motion(motion::read(&section)?))
+            Ok(Plan::Motion(motion::read(&section, sensor)?))
         }
         (None, Some(section), None) => {
             need_three_axes(&section, "[holds]", sensor)?;

@@ -122,7 +122,7 @@ fn read_unknown(
     let (trust, known_ends) = (Trust::Unknown, KnownEnds::Both);
     Ok(UnknownVariant {
         sensors: section.get("sensors").map_or(Ok(sensors), |entry| entry.size(1, MOST_SENSORS))?,
-        plan: MotionPlan { intervals, interval_s, rate_hz, trust, known_ends },
+        plan: MotionPlan { intervals, interval_s, rate_hz, trust, known_ends, gravity: base.gravity },
         detail_rate_hz,
         limits: limits::read_instead(section, axes)?,
     })

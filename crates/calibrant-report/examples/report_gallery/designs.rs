@@ -34,6 +34,7 @@ pub(crate) fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits) -> DesignProbl
         rate_hz: 10.0,
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
+        gravity: None,
         limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(parameters, 1.0) }),
         prior: None,
@@ -100,6 +101,8 @@ pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         initial,
         limits,
+        floor: 0.0,
+        floor_sd: Vec::new(),
     }
 }
 

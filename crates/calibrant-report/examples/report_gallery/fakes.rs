@@ -132,6 +132,7 @@ fn calibrated(
             motion,
             acceleration_sd_mps2,
             trust: "unknown",
+            gravity: None,
             residuals,
             first_sample: 0,
         }),

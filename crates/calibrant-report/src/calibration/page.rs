@@ -7,6 +7,7 @@ use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::motion::{motion_section, residual_section};
 use super::parameters::parameter_table;
+use super::quality::nuisances_in_words;
 use super::rotations::{rotation_summary, rotation_table, turn_table};
 use super::temperature::temperature_in_words;
 use super::verdict::verdict;
@@ -76,6 +77,9 @@ fn parameters(calibration: &Calibration, about: &About) -> Page {
     for &sensor_kind in calibration.sensor_kinds() {
         page.subsection(capitalised(sensor_kind));
         page.push(parameter_table(calibration, sensor_kind, about.truth.as_ref()));
+    }
+    for line in nuisances_in_words(calibration).iter().filter(|_| calibration.holds().is_none()) {
+        page.push(format!("<p>{}.</p>", escape(&crate::words::capitalised(line))));
     }
     if let Some(line) = temperature_in_words(calibration) {
         page.push(format!("<p>{}</p>", escape(&line)));

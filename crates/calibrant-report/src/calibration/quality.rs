@@ -1,7 +1,7 @@
 //! The data and the quality of a calibration, in words.
 
 use crate::number_format;
-use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, TimeOffset};
+use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, RecoveredMotion, TimeOffset};
 use calibrant_core::sensor::SensorKind;
 
 /// Below this, a probability counts as evidence against the model.
@@ -92,7 +92,26 @@ pub fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
             unknown.parameter.name()
         )
     });
-    offset.into_iter().chain(drift).chain(latitude).collect()
+    offset.into_iter().chain(drift).chain(latitude).chain(tilt(calibration)).collect()
+}
+
+/// The tilt of the sensor against gravity beside a commanded motion.
+fn tilt(calibration: &Calibration) -> Option<String> {
+    let Recovered::Motion(RecoveredMotion { gravity: Some(recovered), .. }) = &calibration.recovered else {
+        return None;
+    };
+    let force = recovered.gravity.force_mps2.map(|f| number_format::significant(f, 6));
+    let given =
+        format!("gravity of ({}, {}, {}) m/s² was taken out of the readings", force.x, force.y, force.z);
+    let tilts = recovered.tilts();
+    if tilts.is_empty() {
+        return Some(format!("{given}; its direction counts as exact"));
+    }
+    let degrees = |(name, value, sd): &(String, f64, f64)| {
+        format!("{name} {}°", number_format::with_sd(value.to_degrees(), sd.to_degrees()))
+    };
+    let all: Vec<String> = tilts.iter().map(degrees).collect();
+    Some(format!("{given}; the sensor's tilt against it is {}, which the biases carry", all.join(", ")))
 }
 
 /// The drift of the accelerometer's bias about each axis with its standard deviation, and its unit.

@@ -92,13 +92,17 @@ pub(crate) fn above(excess: f64) -> String {
 /// The criterion's value for both motions, and its bound.
 pub(crate) fn criterion_table(design: &Design) -> String {
     let nats = matches!(design.criterion, Criterion::D(_));
-    let shown = |value: f64| Cell::Number(number_format::significant(value, 6));
+    let shown = |value: f64| Cell::Number(number_format::significant(value - design.floor, 6));
     let mut table = Table::new("", &["criterion", "value", "meaning"]);
     let mut row = |name: &str, value: Cell, meaning: String| {
         table.row(vec![Cell::Name(name.to_string()), value, Cell::Words(meaning)]);
     };
+    if design.floor > 0.0 {
+        let meaning = "No motion changes it, and the values below are above it.".to_string();
+        row("share of the tilt", Cell::Number(number_format::significant(design.floor, 4)), meaning);
+    }
     row("initial motion", shown(design.initial.value), String::new());
-    let better = design.criterion.gap(design.initial.value, design.optimal.value);
+    let better = design.gap(design.initial.value, design.optimal.value);
     let meaning = match better {
         _ if !better.is_finite() => String::new(),
         _ if nats => format!("{} nats below the initial motion.", number_format::significant(better, 3)),

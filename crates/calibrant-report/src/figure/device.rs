@@ -14,8 +14,14 @@ const AXIS: f64 = 1.7;
 const SEEN_FROM: (f64, f64) = (-62.0, 24.0);
 /// Pixels for a unit.
 const SCALE: f64 = 34.0;
+/// Colours of the axes.
+const COLOURS: [&str; 3] = [colour::VERMILLION, colour::GREEN, colour::BLUE];
 /// Fill of the faces across x, y and z.
 const FACES: [&str; 3] = ["#d8dee4", "#eaeef2", "#f6f8fa"];
+
+/// The vertical of the room, at the side.
+const UP: &str = "<path d=\"M-61 62V38\" stroke=\"#6e7781\" stroke-width=\"2.4\"/><path d=\"M-61 32L-57.5 40H-64.5Z\" fill=\"#6e7781\"/>\
+                  <text x=\"-61\" y=\"27\" font-size=\"11\" text-anchor=\"middle\" fill=\"#6e7781\">up</text>";
 
 /// The device as SVG. `room_from_sensor`: its axes in the room, whose third axis is up; `words`: the same in words.
 pub(crate) fn device(room_from_sensor: Matrix3<f64>, words: &str) -> String {
@@ -29,7 +35,9 @@ pub(crate) fn device(room_from_sensor: Matrix3<f64>, words: &str) -> String {
     behind.iter().for_each(|&axis| svg.push_str(&view.axis(axis)));
     svg.push_str(&view.faces());
     before.iter().for_each(|&axis| svg.push_str(&view.axis(axis)));
-    svg + "</svg>"
+    // names last: no face hides them
+    (0..3).for_each(|axis| svg.push_str(&view.name(axis)));
+    svg + UP + "</svg>"
 }
 
 /// The sensor's axes as seen: to the right, up and towards the eye.
@@ -76,16 +84,27 @@ impl View {
         svg
     }
 
-    /// The positive half of an axis, from the face to its end, with its name.
+    /// The name of an axis at its end, with a rim that lifts it off what lies behind.
+    fn name(&self, axis: usize) -> String {
+        let (x, y) = self.at(&(Vector3::ith(axis, 1.0) * AXIS));
+        let length = x.hypot(y).max(1e-9);
+        let (x, y) = (x + 9.0 * x / length, y + 9.0 * y / length + 4.0);
+        format!(
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"13\" font-weight=\"700\" text-anchor=\"middle\" fill=\"{}\" stroke=\"#ffffff\" \
+             stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
+            COLOURS[axis],
+            ["x", "y", "z"][axis]
+        )
+    }
+
+    /// The positive half of an axis, from the face to its end.
     fn axis(&self, axis: usize) -> String {
-        let colours = [colour::VERMILLION, colour::GREEN, colour::BLUE];
         let unit: Vector3<f64> = Vector3::ith(axis, 1.0);
         let (x0, y0) = self.at(&(unit * HALF[axis]));
         let (x1, y1) = self.at(&(unit * AXIS));
         let length = (x1 - x0).hypot(y1 - y0).max(1e-9);
         let (dx, dy) = ((x1 - x0) / length, (y1 - y0) / length);
-        let (lx, ly) = (x1 + 9.0 * dx, y1 + 9.0 * dy + 4.0);
-        let (colour, name) = (colours[axis], ["x", "y", "z"][axis]);
+        let colour = COLOURS[axis];
         // an axis that points at the eye is a dot
         let head = if length < 6.0 {
             String::new()
@@ -100,8 +119,7 @@ impl View {
             )
         };
         format!(
-            "<path d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}\" stroke=\"{colour}\" stroke-width=\"2.4\"/>{head}\
-             <text x=\"{lx:.1}\" y=\"{ly:.1}\" font-size=\"12\" font-weight=\"700\" text-anchor=\"middle\" fill=\"{colour}\">{name}</text>"
+            "<path d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}\" stroke=\"{colour}\" stroke-width=\"2.4\"/>{head}"
         )
     }
 }

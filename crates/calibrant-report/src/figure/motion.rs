@@ -27,7 +27,13 @@ pub(crate) fn acceleration_figure(
         0 => recording.len(),
         used => (first + used).min(recording.len()),
     };
-    let readings_label = if counts { "readings, corrected" } else { "readings" };
+    let gravity = recovered.gravity.map_or_else(Vector3::zeros, |gravity| gravity.force_mps2());
+    let readings_label = match (counts, recovered.gravity) {
+        (true, None) => "readings, corrected",
+        (false, None) => "readings",
+        (true, Some(_)) => "readings, corrected, less gravity",
+        (false, Some(_)) => "readings, less gravity",
+    };
     let panels = panels_by_axis(recording, "acceleration (m/s²)", |axis, panel| {
         let dots = if counts && correction.is_none() {
             Vec::new()
@@ -35,7 +41,7 @@ pub(crate) fn acceleration_figure(
             (first..end)
                 .map(|k| {
                     let reading = &recording.readings[k];
-                    let value = correction.as_ref().map_or(*reading, |c| c.apply(reading));
+                    let value = correction.as_ref().map_or(*reading, |c| c.apply(reading)) - gravity;
                     (recording.times_s[k], value[axis.index()])
                 })
                 .collect()

@@ -82,4 +82,36 @@ mod tests {
         assert_eq!(say(0.0, 0.6, 0.8), "z up, then turned 36.9° about x");
         assert_eq!(say(0.6, 0.0, 0.8), "z up, then turned −36.9° about y");
     }
+
+    /// A hand that follows the words: it turns the device about its own axes, and looks what is up.
+    fn followed(words: &str) -> Vector3<f64> {
+        let axis =
+            |name: &str| Vector3::ith(["x", "y", "z"].iter().position(|n| *n == name).expect("an axis"), 1.0);
+        let mut steps = words.split(", then ");
+        let (name, way) = steps.next().and_then(|base| base.split_once(' ')).expect("a base");
+        let mut up: Vector3<f64> = axis(name) * if way == "up" { 1.0 } else { -1.0 };
+        for step in steps {
+            let (angle, name) = step.trim_start_matches("turned ").split_once("° about ").expect("a turn");
+            let angle: f64 = angle.replace('−', "-").parse().expect("a number");
+            // what stands still in the room turns back in the device
+            let turn =
+                Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis(name)), -angle.to_radians());
+            up = turn * up;
+        }
+        up
+    }
+
+    #[test]
+    fn a_hand_that_follows_the_words_gets_the_pose() {
+        for number in 0..500_u32 {
+            let part = |k: u32| (f64::from(number * 3 + k) * 12.9898).sin();
+            let u = Vector3::new(part(0), part(1), part(2)).normalize();
+            let found = followed(&pose_in_words(&u));
+            // angles are rounded to 0.1°, each of two turns
+            assert!(found.angle(&u).to_degrees() < 0.08, "{u} {} {found}", pose_in_words(&u));
+        }
+        for u in [Vector3::x(), -Vector3::y(), -Vector3::z()] {
+            assert_eq!(followed(&pose_in_words(&u)), u);
+        }
+    }
 }

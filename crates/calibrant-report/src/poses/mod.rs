@@ -21,43 +21,41 @@ const WORTH_CHANGING: f64 = 0.7;
 
 /// The best poses as one HTML file that can be printed and ticked off. Self-contained.
 #[must_use]
-pub fn pose_report(
-    design: &PoseDesign,
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-    has_gyroscope: bool,
-    about: &About,
-) -> String {
+pub fn pose_report(design: &PoseDesign, problem: &PoseProblem, unit: ReadingUnit, about: &About) -> String {
     let mut page = begin(about);
     let efficiency = design.efficiency(&problem.criterion);
-    let (word, rest) = if efficiency >= AS_GOOD_AS_ANY {
-        ("✓ Proved optimal.", String::new())
-    } else {
-        (
-            "✓ Found.",
-            " More is not ruled out by the bound, which holds for fractions of poses too.".to_owned(),
-        )
-    };
-    let sentence = format!(
-        "{} have at least {} of the information that any {} allowed poses can have.{rest}",
-        number_format::counted(design.directions.len(), "pose"),
-        number_format::percent(efficiency),
-        design.directions.len()
-    );
+    let word = if efficiency >= AS_GOOD_AS_ANY { "✓ As good as any." } else { "✓ Found." };
+    let sentence = design_in_words(design, efficiency);
     page.push(verdict_box("good", word, &sentence, &[("Findings", about.findings.clone())]));
     page.section(
         "The poses",
         "Hold the device still in each pose, in this order. The room is drawn with its vertical upwards. Turns are right-handed, about \
          the device's own axes as they lie then.",
     );
-    page.paragraph(if has_gyroscope {
-        "The order is chosen so that the turns between the poses determine the gyroscope. Turn from one pose to the next by the shortest way."
+    page.paragraph(if problem.nuisance.has_gyroscope {
+        "The order is chosen so that the turns between the poses determine the gyroscope, and a drift of the biases looks least like a \
+         parameter. Turn from each pose to the next by the shortest way, and without a pause on it."
     } else {
-        "The order needs little turning."
+        "In this order a drift of the biases looks least like a parameter, and little turning is needed."
     });
     page.push(checklist(&design.directions));
     results(&mut page, (&design.directions, &design.sd(), &design.bound), problem, unit);
     page.finish(&about.title, &about.footer())
+}
+
+/// The efficiency of designed poses in a sentence.
+#[must_use]
+pub fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
+    let poses = design.directions.len();
+    let (have, any) = if poses == 1 {
+        ("The pose has".to_owned(), "any allowed pose".to_owned())
+    } else {
+        (format!("The {poses} poses have"), format!("any {poses} allowed poses"))
+    };
+    format!(
+        "{have} at least {} % of the information that {any} can have.",
+        significant(100.0 * efficiency, 4)
+    )
 }
 
 /// The evaluation of holds as one HTML file: how efficient they were. `directions`: that of each hold.
@@ -87,15 +85,15 @@ pub fn evaluation_in_words(evaluation: &PoseEvaluation, holds: usize) -> String 
     let efficiency = evaluation.efficiency;
     let more = if efficiency < AS_GOOD_AS_ANY {
         format!(
-            " {} recordings in these poses give as much information as one in the best.",
+            " {} recordings in these directions tell as much as one in the best.",
             significant(1.0 / efficiency, 3)
         )
     } else {
         String::new()
     };
     format!(
-        "The {holds} holds are {} efficient against the best approximate design of {holds} poses.{more}",
-        number_format::percent(efficiency)
+        "Efficiency {} %: the {holds} holds have at least this share of the information that any {holds} directions can have.{more}",
+        significant(100.0 * efficiency, 3)
     )
 }
 
@@ -137,7 +135,8 @@ fn results(
 ) {
     page.section(
         "Predicted standard deviations",
-        "Standard deviations that a calibration from these poses will state, if the noise is as assumed.",
+        "Standard deviations that a calibration from these poses will state, if the noise is as assumed. They include the uncertainty of \
+         gravity, and of a drift of the biases while the poses are taken in this order.",
     );
     page.push(predicted(problem, sd, unit));
     let criterion = &problem.criterion;
@@ -152,21 +151,27 @@ fn results(
     page.subsection("The lower bound");
     page.paragraph(
         "The bound is that of the approximate design, in which any share of the recording may be spent in each direction. By the \
-         equivalence theorem of Kiefer and Wolfowitz no set of poses can be better. The bound is 0.07 % low, because the \
-         directions are examined on a grid.",
+         equivalence theorem of Kiefer and Wolfowitz no set of poses can be better. Where directions are not a list, they are examined on \
+         a grid, and the bound is 0.07 % low.",
     );
 }
 
 fn predicted(problem: &PoseProblem, sd: &DVector<f64>, reading: ReadingUnit) -> String {
-    let mut table = Table::new("", &["parameter", "unit", "predicted sd"]);
-    for (quantity, sd) in problem.list.quantities().iter().zip(sd.iter()) {
+    let before = problem.covariance_before();
+    let header: &[&str] = if before.is_some() {
+        &["parameter", "unit", "sd before", "sd then"]
+    } else {
+        &["parameter", "unit", "predicted sd"]
+    };
+    let mut table = Table::new("", header);
+    for (k, (quantity, sd)) in problem.list.quantities().iter().zip(sd.iter()).enumerate() {
         let unit = DisplayUnit::suited_to(quantity.unit(reading), [*sd]);
         let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
-        table.row(vec![
-            Cell::Name(quantity.name()),
-            Cell::Text(symbol.into()),
-            Cell::Number(significant(sd * unit.factor, 4)),
-        ]);
+        let number = |sd: f64| Cell::Number(significant(sd * unit.factor, 4));
+        let mut row = vec![Cell::Name(quantity.name()), Cell::Text(symbol.into())];
+        row.extend(before.as_ref().map(|before| number(before[(k, k)].sqrt())));
+        row.push(number(*sd));
+        table.row(row);
     }
     table.html()
 }

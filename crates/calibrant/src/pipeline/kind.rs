@@ -90,5 +90,5 @@ fn commanded(
             plan.intervals
         )));
     }
-    Ok(CommandedMotion { motion, trust: plan.trust, known_ends: plan.known_ends })
+    Ok(plan.command(motion))
 }

@@ -71,6 +71,7 @@ fn problem<'a>(
         rate_hz: 10.0,
         trust,
         known_ends: KnownEnds::Start,
+        gravity: None,
         limits,
         criterion,
         prior: None,

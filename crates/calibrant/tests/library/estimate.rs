@@ -147,8 +147,12 @@ fn an_increment_without_noise_is_a_constraint() {
                 &times,
                 &mut rng,
             );
-            let command =
-                CommandedMotion { motion: motion.clone(), trust: Trust::Noisy(noise), known_ends: ends };
+            let command = CommandedMotion {
+                motion: motion.clone(),
+                trust: Trust::Noisy(noise),
+                known_ends: ends,
+                gravity: None,
+            };
             let problem = CalibrationProblem {
                 sensor: &sensor,
                 recording: &recording,

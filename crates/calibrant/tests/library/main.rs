@@ -2,6 +2,7 @@
 
 mod accelerometer_on_faces;
 mod architecture;
+mod best_poses;
 mod bias_drift;
 mod campaign;
 mod clock_skew;
@@ -14,6 +15,7 @@ mod diagnostics;
 mod earth_rate;
 mod estimate;
 mod files;
+mod gravity;
 mod holds;
 mod imu;
 mod imu_recordings;

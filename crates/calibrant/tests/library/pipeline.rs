@@ -110,7 +110,8 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     let outcome = pipeline.run(&Source::from_file(path("recording.csv"))).expect("calibrated");
     let calibration = outcome.calibration().expect("of sensors");
 
-    let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
+    let command =
+        CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
     let expected = calibrate(&problem, &CalibrationSettings::default()).expect("calibrated");
     assert_eq!(calibration.values, expected.values);

@@ -62,7 +62,7 @@ fn study(
 fn study_of(model: SensorModel, trust: Trust, motion: JerkControlledMotion, rate_hz: f64) -> Study {
     let sensor = Sensor { model, cross_axis_sd: Some(0.005), ..Sensor::memsic_mxd2020u() };
     let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
-    let command = CommandedMotion { motion, trust, known_ends };
+    let command = CommandedMotion { motion, trust, known_ends, gravity: None };
     let problem = StudyProblem { sensor: &sensor, command: &command, rate_hz, sensors: SENSORS };
     run_study(&problem, &StudySettings { seed: 20, ..StudySettings::default() }, &|_| ())
         .expect("identifiable")
@@ -133,6 +133,7 @@ fn optimal_motion(trust: Trust, bound: f64) -> JerkControlledMotion {
         rate_hz: 10.0,
         trust,
         known_ends: KnownEnds::Start,
+        gravity: None,
         limits: &limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(6, 1.0) }),
         prior: None,

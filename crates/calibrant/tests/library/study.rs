@@ -31,6 +31,7 @@ fn problem(sensor: &Sensor, trust: Trust, bound: f64, sensors: usize) -> DesignS
         rate_hz: 10.0,
         trust,
         known_ends: KnownEnds::Start,
+        gravity: None,
         limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(6, 1.0) }),
         initial: None,

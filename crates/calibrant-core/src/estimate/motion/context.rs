@@ -6,6 +6,7 @@ use super::sample_pairs::PairSums;
 use super::{CalibrationProblem, CalibrationSettings, CommandedMotion, Trust, Vector3};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::KnownEnds;
+use crate::sensor::Quantity;
 use nalgebra::SVector;
 
 /// The data that all chains of a problem share.
@@ -159,10 +160,17 @@ impl<'a> Context<'a> {
             return None;
         }
         let sensor = self.problem.sensor;
-        let parameters = sensor.parameter_list().describe(sensor, &sensor.nominal()?);
+        let list = sensor.parameter_list();
+        let parameters = list.describe(sensor, &sensor.nominal()?);
+        // with gravity the place of a bias is that of the reading at rest, of which the datasheet says nothing
+        let is_hidden = |slot: usize| {
+            self.command.gravity.is_some() && matches!(list.quantities()[slot], Quantity::Bias(_))
+        };
         let mean = SVector::from_fn(|k, _| parameters[slots[k]].nominal.unwrap_or(0.0));
-        let weight =
-            SVector::from_fn(|k, _| parameters[slots[k]].spread.map_or(0.0, |spread| spread.powi(-2)));
+        let weight = SVector::from_fn(|k, _| match parameters[slots[k]].spread {
+            Some(spread) if !is_hidden(slots[k]) => spread.powi(-2),
+            _ => 0.0,
+        });
         Some((mean, weight))
     }
 

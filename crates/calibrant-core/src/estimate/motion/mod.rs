@@ -1,11 +1,14 @@
 //! Calibration from a commanded motion: the chain problem for each axis (scale-bias) or for all at once (full).
 //!
 //! With a diagonal `S` the axes are independent, and the scale-bias model is three chains of scalars. The full model is one chain of 3×3
-//! blocks. The result is assembled from [`Solved`] chains.
+//! blocks. The result is assembled from [`Solved`] chains. Where gravity is given, the chains solve for the reading at rest, from which [`gravity`]
+//! makes biases.
 
 mod chain;
 mod context;
+mod contradicted_gravity;
 mod fit;
+mod gravity;
 mod interval_moments;
 mod sample_pairs;
 mod undetermined;
@@ -13,7 +16,7 @@ mod verdict;
 
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
-    RecoveredMotion, statistics,
+    RecoveredGravity, RecoveredMotion, statistics,
 };
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::information::chain_model::FULL_SLOTS;
@@ -31,14 +34,15 @@ pub(super) fn calibrate(
 ) -> Result<Calibration> {
     let (first, end) = samples_within(problem, &command.motion)?;
     let context = Context::new(problem, command, settings, first, end)?;
-    let solved = match problem.sensor.model {
+    let mut solved = match problem.sensor.model {
         SensorModel::ScaleBias => solve_axes(&context)?,
         SensorModel::Full => {
             let whole = solve::<3, 12>(&context, [0, 1, 2], FULL_SLOTS).map_err(not_identifiable)?;
             Solved::merge(vec![whole])
         }
     };
-    assemble(&context, solved, first)
+    let gravity = command.gravity.map(|gravity| gravity::take_out(&context, &gravity, &mut solved));
+    assemble(&context, solved, gravity, first)
 }
 
 /// The range of samples within the motion. Samples outside are not used, with a warning ([`verdict`]).
@@ -81,7 +85,12 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
 }
 
 /// Assembles the result: residuals, statistics, warnings.
-fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Result<Calibration> {
+fn assemble(
+    context: &Context<'_>,
+    solved: Solved,
+    gravity: Option<RecoveredGravity>,
+    first_sample: usize,
+) -> Result<Calibration> {
     let problem = context.problem;
     let list = problem.sensor.parameter_list();
     // axes that the sensor does not have count as perfect
@@ -99,7 +108,8 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
                 "check the recording's unit",
             ))
         })?;
-    let fitted: Vec<_> = motion.acceleration_mps2().iter().map(|a| sensor.reading(a)).collect();
+    let at_rest = gravity.map_or_else(Vector3::zeros, |gravity| gravity.force_mps2());
+    let fitted: Vec<_> = motion.acceleration_mps2().iter().map(|a| sensor.reading(&(a + at_rest))).collect();
     let mut residuals = Vec::with_capacity(context.readings.len());
     for i in 0..context.positions.intervals() {
         let samples = context.positions.interval_samples(i);
@@ -154,6 +164,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
             motion,
             acceleration_sd_mps2: solved.node_sd,
             trust: context.command.trust.name(),
+            gravity,
             residuals,
             first_sample,
         }),
@@ -162,6 +173,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         warnings: Vec::new(),
     };
     verdict::respond(context, &calibration)?;
+    contradicted_gravity::check(context, &calibration)?;
     calibration.warnings = verdict::warnings(context, &calibration, &bias);
     Ok(calibration)
 }

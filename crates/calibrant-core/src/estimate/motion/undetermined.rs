@@ -4,7 +4,7 @@ use super::Axis;
 use super::context::Context;
 use crate::arrowhead;
 use crate::error::UndeterminedGroup;
-use crate::information::{MotionFacts, Undetermined, explain as explain_motion};
+use crate::information::{MotionFacts, Undetermined, explain as explain_motion, with_biases};
 
 pub(super) use crate::information::View;
 
@@ -21,7 +21,9 @@ pub(super) fn explain(
         samples: context.positions.samples(),
         view,
     };
-    explain_motion(&context.problem.sensor.parameter_list(), groups, slots, facts)
+    let list = context.problem.sensor.parameter_list();
+    let groups = with_biases(groups, &list, slots, context.command.gravity.as_ref());
+    explain_motion(&list, &groups, slots, facts)
 }
 
 /// The part of the motion that the samples do not determine, in words.

@@ -50,7 +50,12 @@ impl Case {
         let noise = sensor.noise_mps2.expect("given");
         let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &happened, &times, &mut rng);
         let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
-        Self { sensor, truth, command: CommandedMotion { motion, trust, known_ends }, recording }
+        Self {
+            sensor,
+            truth,
+            command: CommandedMotion { motion, trust, known_ends, gravity: None },
+            recording,
+        }
     }
 
     pub(crate) fn with_trust(&self, trust: Trust, known_ends: KnownEnds) -> Self {

@@ -60,6 +60,7 @@ fn the_report_preset_is_the_report() {
         rate_hz: 10.0,
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
+        gravity: None,
     };
     assert_eq!(*motion(&experiment), expected);
     let bounds = |bound: f64| Limits {
@@ -81,6 +82,7 @@ fn the_report_preset_is_the_report() {
         rate_hz: 2.0,
         trust: Trust::Unknown,
         known_ends: KnownEnds::Both,
+        gravity: None,
     };
     assert_eq!(unknown.plan, expected);
     let noise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };

@@ -160,6 +160,7 @@ pub(super) fn uniaxial() -> Calibration {
         motion,
         acceleration_sd_mps2: vec![Vector3::zeros(); 2],
         trust: "known",
+        gravity: None,
         residuals: Vec::new(),
         first_sample: 0,
     };

@@ -125,8 +125,12 @@ fn a_gantry_that_is_trusted_gives_the_estimate_of_the_report() {
     let gantry = Gantry::new();
     let sensor =
         Sensor { noise_mps2: Some(Vector3::repeat(gantry.noise)), ..Sensor::triaxial(SensorModel::Full) };
-    let command =
-        CommandedMotion { motion: gantry.motion.clone(), trust: Trust::Known, known_ends: KnownEnds::Start };
+    let command = CommandedMotion {
+        motion: gantry.motion.clone(),
+        trust: Trust::Known,
+        known_ends: KnownEnds::Start,
+        gravity: None,
+    };
     let problem = CalibrationProblem {
         sensor: &sensor,
         recording: &gantry.recording,

@@ -1,4 +1,4 @@
-//! The order of poses, by the turns between them.
+//! The turns between poses, and what they tell of a gyroscope.
 //!
 //! Between two holds the sensor is turned by the shortest way, about the axis `e ∝ u_j × u_i` by the angle θ
 //! between the directions. The gyroscope's readings, integrated from the first hold, predict the direction in
@@ -6,13 +6,10 @@
 //!
 //! `δu = [u_j]ₓ B E e`, `B = ∫₀^θ exp(−[e]ₓ s) ds = θ e eᵀ + sin θ (I − e eᵀ) − (1 − cos θ) [e]ₓ`,
 //!
-//! so the turn has the information `Bᵀ (I − u_j u_jᵀ) B ⊗ e eᵀ` on E, per variance of the prediction. The
-//! order with the smallest `tr (Λ + Σ m_turn)⁻¹` is sought, with a prior Λ of five per cent. For an
-//! accelerometer alone it is the order with the least turning.
-//!
-//! The order is improved by reversals of a part of it (2-opt) as long as one helps.
+//! so the turn has the information `Bᵀ (I − u_j u_jᵀ) B ⊗ e eᵀ` on E, per variance of the prediction. A turn
+//! shows the column of E along its axis alone, so the axes must span the space. A half turn has no axis of its own, and
+//! counts as nothing.
 
-use super::allowed::perpendicular;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// Standard deviation of the error of the gyroscope's matrix before the calibration.
@@ -20,56 +17,15 @@ const PRIOR: f64 = 0.05;
 /// Standard deviation of a predicted direction, rad.
 const PREDICTED: f64 = 1e-3;
 
-/// The directions in the order in which to hold the sensor. `has_gyroscope`: the turns should determine a
-/// gyroscope; otherwise they should be short.
-#[must_use]
-pub fn order_for_turns(directions: &[Vector3<f64>], has_gyroscope: bool) -> Vec<Vector3<f64>> {
-    let cost = |order: &[Vector3<f64>]| {
-        if has_gyroscope { gyroscope_variance(order) } else { turning(order) }
-    };
-    let mut order = nearest_next(directions);
-    let mut least = cost(&order);
-    let mut improved = true;
-    while improved {
-        improved = false;
-        for first in 0..order.len() {
-            for last in first + 1..order.len() {
-                order[first..=last].reverse();
-                let found = cost(&order);
-                if found < least * (1.0 - 1e-9) {
-                    least = found;
-                    improved = true;
-                } else {
-                    order[first..=last].reverse();
-                }
-            }
-        }
-    }
-    order
-}
-
-/// From the direction nearest to z up on, always to the nearest that is left.
-fn nearest_next(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    let mut left = directions.to_vec();
-    let mut here = Vector3::z();
-    let mut order = Vec::new();
-    while !left.is_empty() {
-        let next = (0..left.len()).min_by(|&a, &b| left[a].angle(&here).total_cmp(&left[b].angle(&here)));
-        here = left.remove(next.unwrap_or(0));
-        order.push(here);
-    }
-    order
-}
-
-/// The sum of all turns, rad.
-fn turning(order: &[Vector3<f64>]) -> f64 {
-    // the first pose is that of the sensor on the table
+/// The mean of all turns from z up on, rad.
+pub(super) fn mean_turn(order: &[Vector3<f64>]) -> f64 {
+    // before the first pose the sensor lies on the table
     let begin = order.first().map_or(0.0, |first| first.angle(&Vector3::z()));
-    begin + order.windows(2).map(|pair| pair[0].angle(&pair[1])).sum::<f64>()
+    (begin + order.windows(2).map(|pair| pair[0].angle(&pair[1])).sum::<f64>()) / order.len().max(1) as f64
 }
 
-/// Sum of the variances of the entries of the gyroscope's matrix after these turns.
-fn gyroscope_variance(order: &[Vector3<f64>]) -> f64 {
+/// `tr (Λ + Σ m_turn)⁻¹`: sum of the variances of the entries of the gyroscope's matrix after these turns.
+pub(super) fn gyroscope_variance(order: &[Vector3<f64>]) -> f64 {
     let mut information = SMatrix::<f64, 9, 9>::identity() / (PRIOR * PRIOR);
     for pair in order.windows(2) {
         information += turn_information(&pair[0], &pair[1]) / (PREDICTED * PREDICTED);
@@ -80,7 +36,8 @@ fn gyroscope_variance(order: &[Vector3<f64>]) -> f64 {
 /// The information of a turn on the entries of E, row by row, per variance of the prediction.
 fn turn_information(from: &Vector3<f64>, to: &Vector3<f64>) -> SMatrix<f64, 9, 9> {
     let angle = from.angle(to);
-    let e = to.cross(from).try_normalize(1e-9).unwrap_or_else(|| perpendicular(from));
+    // the hand chooses the axis of a half turn
+    let Some(e) = to.cross(from).try_normalize(1e-9) else { return SMatrix::zeros() };
     let b = accumulated(&e, angle);
     let across = Matrix3::identity() - to * to.transpose();
     let left = b.tr_mul(&(across * b));
@@ -96,6 +53,7 @@ fn accumulated(e: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::poses::Allowed;
     use nalgebra::Rotation3;
 
     /// The prediction with a wrong matrix, by integration in small steps, against the formula.
@@ -116,27 +74,29 @@ mod tests {
         assert!((predicted - to - expected).norm() < 1e-10, "{predicted} {to} {expected}");
     }
 
+    /// A gyroscope that turns about one axis alone shows one column of its matrix.
     #[test]
-    fn turns_about_one_axis_alone_are_worse_for_a_gyroscope() {
+    fn turns_about_one_axis_leave_six_entries_to_the_prior() {
         let flat: Vec<_> = (0..8)
             .map(|k| {
                 let turn = f64::from(k) * std::f64::consts::FRAC_PI_4;
                 Vector3::new(turn.cos(), turn.sin(), 0.0)
             })
             .collect();
-        let cube = [1.0, -1.0].map(|s| [Vector3::x() * s, Vector3::y() * s, Vector3::z() * s]).concat();
-        assert!(gyroscope_variance(&order_for_turns(&cube, true)) < gyroscope_variance(&flat));
+        let prior = PRIOR * PRIOR;
+        assert!(gyroscope_variance(&flat) > 6.0 * prior);
+        let Allowed::Of(cube) = Allowed::cube(true, true) else { panic!("a list") };
+        assert!(gyroscope_variance(&cube) < 0.1 * prior, "{}", gyroscope_variance(&cube) / prior);
     }
 
     #[test]
-    fn the_shortest_order_of_a_circle_goes_round() {
-        let circle: Vec<_> = [0, 4, 1, 6, 3, 7, 2, 5]
+    fn the_mean_turn_of_a_circle_is_its_step() {
+        let circle: Vec<_> = (0..8)
             .map(|k| {
                 let turn = f64::from(k) * std::f64::consts::FRAC_PI_4;
                 Vector3::new(0.0, turn.sin(), turn.cos())
             })
-            .to_vec();
-        let length = turning(&order_for_turns(&circle, false));
-        assert!((length - 7.0 * std::f64::consts::FRAC_PI_4).abs() < 1e-9, "{length}");
+            .collect();
+        assert!((mean_turn(&circle) - 7.0 / 8.0 * std::f64::consts::FRAC_PI_4).abs() < 1e-12);
     }
 }

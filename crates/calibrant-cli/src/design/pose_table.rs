@@ -1,0 +1,85 @@
+//! The tables of a design of poses on the console.
+
+use super::table::{gap, wrapped};
+use crate::console;
+use calibrant::design::poses::{PoseDesign, PoseEvaluation, PoseProblem};
+use calibrant::report::design_in_words;
+use calibrant::report::number_format::{counted, significant};
+use calibrant::sensor::ReadingUnit;
+use nalgebra::DMatrix;
+
+/// Poses, parameters and the efficiency.
+pub(super) fn design(
+    design: &PoseDesign,
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+    words: &[String],
+) -> String {
+    let rows: Vec<_> = design
+        .directions
+        .iter()
+        .zip(words)
+        .enumerate()
+        .map(|(k, (u, words))| {
+            let component = |value: f64| format!("{:.4}", value + 0.0).replace("-0.0000", "0.0000");
+            vec![(k + 1).to_string(), words.clone(), component(u.x), component(u.y), component(u.z)]
+        })
+        .collect();
+    let criterion = &problem.criterion;
+    let sentence = format!(
+        "{} {} of {} ended at this value.",
+        design_in_words(design, design.efficiency(criterion)),
+        design.starts_at_best,
+        counted(design.starts, "start")
+    );
+    format!(
+        "criterion {} ({}{}): {}, at least {} (gap {})\n{}\n{}{}",
+        criterion.letter(),
+        criterion.formula(),
+        criterion.scaling(),
+        significant(design.value, 5),
+        significant(design.bound.value, 5),
+        gap(criterion, criterion.gap(design.value, design.bound.value)),
+        console::table(&["pose", "how", "up x", "up y", "up z"], &rows),
+        parameters(problem, unit, &design.covariance),
+        wrapped(&sentence)
+    )
+}
+
+/// The standard deviations to expect.
+fn parameters(problem: &PoseProblem, unit: ReadingUnit, covariance: &DMatrix<f64>) -> String {
+    let before = problem.covariance_before();
+    let rows: Vec<_> = problem
+        .list
+        .quantities()
+        .iter()
+        .enumerate()
+        .map(|(k, quantity)| {
+            let sd = |covariance: &DMatrix<f64>| significant(covariance[(k, k)].sqrt(), 4);
+            let mut row = vec![quantity.name(), quantity.unit(unit).to_owned()];
+            row.extend(before.as_ref().map(sd));
+            row.push(sd(covariance));
+            row
+        })
+        .collect();
+    let header: &[&str] = if before.is_some() {
+        &["parameter", "unit", "sd before", "sd then"]
+    } else {
+        &["parameter", "unit", "sd"]
+    };
+    console::table(header, &rows)
+}
+
+/// Parameters and criterion of recorded holds.
+pub(super) fn evaluation(evaluation: &PoseEvaluation, problem: &PoseProblem, unit: ReadingUnit) -> String {
+    let criterion = &problem.criterion;
+    format!(
+        "criterion {} ({}{}): {}, at least {}\n{}",
+        criterion.letter(),
+        criterion.formula(),
+        criterion.scaling(),
+        significant(evaluation.value, 5),
+        significant(evaluation.bound.value, 5),
+        parameters(problem, unit, &evaluation.covariance)
+    )
+}
