@@ -134,7 +134,8 @@ pub(crate) fn spinner(what: &str) -> ProgressBar {
 /// A progress bar on stderr. It is invisible if stderr is not a terminal.
 pub(crate) fn progress(length: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(length);
-    let template = format!("{{spinner}} {what} [{{bar:30}}] {{human_pos}}/{{human_len}} {{per_sec}} {{eta}}");
+    let template =
+        format!("{{spinner}} {what} [{{bar:30}}] {{human_pos}}/{{human_len}} {{per_sec}} {{eta}} {{msg}}");
     if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style.progress_chars("=> "));
     }

@@ -17,7 +17,10 @@ impl Design {
             Some(certificate) => self.certified(certificate),
             None => self.uncertified(),
         };
-        let found = format!("{found}{}", self.tilt());
+        let mut found = format!("{found}{}", self.tilt());
+        if let Some(goal) = self.gap_statement() {
+            found = format!("{found} {goal}");
+        }
         match self.status {
             DesignStatus::Converged => found,
             DesignStatus::IterationLimit | DesignStatus::Stalled => {
@@ -27,6 +30,33 @@ impl Design {
                 format!("The search was interrupted: a better motion may be near. {found}")
             }
         }
+    }
+
+    /// The gap that was asked for, and the gap that there is; `None` where none was asked for.
+    #[must_use]
+    pub fn gap_statement(&self) -> Option<String> {
+        let goal = self.gap_goal?;
+        let shown = |gap: f64| match self.criterion {
+            Criterion::D(_) => format!("{} nats", short(gap.max(0.0))),
+            _ if gap < 1.0 => percent(gap),
+            _ => format!("{} %", short(100.0 * gap)),
+        };
+        let starts = format!("{} of {} starts", self.starts.len(), goal.most_starts);
+        Some(match (&self.certificate, self.gap_is_reached()) {
+            (Some(certificate), Some(true)) => format!(
+                "The gap of {} that was asked for is proved: it is {}, reached after {starts}.",
+                shown(goal.gap),
+                shown(certificate.gap)
+            ),
+            (Some(certificate), _) => format!(
+                "The gap of {} that was asked for is NOT reached: it is {} after {starts}. Either a better motion exists, or the bound is loose.",
+                shown(goal.gap),
+                shown(certificate.gap)
+            ),
+            (None, _) => {
+                format!("The gap of {} that was asked for is NOT proved: there is no bound.", shown(goal.gap))
+            }
+        })
     }
 
     /// What the tilt of gravity gives to the biases.

@@ -3,13 +3,14 @@
 //! A third of the starts are random motions and corners of the admissible region; for a full sensor most of
 //! these are the optima of single axes, combined. The others are kicks from the best optima so far. They run
 //! in rounds, so that the result does not depend on the number of threads. They end early once many starts
-//! agree on the best, and where a time is given, after it.
+//! agree on the best, or one is as close to the bound as was asked for, and where a time is given, after it.
 //!
 //! Axes of a scale-bias sensor share nothing, so each has its own design. Axes with the same problem are
 //! designed once, with the starts of all of them. Among equally good motions each axis takes the one most
 //! like its initial motion: optima come in pairs, `a` and `−a`, and often more.
 
 use super::admissible_region::Region;
+use super::certificate::LowerBound;
 use super::part::{Nodes, Part, PartGravity};
 use super::sequential_programming::LocalOptimum;
 use super::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
@@ -36,8 +37,9 @@ struct Search<'a> {
     initial: &'a JerkControlledMotion,
     settings: &'a DesignSettings,
     progress: &'a (dyn Fn(u64) + Sync),
-    /// Number of axes of the sensor.
-    axes: usize,
+    problem: &'a DesignProblem<'a>,
+    /// The lower bound, where the search may end at a gap to it.
+    bound: Option<&'a LowerBound>,
 }
 
 /// Values that differ by less than this, relatively, are equal.
@@ -56,13 +58,14 @@ const AGREEMENT: f64 = 1e-7;
 pub(super) fn search(
     problem: &DesignProblem<'_>,
     settings: &DesignSettings,
+    bound: Option<&LowerBound>,
     limits: &Limits,
     initial: &JerkControlledMotion,
     (inside, slack): (&JerkControlledMotion, f64),
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Found> {
     let setting = problem.setting()?;
-    let search = Search { initial, settings, progress, axes: problem.sensor.axes };
+    let search = Search { initial, settings, progress, problem, bound };
     let mut found = Found {
         nodes: vec![Vector3::zeros(); problem.intervals + 1],
         starts: Vec::new(),
@@ -176,6 +179,25 @@ impl<const D: usize, const P: usize> Part<D, P> {
     }
 }
 
+impl Search<'_> {
+    /// The value at which the gap asked for is reached, of the part with the parameters at these places. Where
+    /// every part reaches its own, the whole does.
+    fn good_enough(&self, places: &[usize]) -> Option<f64> {
+        let (bound, gap) = (self.bound?, self.settings.gap?);
+        if self.problem.gravity.is_some() {
+            // gaps are above a floor that belongs to all parts
+            return None;
+        }
+        let criterion = &self.problem.criterion;
+        let bound = bound.of_part(criterion, places);
+        let size = self.problem.sensor.parameter_list().len();
+        Some(match criterion {
+            Criterion::D(_) => bound + gap * places.len() as f64 / size as f64,
+            _ => bound * (1.0 + gap),
+        })
+    }
+}
+
 impl Found {
     /// Do enough starts end at the best value?
     fn agreed<const D: usize>(outcomes: &[LocalOptimum<D>], best: f64) -> bool {
@@ -192,20 +214,21 @@ impl Found {
         promising: Vec<Nodes<D>>,
         search: &Search<'_>,
     ) {
-        let Search { initial, settings, progress, axes: axes_in_all } = *search;
+        let Search { initial, settings, progress, problem, .. } = *search;
         let own = |axes: &[Axis]| -> Nodes<D> {
             initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
         };
         let first = groups[0][0].index() as u64;
         let count = settings.starts * D * groups.len();
         // axes that are designed one after the other share the time
-        let share = (D * groups.len()) as f64 / axes_in_all as f64;
+        let share = (D * groups.len()) as f64 / problem.sensor.axes as f64;
         let deadline =
             settings.seconds.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds * share));
         let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::new();
         let mut numbers: Vec<usize> = Vec::new();
         let first_ones = count.div_ceil(FIRST);
+        let good_enough = search.good_enough(&part.information.slots);
         while outcomes.len() < count || deadline.is_some() {
             let mut best: Vec<&LocalOptimum<D>> = outcomes.iter().collect();
             best.sort_by(|one, other| one.value.total_cmp(&other.value));
@@ -216,12 +239,21 @@ impl Found {
                 progress(count.saturating_sub(outcomes.len()) as u64);
                 break;
             }
+            if best.first().is_some_and(|best| good_enough.is_some_and(|value| best.value <= value)) {
+                progress(count.saturating_sub(outcomes.len()) as u64);
+                break;
+            }
             if (settings.interruption.is_asked() || late()) && !best.is_empty() {
                 break;
             }
             let optima: Vec<&Nodes<D>> = best.iter().map(|best| &best.nodes).collect();
             let most = if deadline.is_some() { usize::MAX } else { count };
-            let end = if outcomes.len() < first_ones { first_ones } else { most.min(outcomes.len() + ROUND) };
+            // the first ones need no optima, and run at once where nothing is to be decided in between
+            let end = match outcomes.len() {
+                done if done < first_ones && good_enough.is_none() => first_ones,
+                done if done < first_ones => first_ones.min(done + ROUND),
+                done => most.min(done + ROUND),
+            };
             let (done, round): (Vec<_>, Vec<_>) = (outcomes.len()..end)
                 .into_par_iter()
                 .filter_map(|number| {
@@ -240,6 +272,7 @@ impl Found {
                         part.kicked(&optima, &mut rng).unwrap_or_else(|| own(&groups[0]))
                     };
                     let outcome = part.improve(start, settings);
+                    settings.so_far.found(first as usize, groups.len(), D * groups.len(), outcome.value);
                     progress(1);
                     Some((number, outcome))
                 })

@@ -33,6 +33,8 @@ pub struct Design {
     pub limits: Limits,
     /// The lower bound, where it was wanted and found.
     pub certificate: Option<Certificate>,
+    /// The gap that the search was to reach, where one was asked for.
+    pub gap_goal: Option<GapGoal>,
     /// The part of the criterion that no motion changes: the share of gravity's tilt ([`DesignProblem::floor`](crate::DesignProblem::floor)).
     /// Gaps compare what is above it.
     pub floor: f64,
@@ -40,11 +42,27 @@ pub struct Design {
     pub floor_sd: Vec<f64>,
 }
 
+/// A gap to the lower bound at which a search ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapGoal {
+    /// The gap: relative, for criterion D in nats.
+    pub gap: f64,
+    /// Number of starts after which the search would have ended in any case, over all axes.
+    pub most_starts: usize,
+}
+
 impl Design {
     /// How much worse a value of the criterion is than `best`, above the part that no motion changes.
     #[must_use]
     pub fn gap(&self, value: f64, best: f64) -> f64 {
         self.criterion.gap(value - self.floor, best - self.floor)
+    }
+
+    /// Is the gap that was asked for proved? `None` where none was asked for.
+    #[must_use]
+    pub fn gap_is_reached(&self) -> Option<bool> {
+        let goal = self.gap_goal?;
+        Some(self.certificate.as_ref().is_some_and(|certificate| certificate.gap <= goal.gap))
     }
 
     /// Number of starts that converged.

@@ -153,6 +153,7 @@ mod tests {
             rate_hz: 10.0,
             trust: Trust::Known,
             known_ends: KnownEnds::Start,
+            gravity: None,
             limits: &limits,
             criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
             prior: None,

@@ -1,9 +1,10 @@
 //! The design of the best motion: feasibility first, then the search, and the certificate beside it.
 
+use super::certificate::LowerBound;
 use super::multistart_search::search;
 use super::{
-    Design, DesignProblem, DesignSettings, DesignStatus, certificate, check_feasible, evaluate, feasibility,
-    initial_motion,
+    Design, DesignProblem, DesignSettings, DesignStatus, GapGoal, certificate, check_feasible, evaluate,
+    feasibility, initial_motion,
 };
 use calibrant_core::error::Result;
 use calibrant_core::motion::JerkControlledMotion;
@@ -15,7 +16,7 @@ use calibrant_core::simulate::{Purpose, stream};
 /// its status.
 ///
 /// # Errors
-/// [`Error::Experiment`](calibrant_core::Error::Experiment) where nothing bounds the motion; [`Error::Infeasible`](calibrant_core::Error::Infeasible) where the limits
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) where nothing bounds the motion, or the gap of the settings is not above 0; [`Error::Infeasible`](calibrant_core::Error::Infeasible) where the limits
 /// admit none.
 pub fn design(
     problem: &DesignProblem<'_>,
@@ -23,6 +24,7 @@ pub fn design(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Design> {
     problem.check()?;
+    settings.check()?;
     check_feasible(problem)?;
     let limits = problem.effective_limits();
     let initial = initial_motion(
@@ -34,20 +36,31 @@ pub fn design(
     )?;
     let (inside, slack) =
         feasibility::inside(&limits, problem.sensor.axes, problem.intervals, problem.interval_s)?;
-    let (found, bound) = rayon::join(
-        || search(problem, settings, &limits, &initial, (&inside, slack), progress),
-        || {
-            let wanted = settings.certificate;
-            wanted.then(|| certificate::lower_bound(problem, &settings.interruption)).transpose()
-        },
-    );
-    let found = found?;
+    settings.so_far.begin(problem.sensor.axes);
+    let bound = || -> Result<Option<LowerBound>> {
+        if !settings.certificate {
+            return Ok(None);
+        }
+        let bound = certificate::lower_bound(problem, &settings.interruption)?;
+        bound.iter().for_each(|bound| settings.so_far.bounded(bound.value()));
+        Ok(bound)
+    };
+    let search = |bound: Option<&LowerBound>| {
+        search(problem, settings, bound, &limits, &initial, (&inside, slack), progress)
+    };
+    let (found, bound) = if settings.gap.is_some() {
+        // what the search does may depend on the bound, but not on when it is found
+        let bound = bound()?;
+        (search(bound.as_ref())?, bound)
+    } else {
+        let (found, bound) = rayon::join(|| search(None), bound);
+        (found?, bound?)
+    };
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let floor = problem.floor();
     let initial = evaluate(problem, &initial)?;
     let optimal = evaluate(problem, &best)?;
-    let certificate =
-        bound?.flatten().map(|bound| bound.certificate(&problem.criterion, optimal.value, floor));
+    let certificate = bound.map(|bound| bound.certificate(&problem.criterion, optimal.value, floor));
     let interrupted = settings.interruption.is_asked();
     Ok(Design {
         status: if interrupted { DesignStatus::Interrupted } else { found.status },
@@ -57,6 +70,10 @@ pub fn design(
         initial,
         iterations: found.starts.iter().map(|start| start.iterations).sum(),
         starts: found.starts,
+        gap_goal: settings
+            .gap
+            .filter(|_| settings.certificate)
+            .map(|gap| GapGoal { gap, most_starts: settings.starts * problem.sensor.axes }),
         limits,
         certificate,
         floor,

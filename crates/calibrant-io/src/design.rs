@@ -297,10 +297,20 @@ impl LimitUseFields {
 
 #[derive(Serialize)]
 struct SolverFields {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gap_goal: Option<GapGoalFields>,
     starts: usize,
     starts_converged: usize,
     iterations: usize,
     outcomes: Vec<StartFields>,
+}
+
+/// The gap that the search was to reach.
+#[derive(Serialize)]
+struct GapGoalFields {
+    gap: f64,
+    reached: bool,
+    most_starts: usize,
 }
 
 #[derive(Serialize)]
@@ -324,6 +334,11 @@ impl SolverFields {
             status: start.status.name(),
         };
         Self {
+            gap_goal: design.gap_goal.map(|goal| GapGoalFields {
+                gap: goal.gap,
+                reached: design.gap_is_reached() == Some(true),
+                most_starts: goal.most_starts,
+            }),
             starts: design.starts.len(),
             starts_converged: design.starts_converged(),
             iterations: design.iterations,

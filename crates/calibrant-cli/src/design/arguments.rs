@@ -51,6 +51,9 @@ pub(crate) struct Arguments {
     /// Skip the bound that no admissible motion can beat. It takes most of the time.
     #[arg(long)]
     pub(super) no_certificate: bool,
+    /// End the search once the motion is proved to be this close to the bound, such as 1%. For criterion D, 1% is 0.01 nats. The bound is then found first.
+    #[arg(long, value_name = "SHARE", value_parser = gap, conflicts_with_all = ["no_certificate", "sweep", "reach"])]
+    pub(super) gap: Option<f64>,
     /// Print design.json on stdout instead of the tables.
     #[arg(long)]
     pub(super) json: bool,
@@ -68,4 +71,35 @@ fn letter(text: &str) -> Result<CriterionLetter, String> {
 
 fn rate(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0).ok_or("a number above 0".into())
+}
+
+/// Reads `1%` or `0.01`.
+fn gap(text: &str) -> Result<f64, String> {
+    let (number, size) = match text.trim().strip_suffix('%') {
+        Some(percent) => (percent, 0.01),
+        None => (text, 1.0),
+    };
+    let gap = number.trim().parse::<f64>().ok().map(|number| number * size).filter(|gap| gap.is_finite());
+    match gap {
+        Some(gap) if gap > 0.0 && gap < 1.0 => Ok(gap),
+        Some(gap) if gap >= 1.0 => Err(format!(
+            "{text} is a gap of {} %, which says nothing: ask for less than 100 %, such as 1%",
+            100.0 * gap
+        )),
+        _ => Err("a share above 0, such as 1% or 0.01".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::gap;
+
+    #[test]
+    fn a_gap_is_a_share_or_in_percent() {
+        assert_eq!((gap("1%"), gap("0.01"), gap(" 2.5 %")), (Ok(0.01), Ok(0.01), Ok(0.025)));
+        for nonsense in ["0", "-1%", "1", "100%", "nan", "inf", "%", "one"] {
+            assert!(gap(nonsense).is_err(), "{nonsense}");
+        }
+        assert!(gap("5").is_err_and(|error| error.contains("500 %")));
+    }
 }

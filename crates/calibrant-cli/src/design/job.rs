@@ -4,7 +4,7 @@ use super::arguments::Arguments;
 use crate::{budget, console, interruption};
 use calibrant::Error;
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{EarlierCalibration, Experiment, Prior, read_calibration};
 use calibrant::report::{About, number_format};
 use std::path::Path;
@@ -31,9 +31,15 @@ impl Job {
             seconds: arguments.seconds,
             seed: arguments.seed.unwrap_or(otherwise.seed),
             certificate: otherwise.certificate && !arguments.no_certificate,
+            gap: arguments.gap,
             interruption: interruption::keeping_the_best(),
             ..otherwise
         };
+        if settings.gap.is_some() && !settings.certificate {
+            let message = "--gap asks for a proof, and the experiment wants no bound";
+            let help = "set certificate = true in [design], or leave --gap away";
+            return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+        }
         Ok(Self { experiment, earlier, settings })
     }
 
@@ -82,9 +88,34 @@ impl Job {
     pub(super) fn design(&self, problem: &DesignProblem<'_>) -> calibrant::Result<Design> {
         self.check_work(problem)?;
         let bar = console::progress((self.settings.starts * problem.sensor.axes) as u64, "starts");
-        let outcome = design(problem, &self.settings, &|done| bar.inc(done));
+        bar.set_message(self.standing(problem));
+        bar.enable_steady_tick(std::time::Duration::from_millis(200));
+        let outcome = design(problem, &self.settings, &|done| {
+            bar.inc(done);
+            bar.set_message(self.standing(problem));
+        });
         bar.finish_and_clear();
         outcome
+    }
+
+    /// The best value so far, and the gap to the bound, in a few words.
+    fn standing(&self, problem: &DesignProblem<'_>) -> String {
+        let so_far = &self.settings.so_far;
+        let shown = |value: f64| number_format::significant(value, 5);
+        let value = so_far.value(&problem.criterion);
+        let best = value.map(|value| format!("best {}", shown(value)));
+        let bound = match (so_far.bound(), value) {
+            (Some(bound), Some(value)) => Some(format!(
+                "gap {}",
+                super::table::gap(
+                    &problem.criterion,
+                    problem.criterion.gap(value - problem.floor(), bound - problem.floor())
+                )
+            )),
+            (Some(bound), None) => Some(format!("bound {}", shown(bound))),
+            (None, _) => self.settings.certificate.then(|| "bound …".to_owned()),
+        };
+        best.into_iter().chain(bound).collect::<Vec<_>>().join(", ")
     }
 }
 

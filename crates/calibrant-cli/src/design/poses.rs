@@ -33,6 +33,7 @@ fn refuse_options_of_a_motion(arguments: &Arguments) -> calibrant::Result<()> {
         ("--sample-rate", arguments.sample_rate.is_some()),
         ("--seconds", arguments.seconds.is_some()),
         ("--no-certificate", arguments.no_certificate),
+        ("--gap", arguments.gap.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((option, _)) => Err(Error::experiment(InputError::new(

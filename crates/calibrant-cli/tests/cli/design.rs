@@ -331,3 +331,24 @@ fn a_calibration_of_another_sensor_is_refused() {
         &["c/calibration.json: this calibration is of another sensor model: its parameters are bias.x, scale.x, those of the experiment bias.x, bias.y"],
     );
 }
+
+#[test]
+fn a_gap_that_is_proved_ends_the_search() {
+    let bench = Bench::new();
+    bench.preset("report", "box.toml", &[]);
+    let outcome = bench.run("design box.toml --gap 5% -o d").done();
+    assert!(outcome.stdout.contains("that was asked for is proved"), "{}", outcome.stdout);
+    let file = bench.json("d/design.json");
+    let goal = &file["solver"]["gap_goal"];
+    assert_eq!(
+        (&goal["gap"], &goal["reached"], &goal["most_starts"]),
+        (&0.05.into(), &true.into(), &90.into())
+    );
+    assert!(file["solver"]["starts"].as_u64().expect("a count") < 30);
+    assert!(bench.read("d/report.html").contains("that was asked for is proved"));
+    for nonsense in ["0", "200%", "nan"] {
+        let outcome = bench.run(&format!("design box.toml --gap {nonsense} -o e"));
+        assert_eq!(outcome.status, 2, "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("1%"), "{}", outcome.stderr);
+    }
+}

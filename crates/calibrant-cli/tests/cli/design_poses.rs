@@ -96,7 +96,7 @@ fn the_next_poses_lower_the_standard_deviations_that_were_there() {
     assert!(next.stdout.contains("sd before") && next.stdout.contains("sd then"), "{}", next.stdout);
     let (before, then) = (bench.json("c/calibration.json"), bench.json("n/design.json"));
     for name in names(&then["parameters"]) {
-        assert!(sd(&then, &name) < sd(&before, &format!("accelerometer.{name}")), "{name}");
+        assert!(sd(&then, name) < sd(&before, &format!("accelerometer.{name}")), "{name}");
     }
     let goal = 0.7 * sd(&then, "scale.x");
     let reach = format!("design static.toml {from} --reach scale.x={goal} {QUICK} -o r");

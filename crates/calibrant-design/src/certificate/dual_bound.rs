@@ -7,7 +7,8 @@
 //!
 //! So the solver's z need not solve anything. A shift of its eigenvalues moves it into the dual cone. The
 //! bound adds in full what remains of its equations, and the roundings of this computation. A solver that
-//! stops early gives a looser bound, never a wrong one.
+//! stops early gives a looser bound, never a wrong one. Linear programs are solved by Clarabel, the moment
+//! relaxations by a method of our own.
 //!
 //! # References
 //! `jansson2008`
@@ -16,6 +17,7 @@ use crate::Interruption;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// `constant + Σ coefficient · y_column`.
 #[derive(Debug, Clone, Default)]
@@ -30,6 +32,8 @@ pub(super) struct Row {
 pub(super) struct MomentProgram {
     /// Number of unknowns.
     pub(super) columns: usize,
+    /// The unknowns of each clique of a chain.
+    pub(super) cliques: Vec<Range<usize>>,
     /// Unknowns that cannot be negative: means of squares.
     pub(super) squares: Vec<usize>,
     /// The objective, which is maximised.
@@ -70,12 +74,8 @@ const ROUNDING: f64 = 1e-12;
 const NEAR_ENOUGH: f64 = 0.02;
 
 impl MomentProgram {
-    /// Solves the program and bounds it. `None` where the solver refused to start, or must not.
-    pub(super) fn bound(&self, patience: Patience<'_>) -> Option<DualBound> {
-        self.bound_of(&self.objective, patience)
-    }
-
-    /// The same with another objective.
+    /// Solves the program with this objective by Clarabel and bounds it. `None` where the solver refused to start,
+    /// or must not.
     pub(super) fn bound_of(&self, objective: &Row, patience: Patience<'_>) -> Option<DualBound> {
         if patience.interruption.is_asked() {
             return None;
@@ -108,20 +108,37 @@ impl MomentProgram {
             return None;
         }
         self.project(&mut z);
+        let mut bound = self.dual_value(objective, &z);
+        bound.solved |= ended;
+        Some(bound)
+    }
 
-        let mut residual = q;
-        let mut size = 0.0;
-        for (column, residual) in residual.iter_mut().enumerate() {
-            for place in a.colptr[column]..a.colptr[column + 1] {
-                let product = a.nzval[place] * z[a.rowval[place]];
-                *residual += product;
-                size += product.abs();
-            }
+    /// The bound that follows from a z in the dual cone.
+    pub(super) fn dual_value(&self, objective: &Row, z: &[f64]) -> DualBound {
+        let mut residual = vec![0.0; self.columns];
+        for &(column, coefficient) in &objective.terms {
+            residual[column] -= coefficient;
         }
-        let mut value = objective.constant;
-        for (b, z) in b.iter().zip(&z) {
-            value += b * z;
-            size += (b * z).abs();
+        let (mut value, mut size) = (objective.constant, 0.0);
+        let mut z = z.iter();
+        let mut add = |row: &Row, scale: f64| {
+            let Some(z) = z.next() else { return };
+            let z = scale * z;
+            value += row.constant * z;
+            size += (row.constant * z).abs();
+            for &(column, coefficient) in &row.terms {
+                residual[column] -= coefficient * z;
+                size += (coefficient * z).abs();
+            }
+        };
+        self.zero.iter().chain(&self.nonnegative).for_each(|row| add(row, 1.0));
+        for (size, triangle) in &self.semidefinite {
+            let mut entries = triangle.iter();
+            for j in 0..*size {
+                for (i, row) in entries.by_ref().take(j + 1).enumerate() {
+                    add(row, if i == j { 1.0 } else { std::f64::consts::SQRT_2 });
+                }
+            }
         }
         // what remains is −rᵀy: at most |r_j| each, and nothing where r_j and y_j are not negative
         let mut remains: Vec<f64> = residual.iter().map(|r| r.abs()).collect();
@@ -129,8 +146,8 @@ impl MomentProgram {
             remains[column] = (-residual[column]).max(0.0);
         }
         let correction = remains.iter().sum::<f64>() + ROUNDING * (size + value.abs());
-        let solved = ended || correction <= NEAR_ENOUGH * value.abs();
-        Some(DualBound { value: value + correction, correction, solved })
+        let solved = correction <= NEAR_ENOUGH * value.abs();
+        DualBound { value: value + correction, correction, solved }
     }
 
     /// `A y + s = b`, s in the cones: zero, not negative, then the matrices as scaled triangles.
@@ -163,7 +180,7 @@ impl MomentProgram {
     }
 
     /// Moves z into the dual cone.
-    fn project(&self, z: &mut [f64]) {
+    pub(super) fn project(&self, z: &mut [f64]) {
         let (free, rest) = z.split_at_mut(self.zero.len());
         debug_assert_eq!(free.len(), self.zero.len());
         let (plain, mut rest) = rest.split_at_mut(self.nonnegative.len());

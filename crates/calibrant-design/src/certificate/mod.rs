@@ -19,7 +19,8 @@
 //! # A motion that is not known
 //! Process noise only removes information, so all of the above holds. Where only the start is known there is
 //! a second bound. With perfect readings, the scale factor would still follow from noisy increments,
-//! `F_KK ≤ Σ (u_i/(K σ_u(u_i)))²`, and each term grows with the jerk. Where only the ends are known,
+//! `F_KK ≤ Σ (u_i/(K σ_u(u_i)))²`, and each term grows with the jerk. For a full sensor the elements of S compete
+//! for the motion, and [`increment_design`] bounds all of them together. Where only the ends are known,
 //! `C_KK = c/(a_N − a_0)²` with a constant c, and the limits bound the distance of the ends.
 
 mod axis_chain;
@@ -27,16 +28,21 @@ mod bound_tightening;
 mod bounds;
 mod dual_bound;
 mod gravity;
+mod increment_design;
+mod largest_gain;
 mod moment_relaxation;
+mod moment_solver;
 mod motion_variance;
 mod polynomial;
 mod variances;
 
 pub(crate) use axis_chain::{AxisChain, States};
-pub(super) use variances::lower_bound;
+pub(super) use variances::{LowerBound, lower_bound};
 
 // Clarabel's semidefinite cone calls BLAS and LAPACK by their Fortran names: the linker finds them here
 use lapack_over_nalgebra as _;
 
+#[cfg(test)]
+mod increment_tests;
 #[cfg(test)]
 mod tests;

@@ -5,12 +5,13 @@
 //! moments of the distribution. Moments up to a degree satisfy convex conditions. The largest value over all
 //! vectors that satisfy them bounds the motion variance from above. The conditions are:
 //!
-//! - The moment matrix of `(1, z, z²)`, or up to `z³`, is positive semidefinite, for the few variables z of
-//!   one interval. These are its two nodes and the states that the limits need at its start (velocity,
+//! - The moment matrix of `(1, z, z²)`, or up to `z³`, is positive semidefinite, for the few variables z of a
+//!   clique of intervals. These are its nodes and the states that the limits need at its start (velocity,
 //!   displacement, the running sum of the samples).
 //! - For every limit `|ℓ(z)| ≤ 1`, the matrix of one degree less, weighted with `1 − ℓ²`, is positive
-//!   semidefinite. So is the matrix of two degrees less with `(1 − ℓ²)(1 − k²)` for any two limits. Limits
-//!   that hold for all t hold at the quarters of the interval.
+//!   semidefinite. Limits that hold for all t hold at the quarters of each interval.
+//! - With moments up to the fourth degree, `(1 − ℓ²)(1 − k²)` has no negative mean for any two limits. With
+//!   those up to the sixth degree these add nothing that pays for their time.
 //! - Two neighbours agree on all moments of the node and the states that they share.
 //!
 //! Every variable is divided by a bound of its own, so that no moment exceeds one in size. Where a motion and
@@ -26,6 +27,7 @@ use super::polynomial::{Monomial, Polynomial, VARIABLES, degree, monomials};
 use super::{AxisChain, States};
 use calibrant_core::motion::Rest;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// The part of the chain that is relaxed, and how.
 #[derive(Debug, Clone)]
@@ -33,9 +35,9 @@ pub(super) struct ChainPart<'a> {
     pub(super) chain: &'a AxisChain,
     pub(super) bounds: &'a StateBounds,
     /// Intervals.
-    pub(super) range: std::ops::Range<usize>,
-    /// Number of intervals that a clique combines.
-    pub(super) width: usize,
+    pub(super) range: Range<usize>,
+    /// Largest number of variables of a clique: it combines as many intervals as they allow.
+    pub(super) variables: usize,
     pub(super) states: States,
     /// Is the part cut from a longer chain, so that it starts and ends anywhere?
     pub(super) open: bool,
@@ -71,7 +73,8 @@ impl Variables {
             return Polynomial::default();
         }
         self.0 += 1;
-        Polynomial::variable(self.0 - 1, bound)
+        // too many for a clique: the caller counts them
+        if self.0 > VARIABLES { Polynomial::default() } else { Polynomial::variable(self.0 - 1, bound) }
     }
 }
 
@@ -82,8 +85,9 @@ impl ChainPart<'_> {
         let symmetric = self.is_symmetric();
         let mut program = MomentProgram::default();
         let mut before: Option<Clique> = None;
-        for i in self.range.start..=self.range.end.checked_sub(self.width)? {
-            let mut clique = self.clique(i)?;
+        for range in self.cliques() {
+            let mut clique = self.clique(range)?;
+            let first = program.columns;
             for monomial in monomials(clique.variables, 2 * self.order) {
                 let degree = degree(&monomial);
                 if degree > 0 && !(symmetric && degree % 2 == 1) {
@@ -94,6 +98,7 @@ impl ChainPart<'_> {
                     program.columns += 1;
                 }
             }
+            program.cliques.push(first..program.columns);
             clique.require_moments(&mut program, symmetric, self.order);
             if let Some(before) = &before {
                 agree(before, &clique, &mut program, symmetric, self.order);
@@ -113,14 +118,33 @@ impl ChainPart<'_> {
         !fixed && !shifted
     }
 
-    /// The clique of the intervals from `i` on.
-    fn clique(&self, i: usize) -> Option<Clique> {
+    /// The intervals of each clique. States are zero at the start and so are some at the end: cliques there
+    /// are longer.
+    fn cliques(&self) -> Vec<Range<usize>> {
+        let mut all = Vec::new();
+        let mut first = self.range.start;
+        while first < self.range.end {
+            let fits = |end: &usize| {
+                let mut variables = Variables::default();
+                self.motion(first..*end, &mut variables).is_some() && variables.0 <= self.variables
+            };
+            let end = (first + 1..=self.range.end).take_while(|end| *end == first + 1 || fits(end)).last();
+            // the end may need fewer variables than the intervals before it
+            let end = Some(self.range.end).filter(fits).or(end).unwrap_or(self.range.end);
+            all.push(first..end);
+            first = end;
+        }
+        all
+    }
+
+    /// The clique of these intervals.
+    fn clique(&self, range: Range<usize>) -> Option<Clique> {
         let (chain, bounds, states) = (self.chain, self.bounds, self.states);
-        let (dt, l, width) = (chain.interval_s, &chain.limits, self.width);
-        let first = i == self.range.start && !self.open;
-        let last = i + width == self.range.end && !self.open;
+        let (i, width) = (range.start, range.len());
+        let (dt, l) = (chain.interval_s, &chain.limits);
+        let last = range.end == self.range.end && !self.open;
         let mut variables = Variables::default();
-        let Motion { nodes, v, d, sum } = self.motion(i, first, last, &mut variables)?;
+        let Motion { nodes, v, d, sum } = self.motion(range, &mut variables)?;
 
         let mut limited = Vec::new();
         let (mut speeds, mut places, mut totals) = (vec![v], vec![d], vec![sum]);
@@ -164,10 +188,8 @@ impl ChainPart<'_> {
                 forms.push(form);
             }
         }
-        // each interval counts once: in the clique that it begins, and the last clique takes the rest
-        let counted = if i + width == self.range.end { width } else { 1 };
         let mut objective = Polynomial::default();
-        for k in 0..counted {
+        for k in 0..width {
             let (m, a, b) = (&chain.sums[i + k], &nodes[k], &nodes[k + 1]);
             objective =
                 objective.plus(m.m00, &a.times(a)).plus(2.0 * m.m01, &a.times(b)).plus(m.m11, &b.times(b));
@@ -176,19 +198,18 @@ impl ChainPart<'_> {
             let total = totals[width].plus(1.0, &Polynomial::constant(chain.shift));
             objective = objective.plus(-1.0 / chain.mass, &total.times(&total));
         }
-        // nodes k, k + 1, … and the states at node k
-        let shared = |k: usize, nodes: &[Polynomial]| {
+        // node k and the states there
+        let shared = |k: usize| {
             let scaled = |quantity: &Polynomial, bound: f64| {
                 quantity.scaled(if bound > 0.0 { 1.0 / bound } else { 1.0 })
             };
-            let mut all: Vec<_> =
-                nodes.iter().zip(&bounds.a[i + k..]).map(|(a, &bound)| scaled(a, bound)).collect();
+            let mut all = vec![scaled(&nodes[k], bounds.a[i + k])];
             all.extend(states.velocity.then(|| scaled(&speeds[k], bounds.v[i + k])));
             all.extend(states.displacement.then(|| scaled(&places[k], bounds.d[i + k])));
             all.extend(states.sum.then(|| scaled(&totals[k], bounds.sum[i + k])));
             all
         };
-        let (entry, exit) = (shared(0, &nodes[..width]), shared(1, &nodes[1..]));
+        let (entry, exit) = (shared(0), shared(width));
         let bounded = forms.iter().chain(&entry).chain(&exit).all(|form| form.bounds().is_finite());
         (bounded && variables.0 <= VARIABLES).then(|| Clique {
             variables: variables.0,
@@ -201,13 +222,16 @@ impl ChainPart<'_> {
     }
 
     /// Names the variables. A value that is prescribed, or follows from rest at the end, is not a variable.
-    fn motion(&self, i: usize, first: bool, last: bool, variables: &mut Variables) -> Option<Motion> {
-        let (bounds, states, width) = (self.bounds, self.states, self.width);
+    fn motion(&self, range: Range<usize>, variables: &mut Variables) -> Option<Motion> {
+        let (bounds, states) = (self.bounds, self.states);
+        let (i, width) = (range.start, range.len());
+        let first = i == self.range.start && !self.open;
+        let last = range.end == self.range.end && !self.open;
         let (dt, l) = (self.chain.interval_s, &self.chain.limits);
         let start = if first { l.start } else { None };
         let end = if last { l.end } else { None };
         let stops = last && l.rest == Rest::Both;
-        if first && last && stops && (start.is_some() || end.is_some() || width > 1) {
+        if first && last && stops && end.is_some() {
             return None;
         }
         let state = |wanted: bool, bound: f64, variables: &mut Variables| {
@@ -292,13 +316,10 @@ impl Clique {
         let slacks: Vec<_> = self.forms.iter().map(Polynomial::slack).collect();
         for (k, slack) in slacks.iter().enumerate() {
             self.require_matrix(program, slack, &monomials(self.variables, order - 1), symmetric);
-            for other in &slacks[..=k] {
-                self.require_matrix(
-                    program,
-                    &slack.times(other),
-                    &monomials(self.variables, order - 2),
-                    symmetric,
-                );
+            if order == 2 {
+                for other in &slacks[..=k] {
+                    program.nonnegative.push(self.mean(&slack.times(other)));
+                }
             }
         }
     }

@@ -4,9 +4,11 @@
 use super::bounds::StateBounds;
 use super::dual_bound::Patience;
 use super::moment_relaxation::ChainPart;
+use super::moment_solver;
 use super::{AxisChain, States};
 use crate::Interruption;
 use calibrant_core::motion::Rest;
+use std::ops::Range;
 
 /// An upper bound on the motion variance `V = Σ α² − (Σ α + shift)²/mass` over all admissible motions of one axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,10 +75,12 @@ impl BoundKind {
 const MAX_ITERATIONS: u32 = 100;
 /// Places inside each interval at which limits on velocity and displacement are imposed.
 const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-/// Most intervals for moments up to degree 6 with states. They take seconds.
-const MOST_HIGH_ORDER: usize = 12;
-/// Most intervals of a chain with states that are relaxed in pairs. They take seconds.
-const MOST_WIDE: usize = 40;
+/// Most intervals for moments up to degree 6 with states. They take two seconds of processor time.
+const MOST_HIGH_ORDER: usize = 40;
+/// Most variables of a clique: with moments up to degree 4 and up to degree 6.
+const VARIABLES: (usize, usize) = (5, 4);
+/// Relative accuracy of a bound: with and without states. Without them, bounds are exact in most cases.
+const TOLERANCE: (f64, f64) = (3e-4, 1e-7);
 /// Most intervals of a whole chain with states. They take seconds.
 const MOST_WITH_STATES: usize = 100;
 /// Most intervals of a whole chain without states. They take seconds.
@@ -88,7 +92,7 @@ const MOST_WITH_STATES_AND_MEAN: usize = 30;
 /// Most intervals whose bounds are tightened by linear programs.
 const MOST_TIGHTENED: usize = 30;
 /// Number of intervals of a segment.
-const SEGMENT_INTERVALS: usize = 8;
+const SEGMENT_INTERVALS: usize = 20;
 /// Largest number of different segments that are relaxed.
 const MOST_SEGMENTS: usize = 12;
 
@@ -127,7 +131,13 @@ pub(super) fn bound_within(
     };
     consider(by_jerk(chain, &bounds));
     if n > most {
-        consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, patience));
+        consider(segments(
+            chain,
+            &bounds,
+            States { velocity, displacement, sum: false },
+            patience,
+            most_order,
+        ));
         return Some(best);
     }
     // the running sum is one more state; beside velocity and displacement only to second order. Rest at the
@@ -137,24 +147,20 @@ pub(super) fn bound_within(
         && !(velocity && l.rest == Rest::Both);
     let with_order = |sum: bool, order: u8| {
         let states = States { velocity, displacement, sum };
-        let width = if velocity && !sum && order == 2 && (3..=MOST_WIDE).contains(&n) { 2 } else { 1 };
-        let part = ChainPart {
-            chain,
-            bounds: &bounds,
-            range: 0..n,
-            width,
-            states,
-            open: false,
-            inside: &INSIDE,
-            order,
-        };
+        let part = ChainPart::new(chain, &bounds, 0..n, states, order);
         relax(&part, patience, BoundKind::Chain { mean: sum, states: velocity })
     };
     if with_mean {
         consider(with_order(true, 2));
     }
     if velocity || !with_mean {
-        consider(with_order(false, if velocity && n <= MOST_HIGH_ORDER { most_order } else { 2 }));
+        let high = velocity && n <= MOST_HIGH_ORDER && most_order > 2;
+        let bound = high.then(|| with_order(false, 3)).flatten();
+        let accurate = bound.as_ref().is_some_and(|bound| bound.solved);
+        consider(bound);
+        if !accurate {
+            consider(with_order(false, 2));
+        }
     }
     Some(best)
 }
@@ -176,12 +182,27 @@ fn by_jerk(chain: &AxisChain, bounds: &StateBounds) -> Option<MotionVarianceBoun
     value.is_finite().then_some(MotionVarianceBound { value, kind, solved: true, correction: 0.0 })
 }
 
+impl<'a> ChainPart<'a> {
+    /// A part whose cliques and places fit its order.
+    fn new(
+        chain: &'a AxisChain,
+        bounds: &'a StateBounds,
+        range: Range<usize>,
+        states: States,
+        order: u8,
+    ) -> Self {
+        let variables = if order > 2 { VARIABLES.1 } else { VARIABLES.0 };
+        Self { chain, bounds, range, variables, states, open: false, inside: &INSIDE, order }
+    }
+}
+
 fn relax(part: &ChainPart<'_>, patience: Patience<'_>, kind: BoundKind) -> Option<MotionVarianceBound> {
     let scale = part.bounds.sum_of_squares(part.chain, part.range.clone());
     if scale == 0.0 {
         return None;
     }
-    let bound = part.relax(scale)?.bound(patience)?;
+    let tolerance = if part.states.velocity { TOLERANCE.0 } else { TOLERANCE.1 };
+    let bound = moment_solver::solve(&part.relax(scale)?, tolerance, patience)?.bound;
     Some(MotionVarianceBound {
         value: (bound.value * scale).max(0.0),
         kind,
@@ -196,6 +217,7 @@ fn segments(
     bounds: &StateBounds,
     states: States,
     patience: Patience<'_>,
+    most_order: u8,
 ) -> Option<MotionVarianceBound> {
     let n = chain.sums.len();
     // the same bounds everywhere make segments equal, but for the report's intercept, which counts from t = 0
@@ -203,11 +225,10 @@ fn segments(
     let (bounds, moves) = if chain.limits.intercept.is_some() { (bounds, true) } else { (&uniform, false) };
     let mut total =
         MotionVarianceBound { value: 0.0, kind: BoundKind::Stretches, solved: true, correction: 0.0 };
-    let mut known: Vec<(std::ops::Range<usize>, MotionVarianceBound)> = Vec::new();
+    let mut known: Vec<(Range<usize>, MotionVarianceBound)> = Vec::new();
     for first in (0..n).step_by(SEGMENT_INTERVALS) {
         let range = first..(first + SEGMENT_INTERVALS).min(n);
-        let same =
-            |other: &std::ops::Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
+        let same = |other: &Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
         let part = if let Some((_, part)) = known.iter().find(|(other, _)| same(other)) {
             part.clone()
         } else {
@@ -218,16 +239,9 @@ fn segments(
                 correction: 0.0,
             };
             let relaxed = if known.len() < MOST_SEGMENTS {
-                let part = ChainPart {
-                    chain,
-                    bounds,
-                    range: range.clone(),
-                    width: 1,
-                    states,
-                    open: true,
-                    inside: &INSIDE,
-                    order: 2,
-                };
+                let order = if states.velocity && !moves { most_order } else { 2 };
+                let part =
+                    ChainPart { open: true, ..ChainPart::new(chain, bounds, range.clone(), states, order) };
                 relax(&part, patience, BoundKind::Stretches)
             } else {
                 None

@@ -3,6 +3,7 @@
 use super::AxisChain;
 use super::bounds::StateBounds;
 use super::gravity::{GravityBound, MeanFacts, largest_mean};
+use super::increment_design::IncrementDesign;
 use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
 use crate::{Certificate, DesignProblem, Interruption};
 use calibrant_core::error::Result;
@@ -22,6 +23,23 @@ pub(crate) struct LowerBound {
 }
 
 impl LowerBound {
+    /// The bound on the criterion.
+    pub(crate) fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The bound on the criterion of the parameters at these places, which share no information with the
+    /// others.
+    pub(crate) fn of_part(&self, criterion: &Criterion, places: &[usize]) -> f64 {
+        if places.len() == self.variances.len() {
+            return self.value;
+        }
+        let own = DVector::from_iterator(places.len(), places.iter().map(|&place| self.variances[place]));
+        let smallest = DMatrix::from_diagonal(&own);
+        let criterion = criterion.restricted(places);
+        criterion.value(&smallest) * independence(&criterion, &smallest)
+    }
+
     /// The certificate of a design whose criterion has this value. No motion changes its part `floor`.
     pub(crate) fn certificate(self, criterion: &Criterion, value: f64, floor: f64) -> Certificate {
         Certificate {
@@ -71,7 +89,13 @@ pub(crate) fn lower_bound(
         return Ok(None);
     };
     let variances = DVector::from_vec(variances);
-    let value = bounds.criterion(&variances);
+    let mut value = bounds.criterion(&variances);
+    if let Some(together) =
+        bounds.increment_design(&quantities).filter(|together| value.is_nan() || *together > value)
+    {
+        value = together;
+        bounds.explain("criterion: the process noise alone, as if the readings were perfect, and the best distribution of the jerk in place of a motion; close where the process noise dominates and intervals are many");
+    }
     Ok(value.is_finite().then(|| LowerBound { value, variances, explanation: bounds.explanation() }))
 }
 
@@ -302,13 +326,9 @@ impl Bounds<'_> {
         let active: Vec<usize> = problem.sensor.active_axes().iter().map(|axis| axis.index()).collect();
         let full = problem.sensor.model == SensorModel::Full;
         let Some(inverse) = problem.at.matrix.try_inverse() else { return f64::INFINITY };
-        let limits = problem.effective_limits().axis(column);
-        let bounds = StateBounds::of(&self.chain(column, 0.0, f64::INFINITY));
-        bounds
-            .a
-            .windows(2)
-            .map(|a| {
-                let u = limits.jerk.unwrap_or(f64::INFINITY).min((a[0] + a[1]) / problem.interval_s);
+        self.largest_jerk(column)
+            .into_iter()
+            .map(|u| {
                 if u == 0.0 {
                     return 0.0;
                 }
@@ -331,5 +351,37 @@ impl Bounds<'_> {
                 sum
             })
             .sum()
+    }
+
+    /// Largest jerk of each interval that the limits leave to an axis.
+    fn largest_jerk(&self, axis: usize) -> Vec<f64> {
+        let jerk = self.problem.effective_limits().axis(axis).jerk.unwrap_or(f64::INFINITY);
+        let bounds = StateBounds::of(&self.chain(axis, 0.0, f64::INFINITY));
+        bounds.a.windows(2).map(|a| jerk.min((a[0] + a[1]) / self.problem.interval_s)).collect()
+    }
+
+    /// The bound of [`super::increment_design`], for a full sensor with a noisy motion from a known start,
+    /// without gravity.
+    fn increment_design(&self, quantities: &[Quantity]) -> Option<f64> {
+        let problem = self.problem;
+        let Trust::Noisy(noise) = problem.trust else { return None };
+        let is_full = problem.sensor.model == SensorModel::Full && problem.sensor.axes == 3;
+        if !is_full || problem.known_ends != KnownEnds::Start || problem.gravity.is_some() {
+            return None;
+        }
+        let jerk = [0, 1, 2].map(|axis| self.largest_jerk(axis));
+        let on_biases =
+            problem.prior.as_ref().map_or_else(|| self.still.clone(), |prior| &self.still + prior);
+        let design = IncrementDesign {
+            criterion: &problem.criterion,
+            quantities,
+            matrix: problem.at.matrix,
+            noise,
+            jerk: (0..problem.intervals).map(|i| Vector3::from_fn(|axis, _| jerk[axis][i])).collect(),
+            start: Vector3::from_fn(|axis, _| StateBounds::of(&self.chain(axis, 0.0, f64::INFINITY)).a[0]),
+            on_biases: &on_biases,
+            prior: problem.prior.as_ref(),
+        };
+        design.bound(self.interruption)
     }
 }

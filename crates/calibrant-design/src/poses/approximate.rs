@@ -7,8 +7,8 @@ use super::bound::bound;
 use super::hold_information::HoldInformation;
 use super::problem::PoseProblem;
 use super::result::PoseBound;
-use super::smooth_criterion::SmoothCriterion;
 use super::spectral_projected_gradient::{Descent, Poses};
+use crate::smooth_criterion::SmoothCriterion;
 use calibrant_core::information::Criterion;
 use nalgebra::Vector3;
 

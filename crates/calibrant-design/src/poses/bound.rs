@@ -1,15 +1,8 @@
 //! The bound that no set of n allowed poses can beat.
 //!
-//! Let W be a weight with `Φ(C′) ≥ tr(W C′)` for every covariance C′. For A, c and I it is the criterion's
-//! own. For E it is any `Z ⪰ 0` of trace one, for M the diagonal of any shares with the sum one, both on the
-//! scaled parameters. The function `1 / tr(W M⁻¹)` is concave in the information M, and homogeneous of degree
-//! one. So it lies below its tangent planes: at any M with `C = M⁻¹` and `Ω = C W C`
-//!
-//! `1 / tr(W M′⁻¹) ≤ tr(Ω M′) / tr(W C)²`.
-//!
-//! For `M′ = M₀ + Σ m(u_k)` with n allowed directions `tr(Ω M′) ≤ tr(Ω M₀) + n max_u d(u) = B`. Hence
-//! `Φ(C′) ≥ tr(W C)² / B`. For D the same with `det^(1/p)`, and `Ω = C`: `ln det C′ ≥ ln det C − p ln(B/p)`.
-//! At the optimal approximate design both sides are equal (`kiefer1960`).
+//! For `M′ = M₀ + Σ m(u_k)` with n allowed directions `tr(Ω M′) ≤ tr(Ω M₀) + n max_u d(u)`. The tangent of the
+//! criterion ([`crate::tangent_bound`]) makes that a bound of it. At the optimal approximate design both sides
+//! are equal (`kiefer1960`).
 //!
 //! # The maximum of d over the sphere
 //! Along a great circle, d is a trigonometric polynomial of degree 4 for sensors with equal gains and noise on
@@ -18,8 +11,8 @@
 //! taken in place of 4, since gains differ a little.
 
 use super::hold_information::{Gain, HoldInformation};
-use super::smooth_criterion::SmoothCriterion;
-use calibrant_core::information::Criterion;
+use crate::smooth_criterion::SmoothCriterion;
+use crate::tangent_bound::Tangent;
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 
@@ -42,29 +35,9 @@ pub(super) fn bound(
     c: &DMatrix<f64>,
     poses: usize,
 ) -> Bound {
-    let (_, derivative) = criterion.at(c);
-    let size = c.nrows() as f64;
-    // the weight W, and for D the inverse of C
-    let weight = match criterion.criterion {
-        Criterion::A(_) | Criterion::C(_) | Criterion::I(_) => criterion.criterion.derivative(c),
-        Criterion::D(_) => derivative * size,
-        Criterion::E(e) => {
-            let trace: f64 = (0..c.nrows()).map(|i| derivative[(i, i)] * e.scale[i] * e.scale[i]).sum();
-            derivative / trace
-        }
-        Criterion::M(m) => {
-            let trace: f64 = (0..c.nrows()).map(|i| derivative[(i, i)] * m.scale[i] * m.scale[i]).sum();
-            derivative / trace
-        }
-    };
-    let omega = c * &weight * c;
-    let gain = information.gain(&omega);
-    let (most, best) = greatest(&gain, grid);
-    let all = omega.dot(information.prior()) + poses as f64 * most;
-    let value = match criterion.criterion {
-        Criterion::D(_) => criterion.criterion.value(c) - size * (all / size).ln(),
-        _ => weight.dot(c).powi(2) / all,
-    };
+    let tangent = Tangent::new(criterion, c);
+    let (most, best) = greatest(&information.gain(&tangent.omega), grid);
+    let value = tangent.bound(tangent.omega.dot(information.prior()) + poses as f64 * most);
     Bound { value, best }
 }
 

@@ -29,7 +29,6 @@ mod order;
 mod problem;
 mod result;
 mod search;
-mod smooth_criterion;
 mod spectral_projected_gradient;
 #[cfg(test)]
 mod tests;

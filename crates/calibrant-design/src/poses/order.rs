@@ -40,7 +40,8 @@ pub(super) fn best_order(
     drift: &Drift,
     seed: u64,
 ) -> Vec<usize> {
-    let cost = |order: &[usize]| cost(problem, directions, drift, order);
+    let without = problem.criterion.value(drift.without());
+    let cost = |order: &[usize]| cost(problem, directions, (drift, without), order);
     let mut found = improved(&cost, nearest_next(directions));
     for number in 0..STARTS {
         let mut order: Vec<usize> = (0..directions.len()).collect();
@@ -53,11 +54,16 @@ pub(super) fn best_order(
     found.1
 }
 
-fn cost(problem: &PoseProblem, directions: &[Vector3<f64>], drift: &Drift, order: &[usize]) -> f64 {
+/// `without`: the criterion without a drift.
+fn cost(
+    problem: &PoseProblem,
+    directions: &[Vector3<f64>],
+    (drift, without): (&Drift, f64),
+    order: &[usize],
+) -> f64 {
     let ordered: Vec<Vector3<f64>> = order.iter().map(|&k| directions[k]).collect();
     let criterion = &problem.criterion;
     let value = criterion.value(&drift.covariance(order));
-    let without = criterion.value(drift.without());
     let lost = -efficiency(criterion, value, without, problem.list.len()).ln();
     let same = ordered.windows(2).filter(|pair| pair[0].angle(&pair[1]) < ONE_HOLD).count();
     lost + PRICE * same as f64
@@ -157,7 +163,9 @@ mod tests {
                 let information = HoldInformation::new(&problem).expect("regular");
                 let without = Poses::equal(faces.clone()).covariance(&information).expect("determined");
                 let drift = Drift::of(&information, &faces, without, &problem.nuisance.drift_sd);
-                let of = |order: &[usize]| cost(&problem, &faces, &drift, order);
+                let of = |order: &[usize]| {
+                    cost(&problem, &faces, (&drift, problem.criterion.value(drift.without())), order)
+                };
                 let orders = every_order();
                 assert_eq!(orders.len(), 720);
                 let least = orders.iter().map(|order| of(order)).fold(f64::INFINITY, f64::min);

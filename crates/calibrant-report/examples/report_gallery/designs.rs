@@ -97,6 +97,7 @@ pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
         starts,
         iterations: 312,
         status: DesignStatus::Converged,
+        gap_goal: None,
         criterion: problem.criterion.clone(),
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         initial,

@@ -46,6 +46,7 @@ fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<Strin
                 .to_string(),
         );
     }
+    sentences.extend(design.gap_statement());
     sentences.extend(improvement(design));
     match nearest {
         _ if !broken.is_empty() => ("bad", "✗ Not admissible.".into(), sentences),

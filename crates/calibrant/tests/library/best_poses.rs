@@ -153,7 +153,11 @@ fn errors(problem: &PoseProblem, design: &PoseDesign, values: &[f64], truth: &Se
 }
 
 /// Root mean square of the errors of each parameter, in promised standard deviations.
-fn ratios(count: u64, names: &[String], errors: impl Fn(u64) -> Vec<f64> + Sync) -> Vec<(String, f64)> {
+fn ratios(
+    count: u64,
+    names: &[String],
+    errors: impl Fn(u64) -> Vec<f64> + Sync + Send,
+) -> Vec<(String, f64)> {
     let all: Vec<Vec<f64>> = (0..count).into_par_iter().map(errors).collect();
     let of = |(k, name): (usize, &String)| {
         let square: f64 = all.iter().map(|errors| errors[k] * errors[k]).sum();

@@ -191,6 +191,35 @@ fn a_search_may_be_given_a_time() {
     assert_eq!(long.status, DesignStatus::Converged);
 }
 
+/// A search that may end at a gap ends early where it is reached, after the same starts for any number of
+/// threads, and says so plainly where it is not.
+#[test]
+fn a_search_ends_at_the_gap_that_is_asked_for() {
+    let sensor = Sensor::memsic_mxd2020u();
+    let case = &cases()[2];
+    let run = |threads: usize, gap: f64| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+        let problem = problem(&sensor, &case.limits, case.trust, a_optimality(6));
+        let settings = DesignSettings { gap: Some(gap), ..DesignSettings::default() };
+        pool.install(|| design(&problem, &settings, &|_| ()))
+    };
+    let (one, three) = (run(1, 0.01).expect("solved"), run(3, 0.01).expect("solved"));
+    assert_eq!(one.optimal.motion, three.optimal.motion);
+    assert_eq!(one.starts, three.starts);
+    assert_eq!(one.gap_is_reached(), Some(true));
+    assert!(one.starts.len() < 30, "{}", one.starts.len());
+    assert!(one.statement().contains("is proved: it is "), "{}", one.statement());
+    assert!(one.statement().contains(&format!("reached after {} of 90 starts", one.starts.len())));
+    // the bound is looser than that
+    let none = run(2, 1e-9).expect("solved");
+    assert_eq!(none.gap_is_reached(), Some(false));
+    assert!(none.statement().contains("NOT reached"), "{}", none.statement());
+    for nonsense in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let error = run(1, nonsense).expect_err("nonsense").to_string();
+        assert!(error.contains("gap"), "{error}");
+    }
+}
+
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let sensor = Sensor::memsic_mxd2020u();

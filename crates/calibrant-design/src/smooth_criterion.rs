@@ -9,14 +9,14 @@ use nalgebra::{DMatrix, DVector};
 
 /// A criterion, and the exponent q that takes the place of a maximum.
 #[derive(Clone, Copy)]
-pub(super) struct SmoothCriterion<'a> {
-    pub(super) criterion: &'a Criterion,
-    pub(super) exponent: f64,
+pub(crate) struct SmoothCriterion<'a> {
+    pub(crate) criterion: &'a Criterion,
+    pub(crate) exponent: f64,
 }
 
 impl SmoothCriterion<'_> {
     /// `ln Φ` (for D: `ln det C / p`), and its derivative with respect to C.
-    pub(super) fn at(&self, c: &DMatrix<f64>) -> (f64, DMatrix<f64>) {
+    pub(crate) fn at(&self, c: &DMatrix<f64>) -> (f64, DMatrix<f64>) {
         let size = c.nrows();
         match self.criterion {
             Criterion::D(_) => {
