@@ -1,22 +1,21 @@
-//! The convex program of one iteration in the general case: long motions, and the criteria E and M.
+//! The convex program of one iteration for long motions, with a smooth criterion.
 //!
 //! The information is matrix convex in the motion, so its linearisation is a lower bound that touches it.
-//! Every criterion of the linearised information is then a convex upper bound of the criterion. The program
+//! A criterion of the linearised information is then a convex upper bound of the criterion. The program
 //! minimises a model of that bound over the admissible motions. The model is of first order in the motion's
 //! curvature and of second order in the criterion's ([`super::criterion_model`]). It is linear but for a few
-//! squares, so velocity and displacement stay variables, the program is sparse, and its time is nearly
-//! proportional to the length of the motion.
-//!
-//! E has no second-order model: its convex bound is minimised exactly, `maximise t: F_lin ⪰ t diag(s)⁻²`.
+//! squares, so the program is one of chains ([`super::chain_program`]), and its time is proportional to the length
+//! of the motion.
 //!
 //! # References
 //! `boyd2004`, `pukelsheim2006`
 
-use super::admissible_region::WatchedIntervals;
-use super::conic_program::{ConicProgram, Row};
+use super::chain_factor::Stage;
+use super::chain_program::{ChainProgram, Form, StageRow};
 use super::criterion_model::{Curvature, pieces};
 use super::part::{Nodes, Part};
-use calibrant_core::information::Criterion;
+use super::stage_rows::Peaks;
+use calibrant_core::information::InformationDerivative;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// Factor on the model's bend after each full step: the bend bounds the criterion from above, often far
@@ -26,38 +25,80 @@ const BOLDER: f64 = 0.25;
 const LEAST_BEND: f64 = 1e-3;
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
+/// Rounds of limits between the nodes.
+const ROUNDS: usize = 6;
+/// A breach between the nodes that may remain, absolute and relative to what is gained.
+const BREACH: (f64, f64) = (1e-9, 0.3);
+/// Share of the way to the motion inside all limits at which the interior-point method starts: from a motion far from
+/// the solution, and from the solution of the last round.
+const START: f64 = 0.1;
+const AGAIN: f64 = 0.01;
+/// Its gap there, relative to that share.
+const GAP: f64 = 10.0;
+/// Margin of the size of an increment at the start.
+const MARGIN: f64 = 0.1;
 
 /// What one iteration leaves for the next.
 pub(super) struct LongProgram<const D: usize> {
-    watch: [WatchedIntervals; D],
-    /// Multipliers of the pieces of M.
-    weights: Vec<f64>,
+    peaks: [Peaks; D],
     /// Factor on the model's bend.
     bend: f64,
+    /// What the last model promised.
+    promise: f64,
+}
+
+/// A convex model of the criterion around a motion.
+struct Model<const D: usize> {
+    slope: Nodes<D>,
+    /// Half the sum of the squares of these forms is the bend; by form and unknown `i D + k`.
+    bends: DMatrix<f64>,
+    /// Gain of the criterion per variance of each increment; empty unless this is modelled apart.
+    noise: Vec<SVector<f64, D>>,
 }
 
 impl<const D: usize> LongProgram<D> {
-    pub(super) fn new(parameters: usize) -> Self {
-        Self {
-            watch: std::array::from_fn(|_| WatchedIntervals::default()),
-            weights: vec![1.0; parameters],
-            bend: 1.0,
-        }
+    pub(super) fn new() -> Self {
+        Self { peaks: std::array::from_fn(|_| Peaks::default()), bend: 1.0, promise: 1.0 }
     }
 
-    /// The admissible motion that minimises the model, and what it promises.
+    /// The admissible motion that minimises the model, and what it promises: the decrease of the model, relative to the most
+    /// that the gradient could promise.
     pub(super) fn step<const P: usize>(
         &mut self,
         part: &Part<D, P>,
         a: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, f64)> {
-        let mut model = part.model(a, &self.weights, self.bend)?;
-        let found = part.long_step(a, &model, &mut self.watch, &mut self.weights);
-        if found.is_none() && model.matrix.take().is_some() {
-            // matrix entries of too different size: the slope alone still gives the direction
-            return part.long_step(a, &model, &mut self.watch, &mut self.weights);
+        let model = part.model(a, self.bend)?;
+        let own =
+            |nodes: &[SVector<f64, D>], k: usize| nodes.iter().map(|node| node[k]).collect::<Vec<f64>>();
+        let near = (10.0 * self.promise).clamp(AGAIN / 10.0, START);
+        let mut start = mix(&part.inside, a, 1.0 - near);
+        let mut gap = GAP * near;
+        for round in 1.. {
+            let program = part.chain_program(a, &model, &self.peaks);
+            let mut stages: Vec<Vec<Stage>> =
+                part.regions.iter().enumerate().map(|(k, region)| region.stages(&own(&start, k))).collect();
+            if !model.noise.is_empty() {
+                stages.iter_mut().flatten().for_each(|z| z[4] = z[3].abs() + MARGIN);
+            }
+            let found = program.solve(stages, gap)?;
+            let next: Nodes<D> = (0..a.len())
+                .map(|i| SVector::from_fn(|k, _| part.regions[k].size * found.stages[k][i][0]))
+                .collect();
+            let mut breach = 0.0_f64;
+            for (k, region) in part.regions.iter().enumerate() {
+                breach = breach.max(region.breach(&own(&next, k)));
+                self.peaks[k].forget(region, &found.stages[k]);
+                self.peaks[k].update(region, &own(&next, k));
+            }
+            self.promise = found.gained.max(found.gap);
+            if round == ROUNDS || breach <= BREACH.0 + BREACH.1 * found.gained {
+                return Some((next, self.promise));
+            }
+            start = mix(&part.inside, &part.restored(next), 1.0 - AGAIN);
+            gap = GAP * AGAIN;
         }
-        found
+        None
     }
 
     /// Learns what part of the way to the minimum was gone.
@@ -78,268 +119,93 @@ impl<const D: usize> LongProgram<D> {
 }
 
 impl<const D: usize, const P: usize> Part<D, P> {
-    /// Linear forms of the step in place of those of the information.
-    fn model(&self, a: &[SVector<f64, D>], weights: &[f64], bend: f64) -> Option<Model<D>> {
+    /// The model at a motion. `None` where the motion does not determine the parameters.
+    fn model(&self, a: &[SVector<f64, D>], bend: f64) -> Option<Model<D>> {
         let at = self.information.linearise(a)?;
         let c = self.covariance(&at)?;
-        let fixed =
-            |omega: &DMatrix<f64>| self.on_information(&SMatrix::<f64, P, P>::from_fn(|i, j| omega[(i, j)]));
-        let along = |omega: &DMatrix<f64>| {
-            self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
-        };
-        let pieces = pieces(&self.criterion, &c, self.floor_of_d());
+        let (_, Curvature { first, forms }) = pieces(&self.criterion, &c, self.floor_of_d()).pop()?;
+        let on_information =
+            |form: &DMatrix<f64>| self.on_information(&SMatrix::<f64, P, P>::from_fn(|i, j| form[(i, j)]));
+        let omega = on_information(&first);
+        let forms: Vec<_> = forms.iter().map(on_information).collect();
+        let derivative = self.information.derivative(&at, &omega);
+        let total = self.information.total(a, &derivative);
         let noisy = self.information.input_noise().is_some_and(|(_, ratio)| ratio > 0.0);
-        let mut model = Model { pieces: Vec::new(), bends: Vec::new(), noise: Vec::new(), matrix: None };
-        let total: f64 = weights.iter().take(pieces.len()).sum();
-        let single = pieces.len() == 1;
-        for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {
-            let derivative = self.information.derivative(&at, &fixed(&first));
-            let slope = if single && noisy {
-                model.noise = derivative.variances.iter().map(|v| v * -bend).collect();
-                let total = self.information.total(a, &derivative);
-                derivative
-                    .nodes
-                    .iter()
-                    .zip(total)
-                    .map(|(held, all)| held * bend + all * (1.0 - bend))
-                    .collect()
-            } else {
-                self.information.total(a, &derivative)
-            };
-            model.pieces.push((value, slope.iter().map(|slope| -slope).collect()));
-            let share = if single { bend.sqrt() } else { (bend * weight / total).sqrt() };
-            if share > 1e-4 * bend.sqrt() {
-                model.bends.extend(
-                    forms
-                        .iter()
-                        .map(|form| along(form).into_iter().map(|row| row * share).collect::<Nodes<D>>()),
-                );
-            }
-        }
-        if let Criterion::E(e) = &self.criterion {
-            // S F_lin S, entry by entry
-            let f = self.inverse_covariance(&at);
-            let mut entries = Vec::new();
-            for j in 0..P {
-                for i in 0..=j {
-                    let mut omega = DMatrix::zeros(P, P);
-                    omega[(i, j)] += 0.5 * e.scale[i] * e.scale[j];
-                    omega[(j, i)] += 0.5 * e.scale[i] * e.scale[j];
-                    entries.push((f[(i, j)] * e.scale[i] * e.scale[j], along(&omega)));
-                }
-            }
-            model.noise.clear();
-            model.matrix = Some(entries);
-        }
-        reduce(&mut model.bends);
-        Some(model)
-    }
-
-    /// The admissible motion that minimises the model. Also its predicted decrease, relative to the most that
-    /// the gradient could promise.
-    fn long_step(
-        &self,
-        a: &[SVector<f64, D>],
-        model: &Model<D>,
-        watch: &mut [WatchedIntervals; D],
-        weights: &mut [f64],
-    ) -> Option<(Nodes<D>, f64)> {
-        // watched intervals are few and are found soon
-        for _ in 0..8 {
-            let (program, first_piece) = self.program(a, model, watch);
-            let solution = program.solve()?;
-            let next: Nodes<D> = (0..a.len())
-                .map(|i| SVector::from_fn(|k, _| self.regions[k].size * solution.x[i * D + k]))
-                .collect();
-            let mut news = false;
-            for k in 0..D {
-                let nodes: Vec<f64> = next.iter().map(|node| node[k]).collect();
-                news |= self.regions[k].update_watch(&nodes, &mut watch[k]);
-            }
-            if news {
-                continue;
-            }
-            if let Some(first) = first_piece {
-                for (k, weight) in weights.iter_mut().take(model.pieces.len()).enumerate() {
-                    *weight = solution.multipliers[first + k].max(1e-12);
-                }
-            }
-            let promise = self.promise(a, model, &next);
-            return Some((next, promise));
-        }
-        None
-    }
-
-    /// The convex program of one iteration, and the number of its first row for the pieces of M.
-    fn program(
-        &self,
-        a: &[SVector<f64, D>],
-        model: &Model<D>,
-        watch: &[WatchedIntervals; D],
-    ) -> (ConicProgram, Option<usize>) {
-        let mut program = ConicProgram::default();
-        program.add_variables(a.len() * D);
-        for (k, region) in self.regions.iter().enumerate() {
-            region.add_to(&mut program, |i| i * D + k, &watch[k]);
-        }
-        // form · (x − a), in the program's variables
-        let along = |form: &[SVector<f64, D>], scale: f64| {
-            let mut row = Row::default();
-            for (i, node) in form.iter().enumerate() {
-                for k in 0..D {
-                    row.terms.push((i * D + k, node[k] * self.regions[k].size * scale));
-                    row.constant -= node[k] * a[i][k] * scale;
-                }
-            }
-            row
+        let InformationDerivative { nodes, variances } = derivative;
+        let (slope, noise) = if noisy {
+            let slope = nodes.iter().zip(&total).map(|(held, all)| -(held * bend + all * (1.0 - bend)));
+            (slope.collect(), variances.iter().map(|v| v * -bend).collect())
+        } else {
+            (total.iter().map(|total| -total).collect(), Vec::new())
         };
-        let scale = 1.0 / self.reach(model);
-        if let Some(entries) = &model.matrix {
-            let t = program.add_variables(1);
-            let largest = entries.iter().map(|(value, _)| value.abs()).fold(0.0, f64::max);
-            // t counts from the present smallest eigenvalue, 1/Φ
-            let smallest = 1.0 / model.pieces[0].0;
-            let unit = smallest.max(1e-12 * largest);
-            let mut upper = Vec::new();
-            for (at, (value, slope)) in entries.iter().enumerate() {
-                let (i, j) = triangle(at);
-                let mut row = Row::new(value / unit, []).plus(&along(slope, 1.0 / unit));
-                if i == j {
-                    row.terms.push((t, -1.0));
-                }
-                upper.push(row);
-            }
-            program.semidefinite(P, upper);
-            program.add_linear(t, -1.0);
-            return (program, None);
-        }
-        let z = program.add_variables(model.bends.len());
-        for (k, bend) in model.bends.iter().enumerate() {
-            program.add_square(z + k, 1.0);
-            program.zero(along(bend, scale.sqrt()).plus(&Row::new(0.0, [(z + k, -1.0)])));
+        let signs: Vec<_> = a.windows(2).map(|pair| (pair[1] - pair[0]).map(f64::signum)).collect();
+        let changes = self.information.first_derivatives(a, &at, &signs);
+        Some(Model { slope, bends: independent(&forms, &changes) * bend.sqrt(), noise })
+    }
+
+    /// The program of the model, in units of the most that the gradient could promise.
+    fn chain_program(&self, a: &[SVector<f64, D>], model: &Model<D>, peaks: &[Peaks; D]) -> ChainProgram {
+        let size = |k: usize| self.regions[k].size;
+        let reach =
+            model.slope.iter().map(|s| (0..D).map(|k| s[k].abs() * size(k)).sum::<f64>()).sum::<f64>();
+        let scale = if reach > 0.0 { 1.0 / reach } else { 1.0 };
+        let mut chains: Vec<_> =
+            self.regions.iter().zip(peaks).map(|(region, peaks)| region.chain(peaks)).collect();
+        for (k, chain) in chains.iter_mut().enumerate() {
+            chain.slope.iter_mut().zip(&model.slope).for_each(|(z, slope)| z[0] = slope[k] * size(k) * scale);
         }
         if let (false, Some((floor, ratio))) = (model.noise.is_empty(), self.information.input_noise()) {
-            // s ≥ |u| in units of size/Δτ: a larger jerk brings the noise Δτ² (floor + ratio s)²
+            // s ≥ |u|: a larger increment brings the noise (floor Δτ + ratio s)²
             for (i, noise) in model.noise.iter().enumerate() {
-                let dt = self.information.interval_s(i);
-                for k in 0..D {
-                    let size = self.regions[k].size;
-                    let s = program.add_variables(1);
-                    let difference = [((i + 1) * D + k, 1.0), (i * D + k, -1.0)];
-                    let part = Row::new(0.0, difference);
-                    program.nonnegative(Row::new(0.0, [(s, 1.0)]).plus(&part));
-                    program.nonnegative(Row::new(0.0, [(s, 1.0)]).plus(&part.times(-1.0)));
-                    let weight = noise[k] * scale * size * ratio;
-                    program.add_square(s, (2.0 * weight * size * ratio).max(1e-12));
-                    program.add_linear(s, 2.0 * weight * floor * dt);
+                for (k, chain) in chains.iter_mut().enumerate() {
+                    let weight = noise[k] * scale * size(k) * ratio;
+                    chain.slope[i][4] = 2.0 * weight * floor * self.information.interval_s(i);
+                    chain.square[i] = (2.0 * weight * size(k) * ratio).max(1e-12);
+                    for sign in [1.0, -1.0] {
+                        let c = Stage::new(0.0, 0.0, 0.0, sign, -1.0);
+                        chain.rows.push(StageRow { stage: i, c, bound: 0.0 });
+                    }
                 }
             }
         }
-        if let [(_, slope)] = model.pieces.as_slice() {
-            for (variable, value) in along(slope, scale).terms {
-                program.add_linear(variable, value);
-            }
-            return (program, None);
+        let mut here: Vec<Vec<Stage>> = Vec::new();
+        for (k, region) in self.regions.iter().enumerate() {
+            here.push(region.stages(&a.iter().map(|node| node[k]).collect::<Vec<f64>>()));
         }
-        let t = program.add_variables(1);
-        program.add_linear(t, 1.0);
-        let best = model.pieces.iter().map(|(value, _)| *value).fold(f64::NEG_INFINITY, f64::max);
-        let mut first = None;
-        for (value, slope) in &model.pieces {
-            let row = along(slope, -scale).plus(&Row::new((best - value) * scale, [(t, 1.0)]));
-            first.get_or_insert(program.nonnegative(row));
+        if !model.noise.is_empty() {
+            here.iter_mut().flatten().for_each(|z| z[4] = z[3].abs());
         }
-        (program, first)
-    }
-
-    /// The most that the gradient could promise: its 1-norm over the natural size of the motion.
-    fn reach(&self, model: &Model<D>) -> f64 {
-        let of = |slope: &Nodes<D>| -> f64 {
-            slope.iter().map(|node| (0..D).map(|k| node[k].abs() * self.regions[k].size).sum::<f64>()).sum()
-        };
-        let largest = model.pieces.iter().map(|(_, slope)| of(slope)).fold(0.0, f64::max);
-        if largest > 0.0 { largest } else { 1.0 }
-    }
-
-    fn promise(&self, a: &[SVector<f64, D>], model: &Model<D>, next: &[SVector<f64, D>]) -> f64 {
-        let along = |form: &[SVector<f64, D>]| -> f64 {
-            form.iter().zip(next.iter().zip(a)).map(|(form, (next, a))| form.dot(&(next - a))).sum()
-        };
-        let reach = self.reach(model);
-        let best = model.pieces.iter().map(|(value, _)| *value).fold(f64::NEG_INFINITY, f64::max);
-        let linear = model
-            .pieces
-            .iter()
-            .map(|(value, slope)| value - best + along(slope))
-            .fold(f64::NEG_INFINITY, f64::max);
-        let bend: f64 = model.bends.iter().map(|bend| along(bend).powi(2) / 2.0).sum();
-        let mut noise = 0.0;
-        if let (false, Some((floor, ratio))) = (model.noise.is_empty(), self.information.input_noise()) {
-            for (i, weight) in model.noise.iter().enumerate() {
-                let dt = self.information.interval_s(i);
-                for k in 0..D {
-                    let variance =
-                        |a: &[SVector<f64, D>]| (floor * dt + ratio * (a[i + 1][k] - a[i][k]).abs()).powi(2);
-                    noise += weight[k] * (variance(next) - variance(a));
-                }
-            }
-        }
-        if let Some(entries) = &model.matrix {
-            // relative growth of the smallest eigenvalue
-            let matrix = DMatrix::from_fn(P, P, |i, j| {
-                let (value, slope) = &entries[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-                value + along(slope)
-            });
-            return matrix.symmetric_eigenvalues().min() * model.pieces[0].0 - 1.0;
-        }
-        -(linear + bend + noise) / reach
+        let forms = model.bends.row_iter().map(|row| {
+            let of = |k: usize| (0..a.len()).map(|i| row[i * D + k] * size(k) * scale.sqrt()).collect();
+            let mut form = Form { b: (0..D).map(of).collect(), offset: 0.0 };
+            form.offset = form.at(&here);
+            form
+        });
+        let mut program = ChainProgram { forms: forms.collect(), chains, reached: 0.0 };
+        program.reached = program.objective(&here, &vec![0.0; program.forms.len()]);
+        program
     }
 }
 
-/// Row and column of entry `at` of an upper triangle, column by column.
-fn triangle(at: usize) -> (usize, usize) {
-    let mut column = 0;
-    while (column + 1) * (column + 2) / 2 <= at {
-        column += 1;
-    }
-    (at - column * (column + 1) / 2, column)
+/// The point this part of the way from one motion to another.
+fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f64) -> Nodes<D> {
+    from.iter().zip(to).map(|(from, to)| from + (to - from) * part).collect()
 }
 
-/// A convex model of the criterion around a motion.
-struct Model<const D: usize> {
-    /// Value and slope of each smooth piece; the model is the largest.
-    pieces: Vec<(f64, Nodes<D>)>,
-    /// Half the sum of the squares of these forms is the bend.
-    bends: Vec<Nodes<D>>,
-    /// Gain of the criterion per variance of each increment; empty unless this is modelled apart.
-    noise: Vec<SVector<f64, D>>,
-    /// For E: value and slope of each entry of the scaled information, upper triangle.
-    matrix: Option<Vec<(f64, Nodes<D>)>>,
-}
-
-/// The same sum of squares with as few forms as its rank.
-fn reduce<const D: usize>(bends: &mut Vec<Nodes<D>>) {
-    let (count, nodes) = (bends.len(), bends.first().map_or(0, Vec::len));
-    if count < 3 {
-        return;
-    }
-    let forms = DMatrix::from_fn(count, nodes * D, |m, at| bends[m][at / D][at % D]);
-    // the smaller of the two Gram matrices has the same rank
-    let tall = count > nodes * D;
-    let gram = if tall { forms.tr_mul(&forms) } else { &forms * forms.transpose() };
-    let eigen = gram.symmetric_eigen();
+/// The forms `⟨Ω_m, dF⟩` of the change of the motion, combined so that the sum of their squares is the same and none is
+/// superfluous.
+fn independent<const P: usize>(forms: &[SMatrix<f64, P, P>], changes: &[SMatrix<f64, P, P>]) -> DMatrix<f64> {
+    // symmetric matrices by their upper triangles
+    let places: Vec<(usize, usize)> = (0..P).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
+    let forms = DMatrix::from_fn(forms.len(), places.len(), |m, at| {
+        let (i, j) = places[at];
+        forms[m][(i, j)] + if i == j { 0.0 } else { forms[m][(j, i)] }
+    });
+    let changes = DMatrix::from_fn(places.len(), changes.len(), |at, unknown| changes[unknown][places[at]]);
+    let gram = &forms * (&changes * changes.transpose()) * forms.transpose();
+    let eigen = ((&gram + gram.transpose()) * 0.5).symmetric_eigen();
     let largest = eigen.eigenvalues.amax();
     let kept: Vec<usize> =
         (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > RANK * largest).collect();
-    if kept.len() == count {
-        return;
-    }
-    *bends = kept
-        .into_iter()
-        .map(|k| {
-            let direction = eigen.eigenvectors.column(k);
-            let row = if tall { direction * eigen.eigenvalues[k].sqrt() } else { forms.tr_mul(&direction) };
-            (0..nodes).map(|i| SVector::from_fn(|d, _| row[i * D + d])).collect()
-        })
-        .collect();
+    eigen.eigenvectors.select_columns(&kept).tr_mul(&forms) * changes
 }

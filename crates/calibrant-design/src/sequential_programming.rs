@@ -10,6 +10,7 @@
 //! - Long motions, E and M have a model without the curvature of the information
 //!   ([`super::long_program`]).
 
+use super::epigraph_program::EpigraphProgram;
 use super::long_program::LongProgram;
 use super::part::{Nodes, Part};
 use super::short_program::ShortProgram;
@@ -39,6 +40,7 @@ const SHORT: usize = 160;
 enum Model<const D: usize> {
     Short(Box<ShortProgram<D>>),
     Long(LongProgram<D>),
+    Epigraph(EpigraphProgram<D>),
 }
 
 impl<const D: usize> Model<D> {
@@ -46,6 +48,7 @@ impl<const D: usize> Model<D> {
         match self {
             Self::Short(program) => program.step(part, a),
             Self::Long(program) => program.step(part, a),
+            Self::Epigraph(program) => program.step(part, a),
         }
     }
 
@@ -53,6 +56,7 @@ impl<const D: usize> Model<D> {
         match self {
             Self::Short(program) => program.moved(fraction),
             Self::Long(program) => program.moved(fraction),
+            Self::Epigraph(program) => program.moved(fraction),
         }
     }
 
@@ -60,6 +64,7 @@ impl<const D: usize> Model<D> {
         match self {
             Self::Short(program) => program.blocked(),
             Self::Long(program) => program.blocked(),
+            Self::Epigraph(program) => program.blocked(),
         }
     }
 }
@@ -90,8 +95,10 @@ impl<const D: usize, const P: usize> Part<D, P> {
         let smooth = !matches!(self.criterion, Criterion::E(_) | Criterion::M(_));
         let mut model = if smooth && a.len() * D <= SHORT && self.information.trust() != Trust::Unknown {
             Model::Short(Box::new(ShortProgram::new(&self.regions)))
+        } else if smooth {
+            Model::Long(LongProgram::new())
         } else {
-            Model::Long(LongProgram::new(P))
+            Model::Epigraph(EpigraphProgram::new(P))
         };
         for iteration in 0..settings.max_iterations {
             if settings.interruption.is_asked() {

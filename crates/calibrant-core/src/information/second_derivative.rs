@@ -107,12 +107,24 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
                 })
             }
         };
-        let mut felt = vec![SMatrix::<f64, D, P>::zeros(); nodes];
+        let first = self.first_derivatives(a, at, signs);
+        Some(InformationCurvature { first, weight, noise })
+    }
+
+    /// `∂F/∂a` for coordinate k of node i, at `i D + k`, on the sides of the kinks of the noise that `signs` tell.
+    #[must_use]
+    pub fn first_derivatives(
+        &self,
+        a: &[SVector<f64, D>],
+        at: &Linearised<D, P>,
+        signs: &[SVector<f64, D>],
+    ) -> Vec<SMatrix<f64, P, P>> {
+        let mut felt = vec![SMatrix::<f64, D, P>::zeros(); a.len()];
         for (i, m) in self.sums.iter().enumerate() {
             felt[i] += at.residual[i] * m.m00 + at.residual[i + 1] * m.m01;
             felt[i + 1] += at.residual[i] * m.m01 + at.residual[i + 1] * m.m11;
         }
-        let mut first = vec![SMatrix::<f64, P, P>::zeros(); nodes * D];
+        let mut first = vec![SMatrix::<f64, P, P>::zeros(); a.len() * D];
         for (place, derivative) in first.iter_mut().enumerate() {
             for reading in 0..D {
                 let row = reading * (D + 1) + 1 + place % D;
@@ -123,14 +135,19 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
                 }
             }
         }
-        if let Some(noise) = &noise {
-            for (i, (h, slope)) in noise.costate.iter().zip(&noise.slope).enumerate() {
-                let part = h * h.transpose() * *slope;
-                first[i] += part;
-                first[i + D] -= part;
+        if let Some((floor, ratio)) = self.input_noise() {
+            for (i, (costate, sign)) in at.costate.iter().zip(signs).enumerate() {
+                for d in 0..D {
+                    let step = ((a[i + 1][d] - a[i][d]) * sign[d]).max(0.0);
+                    let slope = 2.0 * (floor * self.interval_s(i) + ratio * step) * ratio * sign[d];
+                    let force = costate.row(d);
+                    let part = force.tr_mul(&force) * slope;
+                    first[i * D + d] += part;
+                    first[(i + 1) * D + d] -= part;
+                }
             }
         }
-        Some(InformationCurvature { first, weight, noise })
+        first
     }
 
     /// `M`.

@@ -1,0 +1,290 @@
+//! The convex program of one iteration for the criteria E and M, which are not smooth.
+//!
+//! Every criterion of the linearised information is a convex upper bound of the criterion ([`super::long_program`]).
+//! M is the largest of several smooth pieces, and so is the program's objective: a variable above all of them.
+//! E has no second-order model: its convex bound is minimised exactly, `maximise t: F_lin ⪰ t diag(s)⁻²`.
+//!
+//! # References
+//! `boyd2004`, `pukelsheim2006`
+
+use super::admissible_region::WatchedIntervals;
+use super::conic_program::{ConicProgram, Row};
+use super::criterion_model::Curvature;
+use super::part::{Nodes, Part};
+use calibrant_core::information::Criterion;
+use nalgebra::{DMatrix, SMatrix, SVector};
+
+/// Factor on the model's bend after each full step: the bend bounds the criterion from above, often far
+/// above.
+const BOLDER: f64 = 0.25;
+/// The least factor on the bend.
+const LEAST_BEND: f64 = 1e-3;
+/// Relative size of an eigenvalue that adds nothing to the rank.
+const RANK: f64 = 1e-12;
+
+/// What one iteration leaves for the next.
+pub(super) struct EpigraphProgram<const D: usize> {
+    watch: [WatchedIntervals; D],
+    /// Multipliers of the pieces of M.
+    weights: Vec<f64>,
+    /// Factor on the model's bend.
+    bend: f64,
+}
+
+impl<const D: usize> EpigraphProgram<D> {
+    pub(super) fn new(parameters: usize) -> Self {
+        Self {
+            watch: std::array::from_fn(|_| WatchedIntervals::default()),
+            weights: vec![1.0; parameters],
+            bend: 1.0,
+        }
+    }
+
+    /// The admissible motion that minimises the model, and what it promises.
+    pub(super) fn step<const P: usize>(
+        &mut self,
+        part: &Part<D, P>,
+        a: &[SVector<f64, D>],
+    ) -> Option<(Nodes<D>, f64)> {
+        let mut model = part.pieces(a, &self.weights, self.bend)?;
+        let found = part.epigraph_step(a, &model, &mut self.watch, &mut self.weights);
+        if found.is_none() && model.matrix.take().is_some() {
+            // matrix entries of too different size: the slope alone still gives the direction
+            return part.epigraph_step(a, &model, &mut self.watch, &mut self.weights);
+        }
+        found
+    }
+
+    /// Learns what part of the way to the minimum was gone.
+    pub(super) fn moved(&mut self, fraction: f64) {
+        self.bend = if fraction == 1.0 {
+            f64::max(self.bend * BOLDER, LEAST_BEND)
+        } else {
+            f64::min(self.bend / BOLDER, 1.0)
+        };
+    }
+
+    /// Learns that the criterion does not fall on the way; returns whether another model may do better.
+    pub(super) fn blocked(&mut self) -> bool {
+        let bold = self.bend < 1.0;
+        self.bend = 1.0;
+        bold
+    }
+}
+
+impl<const D: usize, const P: usize> Part<D, P> {
+    /// Linear forms of the step in place of those of the information.
+    fn pieces(&self, a: &[SVector<f64, D>], weights: &[f64], bend: f64) -> Option<Model<D>> {
+        let at = self.information.linearise(a)?;
+        let c = self.covariance(&at)?;
+        let fixed =
+            |omega: &DMatrix<f64>| self.on_information(&SMatrix::<f64, P, P>::from_fn(|i, j| omega[(i, j)]));
+        let along = |omega: &DMatrix<f64>| {
+            self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
+        };
+        let pieces = super::criterion_model::pieces(&self.criterion, &c, self.floor_of_d());
+        let mut model = Model { pieces: Vec::new(), bends: Vec::new(), matrix: None };
+        let total: f64 = weights.iter().take(pieces.len()).sum();
+        for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {
+            let derivative = self.information.derivative(&at, &fixed(&first));
+            let slope = self.information.total(a, &derivative);
+            model.pieces.push((value, slope.iter().map(|slope| -slope).collect()));
+            let share = (bend * weight / total).sqrt();
+            if share > 1e-4 * bend.sqrt() {
+                model.bends.extend(
+                    forms
+                        .iter()
+                        .map(|form| along(form).into_iter().map(|row| row * share).collect::<Nodes<D>>()),
+                );
+            }
+        }
+        if let Criterion::E(e) = &self.criterion {
+            // S F_lin S, entry by entry
+            let f = self.inverse_covariance(&at);
+            let mut entries = Vec::new();
+            for j in 0..P {
+                for i in 0..=j {
+                    let mut omega = DMatrix::zeros(P, P);
+                    omega[(i, j)] += 0.5 * e.scale[i] * e.scale[j];
+                    omega[(j, i)] += 0.5 * e.scale[i] * e.scale[j];
+                    entries.push((f[(i, j)] * e.scale[i] * e.scale[j], along(&omega)));
+                }
+            }
+            model.matrix = Some(entries);
+        }
+        reduce(&mut model.bends);
+        Some(model)
+    }
+
+    /// The admissible motion that minimises the model. Also its predicted decrease, relative to the most that
+    /// the gradient could promise.
+    fn epigraph_step(
+        &self,
+        a: &[SVector<f64, D>],
+        model: &Model<D>,
+        watch: &mut [WatchedIntervals; D],
+        weights: &mut [f64],
+    ) -> Option<(Nodes<D>, f64)> {
+        // watched intervals are few and are found soon
+        for _ in 0..8 {
+            let (program, first_piece) = self.program(a, model, watch);
+            let solution = program.solve()?;
+            let next: Nodes<D> = (0..a.len())
+                .map(|i| SVector::from_fn(|k, _| self.regions[k].size * solution.x[i * D + k]))
+                .collect();
+            let mut news = false;
+            for k in 0..D {
+                let nodes: Vec<f64> = next.iter().map(|node| node[k]).collect();
+                news |= self.regions[k].update_watch(&nodes, &mut watch[k]);
+            }
+            if news {
+                continue;
+            }
+            if let Some(first) = first_piece {
+                for (k, weight) in weights.iter_mut().take(model.pieces.len()).enumerate() {
+                    *weight = solution.multipliers[first + k].max(1e-12);
+                }
+            }
+            let promise = self.promise(a, model, &next);
+            return Some((next, promise));
+        }
+        None
+    }
+
+    /// The convex program of one iteration, and the number of its first row for the pieces of M.
+    fn program(
+        &self,
+        a: &[SVector<f64, D>],
+        model: &Model<D>,
+        watch: &[WatchedIntervals; D],
+    ) -> (ConicProgram, Option<usize>) {
+        let mut program = ConicProgram::default();
+        program.add_variables(a.len() * D);
+        for (k, region) in self.regions.iter().enumerate() {
+            region.add_to(&mut program, |i| i * D + k, &watch[k]);
+        }
+        // form · (x − a), in the program's variables
+        let along = |form: &[SVector<f64, D>], scale: f64| {
+            let mut row = Row::default();
+            for (i, node) in form.iter().enumerate() {
+                for k in 0..D {
+                    row.terms.push((i * D + k, node[k] * self.regions[k].size * scale));
+                    row.constant -= node[k] * a[i][k] * scale;
+                }
+            }
+            row
+        };
+        let scale = 1.0 / self.reach(model);
+        if let Some(entries) = &model.matrix {
+            let t = program.add_variables(1);
+            let largest = entries.iter().map(|(value, _)| value.abs()).fold(0.0, f64::max);
+            // t counts from the present smallest eigenvalue, 1/Φ
+            let smallest = 1.0 / model.pieces[0].0;
+            let unit = smallest.max(1e-12 * largest);
+            let mut upper = Vec::new();
+            for (at, (value, slope)) in entries.iter().enumerate() {
+                let (i, j) = triangle(at);
+                let mut row = Row::new(value / unit, []).plus(&along(slope, 1.0 / unit));
+                if i == j {
+                    row.terms.push((t, -1.0));
+                }
+                upper.push(row);
+            }
+            program.semidefinite(P, upper);
+            program.add_linear(t, -1.0);
+            return (program, None);
+        }
+        let z = program.add_variables(model.bends.len());
+        for (k, bend) in model.bends.iter().enumerate() {
+            program.add_square(z + k, 1.0);
+            program.zero(along(bend, scale.sqrt()).plus(&Row::new(0.0, [(z + k, -1.0)])));
+        }
+        let t = program.add_variables(1);
+        program.add_linear(t, 1.0);
+        let best = model.pieces.iter().map(|(value, _)| *value).fold(f64::NEG_INFINITY, f64::max);
+        let mut first = None;
+        for (value, slope) in &model.pieces {
+            let row = along(slope, -scale).plus(&Row::new((best - value) * scale, [(t, 1.0)]));
+            first.get_or_insert(program.nonnegative(row));
+        }
+        (program, first)
+    }
+
+    /// The most that the gradient could promise: its 1-norm over the natural size of the motion.
+    fn reach(&self, model: &Model<D>) -> f64 {
+        let of = |slope: &Nodes<D>| -> f64 {
+            slope.iter().map(|node| (0..D).map(|k| node[k].abs() * self.regions[k].size).sum::<f64>()).sum()
+        };
+        let largest = model.pieces.iter().map(|(_, slope)| of(slope)).fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    fn promise(&self, a: &[SVector<f64, D>], model: &Model<D>, next: &[SVector<f64, D>]) -> f64 {
+        let along = |form: &[SVector<f64, D>]| -> f64 {
+            form.iter().zip(next.iter().zip(a)).map(|(form, (next, a))| form.dot(&(next - a))).sum()
+        };
+        let reach = self.reach(model);
+        let best = model.pieces.iter().map(|(value, _)| *value).fold(f64::NEG_INFINITY, f64::max);
+        let linear = model
+            .pieces
+            .iter()
+            .map(|(value, slope)| value - best + along(slope))
+            .fold(f64::NEG_INFINITY, f64::max);
+        let bend: f64 = model.bends.iter().map(|bend| along(bend).powi(2) / 2.0).sum();
+        if let Some(entries) = &model.matrix {
+            // relative growth of the smallest eigenvalue
+            let matrix = DMatrix::from_fn(P, P, |i, j| {
+                let (value, slope) = &entries[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+                value + along(slope)
+            });
+            return matrix.symmetric_eigenvalues().min() * model.pieces[0].0 - 1.0;
+        }
+        -(linear + bend) / reach
+    }
+}
+
+/// Row and column of entry `at` of an upper triangle, column by column.
+fn triangle(at: usize) -> (usize, usize) {
+    let mut column = 0;
+    while (column + 1) * (column + 2) / 2 <= at {
+        column += 1;
+    }
+    (at - column * (column + 1) / 2, column)
+}
+
+/// A convex model of the criterion around a motion.
+struct Model<const D: usize> {
+    /// Value and slope of each smooth piece; the model is the largest.
+    pieces: Vec<(f64, Nodes<D>)>,
+    /// Half the sum of the squares of these forms is the bend.
+    bends: Vec<Nodes<D>>,
+    /// For E: value and slope of each entry of the scaled information, upper triangle.
+    matrix: Option<Vec<(f64, Nodes<D>)>>,
+}
+
+/// The same sum of squares with as few forms as its rank.
+fn reduce<const D: usize>(bends: &mut Vec<Nodes<D>>) {
+    let (count, nodes) = (bends.len(), bends.first().map_or(0, Vec::len));
+    if count < 3 {
+        return;
+    }
+    let forms = DMatrix::from_fn(count, nodes * D, |m, at| bends[m][at / D][at % D]);
+    // the smaller of the two Gram matrices has the same rank
+    let tall = count > nodes * D;
+    let gram = if tall { forms.tr_mul(&forms) } else { &forms * forms.transpose() };
+    let eigen = gram.symmetric_eigen();
+    let largest = eigen.eigenvalues.amax();
+    let kept: Vec<usize> =
+        (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > RANK * largest).collect();
+    if kept.len() == count {
+        return;
+    }
+    *bends = kept
+        .into_iter()
+        .map(|k| {
+            let direction = eigen.eigenvectors.column(k);
+            let row = if tall { direction * eigen.eigenvalues[k].sqrt() } else { forms.tr_mul(&direction) };
+            (0..nodes).map(|i| SVector::from_fn(|d, _| row[i * D + d])).collect()
+        })
+        .collect();
+}
