@@ -311,7 +311,6 @@ fn wrong_requests_are_refused_and_nothing_is_written() {
         ("arm.toml --from absent.json", "absent.json: cannot read the calibration"),
         ("arm.toml --from not.json", "not.json:1:2: not valid JSON"),
         ("arm.toml --from other.json", "other.json: schema 7 of a calibration is not known to this version"),
-        ("static.toml", "a design needs a [motion] experiment, this one has [holds]"),
         ("free.toml", "nothing bounds the acceleration of axis x"),
     ] {
         bench.refuses(&format!("design {arguments} -o none"), 2, &[says]);

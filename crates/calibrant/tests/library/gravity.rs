@@ -129,11 +129,20 @@ fn gravity_changes_the_bias_and_nothing_else() {
         let (Recovered::Motion(a), Recovered::Motion(b)) = (&one.recovered, &other.recovered) else {
             panic!()
         };
-        for (a, b) in a.motion.acceleration_mps2().iter().zip(b.motion.acceleration_mps2()) {
-            assert!((a - b).amax() < 1e-9);
+        // the iterations of both end within a small part of a standard deviation of the optimum
+        const CONVERGED: f64 = 1e-4;
+        let nodes = a.motion.acceleration_mps2().iter().zip(b.motion.acceleration_mps2());
+        for ((a, b), sd) in nodes.zip(&a.acceleration_sd_mps2) {
+            assert!(
+                (a - b).amax() < 1e-9 + CONVERGED * sd.amax(),
+                "{:e}, sd {:e}",
+                (a - b).amax(),
+                sd.amax()
+            );
         }
+        let noise = one.fit.assumed_noise.expect("given").amax();
         for (a, b) in a.residuals.iter().zip(&b.residuals) {
-            assert!((a - b).amax() < 1e-9);
+            assert!((a - b).amax() < 1e-9 + CONVERGED * noise);
         }
         // the constant was made with the true S, and is taken out with the estimated one
         let shift = (with.truth.matrix - other.imu.accelerometer.matrix) * gravity.force_mps2;

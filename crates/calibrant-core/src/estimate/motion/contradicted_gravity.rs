@@ -21,6 +21,8 @@ const FAR: f64 = 6.0;
 const LEAST: f64 = 0.25;
 /// The same where the datasheet gives no spread of the biases.
 const LEAST_WITHOUT_SPREAD: f64 = 0.5;
+/// Part of gravity above which the residuals show another motion, whose biases say nothing.
+const SCATTER: f64 = 0.05;
 /// Angle within which a force lies along an axis, degrees.
 const ALONG: f64 = 15.0;
 
@@ -42,6 +44,9 @@ pub(super) fn check(context: &Context<'_>, calibration: &Calibration) -> Result<
     }
     let force = active(given.map_or_else(Vector3::zeros, |gravity| gravity.force_mps2)) + constant;
     let g = given.map_or(EARTH, |gravity| gravity.force_mps2.norm());
+    if scatter(context, calibration, &inverse) > SCATTER * g {
+        return Ok(());
+    }
     let is_gravity = (force.norm() - g).abs() <= NEAR * g;
     let refuse = |message: String, help: String| {
         let input_error = InputError::new(Refusal::GravityContradicted, message, help);
@@ -97,6 +102,13 @@ fn allowed(context: &Context<'_>, calibration: &Calibration, inverse: &Matrix3<f
     let estimate: f64 = (0..sensor.axes).map(|k| (inverse[(k, k)] * sd[k]).powi(2)).sum();
     let spread: f64 = (0..sensor.axes).map(|k| spread[k] * spread[k]).sum();
     (FAR * (estimate + spread).sqrt()).max(LEAST * g)
+}
+
+/// Root mean square of the residuals on the worst axis, m/s².
+fn scatter(context: &Context<'_>, calibration: &Calibration, inverse: &Matrix3<f64>) -> f64 {
+    let rms = calibration.fit.residual_rms.unwrap_or_default();
+    let of_axis = |k: usize| (inverse[(k, k)] * rms[k]).abs();
+    (0..context.problem.sensor.axes).map(of_axis).fold(0.0, f64::max)
 }
 
 /// The axis along which a force lies, if it does.
