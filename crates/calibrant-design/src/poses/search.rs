@@ -36,8 +36,8 @@ const ITERATIONS: usize = 400;
 /// `settings`: the number of starts and the seed. `progress` is told how many starts have ended.
 ///
 /// # Errors
-/// [`Error::NotIdentifiable`] where there are fewer poses than the parameters need, with that number, or where
-/// the allowed directions leave parameters undetermined however many there are. [`Error::Experiment`] where
+/// [`Error::NotIdentifiable`](calibrant_core::Error::NotIdentifiable) where there are fewer poses than the parameters need, with that number, or where
+/// the allowed directions leave parameters undetermined however many there are. [`Error::Experiment`](calibrant_core::Error::Experiment) where
 /// the sensor's matrix is singular.
 ///
 /// # Examples
