@@ -105,17 +105,18 @@ impl ChainProgram {
             let mean = gap / count;
             let forms = self.forms_at(&x);
             let gained = self.reached - self.objective(&x, &forms);
+            let ended = |stages| ChainSolution {
+                stages,
+                gained,
+                gap: gap + residual,
+                #[cfg(test)]
+                iterations,
+            };
             let done = residual <= RESIDUAL && gap <= GAP.0 + GAP.1 * gained.max(0.0);
             let newton =
                 if done || iterations == ITERATIONS { None } else { self.newton(&slack, &multipliers) };
             let Some(newton) = newton else {
-                return Some(ChainSolution {
-                    stages: x,
-                    gained,
-                    gap: gap + residual,
-                    #[cfg(test)]
-                    iterations,
-                });
+                return Some(ended(x));
             };
             let gradient = self.gradient(&x, &forms);
             let direction = |centre: &dyn Fn(usize) -> f64| {
@@ -140,13 +141,7 @@ impl ChainProgram {
             let (step, fall, rise) = direction(&|k| centre - fall[k] * rise[k]);
             let most = (BOUNDARY * furthest(&slack, &fall).min(furthest(&multipliers, &rise))).min(1.0);
             if most.is_nan() || most < STUCK {
-                return Some(ChainSolution {
-                    stages: x,
-                    gained,
-                    gap: gap + residual,
-                    #[cfg(test)]
-                    iterations,
-                });
+                return Some(ended(x));
             }
             for (x, step) in x.iter_mut().flatten().zip(step.iter().flatten()) {
                 *x += step * most;

@@ -10,15 +10,11 @@
 use super::admissible_region::WatchedIntervals;
 use super::conic_program::{ConicProgram, Row};
 use super::criterion_model::Curvature;
+use super::model_bend::ModelBend;
 use super::part::{Nodes, Part};
 use calibrant_core::information::Criterion;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-/// Factor on the model's bend after each full step: the bend bounds the criterion from above, often far
-/// above.
-const BOLDER: f64 = 0.25;
-/// The least factor on the bend.
-const LEAST_BEND: f64 = 1e-3;
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
 
@@ -27,8 +23,7 @@ pub(super) struct EpigraphProgram<const D: usize> {
     watch: [WatchedIntervals; D],
     /// Multipliers of the pieces of M.
     weights: Vec<f64>,
-    /// Factor on the model's bend.
-    bend: f64,
+    pub(super) bend: ModelBend,
 }
 
 impl<const D: usize> EpigraphProgram<D> {
@@ -36,7 +31,7 @@ impl<const D: usize> EpigraphProgram<D> {
         Self {
             watch: std::array::from_fn(|_| WatchedIntervals::default()),
             weights: vec![1.0; parameters],
-            bend: 1.0,
+            bend: ModelBend::full(),
         }
     }
 
@@ -46,29 +41,13 @@ impl<const D: usize> EpigraphProgram<D> {
         part: &Part<D, P>,
         a: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, f64)> {
-        let mut model = part.pieces(a, &self.weights, self.bend)?;
+        let mut model = part.pieces(a, &self.weights, self.bend.factor())?;
         let found = part.epigraph_step(a, &model, &mut self.watch, &mut self.weights);
         if found.is_none() && model.matrix.take().is_some() {
             // matrix entries of too different size: the slope alone still gives the direction
             return part.epigraph_step(a, &model, &mut self.watch, &mut self.weights);
         }
         found
-    }
-
-    /// Learns what part of the way to the minimum was gone.
-    pub(super) fn moved(&mut self, fraction: f64) {
-        self.bend = if fraction == 1.0 {
-            f64::max(self.bend * BOLDER, LEAST_BEND)
-        } else {
-            f64::min(self.bend / BOLDER, 1.0)
-        };
-    }
-
-    /// Learns that the criterion does not fall on the way; returns whether another model may do better.
-    pub(super) fn blocked(&mut self) -> bool {
-        let bold = self.bend < 1.0;
-        self.bend = 1.0;
-        bold
     }
 }
 

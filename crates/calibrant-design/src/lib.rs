@@ -21,6 +21,7 @@ mod interruption;
 mod kicks;
 mod linear_limits;
 mod long_program;
+mod model_bend;
 mod motion_assessment;
 mod multistart_search;
 mod part;

@@ -13,16 +13,13 @@
 use super::chain_factor::Stage;
 use super::chain_program::{ChainProgram, Form, StageRow};
 use super::criterion_model::{Curvature, pieces};
+use super::model_bend::ModelBend;
 use super::part::{Nodes, Part};
+use super::random_starts::mix;
 use super::stage_rows::Peaks;
 use calibrant_core::information::InformationDerivative;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-/// Factor on the model's bend after each full step: the bend bounds the criterion from above, often far
-/// above.
-const BOLDER: f64 = 0.25;
-/// The least factor on the bend.
-const LEAST_BEND: f64 = 1e-3;
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
 /// Rounds of limits between the nodes.
@@ -41,8 +38,7 @@ const MARGIN: f64 = 0.1;
 /// What one iteration leaves for the next.
 pub(super) struct LongProgram<const D: usize> {
     peaks: [Peaks; D],
-    /// Factor on the model's bend.
-    bend: f64,
+    pub(super) bend: ModelBend,
     /// What the last model promised.
     promise: f64,
 }
@@ -58,7 +54,7 @@ struct Model<const D: usize> {
 
 impl<const D: usize> LongProgram<D> {
     pub(super) fn new() -> Self {
-        Self { peaks: std::array::from_fn(|_| Peaks::default()), bend: 1.0, promise: 1.0 }
+        Self { peaks: std::array::from_fn(|_| Peaks::default()), bend: ModelBend::full(), promise: 1.0 }
     }
 
     /// The admissible motion that minimises the model, and what it promises: the decrease of the model, relative to the most
@@ -68,7 +64,7 @@ impl<const D: usize> LongProgram<D> {
         part: &Part<D, P>,
         a: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, f64)> {
-        let model = part.model(a, self.bend)?;
+        let model = part.model(a, self.bend.factor())?;
         let own =
             |nodes: &[SVector<f64, D>], k: usize| nodes.iter().map(|node| node[k]).collect::<Vec<f64>>();
         let near = (10.0 * self.promise).clamp(AGAIN / 10.0, START);
@@ -99,22 +95,6 @@ impl<const D: usize> LongProgram<D> {
             gap = GAP * AGAIN;
         }
         None
-    }
-
-    /// Learns what part of the way to the minimum was gone.
-    pub(super) fn moved(&mut self, fraction: f64) {
-        self.bend = if fraction == 1.0 {
-            f64::max(self.bend * BOLDER, LEAST_BEND)
-        } else {
-            f64::min(self.bend / BOLDER, 1.0)
-        };
-    }
-
-    /// Learns that the criterion does not fall on the way; returns whether another model may do better.
-    pub(super) fn blocked(&mut self) -> bool {
-        let bold = self.bend < 1.0;
-        self.bend = 1.0;
-        bold
     }
 }
 
@@ -185,11 +165,6 @@ impl<const D: usize, const P: usize> Part<D, P> {
         program.reached = program.objective(&here, &vec![0.0; program.forms.len()]);
         program
     }
-}
-
-/// The point this part of the way from one motion to another.
-fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f64) -> Nodes<D> {
-    from.iter().zip(to).map(|(from, to)| from + (to - from) * part).collect()
 }
 
 /// The forms `⟨Ω_m, dF⟩` of the change of the motion, combined so that the sum of their squares is the same and none is

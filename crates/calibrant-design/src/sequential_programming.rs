@@ -55,16 +55,16 @@ impl<const D: usize> Model<D> {
     fn moved(&mut self, fraction: f64) {
         match self {
             Self::Short(program) => program.moved(fraction),
-            Self::Long(program) => program.moved(fraction),
-            Self::Epigraph(program) => program.moved(fraction),
+            Self::Long(program) => program.bend.moved(fraction),
+            Self::Epigraph(program) => program.bend.moved(fraction),
         }
     }
 
     fn blocked(&mut self) -> bool {
         match self {
             Self::Short(program) => program.blocked(),
-            Self::Long(program) => program.blocked(),
-            Self::Epigraph(program) => program.blocked(),
+            Self::Long(program) => program.bend.blocked(),
+            Self::Epigraph(program) => program.bend.blocked(),
         }
     }
 }

@@ -36,7 +36,7 @@ pub struct EarlierCalibration {
     information: DMatrix<f64>,
 }
 
-/// The part of a calibration that tells of its holds.
+/// The part of calibration.json that describes the holds.
 #[derive(Deserialize, Default)]
 struct WithHolds {
     #[serde(default)]

@@ -33,12 +33,8 @@ pub(super) fn design(
         counted(design.starts, "start")
     );
     format!(
-        "criterion {} ({}{}): {}, at least {} (gap {})\n{}\n{}{}",
-        criterion.letter(),
-        criterion.formula(),
-        criterion.scaling(),
-        significant(design.value, 5),
-        significant(design.bound.value, 5),
+        "{} (gap {})\n{}\n{}{}",
+        reached(problem, design.value, design.bound.value),
         gap(criterion, criterion.gap(design.value, design.bound.value)),
         console::table(&["pose", "how", "up x", "up y", "up z"], &rows),
         parameters(problem, unit, &design.covariance),
@@ -72,14 +68,22 @@ fn parameters(problem: &PoseProblem, unit: ReadingUnit, covariance: &DMatrix<f64
 
 /// Parameters and criterion of recorded holds.
 pub(super) fn evaluation(evaluation: &PoseEvaluation, problem: &PoseProblem, unit: ReadingUnit) -> String {
+    format!(
+        "{}\n{}",
+        reached(problem, evaluation.value, evaluation.bound.value),
+        parameters(problem, unit, &evaluation.covariance)
+    )
+}
+
+/// The criterion, its value, and the value that no poses can beat.
+fn reached(problem: &PoseProblem, value: f64, bound: f64) -> String {
     let criterion = &problem.criterion;
     format!(
-        "criterion {} ({}{}): {}, at least {}\n{}",
+        "criterion {} ({}{}): {}, at least {}",
         criterion.letter(),
         criterion.formula(),
         criterion.scaling(),
-        significant(evaluation.value, 5),
-        significant(evaluation.bound.value, 5),
-        parameters(problem, unit, &evaluation.covariance)
+        significant(value, 5),
+        significant(bound, 5)
     )
 }
