@@ -91,12 +91,12 @@ impl<'a> ChainFactor<'a> {
             (Vec::new(), Vec::new());
         for k in 0..couplings.len() {
             let (exit, entry) = (cliques[k].exit.as_ref()?, cliques[k + 1].entry.as_ref()?);
-            let mut block = exit.tr_mul(exit) + entry.tr_mul(entry);
+            let mut block = exit.transpose() * exit + entry.transpose() * entry;
             if let Some(last) = diagonal.last() {
                 // the clique between two couplings: T = L⁻¹ (entryᵀ exit)
-                let mut across = cliques[k].entry.as_ref()?.tr_mul(exit);
+                let mut across = cliques[k].entry.as_ref()?.transpose() * exit;
                 last.l_dirty().solve_lower_triangular_mut(&mut across);
-                block -= across.tr_mul(&across);
+                block -= across.transpose() * &across;
                 below.push(across);
             }
             diagonal.push(factored(block)?);

@@ -51,13 +51,12 @@ impl Rows {
         }
     }
 
-    /// Adds `tr(A_i X⁻¹ A_j Z)` to the lower triangle of H.
-    fn add_normal(&self, inverse: &DMatrix<f64>, z: &DMatrix<f64>, h: &mut DMatrix<f64>) {
-        let (n, columns) = (self.size, h.ncols());
+    /// Adds to M, where `M + Mᵀ` is the matrix of `tr(A_i X⁻¹ A_j Z)`: each pair of entries counts once.
+    fn add_normal(&self, inverse: &DMatrix<f64>, z: &DMatrix<f64>, m: &mut DMatrix<f64>) {
+        let (n, columns) = (self.size, m.ncols());
         let column = |m: &DMatrix<f64>, k: usize| m.as_slice()[k * n..(k + 1) * n].to_vec();
-        let places: Vec<_> = self.places().collect();
         let mut product = vec![0.0; columns];
-        for (&(p, q), (_, own)) in places.iter().zip(&self.entries) {
+        for (at, ((p, q), (_, own))) in self.places().zip(&self.entries).enumerate() {
             if own.is_empty() {
                 continue;
             }
@@ -65,19 +64,20 @@ impl Rows {
             let half = if p == q { 0.5 } else { 1.0 };
             let (inverse_p, inverse_q) = (column(inverse, p), column(inverse, q));
             let (z_p, z_q) = (column(z, p), column(z, q));
-            let mut entries = self.entries.iter();
-            for s in 0..n {
+            let mut entries = self.entries[..=at].iter();
+            for s in 0..=q {
                 let (p_s, q_s, zp_s, zq_s) =
                     (half * inverse_p[s], half * inverse_q[s], half * z_p[s], half * z_q[s]);
                 for (r, (_, other)) in entries.by_ref().take(s + 1).enumerate() {
                     let k = inverse_q[r] * zp_s + inverse_p[r] * zq_s + q_s * z_p[r] + p_s * z_q[r];
                     let k = if r == s { 0.5 * k } else { k };
+                    let k = if (r, s) == (p, q) { 0.5 * k } else { k };
                     other.iter().for_each(|&(j, a)| product[j] += k * a);
                 }
             }
             for &(i, a) in own {
-                let column = &mut h.as_mut_slice()[i * columns + i..(i + 1) * columns];
-                column.iter_mut().zip(&product[i..]).for_each(|(h, x)| *h += a * x);
+                let column = &mut m.as_mut_slice()[i * columns..(i + 1) * columns];
+                column.iter_mut().zip(&product).for_each(|(m, x)| *m += a * x);
             }
         }
     }

@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// Where X and Z begin, as multiples of the identity.
-const BEGIN: (f64, f64) = (1.0, 0.01);
+const BEGIN: (f64, f64) = (0.3, 0.01);
 /// Share of the way to the boundary that a step takes.
 const NEARLY: f64 = 0.9;
 /// Iterations in a row that do not improve the bound, at which the method ends.
@@ -189,13 +189,13 @@ impl<'a> Iteration<'a> {
             .par_iter_mut()
             .enumerate()
             .map(|(k, clique)| {
-                let mut h = DMatrix::zeros(clique.y.len(), clique.y.len());
+                let mut half = DMatrix::zeros(clique.y.len(), clique.y.len());
                 for block in &mut clique.blocks {
-                    block.linearise(&clique.y, &mut h)?;
+                    block.linearise(&clique.y, &mut half)?;
                 }
+                let h = &half + half.transpose();
                 let entry = k.checked_sub(1).and_then(|k| after.get(k).copied());
                 let factored = Factored::new(&h, entry, before.get(k).copied())?;
-                h.fill_upper_triangle_with_lower_triangle();
                 Some((h, factored))
             })
             .collect::<Option<_>>()?;
