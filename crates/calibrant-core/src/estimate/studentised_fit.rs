@@ -98,9 +98,7 @@ impl StudentisedFit {
 impl Normal {
     fn solve(&self, right: Vec<f64>) -> Vec<f64> {
         match self {
-            Self::Full(inverse) => {
-                (**inverse * Vector4::from_column_slice(&right)).iter().copied().collect()
-            }
+            Self::Full(inverse) => (**inverse * Vector4::from_column_slice(&right)).iter().copied().collect(),
             Self::Tridiagonal(matrix) => matrix.solve(right),
         }
     }

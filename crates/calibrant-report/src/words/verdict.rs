@@ -20,7 +20,9 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
         ),
         Diagnostic::LimitBroken { limit } => format!("{limit}: it is broken."),
         Diagnostic::LimitTooClose { limit } => {
-            format!("{limit}: they are too close to decide. Record more, so that the standard deviation becomes smaller.")
+            format!(
+                "{limit}: they are too close to decide. Record more, so that the standard deviation becomes smaller."
+            )
         }
         Diagnostic::LimitNotChecked { name } => {
             format!("the limit of {name} is not checked: the result does not have this value.")

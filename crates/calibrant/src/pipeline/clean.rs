@@ -1,7 +1,9 @@
 //! Outliers are taken out of a recording once, for all stages that follow.
 
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::sensor::{ImuRecording, SensorKind, Spikes};
+use calibrant_core::estimate::{CalibrationProblem, Stimulus, without_motion_outliers};
+use calibrant_core::motion::CommandedMotion;
+use calibrant_core::sensor::{ImuRecording, Sensor, SensorKind, Spikes};
 use std::borrow::Cow;
 
 /// Takes spikes and invalid readings out of a recording. Gives a diagnostic for each sensor that has some.
@@ -16,4 +18,19 @@ pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<Diagnostic>
         *recording = clean;
     }
     found
+}
+
+/// Takes the samples out of the recording of a motion that are far from all others.
+pub(crate) fn take_out_motion_outliers(
+    sensor: &Sensor,
+    command: &CommandedMotion,
+    recording: &mut ImuRecording,
+) -> Option<Diagnostic> {
+    let readings = recording.accelerometer.as_ref()?;
+    let problem = CalibrationProblem { sensor, recording: readings, stimulus: Stimulus::Motion(command) };
+    let (clean, found) = without_motion_outliers(&problem)?;
+    if clean.is_some() {
+        recording.accelerometer = clean;
+    }
+    Some(found)
 }

@@ -3,6 +3,7 @@
 use super::calibrated::{Calibrated, MachineOutcome};
 use super::clean::take_out_outliers;
 use super::duplicates::refuse_duplicate;
+use super::machine_datasheet::beyond_datasheets;
 use super::machine_log::LogFile;
 use super::note::Note;
 use super::options::PipelineOptions;
@@ -95,6 +96,8 @@ impl<'e> MachineTask<'e> {
             .transpose()?;
         let mut calibration = calibrated(&problem, source)?;
         calibration.warnings.splice(0..0, moved.outliers.iter().cloned());
+        let beyond = beyond_datasheets(self.accelerometer, self.imu, &calibration);
+        calibration.warnings.extend(beyond);
         let mut validations = Vec::new();
         if let Some((other, second)) = &other {
             let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), other)?;
@@ -120,6 +123,8 @@ impl<'e> MachineTask<'e> {
             validations: Vec::new(),
             noise: Vec::new(),
             notes: Vec::new(),
+            limits: Vec::new(),
+            findings: Vec::new(),
             inputs,
             recording: recorded.recording,
             about,

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::error::Result;
+use crate::estimate::datasheet::noise_not_as_given;
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{beyond, magnitude_rms};
@@ -11,7 +12,6 @@ use crate::estimate::imu::model::singular;
 use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
 use crate::estimate::result::{Calibration, CalibrationStatus, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
-use crate::estimate::datasheet::noise_not_as_given;
 use crate::information;
 use crate::sensor::{Correction, ImuParameters, Parameter, ParameterList, SensorKind, SensorParameters};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
