@@ -4,8 +4,8 @@
 //!
 //! # What an outlier is
 //! Between two nodes the acceleration is linear in time, and so is the reading, whatever bias, matrix and motion are. So the readings of an axis
-//! are fitted by a continuous line with a corner at each node. Where the motion is known, they are fitted by the commanded motion itself:
-//! `y = b + S α(t)`, with all entries of a row of `S`. Both fits are linear, and need no start. Neither needs gravity, which is part of `b`.
+//! are fitted by a continuous line with a corner at each node. Where the motion is known and the samples are few, they are fitted by the commanded
+//! motion itself: `y = b + S α(t)`, with all entries of a row of `S`. Both fits are linear, and need no start. Neither needs gravity, which is part of `b`.
 //!
 //! The residual of each sample is divided by its own standard deviation, `σ √(1 − h)` with the leverage `h` (data snooping, `baarda1968`): the
 //! outlier is then the largest, even where the fit follows it. `σ` is the median of the absolute values, or the given noise if that is
@@ -25,6 +25,8 @@ use crate::sensor::{Axis, Recording, SensorKind, Spikes};
 
 /// An outlier is this many robust standard deviations off.
 const FAR: f64 = 7.0;
+/// Samples for each node from which a line with corners leaves enough to check them.
+const ENOUGH: usize = 3;
 /// No more than one sample in this number may be an outlier.
 const MOST_ONE_IN: usize = 50;
 /// So many consecutive samples that are far off are no outliers.
@@ -109,7 +111,9 @@ fn outliers(problem: &CalibrationProblem<'_>, command: &CommandedMotion, kept: &
     let recording = problem.recording;
     let times: Vec<f64> = kept.iter().map(|k| recording.times_s[*k]).collect();
     let fit = match command.trust {
-        Trust::Known => StudentisedFit::of_known(command, &times),
+        Trust::Known if times.len() < ENOUGH * (command.motion.intervals() + 1) => {
+            StudentisedFit::of_known(command, &times)
+        }
         _ => StudentisedFit::of_corners(command, &times),
     };
     if kept.is_empty() {

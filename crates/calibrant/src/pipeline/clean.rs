@@ -9,15 +9,29 @@ use std::borrow::Cow;
 /// Takes spikes and invalid readings out of a recording. Gives a diagnostic for each sensor that has some.
 pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<Diagnostic> {
     let (clean, outliers) = recording.without_spikes();
-    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
-        let unit = recording.sensor(*sensor_kind)?.unit;
-        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
-    };
-    let found = outliers.iter().filter_map(of_sensor).collect();
+    let found = diagnostics(recording, &outliers);
     if let Cow::Owned(clean) = clean {
         *recording = clean;
     }
     found
+}
+
+/// The same of a recording on a machine, where the movements of both sensors count.
+pub(crate) fn take_out_outliers_in_motion(recording: &mut ImuRecording) -> Vec<Diagnostic> {
+    let (clean, outliers) = recording.without_spikes_in_motion();
+    let found = diagnostics(recording, &outliers);
+    if let Cow::Owned(clean) = clean {
+        *recording = clean;
+    }
+    found
+}
+
+fn diagnostics(recording: &ImuRecording, outliers: &[(SensorKind, Spikes)]) -> Vec<Diagnostic> {
+    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
+        let unit = recording.sensor(*sensor_kind)?.unit;
+        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
+    };
+    outliers.iter().filter_map(of_sensor).collect()
 }
 
 /// Takes the samples out of the recording of a motion that are far from all others.

@@ -1,7 +1,7 @@
 //! The stages from a recording on a machine to a calibration.
 
 use super::calibrated::{Calibrated, MachineOutcome};
-use super::clean::take_out_outliers;
+use super::clean::take_out_outliers_in_motion;
 use super::duplicates::refuse_duplicate;
 use super::machine_datasheet::beyond_datasheets;
 use super::machine_log::LogFile;
@@ -147,7 +147,7 @@ impl<'e> MachineTask<'e> {
         notes: &mut Vec<Note>,
     ) -> Result<Moved> {
         notes.extend(Note::of_findings(&recorded.findings, source));
-        let outliers = take_out_outliers(&mut recorded.recording);
+        let outliers = take_out_outliers_in_motion(&mut recorded.recording);
         let beside;
         let log = match log {
             Some(log) => log,

@@ -4,7 +4,7 @@ use crate::diagnostic::Code;
 use crate::estimate::datasheet::{allows_gain, beyond_datasheet, implausible_gains};
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::sensor::{Axis, Parameter, ParameterList, SensorKind};
+use crate::sensor::{Axis, ImuQuantity, Parameter, ParameterList, Quantity, SensorKind};
 
 /// What these checks say. The accelerometer's own fit says it of an accelerometer that is not final.
 pub(crate) const CODES: [Code; 2] = [Code::ParameterImplausible, Code::GainImplausible];
@@ -23,8 +23,10 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
             continue;
         }
         let allowed = |axis: Axis| {
-            sensor_kind == SensorKind::Accelerometer
-                && allows_gain(&parameters, &calibration.values, &sd, axis)
+            let scale = ImuQuantity::Of(sensor_kind, Quantity::Scale(axis));
+            let is_known = evidence.problem.setup.known.iter().any(|known| known.quantity == scale);
+            let is_accelerometer = sensor_kind == SensorKind::Accelerometer;
+            is_known || is_accelerometer && allows_gain(&parameters, &calibration.values, &sd, axis)
         };
         warnings.extend(implausible_gains(sensor_kind, calibration.unit(sensor_kind), matrix, allowed));
     }
