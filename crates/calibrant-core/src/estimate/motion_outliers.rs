@@ -135,3 +135,65 @@ fn outliers(problem: &CalibrationProblem<'_>, command: &CommandedMotion, kept: &
     };
     problem.sensor.active_axes().iter().flat_map(of_axis).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{KnownEnds, Limits};
+    use crate::sensor::Sensor;
+    use crate::simulate::{Purpose, draw_sensor, initial_motion, sample_times, simulate_recording, stream};
+
+    const TRUSTS: [Trust; 2] = [Trust::Known, Trust::Unknown];
+
+    /// What is cut of the recording of a motion after this change, and whether the recording is there.
+    fn cut(trust: Trust, seed: u64, change: impl Fn(&mut Recording)) -> Option<(bool, Diagnostic)> {
+        let sensor = Sensor::memsic_mxd2020u();
+        let mut rng = stream(seed, Purpose::Motion, 0);
+        let motion = initial_motion(10, 1.0, 3, &Limits::default(), &mut rng).expect("admissible");
+        let truth = draw_sensor(&sensor, &mut rng);
+        let noise = sensor.noise_mps2.expect("known");
+        let times = sample_times(&motion, 10.0);
+        let mut recording = simulate_recording(&truth, &noise, sensor.unit, 3, &motion, &times, &mut rng);
+        change(&mut recording);
+        let command = CommandedMotion { motion, trust, known_ends: KnownEnds::Both, gravity: None };
+        let stimulus = Stimulus::Motion(&command);
+        let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus };
+        without_motion_outliers(&problem).map(|(clean, found)| (clean.is_some(), found))
+    }
+
+    #[test]
+    fn noise_has_no_outliers() {
+        for (trust, seed) in TRUSTS.into_iter().flat_map(|trust| (0..50).map(move |seed| (trust, seed))) {
+            assert_eq!(cut(trust, seed, |_| ()), None, "{trust:?} {seed}");
+        }
+    }
+
+    #[test]
+    fn outliers_of_any_size_are_cut_and_no_others() {
+        for (trust, size) in TRUSTS.into_iter().flat_map(|trust| [5e-3, 1.0, 1e6].map(|size| (trust, size))) {
+            let (is_clean, found) = cut(trust, 1, |recording| {
+                recording.readings[33].y += size;
+                recording.readings[70].x -= 0.9 * size;
+            })
+            .expect("outliers");
+            assert!(is_clean, "{found:?}");
+            let Diagnostic::Spikes { cut, axis, time_s, .. } = found else { panic!("{found:?}") };
+            assert_eq!((cut, axis), (2, Axis::Y), "{trust:?} {size}");
+            assert!((time_s - 3.3).abs() < 1e-9, "{time_s}");
+        }
+    }
+
+    #[test]
+    fn many_samples_and_several_in_a_row_are_no_outliers() {
+        for places in [vec![40, 41, 42], (0..10).map(|k| 10 * k + 5).collect()] {
+            let disturb = |recording: &mut Recording| {
+                places.iter().for_each(|k| recording.readings[*k].z += 3.0 + *k as f64 * 0.01);
+            };
+            let (is_clean, found) = cut(Trust::Known, 2, disturb).expect("far off");
+            assert!(
+                !is_clean && matches!(found, Diagnostic::NoiseOutliers { left_out: false, .. }),
+                "{found:?}"
+            );
+        }
+    }
+}

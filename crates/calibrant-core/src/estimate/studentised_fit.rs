@@ -155,7 +155,7 @@ impl Tridiagonal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::DMatrix;
+    use nalgebra::{DMatrix, DVector};
 
     #[test]
     fn the_tridiagonal_inverse_is_that_of_dense_algebra() {
@@ -168,7 +168,7 @@ mod tests {
         let inverse = dense.try_inverse().expect("positive");
         let found = Tridiagonal::of(diagonal, &beside).expect("positive");
         let solution = found.solve(vec![1.0, -2.0, 0.5, 3.0]);
-        let expected = &inverse * nalgebra::dvector![1.0, -2.0, 0.5, 3.0];
+        let expected = &inverse * DVector::from_vec(vec![1.0, -2.0, 0.5, 3.0]);
         for k in 0..4 {
             assert!((found.inverse_diagonal[k] - inverse[(k, k)]).abs() < 1e-14, "{k}");
             assert!((solution[k] - expected[k]).abs() < 1e-14, "{k}");
