@@ -7,6 +7,7 @@ mod one;
 mod quality;
 mod sources;
 mod unused;
+mod worst_first;
 
 pub(crate) use arguments::Arguments;
 
@@ -16,8 +17,14 @@ use job::Job;
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
-        let others =
-            [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope, &self.validate_motion];
+        let others = [
+            &self.accept,
+            &self.motion,
+            &self.sections,
+            &self.validate,
+            &self.validate_gyroscope,
+            &self.validate_motion,
+        ];
         let others = others.into_iter().flatten();
         let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
         let folders = match self.recordings.as_slice() {

@@ -49,6 +49,11 @@ pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {}", harmless(text));
 }
 
+/// Prints a diagnostic that forbids the use of a result to stderr.
+pub(crate) fn fault(text: &str) {
+    let _ = writeln!(std::io::stderr(), "error: {}", harmless(text));
+}
+
 /// Prints a denied diagnostic to stderr.
 pub(crate) fn denied(code: &str, text: &str) {
     let _ = writeln!(std::io::stderr(), "error: denied: {code}: {}", harmless(text));

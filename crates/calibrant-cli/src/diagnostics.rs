@@ -1,7 +1,7 @@
 //! Which diagnostics are printed, and which set the exit status.
 
 use crate::{Exit, console};
-use calibrant::diagnostic::{Code, Diagnostic, Severity};
+use calibrant::diagnostic::{Code, Diagnostic, Severity, Usability, Verdict};
 use calibrant::io::nearest;
 use calibrant::pipeline::Note;
 use calibrant::report::message;
@@ -9,10 +9,10 @@ use calibrant::report::message;
 /// The diagnostics that the user denies and allows.
 #[derive(clap::Args)]
 pub(crate) struct Rules {
-    /// Exit with status 1 if this diagnostic occurs; `warnings` stands for all. The results are written nevertheless. Repeatable. docs/diagnostics.md lists the codes.
+    /// Exit with status 1 if this diagnostic occurs; `warnings` stands for all. `doubtful`: exit with status 5 where a result is doubtful. The results are written nevertheless. Repeatable. docs/diagnostics.md lists the codes.
     #[arg(long, value_name = "CODE", value_parser = denied)]
     deny: Vec<Denied>,
-    /// Do not print this diagnostic, and do not deny it. JSON keeps it with the severity `allowed`. Repeatable.
+    /// Do not print this diagnostic, do not deny it, and do not count it for the verdict. JSON keeps it with the severity `allowed`. Repeatable.
     #[arg(long, value_name = "CODE", value_parser = code)]
     allow: Vec<Code>,
 }
@@ -22,6 +22,8 @@ pub(crate) struct Rules {
 enum Denied {
     /// All warnings.
     Warnings,
+    /// Doubtful results.
+    Doubtful,
     /// One code.
     Code(Code),
 }
@@ -40,6 +42,8 @@ impl Rules {
             if self.denies(diagnostic.code()) {
                 exit = Exit::DENIED;
                 console::denied(diagnostic.code().name(), &text);
+            } else if diagnostic.severity() == Severity::Error {
+                console::fault(&text);
             } else {
                 console::warn(&text);
             }
@@ -68,8 +72,17 @@ impl Rules {
         exit
     }
 
+    /// The exit status that a verdict sets.
+    pub(crate) fn exit_of(&self, verdict: &Verdict) -> Exit {
+        match verdict.usability {
+            Usability::Bad => Exit::BAD,
+            Usability::Doubtful if self.deny.contains(&Denied::Doubtful) => Exit::BAD,
+            _ => Exit::DONE,
+        }
+    }
+
     fn denies(&self, code: Code) -> bool {
-        let is_warning = code.severity() == Severity::Warning;
+        let is_warning = code.severity() >= Severity::Warning;
         self.deny.contains(&Denied::Code(code)) || is_warning && self.deny.contains(&Denied::Warnings)
     }
 }
@@ -77,6 +90,7 @@ impl Rules {
 fn denied(text: &str) -> Result<Denied, String> {
     match text {
         "warnings" => Ok(Denied::Warnings),
+        "doubtful" => Ok(Denied::Doubtful),
         _ => code(text).map(Denied::Code),
     }
 }

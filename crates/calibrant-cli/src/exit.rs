@@ -1,7 +1,6 @@
 //! The exit status of a command.
 
 use calibrant::Error;
-use calibrant::estimate::CalibrationStatus;
 
 /// The exit status with which a command ended.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,17 +15,13 @@ impl Exit {
     pub(crate) const USAGE: Exit = Exit(2);
     /// The recording is bad.
     pub(crate) const RECORDING: Exit = Exit(3);
-    /// The data or the motion do not determine the parameters, the limits admit no motion, or the iteration
-    /// did not converge.
+    /// The data or the motion do not determine the parameters, or the limits admit no motion.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
+    /// A result is written, and it is bad, or breaks a limit.
+    pub(crate) const BAD: Exit = Exit(5);
 
     /// Interrupted, as a shell says it. Results of `design` and `study` are the best so far.
     pub(crate) const INTERRUPTED: Exit = Exit(130);
-
-    /// The exit status of a calibration. It has determined nothing if it did not converge.
-    pub(crate) fn of_status(status: CalibrationStatus) -> Exit {
-        if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
-    }
 
     /// The exit status of an error.
     pub(crate) fn of(error: &Error) -> Exit {

@@ -4,11 +4,12 @@
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
 //! [`noise`] examines a sensor at rest. [`estimate`] calibrates.
-//! What a user should know of a result is a [`diagnostic`]. [`simulate`] makes sensors and
+//! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
 //! recordings. [`budget`] says what work takes.
 //!
 //! The crate `calibrant` re-exports all of it. Depend on that crate unless the build time matters.
 
+pub mod acceptance;
 pub mod arrowhead;
 pub mod budget;
 pub mod diagnostic;

@@ -1,6 +1,7 @@
 //! Writes `calibration.json` of an accelerometer or of an IMU: calibrant JSON of schema 2, and the further
 //! results of the estimator. Every reader of calibrations takes it.
 
+use super::acceptance::{LimitFields, VerdictFields};
 use super::convention::{Heading, ImuCore};
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::gyroscope::{RotationsFields, StillFields, TurnFields};
@@ -49,6 +50,7 @@ pub fn calibration_json(
 struct CalibrationFile<'a> {
     #[serde(flatten)]
     heading: Heading,
+    verdict: VerdictFields,
     status: &'static str,
     iterations: usize,
     gradient_norm: f64,
@@ -70,6 +72,8 @@ struct CalibrationFile<'a> {
     turns: Vec<TurnFields>,
     #[serde(skip_serializing_if = "Option::is_none")]
     validation: Option<ValidationFields>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    limits: Vec<LimitFields>,
     warnings: Vec<DiagnosticFields>,
 }
 
@@ -91,6 +95,7 @@ impl<'a> CalibrationFile<'a> {
         };
         Self {
             heading: Heading::new(),
+            verdict: words.verdict(&calibration.warnings),
             status: calibration.status.name(),
             iterations: calibration.iterations,
             gradient_norm: calibration.gradient_norm,
@@ -104,6 +109,7 @@ impl<'a> CalibrationFile<'a> {
             rotations: gyroscope.map(|gyroscope| RotationsFields::of(calibration, gyroscope)),
             turns: calibration.turns().iter().map(TurnFields::of).collect(),
             validation: validation_fields(validations),
+            limits: words.limit_fields(),
             warnings: DiagnosticFields::all(&calibration.warnings, words),
         }
     }

@@ -1,9 +1,11 @@
 //! Diagnostics as files state them: code, severity, subject, numbers and message.
 
-use calibrant_core::diagnostic::{Code, Diagnostic};
+use super::acceptance::{LimitFields, VerdictFields};
+use calibrant_core::acceptance::CheckedLimit;
+use calibrant_core::diagnostic::{Code, Diagnostic, Verdict};
 use serde::{Serialize, Serializer};
 
-/// How diagnostics are written: the words for each, and the codes that somebody allows.
+/// How diagnostics are written: the words for each, the codes that somebody allows, and what counts for the verdict beside them.
 ///
 /// The sentences are made by `calibrant_report::message`.
 #[derive(Clone, Copy)]
@@ -12,13 +14,30 @@ pub struct DiagnosticWords<'a> {
     pub message: &'a (dyn Fn(&Diagnostic) -> String + Sync),
     /// Codes that are allowed; their severity is stated as `allowed`.
     pub allowed: &'a [Code],
+    /// Codes of what a reader noticed in the recording. They count for the verdict.
+    pub findings: &'a [Code],
+    /// The limits that were checked.
+    pub limits: &'a [CheckedLimit],
 }
 
 impl<'a> DiagnosticWords<'a> {
-    /// These words, with no code allowed.
+    /// These words, with no code allowed, and nothing beside the diagnostics.
     #[must_use]
     pub fn new(message: &'a (dyn Fn(&Diagnostic) -> String + Sync)) -> Self {
-        Self { message, allowed: &[] }
+        Self { message, allowed: &[], findings: &[], limits: &[] }
+    }
+}
+
+impl DiagnosticWords<'_> {
+    /// The verdict on a result with these diagnostics.
+    pub(super) fn verdict(&self, diagnostics: &[Diagnostic]) -> VerdictFields {
+        let codes = diagnostics.iter().map(Diagnostic::code).chain(self.findings.iter().copied());
+        VerdictFields::of(&Verdict::on(codes, self.allowed))
+    }
+
+    /// The limits that were checked.
+    pub(super) fn limit_fields(&self) -> Vec<LimitFields> {
+        self.limits.iter().map(LimitFields::of).collect()
     }
 }
 

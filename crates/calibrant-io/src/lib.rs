@@ -23,6 +23,7 @@
 //! nothing silently: it returns a [`Finding`]. Every result is written beside its place and then renamed
 //! ([`write_atomically`]), so it is whole or absent.
 
+mod acceptance;
 mod atomic_output;
 mod calibration;
 mod comparison;
@@ -82,7 +83,7 @@ pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, LogNoise, MachinePlan,
     MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, PoseOptions, Prior, ScaleBy,
-    StudyOptions, UnknownVariant, UrdfSource, nearest, read_columns,
+    StudyOptions, UnknownVariant, UrdfSource, nearest, read_acceptance, read_columns,
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};

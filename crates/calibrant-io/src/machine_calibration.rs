@@ -1,5 +1,6 @@
 //! Writes `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
+use super::acceptance::{LimitFields, VerdictFields};
 use super::convention::{Heading, ImuCore};
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::input::Input;
@@ -101,6 +102,7 @@ pub fn machine_calibration_json(
 struct CalibrationFile<'a> {
     #[serde(flatten)]
     heading: Heading,
+    verdict: VerdictFields,
     status: &'static str,
     iterations: usize,
     gradient_norm: f64,
@@ -111,6 +113,8 @@ struct CalibrationFile<'a> {
     machine: MachineFields<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     validation: Option<ValidationFields>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    limits: Vec<LimitFields>,
     warnings: Vec<DiagnosticFields>,
 }
 
@@ -120,6 +124,7 @@ impl<'a> CalibrationFile<'a> {
         let imu = calibration.calibrated();
         Self {
             heading: Heading::new(),
+            verdict: words.verdict(&calibration.warnings),
             status: calibration.status.name(),
             iterations: calibration.iterations,
             gradient_norm: calibration.gradient_norm,
@@ -128,6 +133,7 @@ impl<'a> CalibrationFile<'a> {
             fit: FitFields::of(&calibration.fit, ReadingUnit::MetrePerSecondSquared, 3),
             machine: MachineFields::of(result),
             validation: validation_fields(result.validations, &calibration.joints),
+            limits: words.limit_fields(),
             warnings: DiagnosticFields::all(&calibration.warnings, words),
         }
     }

@@ -3,6 +3,8 @@
 use super::atomic_output::write_csv;
 use super::json::to_json;
 use super::machine_calibration::MachineResult;
+use calibrant_core::acceptance::{CheckedLimit, Decision};
+use calibrant_core::diagnostic::{Diagnostic, Verdict};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus};
 use calibrant_core::sensor::Parameter;
@@ -70,6 +72,9 @@ pub fn calibrations_json<'a>(
 /// The part of a calibration that is kept in memory until `summary.csv` is written.
 #[derive(Debug, Clone)]
 pub struct Summary {
+    verdict: Verdict,
+    /// Names of the figures that break a limit.
+    limits_failed: Vec<String>,
     status: CalibrationStatus,
     /// Its quality: name, with the unit at its end, and number.
     quality: Vec<(&'static str, String)>,
@@ -86,7 +91,7 @@ struct Estimate {
 }
 
 impl Summary {
-    /// The summary of a calibration: the number of warnings, of holds and rotations and how many of them were
+    /// The summary of a calibration: verdict, the largest standard deviation, the number of warnings, of holds and rotations and how many of them were
     /// used, the root mean square of `|f| − g` in the holds and of the rotation errors, χ² with its degrees of
     /// freedom and p-value, and the parameters. A motion has no holds, an accelerometer no rotations.
     #[must_use]
@@ -117,14 +122,19 @@ impl Summary {
             value: *value,
             sd,
         };
+        let spreads: Vec<_> = calibration.parameters.iter().map(|parameter| parameter.spread).collect();
+        let parameters: Vec<Estimate> = calibration.parameters.iter().zip(estimates).map(estimate).collect();
+        quality.splice(0..0, worst_sd(&parameters, &spreads));
         Self {
+            verdict: Verdict::on(calibration.warnings.iter().map(Diagnostic::code), &[]),
+            limits_failed: Vec::new(),
             status: calibration.status,
             quality,
-            parameters: calibration.parameters.iter().zip(estimates).map(estimate).collect(),
+            parameters,
         }
     }
 
-    /// The summary of a calibration on a machine: the number of warnings, the share of the samples that was used, χ² with its degrees of freedom
+    /// The summary of a calibration on a machine: verdict, the largest standard deviation, the number of warnings, the share of the samples that was used, χ² with its degrees of freedom
     /// and p-value, and the parameters of the sensors.
     #[must_use]
     pub fn of_machine(result: &MachineResult<'_>) -> Self {
@@ -139,25 +149,70 @@ impl Summary {
                 sd: sd[k],
             })
         };
+        let parameters: Vec<Estimate> =
+            calibration.quantities.iter().enumerate().filter_map(estimate).collect();
+        let mut quality = worst_sd(&parameters, &vec![None; parameters.len()]).to_vec();
+        quality.extend([
+            ("warnings", calibration.warnings.len().to_string()),
+            ("used_share", number(Some(calibration.used_share))),
+            ("chi2", number(Some(fit.chi2))),
+            ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
+            ("p_value", number(fit.p_value)),
+        ]);
         Self {
+            verdict: Verdict::on(calibration.warnings.iter().map(Diagnostic::code), &[]),
+            limits_failed: Vec::new(),
             status: calibration.status,
-            quality: vec![
-                ("warnings", calibration.warnings.len().to_string()),
-                ("used_share", number(Some(calibration.used_share))),
-                ("chi2", number(Some(fit.chi2))),
-                ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
-                ("p_value", number(fit.p_value)),
-            ],
-            parameters: calibration.quantities.iter().enumerate().filter_map(estimate).collect(),
+            quality,
+            parameters,
         }
+    }
+
+    /// The summary with this verdict, and with these limits.
+    #[must_use]
+    pub fn judged(self, verdict: Verdict, limits: &[CheckedLimit]) -> Self {
+        let failed = limits.iter().filter(|limit| limit.decision == Decision::Fail);
+        let limits_failed = failed.map(|limit| limit.figure.name.clone()).collect();
+        Self { verdict, limits_failed, ..self }
+    }
+
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> &Verdict {
+        &self.verdict
     }
 }
 
-/// Writes `summary.csv`: file, recording, status, error, its code, the quality of the calibration ([`Summary`]), then
-/// value and standard deviation of each parameter.
+/// The largest standard deviation of the parameters: whose, its ratio, and to what. That is the datasheet's spread where it is known, otherwise the
+/// value of a scale factor.
+fn worst_sd(parameters: &[Estimate], spreads: &[Option<f64>]) -> [(&'static str, String); 3] {
+    let largest = |ratio: &dyn Fn(usize) -> Option<f64>| {
+        let ratios = (0..parameters.len()).filter_map(|k| Some((k, ratio(k)?)));
+        let finite = ratios.filter(|(_, ratio)| ratio.is_finite());
+        finite.max_by(|one, other| one.1.total_cmp(&other.1))
+    };
+    let over_spread = |k: usize| Some(parameters[k].sd / spreads[k]?);
+    let over_value = |k: usize| {
+        let Estimate { name, value, sd, .. } = &parameters[k];
+        name.contains(".scale.").then(|| sd / value.abs())
+    };
+    let found = match largest(&over_spread) {
+        Some(found) => Some((found, "datasheet")),
+        None => largest(&over_value).map(|found| (found, "value")),
+    };
+    let name = found.map_or_else(String::new, |((k, _), _)| parameters[k].name.clone());
+    [
+        ("worst_sd_parameter", name),
+        ("worst_sd_ratio", number(found.map(|((_, ratio), _)| ratio))),
+        ("worst_sd_relative_to", found.map_or_else(String::new, |(_, to)| to.to_owned())),
+    ]
+}
+
+/// Writes `summary.csv`: file, recording, verdict and the codes that decide it, status, error, its code, the limits that are broken, the quality of the
+/// calibration ([`Summary`]), then value and standard deviation of each parameter.
 ///
-/// Units are in the header (`accelerometer.bias.x_mps2`, `accelerometer.bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
-/// `error`, the reason, the code of that, and empty fields.
+/// Units are in the header (`accelerometer.bias.x_mps2`, `accelerometer.bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has the verdict
+/// `none`, the status `error`, the reason, the code of that, and empty fields. Several codes or limits are separated by spaces.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -166,7 +221,8 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
     let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
     write_csv(path, "", |out| {
         let mut out = csv::Writer::from_writer(out);
-        let mut header = ["file", "recording", "status", "error", "code"].map(String::from).to_vec();
+        let first = ["file", "recording", "verdict", "codes", "status", "error", "code", "limits_failed"];
+        let mut header = first.map(String::from).to_vec();
         if let Some(named) = named {
             header.extend(named.quality.iter().map(|(name, _)| (*name).to_owned()));
             for Estimate { name, ending, .. } in &named.parameters {
@@ -181,7 +237,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
                 (Ok(_), None) => {}
                 (Err(failure), _) => {
                     let message = as_text(&failure.message);
-                    let failed = ["error", &message, failure.code.name()];
+                    let failed = ["none", "", "error", &message, failure.code.name()];
                     fields.extend(failed.map(String::from));
                 }
             }
@@ -195,7 +251,14 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
 impl Summary {
     /// Its fields after those of the recording, the parameters in the order of another's.
     fn fields(&self, named: &Self) -> Vec<String> {
-        let mut fields = vec![self.status.name().to_owned(), String::new(), String::new()];
+        let mut fields = vec![
+            self.verdict.usability.name().to_owned(),
+            self.verdict.code_names().join(" "),
+            self.status.name().to_owned(),
+            String::new(),
+            String::new(),
+            self.limits_failed.join(" "),
+        ];
         fields.extend(self.quality.iter().map(|(_, text)| text.clone()));
         for column in &named.parameters {
             let found = self.parameters.iter().find(|estimate| estimate.name == column.name);

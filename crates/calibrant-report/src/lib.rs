@@ -9,6 +9,7 @@ mod design;
 mod evaluation;
 mod figure;
 mod html;
+mod limits;
 mod machine;
 mod noise;
 pub mod number_format;
@@ -29,6 +30,7 @@ pub use calibration::{
 };
 pub use design::design_report;
 pub use evaluation::evaluation_report;
+pub use limits::limit_rows;
 pub use machine::{
     machine_report, machine_unit, machine_validation_heading, machine_validation_rows,
     machine_validation_sentences, mounting_in_words,

@@ -1,5 +1,7 @@
 //! The context of a report: everything that it states beside the result itself.
 
+use calibrant_core::acceptance::CheckedLimit;
+use calibrant_core::diagnostic::Verdict;
 use calibrant_core::estimate::Validation;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::SensorParameters;
@@ -29,6 +31,10 @@ pub struct About {
     /// Findings about the recording, in words: gaps, repeated times, saturated readings. The page shows them
     /// beside the warnings.
     pub findings: Vec<String>,
+    /// The verdict; `None`: that of the diagnostics alone.
+    pub verdict: Option<Verdict>,
+    /// The acceptance limits that were checked.
+    pub limits: Vec<CheckedLimit>,
     /// The errors of the calibration on data that it did not use, where there is a validation.
     pub validations: Vec<Validation>,
     /// True parameters, where the recording was simulated.

@@ -8,6 +8,7 @@ mod motion;
 mod noise;
 mod spikes;
 mod time;
+mod verdict;
 
 pub use accelerometer::coarse_axis;
 pub(crate) use change::headline;
@@ -35,7 +36,14 @@ pub(crate) fn capitalised(text: &str) -> String {
 /// ```
 #[must_use]
 pub fn message(diagnostic: &Diagnostic) -> String {
-    let areas = [accelerometer::message, motion::message, imu::message, noise::message, machine::message];
+    let areas = [
+        accelerometer::message,
+        motion::message,
+        imu::message,
+        noise::message,
+        machine::message,
+        verdict::message,
+    ];
     let words = areas.into_iter().find_map(|message| message(diagnostic));
     // a code without words here
     words.unwrap_or_else(|| diagnostic.code().entry().meaning.to_owned())

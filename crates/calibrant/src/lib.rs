@@ -35,6 +35,7 @@
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
 //! | from a recording's file to the calibration and its report | [`pipeline::Pipeline`], [`pipeline::Outcome`] |
+//! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # An example
@@ -63,15 +64,15 @@
 //!
 //! # The modules
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
-//! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; what a user should know of a result is a [`diagnostic`]; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
+//! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; what a user should know of a result is a [`diagnostic`]; [`acceptance`] compares it with limits; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all of these, and none uses them.
 //! [`pipeline`] stands above all: it reads a recording, calibrates, validates and writes.
 
 pub mod pipeline;
 
 pub use calibrant_core::{
-    Error, Result, arrowhead, budget, diagnostic, error, estimate, information, motion, noise, sensor,
-    simulate,
+    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, motion, noise,
+    sensor, simulate,
 };
 pub use calibrant_design as design;
 pub use calibrant_design::study;

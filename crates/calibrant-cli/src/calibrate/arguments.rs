@@ -8,6 +8,7 @@ use std::path::PathBuf;
 ///
 /// Writes calibration.json and report.html into DIR. Several recordings get a subfolder of DIR each, named after the file, and one
 /// DIR/summary.csv. One bad recording does not stop the others. The exit status is the highest of all.
+/// Each result has a verdict: ok, doubtful or bad. The exit status is 5 where one is bad, or breaks a limit of [accept].
 /// Each warning has a code: --deny CODE sets the exit status 1, --allow CODE silences the warning.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -47,6 +48,9 @@ pub(crate) struct Arguments {
     /// Unit of the readings, if the file does not state it.
     #[arg(long, value_enum)]
     pub(super) unit: Option<Unit>,
+    /// The limits that a result must keep, in place of [accept] of the experiment file. It is a file with this section.
+    #[arg(long, value_name = "FILE")]
+    pub(super) accept: Option<PathBuf>,
     #[command(flatten)]
     pub(super) rules: Rules,
     /// Write no report.html. This saves time with many sensors.

@@ -2,9 +2,9 @@
 
 use super::job::Job;
 use super::quality;
+use super::worst_first::{Row, table_of};
 use crate::{Exit, console};
-use calibrant::diagnostic::Diagnostic;
-use calibrant::estimate::CalibrationStatus;
+use calibrant::diagnostic::{Diagnostic, Verdict};
 use calibrant::io::{Summary, SummaryRow, calibrations_json, write_summary};
 use calibrant::pipeline::{Note, Source};
 use std::collections::HashSet;
@@ -20,9 +20,9 @@ struct Outcome {
 
 /// The part of a calibration that is kept for the tables.
 struct Calibrated {
-    status: CalibrationStatus,
+    verdict: Verdict,
     warnings: Vec<Diagnostic>,
-    /// Cells of the table between the status and the number of warnings.
+    /// Cells of the table between the verdict and the codes.
     cells: Vec<String>,
     summary: Summary,
     /// calibration.json, if it is to be printed.
@@ -33,7 +33,7 @@ struct Calibrated {
 fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
     let mut notes = Vec::new();
     let calibrated = job.run(source, directory, &mut notes).map(|outcome| Calibrated {
-        status: outcome.status(),
+        verdict: outcome.verdict(),
         warnings: outcome.warnings().to_vec(),
         cells: quality::cells(&outcome.calibrated),
         summary: outcome.summary(),
@@ -62,27 +62,23 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     let (mut exit, mut rows, mut texts, mut summary) = (Exit::DONE, Vec::new(), Vec::new(), Vec::new());
     for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(outcomes) {
         exit = exit.max(arguments.rules.show_notes(&outcome.notes, Some(folder)));
-        let mut row = vec![folder.clone()];
         let outcome = match outcome.calibrated {
             Ok(calibrated) => {
-                let denied = arguments.rules.show(&calibrated.warnings, &format!("{folder}: "));
-                exit = exit.max(denied).max(Exit::of_status(calibrated.status));
-                row.push(calibrated.status.name().into());
-                row.extend(calibrated.cells);
-                row.push(calibrated.warnings.len().to_string());
-                texts.push(calibrated.json.unwrap_or_default());
-                Ok(calibrated.summary)
+                let Calibrated { verdict, warnings, cells, summary, json } = calibrated;
+                exit = exit.max(arguments.rules.show(&warnings, &format!("{folder}: ")));
+                exit = exit.max(arguments.rules.exit_of(&verdict));
+                rows.push(Row::of_result(folder, &verdict, cells));
+                texts.push(json.unwrap_or_default());
+                Ok(summary)
             }
             Err(error) => {
                 console::error_in(&error, path);
                 exit = exit.max(Exit::of(&error));
-                row.push("ERROR".into());
-                row.resize(columns.len() + 3, "–".into());
+                rows.push(Row::of_failure(folder, error.code().name(), columns.len()));
                 texts.push(String::new());
                 Err((&error).into())
             }
         };
-        rows.push(row);
         summary.push(SummaryRow { file: folder.clone(), recording: path.display().to_string(), outcome });
     }
     let path = arguments.output.join("summary.csv");
@@ -95,8 +91,7 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         });
         console::print(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
     } else {
-        let header = [&["recording", "status"], columns, &["warnings"]].concat();
-        console::print(&console::table(&header, &rows));
+        console::print(&table_of(rows, columns));
         let failed = summary.iter().filter(|row| row.outcome.is_err()).count();
         console::print(&format!(
             "\n{} calibrated, {failed} failed: {}\n",

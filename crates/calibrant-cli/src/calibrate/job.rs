@@ -3,7 +3,7 @@
 use super::arguments::{Arguments, Unit};
 use super::sources::{check_motion, sources};
 use crate::console;
-use calibrant::io::Experiment;
+use calibrant::io::{Experiment, read_acceptance};
 use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use calibrant::sensor::ReadingUnit;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub(super) struct Job<'a> {
 impl<'a> Job<'a> {
     pub(super) fn prepare(arguments: &'a Arguments, experiment: &'a Experiment) -> calibrant::Result<Self> {
         check_motion(arguments, experiment)?;
-        let pipeline = Pipeline::from_experiment(experiment, options(arguments))?;
+        let pipeline = Pipeline::from_experiment(experiment, options(arguments)?)?;
         pipeline.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
         Ok(Self { arguments, sources, experiment, pipeline })
@@ -38,12 +38,12 @@ impl<'a> Job<'a> {
     }
 }
 
-fn options(arguments: &Arguments) -> PipelineOptions {
+fn options(arguments: &Arguments) -> calibrant::Result<PipelineOptions> {
     let other = |recording| Source {
         gyroscope: arguments.validate_gyroscope.clone(),
         ..Source::from_file(recording)
     };
-    PipelineOptions {
+    Ok(PipelineOptions {
         experiment_file: arguments.experiment.clone(),
         motion: arguments.motion.clone(),
         reading: arguments.reading.options(),
@@ -54,7 +54,8 @@ fn options(arguments: &Arguments) -> PipelineOptions {
         validate: arguments.validate.as_ref().map(other),
         validate_motion: arguments.validate_motion.clone(),
         folds: arguments.folds,
+        accept: arguments.accept.as_deref().map(read_acceptance).transpose()?,
         allowed: arguments.rules.allowed().to_vec(),
         report: !arguments.no_report,
-    }
+    })
 }

@@ -11,7 +11,7 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let outcome = job.run(source, directory, &mut notes);
     let denied = job.arguments.rules.show_notes(&notes, None);
     match outcome {
-        Ok(outcome) => show(job, &outcome).max(denied).max(Exit::of_status(outcome.status())),
+        Ok(outcome) => show(job, &outcome).max(denied).max(job.arguments.rules.exit_of(&outcome.verdict())),
         Err(error) => {
             match job.experiment.imu {
                 Some(_) => console::error(&error),

@@ -5,7 +5,7 @@ use calibrant::io::{Experiment, Plan};
 use calibrant::pipeline::Calibrated;
 use calibrant::report::number_format;
 
-/// The columns between the status and the number of warnings.
+/// The columns between the verdict and the codes that decide it.
 pub(super) fn columns(experiment: &Experiment) -> &'static [&'static str] {
     match (&experiment.plan, &experiment.imu) {
         (Plan::Machine(_), _) => &["used"],

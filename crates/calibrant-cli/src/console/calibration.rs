@@ -6,19 +6,30 @@ use super::validation::validations;
 use calibrant::estimate::{Calibration, GyroscopeInHolds, HoldCalibration};
 use calibrant::pipeline::{Calibrated, Outcome};
 use calibrant::report::{
-    calibration_quality, nuisances_in_words, number_format, over_the_gain, temperature_in_words,
+    calibration_quality, limit_rows, nuisances_in_words, number_format, over_the_gain, temperature_in_words,
     used_in_words,
 };
 use calibrant::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
-/// The used data, the parameters, their quality, and the validation.
+/// The verdict, the used data, the parameters, their quality, the validation, and the limits.
 pub(crate) fn calibration(outcome: &Outcome) -> String {
+    let verdict = format!("verdict: {}\n\n", outcome.verdict());
     let text = match &outcome.calibrated {
         Calibrated::Sensors(calibration) => of_calibration(calibration),
         Calibrated::OnMachine(machine) => on_machine(machine),
     };
-    text + &validations(&outcome.validations)
+    verdict + &text + &validations(&outcome.validations) + &limits(outcome)
+}
+
+/// What is accepted, and the decision on each limit.
+fn limits(outcome: &Outcome) -> String {
+    if outcome.limits.is_empty() {
+        return String::new();
+    }
+    let (header, rows) = limit_rows(&outcome.limits);
+    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
+    format!("\n{}", table(&header, &rows))
 }
 
 fn of_calibration(calibration: &Calibration) -> String {

@@ -39,22 +39,22 @@ fn one_bad_recording_does_not_stop_the_others() {
     let rows: Vec<&str> = summary.lines().collect();
     assert!(
         rows[0].starts_with(
-            "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,"
+            "file,recording,verdict,codes,status,error,code,limits_failed,worst_sd_parameter,worst_sd_ratio,worst_sd_relative_to,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,"
         ),
         "{summary}"
     );
     assert!(rows[0].ends_with(",accelerometer.scale.z,accelerometer.scale.z_sd"), "{summary}");
     let starts = [
-        "a,a.csv,converged,,",
-        "b,b.csv,error,\"b.csv:5:5: \"\"oops\"\" in column",
-        "c,c.csv,converged,,",
-        "missing,missing.csv,error,",
+        "a,a.csv,ok,,converged,,,,",
+        "b,b.csv,none,,error,\"b.csv:5:5: \"\"oops\"\" in column",
+        "c,c.csv,ok,,converged,,,,",
+        "missing,missing.csv,none,,error,",
     ];
     assert_eq!(rows.len(), 1 + starts.len(), "{summary}");
     for (row, start) in rows[1..].iter().zip(starts) {
         assert!(row.starts_with(start), "{row}");
     }
-    let values: Vec<&str> = rows[3].split(',').skip(9).collect();
+    let values: Vec<&str> = rows[3].split(',').skip(15).collect();
     let calibration = bench.read("result/c/calibration.json");
     assert_eq!(values.len(), 12, "{summary}");
     for (pair, field) in values.chunks(2).flat_map(|pair| [(pair[0], "value"), (pair[1], "sd")]) {
@@ -74,7 +74,7 @@ fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
     outcome.says("error: broken.csv: the file is empty");
     let summary = bench.read("result/summary.csv");
     assert!(
-        summary.contains("\nshort,short.csv,error,the data cannot determine the parameters; bias.x"),
+        summary.contains("\nshort,short.csv,none,,error,the data cannot determine the parameters; bias.x"),
         "{summary}"
     );
 }
@@ -182,10 +182,10 @@ fn every_imu_is_calibrated_as_if_it_were_alone() {
     let rows: Vec<Vec<&str>> = summary.lines().map(|row| row.split(',').collect()).collect();
     assert_eq!(
         rows[0][..8],
-        ["file", "recording", "status", "error", "code", "warnings", "holds", "holds_used"],
+        ["file", "recording", "verdict", "codes", "status", "error", "code", "limits_failed"],
         "{summary}"
     );
-    assert_eq!(rows[2][..3], ["broken", "broken.csv", "error"], "{summary}");
+    assert_eq!(rows[2][..5], ["broken", "broken.csv", "none", "", "error"], "{summary}");
     let column = |name: &str| rows[0].iter().position(|column| *column == name).expect(name);
     for (row, seed) in [(1, 1), (3, 2), (4, 3)] {
         bench.run(&format!("calibrate imu.toml imu{seed}.csv -o alone{seed}")).done();

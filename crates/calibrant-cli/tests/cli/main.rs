@@ -39,3 +39,4 @@ mod truncated_bag;
 mod undetermined;
 mod validate_machine;
 mod validation;
+mod verdict;

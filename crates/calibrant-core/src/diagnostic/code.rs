@@ -70,7 +70,7 @@ impl Code {
 }
 
 codes! {
-    NotConverged "not-converged" Warning
+    NotConverged "not-converged" Error
         "The iteration did not converge. The numbers are the best that it found, not the optimum."
         "The status of the result is not `converged`."
         "Look at the other diagnostics. Record more holds or rotations.";
@@ -134,11 +134,11 @@ codes! {
         "The noise within the holds differs from the given noise."
         "Their ratio is below 0.5 or above 2."
         "Correct the noise in the experiment file.";
-    ParameterImplausible "parameter-implausible" Warning
+    ParameterImplausible "parameter-implausible" Error
         "A parameter is far from its nominal value. A mistake is more likely than a rare sensor."
-        "The difference exceeds 10 standard deviations of datasheet and estimate together."
+        "The difference exceeds 6 standard deviations of datasheet and estimate together."
         "Check the unit of the recording, gravity, and the order and direction of the axes.";
-    FacesTurned "faces-turned" Warning
+    FacesTurned "faces-turned" Error
         "All given directions of the holds differ from the accelerometer's by one rotation."
         "Readings in SI show a different axis up than the given one."
         "Correct the directions, unless the sensor is mounted that way.";
@@ -174,6 +174,14 @@ codes! {
         "The fit is worse than the noise explains. The standard deviations are too small."
         "The p-value of χ² is below 0.001."
         "Check the clocks, the commanded motion, and the noise.";
+    NoiseImplausible "noise-implausible" Error
+        "The noise is far larger than the given noise. The sensor, its unit or the given noise is wrong."
+        "The residuals, or the samples within the holds, scatter by more than ten times the given noise."
+        "Check the sensor and the unit of the recording. Correct the noise in the experiment file.";
+    ModelContradicted "model-contradicted" Error
+        "The residuals are far larger than the noise, and systematic. The sensor did not do what the model says."
+        "Of a motion, the residuals are more than ten times the given noise, and not white. On a machine, they are more than ten times the noise of neighbouring samples. In holds, the scatter between them exceeds 0.2 m/s²."
+        "Check that the motion was the commanded one, both clocks, and the order and direction of the axes.";
     FitBetterThanNoise "fit-better-than-noise" Warning
         "The fit is better than the noise explains. The standard deviations are too large."
         "The p-value of χ² is above 0.999."
@@ -190,7 +198,7 @@ codes! {
         "The recording determines a parameter less well than the datasheet."
         "Its standard deviation exceeds the datasheet's spread."
         "Record for longer, or use a motion that excites the parameter.";
-    ScaleNegative "scale-negative" Warning
+    ScaleNegative "scale-negative" Error
         "A scale factor is negative."
         "The estimate is below zero."
         "Check the direction of the axis.";
@@ -202,7 +210,7 @@ codes! {
         "The clocks of the two sensors run at different rates."
         "The skew is significant, and large enough to affect the result."
         "Correct the gyroscope's times by offset and skew.";
-    AxesInOtherOrder "axes-in-other-order" Warning
+    AxesInOtherOrder "axes-in-other-order" Error
         "The gyroscope's axes are in another order than the accelerometer's."
         "The rotations or turns fit only with that order."
         "Correct the columns, or keep the order in mind.";
@@ -242,9 +250,9 @@ codes! {
         "The data contradict a given value. The standard deviations are too small."
         "χ² exceeds its degrees of freedom by 6 standard deviations."
         "Check terms in [known], directions, turns and noise.";
-    GainImplausible "gain-implausible" Warning
+    GainImplausible "gain-implausible" Error
         "A gain of readings in SI is far from 1."
-        "It is below 0.8 or above 1.25."
+        "It is below 0.8 or above 1.25, and the datasheet does not allow for it."
         "Check unit, sample rate, order and direction of the axes, turns and faces.";
     TemperatureExtrapolated "temperature-extrapolated" Warning
         "The recording goes beyond the temperatures of its holds. The polynomials extrapolate there."
@@ -254,6 +262,22 @@ codes! {
         "The reference temperature lies beyond the temperatures of the holds."
         "It lies far outside."
         "Choose another reference, or record at that temperature.";
+    ValidationDoubts "validation-doubts" Warning
+        "The errors on data that were not used are larger than predicted."
+        "A validation finds the covariance too small: the 99 % interval of the factor lies above 1, and the factor above 1.25."
+        "Read the validation in the report. Multiply the standard deviations by the factor that it names, or find the cause.";
+    LimitBroken "limit-broken" Error
+        "A limit of `[accept]` is broken."
+        "The value lies beyond the limit by more than 1.645 of its standard deviations, or a standard deviation exceeds the largest that is accepted."
+        "Do not ship the sensor. Where the standard deviation is too large, record more.";
+    LimitTooClose "limit-too-close" Warning
+        "A value is too close to a limit of `[accept]` to decide."
+        "The value lies within 1.645 of its standard deviations of the limit, on either side (ISO 14253-1)."
+        "Record more, so that the standard deviation becomes smaller.";
+    LimitNotChecked "limit-not-checked" Warning
+        "A limit of `[accept]` is not checked, since the result does not have the value."
+        "The calibration does not estimate it, or no validation gives it."
+        "Take the limit out, estimate the parameter, or give --validate.";
     NoiseOutliers "noise-outliers" Warning
         "Outliers were removed before the noise was estimated. Or they are too many to remove, and the noise includes them."
         "They are more than 8 robust standard deviations from the median of nine neighbouring samples. Up to one sample in fifty is removed."

@@ -7,15 +7,18 @@ pub enum Severity {
     Note,
     /// The result may be wrong, or its standard deviations too small.
     Warning,
+    /// The result must not be used.
+    Error,
 }
 
 impl Severity {
-    /// As files state it: `note` or `warning`.
+    /// As files state it: `note`, `warning` or `error`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Note => "note",
             Self::Warning => "warning",
+            Self::Error => "error",
         }
     }
 }

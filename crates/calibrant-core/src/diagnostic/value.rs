@@ -7,6 +7,7 @@ use crate::diagnostic::code::Code;
 use crate::diagnostic::faces::{FaceMismatch, FacePointing};
 use crate::diagnostic::hold_span::{HoldLeftOut, HoldSpan};
 use crate::diagnostic::known::KnownMismatch;
+use crate::diagnostic::limit_miss::LimitMiss;
 use crate::diagnostic::lost_holds::LostHolds;
 use crate::diagnostic::parts::{Part, Parts};
 use crate::diagnostic::rotation_reason::RotationReason;
@@ -183,6 +184,17 @@ diagnostics! {
         noise_ratio: f64 = "Residual noise over the assumed one.",
         is_white: bool = "Are the residuals white?",
     }
+    /// The noise is far larger than the given one.
+    NoiseImplausible {
+        sensor_kind: SensorKind = "The sensor.",
+        axis: Axis = "The axis with the largest ratio.",
+        ratio: f64 = "The noise that was found over the given noise.",
+    }
+    /// The residuals refuse the model.
+    ModelContradicted {
+        sensor_kind: SensorKind = "The sensor.",
+        ratio: f64 = "The residuals over the noise, or over what holds may scatter.",
+    }
     /// The fit is better than the noise explains.
     FitBetterThanNoise { p_value: f64 = "p-value of χ².", noise_ratio: f64 = "Residual noise over the assumed one." }
     /// Residuals are not white.
@@ -267,6 +279,14 @@ diagnostics! {
         gain: f64 = "The gain along the axis.",
         unit: ReadingUnit = "Unit of the readings.",
     }
+    /// The errors of a validation are larger than predicted.
+    ValidationDoubts { what: String = "What the errors are of.", factor: f64 = "Errors over prediction." }
+    /// A limit of `[accept]` is broken.
+    LimitBroken { limit: LimitMiss = "The limit." }
+    /// A value is too close to a limit of `[accept]`.
+    LimitTooClose { limit: LimitMiss = "The limit." }
+    /// A limit of `[accept]` is not checked.
+    LimitNotChecked { name: String = "Its name." }
     /// The recording goes beyond the temperatures of its holds.
     TemperatureExtrapolated {
         coldest_c: f64 = "Lowest temperature of the recording, °C.",

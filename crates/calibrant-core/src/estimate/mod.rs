@@ -19,6 +19,7 @@ mod bias_drift;
 mod calibrate;
 mod change;
 mod comparison;
+mod datasheet;
 mod earth;
 mod gravity_error;
 mod gravity_off_earth;
@@ -26,6 +27,7 @@ mod hold_result;
 mod holds;
 mod imu;
 mod motion;
+mod motion_outliers;
 mod problem;
 mod propagated;
 mod quantisation;
@@ -34,6 +36,7 @@ mod recovered_gravity;
 mod result;
 mod settings;
 pub(crate) mod statistics;
+mod studentised_fit;
 mod tangent_plane;
 mod uncalibrated;
 mod unknown_latitude;
@@ -43,6 +46,7 @@ pub use crate::diagnostic::{Change, Changed, Course};
 pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
+pub use datasheet::{ALLOWED_SPREADS, allows_gain, beyond_datasheet, implausible_gains, noise_not_as_given};
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
@@ -54,6 +58,7 @@ pub use imu::{
     calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds, find_imu_holds,
     swapped_sensors,
 };
+pub use motion_outliers::without_motion_outliers;
 pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
 pub use recovered_gravity::RecoveredGravity;

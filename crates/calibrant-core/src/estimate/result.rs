@@ -1,8 +1,8 @@
 //! The result of a calibration.
 
-use super::RecoveredGravity;
 use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
+use super::{RecoveredGravity, datasheet};
 use crate::diagnostic::{Change, Diagnostic};
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
@@ -82,6 +82,16 @@ impl Calibration {
     #[must_use]
     pub fn sd(&self) -> Vec<f64> {
         self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
+    }
+
+    /// What of the accelerometer the datasheet does not allow: a parameter, and gains of readings in SI that are far from one.
+    pub(crate) fn beyond_datasheet(&self) -> Vec<Diagnostic> {
+        let (parameters, values, sd) = (&self.parameters, &self.values, self.sd());
+        let allowed =
+            |axis: Axis| axis.index() >= self.axes() || datasheet::allows_gain(parameters, values, &sd, axis);
+        let (kind, matrix) = (SensorKind::Accelerometer, &self.imu.accelerometer.matrix);
+        let gains = datasheet::implausible_gains(kind, self.accelerometer_unit, matrix, allowed);
+        datasheet::beyond_datasheet(parameters, values, &sd).into_iter().chain(gains).collect()
     }
 
     /// Correlation matrix of the estimates.

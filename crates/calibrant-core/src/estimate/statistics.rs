@@ -1,9 +1,6 @@
 //! Tests on the residuals.
 
-use super::{Calibration, Whiteness};
-use crate::diagnostic::Diagnostic;
-use crate::sensor::{Axis, SensorKind};
-use nalgebra::Vector3;
+use super::Whiteness;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// So many degrees of freedom are as good as infinitely many.
@@ -70,33 +67,4 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
         }
     }
     sums.iter().sum::<f64>() + rest
-}
-
-/// Parameters far from their nominal value: a mistake is more likely than a rare sensor.
-pub(crate) fn implausible(calibration: &Calibration) -> Option<Diagnostic> {
-    const FAR: f64 = 10.0;
-    let (name, times) = calibration
-        .parameters
-        .iter()
-        .zip(&calibration.values)
-        .zip(calibration.sd())
-        .filter_map(|((parameter, value), sd)| {
-            let spread = parameter.spread.filter(|spread| *spread > 0.0)?.hypot(sd);
-            Some((&parameter.name, ((value - parameter.nominal?) / spread).abs()))
-        })
-        .max_by(|one, other| one.1.total_cmp(&other.1))?;
-    (times > FAR).then(|| Diagnostic::ParameterImplausible { parameter: name.clone(), deviations: times })
-}
-
-/// The noise within holds, where it differs from the given noise by more than a factor of two on an axis.
-pub(crate) fn noise_not_as_given(
-    sensor_kind: SensorKind,
-    found: &Vector3<f64>,
-    given: &Vector3<f64>,
-) -> Option<Diagnostic> {
-    const FAR: f64 = 2.0;
-    let ratio = |axis: Axis| found[axis.index()] / given[axis.index()];
-    let off = |axis: &Axis| ratio(*axis).max(1.0 / ratio(*axis));
-    let axis = Axis::ALL.into_iter().max_by(|one, other| off(one).total_cmp(&off(other)))?;
-    (off(&axis) > FAR).then(|| Diagnostic::NoiseNotAsGiven { sensor_kind, axis, ratio: ratio(axis) })
 }

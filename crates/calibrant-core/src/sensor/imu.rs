@@ -38,10 +38,23 @@ impl ImuRecording {
     /// and those that were removed.
     #[must_use]
     pub fn without_spikes(&self) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
+        self.cleaned(|sensor_kind| sensor_kind == SensorKind::Gyroscope)
+    }
+
+    /// The same for a recording on a machine, where the movements of both sensors count.
+    #[must_use]
+    pub fn without_spikes_in_motion(&self) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
+        self.cleaned(|_| true)
+    }
+
+    fn cleaned(
+        &self,
+        moves: impl Fn(SensorKind) -> bool + Sync,
+    ) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
         let clean = |sensor_kind: SensorKind| {
             let (clean, spikes) = self
                 .sensor(sensor_kind)?
-                .without_spikes_beside(self.sensor(sensor_kind.other()), sensor_kind);
+                .without_spikes_beside(self.sensor(sensor_kind.other()), moves(sensor_kind));
             spikes.map(|spikes| (clean.into_owned(), spikes))
         };
         let (accelerometer, gyroscope) =

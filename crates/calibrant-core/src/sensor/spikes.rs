@@ -11,7 +11,7 @@
 //! The sensor must be stationary for [`REST_MARGIN_S`] on both sides. A knock while the sensor is put down is as
 //! far off, but a movement is near.
 //!
-//! In a movement, only the gyroscope is examined: an accelerometer's movements count for nothing. A spike has
+//! In a movement between holds, only the gyroscope is examined: an accelerometer's movements count for nothing. On a machine both are. A spike has
 //! a large second difference that stands out among those of its neighbours. On each side, half of it appears
 //! with the opposite sign. Only a single sample has that: neither the kink where a turn begins, nor a step,
 //! nor a short turn has it. A pulse that the accelerometer shares is a knock, which is real motion.
@@ -119,21 +119,21 @@ impl Recording {
     /// ```
     #[must_use]
     pub fn without_spikes(&self, sensor_kind: SensorKind) -> (Cow<'_, Self>, Option<Spikes>) {
-        self.without_spikes_beside(None, sensor_kind)
+        self.without_spikes_beside(None, sensor_kind == SensorKind::Gyroscope)
     }
 
-    /// The same with the recording of the other sensor, which shares real motion.
+    /// The same with the recording of the other sensor, which shares real motion. `moves`: do movements count?
     pub(super) fn without_spikes_beside(
         &self,
         other: Option<&Self>,
-        sensor_kind: SensorKind,
+        moves: bool,
     ) -> (Cow<'_, Self>, Option<Spikes>) {
         let axes = self.active_axes();
         // as a hold is measured: where the sensor pauses, the number of samples is the same
         let still = (REST_MARGIN_S * self.rate_hz()).round() as usize;
         let found: Vec<Found> = axes
             .par_iter()
-            .map(|axis| AxisReadings::new((self, other), *axis, sensor_kind, still).found())
+            .map(|axis| AxisReadings::new((self, other), *axis, moves, still).found())
             .collect();
         let every = found.iter().zip(axes);
         let every = every.flat_map(|(found, axis)| found.all().map(move |spike| (*axis, spike)));
@@ -236,7 +236,7 @@ impl<'a> AxisReadings<'a> {
     fn new(
         (recording, other): (&'a Recording, Option<&'a Recording>),
         axis: Axis,
-        sensor_kind: SensorKind,
+        moves: bool,
         still: usize,
     ) -> Self {
         let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis.index()]).collect();
@@ -250,7 +250,7 @@ impl<'a> AxisReadings<'a> {
             least = steps().fold(f64::INFINITY, finest);
         }
         let scale = (SD_OVER_MAD * typical).max(if least.is_finite() { least } else { 0.0 });
-        let (times_s, moves) = (recording.times_s.as_slice(), sensor_kind == SensorKind::Gyroscope);
+        let times_s = recording.times_s.as_slice();
         Self { times_s, values, scale, still: still.max(WINDOW_SAMPLES / 2), moves, other }
     }
 

@@ -15,6 +15,7 @@ const KEYS: &[(&str, &[&str])] = &[
             "temperature",
             "columns",
             "calibrate",
+            "accept",
             "limits",
             "design",
             "study",
@@ -142,6 +143,7 @@ const KEYS: &[(&str, &[&str])] = &[
         ],
     ),
     ("calibrate", &["prior"]),
+    ("accept.limit", &["range", "sd"]),
     (
         "limits",
         &[

@@ -5,6 +5,7 @@
 //! an unknown key names the nearest known one. [`presets`](super::preset()) are commented examples of every
 //! key.
 
+mod accept;
 mod calibrate;
 mod columns;
 mod design;
@@ -44,5 +45,5 @@ pub use machine_source::{MachineSource, UrdfSource};
 pub use motion::MotionPlan;
 pub use plan::Plan;
 pub use poses::PoseOptions;
-pub use read::{Experiment, read_columns};
+pub use read::{Experiment, read_acceptance, read_columns};
 pub use study::{NoisyVariant, StudyOptions, UnknownVariant};

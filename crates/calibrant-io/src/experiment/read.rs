@@ -2,10 +2,11 @@
 
 use super::toml_document::{Document, Section};
 use super::{
-    CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions, calibrate, columns, design,
+    CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions, accept, calibrate, columns, design,
     gyroscope, holds, limits, machine, motion, sensor, study,
 };
 use crate::{ImuReadOptions, text_decoding};
+use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{ReadingUnit, Sensor};
@@ -30,6 +31,8 @@ pub struct Experiment {
     pub limits: Limits,
     /// `[calibrate]`.
     pub calibrate: CalibrateOptions,
+    /// `[accept]`: the limits that a result must keep; none where the section is absent.
+    pub accept: Vec<AcceptanceLimit>,
     /// `[design]`.
     pub design: DesignOptions,
     /// `[study]`.
@@ -63,6 +66,36 @@ pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
         return Err(Error::experiment(input_error.in_file(path)));
     }
     Ok(columns)
+}
+
+/// Reads `[accept]` of a file that may have nothing else. It is an experiment file, or one with this table
+/// alone (and optionally `schema = 1`).
+///
+/// # Errors
+/// As [`Experiment::read`], whatever section is wrong. [`Error::Experiment`] where there is no `[accept]`
+/// section, or an empty one.
+pub fn read_acceptance(path: &Path) -> Result<Vec<AcceptanceLimit>> {
+    let text = read_text(path)?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let document = Document { text, file: Some(path) };
+    let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
+    let root = Section::root(&document, table.get_ref())?;
+    let others = table.get_ref().keys().any(|key| !["schema", "accept"].contains(&key.get_ref().as_ref()));
+    let limits = match others {
+        true => Experiment::parse(text, Some(path))?.accept,
+        false => read_accept(&root)?,
+    };
+    if limits.is_empty() {
+        let (message, help) = ("there is no limit in [accept]", "add some, or leave --accept away");
+        let input_error = InputError::new(Refusal::KeyMissing, message, help);
+        return Err(Error::experiment(input_error.in_file(path)));
+    }
+    Ok(limits)
+}
+
+fn read_accept(root: &Section<'_>) -> Result<Vec<AcceptanceLimit>> {
+    let section = root.get("accept").map(|entry| Section::open(&entry, "accept")).transpose()?;
+    section.map_or(Ok(Vec::new()), |section| accept::read(&section))
 }
 
 fn read_text(path: &Path) -> Result<String> {
@@ -143,6 +176,7 @@ impl Experiment {
                 .section("columns")?
                 .map_or(Ok(ImuReadOptions::default()), |section| columns::read(&section))?,
             calibrate,
+            accept: read_accept(&root)?,
             design: root
                 .section("design")?
                 .map_or(Ok(DesignOptions::default()), |section| design::read(&section, &sensor, &list))?,

@@ -118,6 +118,14 @@ impl<'a> Section<'a> {
         self.refuse(Refusal::ValueInvalid, message, help, key)
     }
 
+    /// The error for a key of this section that is not known.
+    pub(super) fn unknown(&self, key: &str, help: &str) -> Error {
+        let place = self.table.keys().find(|name| name.get_ref() == key);
+        let span = place.map_or(self.span.clone(), |name| name.span());
+        let input_error = self.document.reject(Refusal::KeyUnknown, span, "unknown key".into(), help.into());
+        Error::experiment(input_error.about_key(self.full(key)))
+    }
+
     fn refuse(&self, code: Refusal, message: &str, help: &str, key: &str) -> Error {
         let key = if key.is_empty() { self.name.to_owned() } else { self.full(key) };
         let input_error = self.document.reject(code, self.span.clone(), message.into(), help.into());

@@ -195,7 +195,7 @@ impl Finding {
     /// Is it more than a note: do results of the recording become doubtful?
     #[must_use]
     pub fn is_warning(&self) -> bool {
-        self.code().severity() == Severity::Warning
+        self.code().severity() >= Severity::Warning
     }
 
     /// Do the sample times follow from a nominal rate, not from a clock that was recorded?

@@ -4,15 +4,14 @@ use super::layout::Layout;
 use super::parameters::place;
 use super::{MachineCalibration, MachineSetup, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::estimate::CalibrationStatus;
-use calibrant_core::sensor::{Axis, ReadingUnit};
+use calibrant_core::estimate::{CalibrationStatus, implausible_gains};
 
 /// Largest usual ratio of the residuals to the noise between neighbouring samples: with noisy trust, and with known trust.
 const RESIDUALS: [f64; 2] = [1.1, 1.25];
 /// Largest usual distance of a quantity from its prior mean, in prior standard deviations.
 const CONTRADICTED: f64 = 4.0;
-/// Gains of readings in SI that are plausible.
-const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// A ratio of the residuals beyond this refuses the model.
+const REFUSED: f64 = 10.0;
 /// Largest usual share of outliers in the log.
 const OUTLIERS: f64 = 1e-3;
 /// Least usual share of the sensor's samples that are used.
@@ -30,7 +29,11 @@ pub(super) fn all(
     }
     found.extend(residuals(calibration));
     found.extend(correlated(calibration));
-    found.extend(implausible_gains(calibration));
+    found.extend(calibration.noise.iter().flat_map(|of| {
+        let matrix = &calibration.parameters.imu.sensor(of.sensor).matrix;
+        let unit = calibration.units[place(of.sensor)].unwrap_or(of.sensor.stimulus_unit());
+        implausible_gains(of.sensor, unit, matrix, |_| false)
+    }));
     found.extend(contradicted(setup, layout, calibration));
     let (outliers, samples) = (calibration.reference_noise.iter())
         .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
@@ -43,26 +46,17 @@ pub(super) fn all(
     found
 }
 
-/// The gains of readings in SI that are far from 1.
-fn implausible_gains(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
-    calibration.noise.iter().flat_map(|of| {
-        let sensor_kind = of.sensor;
-        let unit = calibration.units[place(sensor_kind)].filter(|unit| *unit != ReadingUnit::Counts);
-        let matrix = &calibration.parameters.imu.sensor(sensor_kind).matrix;
-        Axis::ALL.into_iter().filter_map(move |axis| {
-            let (unit, gain) = (unit?, matrix[(axis.index(), axis.index())]);
-            let doubtful = !PLAUSIBLE_GAINS.contains(&gain);
-            doubtful.then_some(Diagnostic::GainImplausible { sensor_kind, axis, gain, unit })
-        })
-    })
-}
-
 /// Residuals that are larger than the noise of neighbouring samples.
 fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
     let limit = RESIDUALS[usize::from(calibration.trust == MachineTrust::Known)];
     calibration.noise.iter().filter_map(move |of| {
         let ratio = (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt();
-        (ratio > limit).then_some(Diagnostic::MachineResiduals { sensor_kind: of.sensor, ratio })
+        let sensor_kind = of.sensor;
+        match ratio > limit {
+            true if ratio > REFUSED => Some(Diagnostic::ModelContradicted { sensor_kind, ratio }),
+            true => Some(Diagnostic::MachineResiduals { sensor_kind, ratio }),
+            false => None,
+        }
     })
 }
 

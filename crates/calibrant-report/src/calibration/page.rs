@@ -17,6 +17,7 @@ use crate::figure::{
     holds_before_and_after, recording_before_and_after, recording_overview, rotation_errors, still_gyroscope,
 };
 use crate::html::{Page, escape, facts};
+use crate::limits::limit_section;
 use crate::noise::noise_sections;
 use crate::validation::validation_section;
 use calibrant_core::estimate::{Calibration, HoldCalibration, Recovered};
@@ -61,6 +62,7 @@ fn opening(calibration: &Calibration, title: &str, about: &About) -> Page {
     page.push(format!("<h1>{}</h1>", escape(title)));
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     page.push(verdict(calibration, about));
+    limit_section(&mut page, &about.limits);
     page
 }
 

@@ -3,8 +3,8 @@
 use super::quality::{calibration_quality, used_in_words};
 use crate::words::{capitalised, message};
 use crate::{About, html, number_format};
-use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::estimate::{Calibration, CalibrationStatus};
+use calibrant_core::diagnostic::{Diagnostic, Severity, Usability, Verdict};
+use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{Axis, ImuQuantity, Invariant, Quantity, SensorKind};
 
 /// A standard deviation above this share of the datasheet spread means that the recording determined little.
@@ -21,25 +21,35 @@ pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
         .chain(hardly_determined(calibration))
         .chain(mostly_prior(calibration))
         .chain(unchecked(calibration));
-    calibration_verdict(calibration.status, &calibration.warnings, remarks, &sentence(calibration), about)
+    calibration_verdict(&calibration.warnings, remarks, &sentence(calibration), about)
 }
 
-/// The verdict of a status, the warnings, and further remarks; with a sentence on what was calibrated.
+/// The verdict with its errors, warnings and further remarks; with a sentence on what was calibrated.
 pub(crate) fn calibration_verdict(
-    status: CalibrationStatus,
-    warnings: &[Diagnostic],
+    diagnostics: &[Diagnostic],
     remarks: impl IntoIterator<Item = String>,
     sentence: &str,
     about: &About,
 ) -> String {
-    let remarks: Vec<String> = warnings.iter().map(message).chain(remarks).collect();
-    let (class, word) = match (status, remarks.is_empty()) {
-        (CalibrationStatus::Converged, true) => ("good", "✓ Usable."),
-        (CalibrationStatus::Converged, false) => ("caution", "! Usable; read the warnings first."),
-        _ => ("bad", "✗ Do not use: the estimation did not converge."),
+    let of = |severity: Severity| -> Vec<String> {
+        diagnostics.iter().filter(|found| found.severity() == severity).map(message).collect()
     };
-    let lists = [("Warnings", remarks), ("About the recording", about.findings.clone())];
-    html::verdict_box(class, word, sentence, &lists)
+    let remarks: Vec<String> = of(Severity::Note).into_iter().chain(remarks).collect();
+    let own = || Verdict::on(diagnostics.iter().map(Diagnostic::code), &[]);
+    let verdict = about.verdict.clone().unwrap_or_else(own);
+    let (class, word) = match (verdict.usability, remarks.is_empty()) {
+        (Usability::Ok, true) => ("good", "✓ Usable.".to_owned()),
+        (Usability::Ok, false) => ("good", "✓ Usable; read the remarks.".to_owned()),
+        (Usability::Doubtful, _) => ("caution", "! Doubtful: read the warnings first.".to_owned()),
+        (Usability::Bad, _) => ("bad", format!("✗ Bad: do not use ({}).", verdict.code_names().join(", "))),
+    };
+    let lists = [
+        ("Errors", of(Severity::Error)),
+        ("Warnings", of(Severity::Warning)),
+        ("Remarks", remarks),
+        ("About the recording", about.findings.clone()),
+    ];
+    html::verdict_box(class, &word, sentence, &lists)
 }
 
 fn sentence(calibration: &Calibration) -> String {

@@ -12,6 +12,7 @@ use crate::figure::{
     residuals_and_speed, sensor_on_tip, three_views,
 };
 use crate::html::{Page, escape, facts};
+use crate::limits::limit_section;
 use crate::table::Table;
 use crate::{About, number_format};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
@@ -61,6 +62,7 @@ fn opening(
     page.push(format!("<h1>{}</h1>", escape(title)));
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     page.push(verdict(calibration, validations, about));
+    limit_section(&mut page, &about.limits);
     page
 }
 

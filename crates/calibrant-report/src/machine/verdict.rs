@@ -17,7 +17,7 @@ pub(super) fn verdict(
     about: &About,
 ) -> String {
     let remarks = unexplained(calibration).into_iter().chain(doubts(validations));
-    calibration_verdict(calibration.status, &calibration.warnings, remarks, &sentence(calibration), about)
+    calibration_verdict(&calibration.warnings, remarks, &sentence(calibration), about)
 }
 
 fn sentence(calibration: &MachineCalibration) -> String {

@@ -20,7 +20,7 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             let farthest = farthest(*reading, unit.symbol(), *time_s, *deviations);
             if !left_out {
                 return Some(format!(
-                    "{sensor_kind} {axis}: {outliers} of {samples} samples are spikes ({farthest}). More than one sample in fifty is a spike: these are too many to remove. The stated noise includes them. \
+                    "{sensor_kind} {axis}: {outliers} of {samples} samples are spikes ({farthest}). These are more than one sample in fifty, or several in a row, and too many to remove. The noise includes them. \
                      Look for a loose contact, or for bits lost on the way."
                 ));
             }

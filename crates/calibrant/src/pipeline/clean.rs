@@ -1,19 +1,50 @@
 //! Outliers are taken out of a recording once, for all stages that follow.
 
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::sensor::{ImuRecording, SensorKind, Spikes};
+use calibrant_core::estimate::{CalibrationProblem, Stimulus, without_motion_outliers};
+use calibrant_core::motion::CommandedMotion;
+use calibrant_core::sensor::{ImuRecording, Sensor, SensorKind, Spikes};
 use std::borrow::Cow;
 
 /// Takes spikes and invalid readings out of a recording. Gives a diagnostic for each sensor that has some.
 pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<Diagnostic> {
     let (clean, outliers) = recording.without_spikes();
-    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
-        let unit = recording.sensor(*sensor_kind)?.unit;
-        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
-    };
-    let found = outliers.iter().filter_map(of_sensor).collect();
+    let found = diagnostics(recording, &outliers);
     if let Cow::Owned(clean) = clean {
         *recording = clean;
     }
     found
+}
+
+/// The same of a recording on a machine, where the movements of both sensors count.
+pub(crate) fn take_out_outliers_in_motion(recording: &mut ImuRecording) -> Vec<Diagnostic> {
+    let (clean, outliers) = recording.without_spikes_in_motion();
+    let found = diagnostics(recording, &outliers);
+    if let Cow::Owned(clean) = clean {
+        *recording = clean;
+    }
+    found
+}
+
+fn diagnostics(recording: &ImuRecording, outliers: &[(SensorKind, Spikes)]) -> Vec<Diagnostic> {
+    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
+        let unit = recording.sensor(*sensor_kind)?.unit;
+        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
+    };
+    outliers.iter().filter_map(of_sensor).collect()
+}
+
+/// Takes the samples out of the recording of a motion that are far from all others.
+pub(crate) fn take_out_motion_outliers(
+    sensor: &Sensor,
+    command: &CommandedMotion,
+    recording: &mut ImuRecording,
+) -> Option<Diagnostic> {
+    let readings = recording.accelerometer.as_ref()?;
+    let problem = CalibrationProblem { sensor, recording: readings, stimulus: Stimulus::Motion(command) };
+    let (clean, found) = without_motion_outliers(&problem)?;
+    if clean.is_some() {
+        recording.accelerometer = clean;
+    }
+    Some(found)
 }

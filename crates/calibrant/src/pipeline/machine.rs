@@ -1,8 +1,9 @@
 //! The stages from a recording on a machine to a calibration.
 
 use super::calibrated::{Calibrated, MachineOutcome};
-use super::clean::take_out_outliers;
+use super::clean::take_out_outliers_in_motion;
 use super::duplicates::refuse_duplicate;
+use super::machine_datasheet::beyond_datasheets;
 use super::machine_log::LogFile;
 use super::note::Note;
 use super::options::PipelineOptions;
@@ -95,6 +96,8 @@ impl<'e> MachineTask<'e> {
             .transpose()?;
         let mut calibration = calibrated(&problem, source)?;
         calibration.warnings.splice(0..0, moved.outliers.iter().cloned());
+        let beyond = beyond_datasheets(self.accelerometer, self.imu, &calibration);
+        calibration.warnings.extend(beyond);
         let mut validations = Vec::new();
         if let Some((other, second)) = &other {
             let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), other)?;
@@ -120,6 +123,8 @@ impl<'e> MachineTask<'e> {
             validations: Vec::new(),
             noise: Vec::new(),
             notes: Vec::new(),
+            limits: Vec::new(),
+            findings: Vec::new(),
             inputs,
             recording: recorded.recording,
             about,
@@ -142,7 +147,7 @@ impl<'e> MachineTask<'e> {
         notes: &mut Vec<Note>,
     ) -> Result<Moved> {
         notes.extend(Note::of_findings(&recorded.findings, source));
-        let outliers = take_out_outliers(&mut recorded.recording);
+        let outliers = take_out_outliers_in_motion(&mut recorded.recording);
         let beside;
         let log = match log {
             Some(log) => log,

@@ -8,6 +8,7 @@
 //! | noise | examines the longest hold of an IMU | `noise` |
 //! | calibrate | estimates the parameters and their covariance | [`estimate`](crate::estimate) |
 //! | validate | tries the calibration on data that it is not from | `validation` |
+//! | judge | checks the limits of `[accept]` and makes the verdict | `acceptance`, `figures` |
 //! | report | writes `calibration.json` and `report.html` | `outcome`, `report` |
 //!
 //! Each stage runs once and hands its result on. The stages in their order are in `task`.
@@ -40,12 +41,15 @@
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 
+mod acceptance;
 mod calibrated;
 mod clean;
 mod duplicates;
+mod figures;
 mod holds;
 mod kind;
 mod machine;
+mod machine_datasheet;
 mod machine_log;
 mod noise;
 mod note;

@@ -1,6 +1,7 @@
 //! What the caller of a pipeline chooses, for all recordings.
 
 use super::source::Source;
+use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Code;
 use calibrant_core::sensor::ReadingUnit;
 use calibrant_io::ImuReadOptions;
@@ -23,7 +24,9 @@ pub struct PipelineOptions {
     pub validate_motion: Option<PathBuf>,
     /// Number of blocks of holds (on a machine: of time), each predicted by a calibration from the others.
     pub folds: Option<usize>,
-    /// Diagnostics that the files mark as allowed.
+    /// The limits that a result must keep; `None`: those of the experiment.
+    pub accept: Option<Vec<AcceptanceLimit>>,
+    /// Diagnostics that the files mark as allowed. They do not count for the verdict.
     pub allowed: Vec<Code>,
     /// Is `report.html` written?
     pub report: bool,
@@ -39,6 +42,7 @@ impl Default for PipelineOptions {
             validate: None,
             validate_motion: None,
             folds: None,
+            accept: None,
             allowed: Vec::new(),
             report: true,
         }

@@ -2,7 +2,8 @@
 
 use super::calibrated::{Calibrated, MachineOutcome};
 use super::note::Note;
-use calibrant_core::diagnostic::{Code, Diagnostic};
+use calibrant_core::acceptance::CheckedLimit;
+use calibrant_core::diagnostic::{Code, Diagnostic, Verdict};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
@@ -27,6 +28,10 @@ pub struct Outcome {
     pub notes: Vec<Note>,
     /// The files that were read.
     pub inputs: Vec<Input>,
+    /// The limits that were checked.
+    pub limits: Vec<CheckedLimit>,
+    /// Codes of what the reader noticed in the recording.
+    pub(crate) findings: Vec<Code>,
     /// The recording without outliers.
     pub(crate) recording: ImuRecording,
     /// Diagnostics that the files mark as allowed.
@@ -63,13 +68,21 @@ impl Outcome {
         }
     }
 
+    /// May the result be used? The warnings and what the reader noticed decide.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let codes = self.warnings().iter().map(Diagnostic::code).chain(self.findings.iter().copied());
+        Verdict::on(codes, &self.allowed)
+    }
+
     /// A line for a table of many calibrations.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        match &self.calibrated {
+        let summary = match &self.calibrated {
             Calibrated::Sensors(calibration) => Summary::of(calibration),
             Calibrated::OnMachine(machine) => Summary::of_machine(&machine.result()),
-        }
+        };
+        summary.judged(self.verdict(), &self.limits)
     }
 
     /// The text of `calibration.json`.
@@ -102,7 +115,12 @@ impl Outcome {
 
     /// How diagnostics are written to files.
     fn words(&self) -> DiagnosticWords<'_> {
-        DiagnosticWords { message: &message, allowed: &self.allowed }
+        DiagnosticWords {
+            message: &message,
+            allowed: &self.allowed,
+            findings: &self.findings,
+            limits: &self.limits,
+        }
     }
 
     fn write_json(&self, directory: &Path) -> Result<()> {

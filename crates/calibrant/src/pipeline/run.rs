@@ -1,11 +1,13 @@
 //! The pipeline, whatever the sensor.
 
+use super::acceptance::judge;
 use super::machine::MachineTask;
 use super::note::Note;
 use super::options::PipelineOptions;
 use super::outcome::Outcome;
 use super::source::Source;
 use super::task::Task;
+use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::Result;
 use calibrant_io::{Experiment, Plan};
 
@@ -13,6 +15,7 @@ use calibrant_io::{Experiment, Plan};
 pub struct Pipeline<'e> {
     work: Work<'e>,
     options: PipelineOptions,
+    limits: Vec<AcceptanceLimit>,
     notes: Vec<Note>,
 }
 
@@ -38,7 +41,8 @@ impl<'e> Pipeline<'e> {
             }
             _ => Work::Sensors(Box::new(Task::new(experiment, &options, &mut notes)?)),
         };
-        Ok(Self { work, options, notes })
+        let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
+        Ok(Self { work, options, limits, notes })
     }
 
     /// What was noticed in what all recordings share.
@@ -64,9 +68,18 @@ impl<'e> Pipeline<'e> {
     /// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that it cannot determine;
     /// [`Error::Experiment`](crate::Error::Experiment) where it contradicts the experiment, or where the validation is on the data that were calibrated from.
     pub fn run_noting(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
-        match &self.work {
+        let before = notes.len();
+        let mut outcome = match &self.work {
             Work::Sensors(task) => task.run(source, &self.options, notes),
             Work::Machine(task) => task.run(source, &self.options, notes),
-        }
+        }?;
+        let names = [source.name(false), source.name(true)];
+        let of_recording = |note: &Note| match note {
+            Note::Finding { file, finding } if names.contains(file) => Some(finding.code()),
+            _ => None,
+        };
+        let findings = notes[before..].iter().filter_map(of_recording).collect();
+        judge(&mut outcome, &self.limits, findings);
+        Ok(outcome)
     }
 }

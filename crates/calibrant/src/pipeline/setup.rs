@@ -1,6 +1,6 @@
 //! What is known of the motion in one recording.
 
-use super::clean::take_out_outliers;
+use super::clean::{take_out_motion_outliers, take_out_outliers};
 use super::holds::with_holds;
 use super::problem::Problem;
 use super::recorded::Recorded;
@@ -39,8 +39,15 @@ impl<'e> Setup<'e> {
         }
     }
 
-    /// Takes outliers out of the recording and finds the holds, where there are some. A motion has neither.
-    pub(crate) fn prepare(&mut self, recording: &mut ImuRecording) -> Vec<Diagnostic> {
+    /// Takes outliers out of the recording and finds the holds, where there are some.
+    pub(crate) fn prepare(
+        &mut self,
+        accelerometer: &Sensor,
+        recording: &mut ImuRecording,
+    ) -> Vec<Diagnostic> {
+        if let Self::Motion(command) = self {
+            return take_out_motion_outliers(accelerometer, command, recording).into_iter().collect();
+        }
         let Some(holds) = self.holds_mut() else { return Vec::new() };
         let outliers = take_out_outliers(recording);
         *holds = with_holds(holds, recording);

@@ -64,7 +64,7 @@ impl<'e> Task<'e> {
         }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_rate_sd(recorded.rate_sd);
-        let outliers = setup.prepare(&mut recorded.recording);
+        let outliers = setup.prepare(self.accelerometer, &mut recorded.recording);
         let (mut calibration, noise) = self.calibrate(source, &recorded, &setup, options.report)?;
         calibration.warnings.splice(0..0, outliers);
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
@@ -88,6 +88,8 @@ impl<'e> Task<'e> {
             validations,
             noise,
             notes: Vec::new(),
+            limits: Vec::new(),
+            findings: Vec::new(),
             inputs,
             recording: recorded.recording,
             about,
@@ -140,7 +142,7 @@ impl<'e> Task<'e> {
         let mut other = self.reader.read_other(source)?;
         notes.extend(Note::of_findings(&other.findings, source));
         let mut setup = setup.of_other();
-        let outliers = setup.prepare(&mut other.recording);
+        let outliers = setup.prepare(self.accelerometer, &mut other.recording);
         notes.extend(outliers.iter().map(|found| warning(message(found))));
         for &sensor_kind in calibration.sensor_kinds() {
             let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));

@@ -42,7 +42,7 @@ fn names_are_unique_and_in_kebab_case() {
 #[test]
 fn each_code_has_a_producer_and_words() {
     let (mut produced, mut words) = (String::new(), String::new());
-    for folder in ["calibrant-core", "calibrant-machine", "calibrant-io", "calibrant-cli"] {
+    for folder in ["calibrant-core", "calibrant-machine", "calibrant-io", "calibrant", "calibrant-cli"] {
         collect(&workspace().join("crates").join(folder).join("src"), &mut produced);
     }
     collect(&workspace().join("crates/calibrant-report/src/words"), &mut words);

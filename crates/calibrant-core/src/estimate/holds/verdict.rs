@@ -6,13 +6,17 @@ use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::{Calibration, CalibrationStatus, HoldCalibration, HoldResult, Recovered};
 
 use crate::estimate::change::longest_run;
-use crate::estimate::statistics::{implausible, noise_not_as_given};
+use crate::estimate::datasheet::noise_not_as_given;
 use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
 /// Condition number of the information above which the directions of the holds are too similar. Twenty-four evenly spread orientations give about 3, six faces and orientations on the edges between them about 10.
 const CONDITION: f64 = 100.0;
+/// A scatter of the holds beyond their noise that no sensor at rest has, m/s².
+const SCATTERED_MPS2: f64 = 0.02;
+/// A scatter beyond this multiple of it refuses the model.
+const CONTRADICTED: f64 = 10.0;
 /// A correlation above which two parameters are hardly separated.
 const CORRELATED: f64 = 0.9;
 /// Holds lie in a plane or on a point if they extend by less than this share in one direction.
@@ -118,13 +122,18 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     if let (Some(assumed), Some(found)) = (calibration.fit.assumed_noise, calibration.fit.noise_estimate) {
         warnings.extend(noise_not_as_given(SensorKind::Accelerometer, &found, &assumed));
     }
-    if holds.between_holds_sd_mps2 > 0.02 {
-        warnings.push(Diagnostic::HoldsScatter { between_holds_sd_mps2: holds.between_holds_sd_mps2 });
+    let between_holds_sd_mps2 = holds.between_holds_sd_mps2;
+    if between_holds_sd_mps2 > SCATTERED_MPS2 {
+        warnings.push(Diagnostic::HoldsScatter { between_holds_sd_mps2 });
+    }
+    let ratio = between_holds_sd_mps2 / SCATTERED_MPS2;
+    if ratio > CONTRADICTED {
+        warnings.push(Diagnostic::ModelContradicted { sensor_kind: SensorKind::Accelerometer, ratio });
     }
     if !(9.7..=9.9).contains(&holds.gravity.magnitude_mps2) {
         warnings.push(Diagnostic::GravityUnusual { gravity_mps2: holds.gravity.magnitude_mps2 });
     }
-    warnings.extend(implausible(calibration));
+    warnings.extend(calibration.beyond_datasheet());
     warnings
 }
 

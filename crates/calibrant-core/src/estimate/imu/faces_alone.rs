@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::error::Result;
+use crate::estimate::datasheet::noise_not_as_given;
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{beyond, magnitude_rms};
@@ -11,7 +12,6 @@ use crate::estimate::imu::model::singular;
 use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
 use crate::estimate::result::{Calibration, CalibrationStatus, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
-use crate::estimate::statistics::{implausible, noise_not_as_given};
 use crate::information;
 use crate::sensor::{Correction, ImuParameters, Parameter, ParameterList, SensorKind, SensorParameters};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -37,7 +37,8 @@ pub fn calibrate_faces(problem: &FacesProblem<'_>, settings: &CalibrationSetting
     let found = spikes.map(|spikes| Diagnostic::spikes(&spikes, kind, recording.unit));
     calibration.warnings.splice(0..0, found);
     calibration.warnings.extend(beyond(&recording, problem.holds.intervals_s.as_deref().unwrap_or_default()));
-    calibration.warnings.extend(implausible(&calibration));
+    let beyond_datasheet = calibration.beyond_datasheet();
+    calibration.warnings.extend(beyond_datasheet);
     let noise = calibration.fit.noise_estimate.zip(calibration.fit.assumed_noise);
     calibration.warnings.extend(noise.and_then(|(found, given)| noise_not_as_given(kind, &found, &given)));
     Ok(calibration)

@@ -5,8 +5,9 @@ use super::{Calibration, Error, Result, Trust};
 use crate::diagnostic::Diagnostic;
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
-use crate::estimate::statistics::implausible;
+use crate::estimate::datasheet::noise_not_as_given;
 use crate::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use nalgebra::Vector3;
 
 /// Warnings about a fit.
 pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &[f64]) -> Vec<Diagnostic> {
@@ -35,6 +36,7 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &
         if p < 1e-3 {
             let is_white = calibration.fit.whiteness.iter().all(|test| test.p_value >= 1e-4);
             warnings.push(Diagnostic::FitWorseThanNoise { p_value: p, noise_ratio: worst, is_white });
+            warnings.extend(far_beyond_noise(&estimate, &context.noise, is_white));
         } else if p > 1.0 - 1e-3 {
             warnings.push(Diagnostic::FitBetterThanNoise { p_value: p, noise_ratio: worst });
         }
@@ -50,12 +52,26 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &
         warnings.push(Diagnostic::NothingToCheck { holds: None, parameters });
     }
     warnings.extend(biased(calibration, bias));
-    warnings.extend(implausible(calibration));
+    warnings.extend(calibration.beyond_datasheet().into_iter().filter(|found| {
+        // a reversed axis says it better
+        !matches!(found, Diagnostic::GainImplausible { gain, .. } if *gain < 0.0)
+    }));
     warnings.extend(weak(calibration));
     if let Some(axis) = negative_scale(calibration) {
         warnings.push(Diagnostic::ScaleNegative { axis });
     }
     warnings
+}
+
+/// Residuals that are more than ten times the given noise: of the noise itself if they are white, otherwise of the model.
+fn far_beyond_noise(found: &Vector3<f64>, given: &Vector3<f64>, is_white: bool) -> Option<Diagnostic> {
+    match noise_not_as_given(SensorKind::Accelerometer, found, given)? {
+        noise @ Diagnostic::NoiseImplausible { .. } if is_white => Some(noise),
+        Diagnostic::NoiseImplausible { sensor_kind, ratio, .. } => {
+            Some(Diagnostic::ModelContradicted { sensor_kind, ratio })
+        }
+        _ => None,
+    }
 }
 
 /// Parameters that the recording determines less well than the datasheet.

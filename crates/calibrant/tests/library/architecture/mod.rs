@@ -27,6 +27,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
     ("budget", &["error"]),
     ("diagnostic", &["error", "sensor", "motion"]),
+    ("acceptance", &["diagnostic"]),
     ("arrowhead", &[]),
     ("root", &[]),
     ("sensor", &["error"]),

@@ -10,4 +10,5 @@ pub(crate) fn messages(diagnostics: &[Diagnostic]) -> Vec<String> {
 }
 
 /// As files state them, with no code allowed.
-pub(crate) const WORDS: DiagnosticWords<'static> = DiagnosticWords { message: &message, allowed: &[] };
+pub(crate) const WORDS: DiagnosticWords<'static> =
+    DiagnosticWords { message: &message, allowed: &[], findings: &[], limits: &[] };

@@ -288,9 +288,9 @@ fn truth_and_summary() {
         SummaryRow { file: "good".into(), recording: "a/good.csv".into(), outcome: Ok(Summary::of(&good)) },
     ];
     write_summary(&path, &rows).expect("written");
-    let expected = "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,accelerometer.scale.x,accelerometer.scale.x_sd\n\
-                    \"bad,name\",\"a/bad,name.csv\",error,\"no \"\"rows\"\"\",recording-short,,,,,,,,\n\
-                    good,a/good.csv,converged,,,1,5.5,4,,0.5,0.5,2.0,0.5\n";
+    let expected = "file,recording,verdict,codes,status,error,code,limits_failed,worst_sd_parameter,worst_sd_ratio,worst_sd_relative_to,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,accelerometer.scale.x,accelerometer.scale.x_sd\n\
+                    \"bad,name\",\"a/bad,name.csv\",none,,error,\"no \"\"rows\"\"\",recording-short,,,,,,,,,,,,\n\
+                    good,a/good.csv,doubtful,weaker-than-datasheet,converged,,,,accelerometer.scale.x,100.0,datasheet,1,5.5,4,,0.5,0.5,2.0,0.5\n";
     let text = std::fs::read_to_string(path).expect("read");
     assert_eq!(text.split_once('\n').expect("lines").1, expected);
 }

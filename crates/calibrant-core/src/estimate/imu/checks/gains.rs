@@ -1,40 +1,50 @@
-//! Gains of readings in SI, which are near one, each axis along its own.
+//! Parameters of the accelerometer that its datasheet does not allow, and gains of readings in SI, which are near one, each axis along its own.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Code;
+use crate::estimate::datasheet::{allows_gain, beyond_datasheet, implausible_gains};
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::result::Calibration;
-use crate::sensor::{Axis, ReadingUnit, SensorKind};
+use crate::sensor::{Axis, ImuQuantity, Parameter, ParameterList, Quantity, SensorKind};
 
-/// Gains of readings in SI that are plausible.
-const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// What these checks say. The accelerometer's own fit says it of an accelerometer that is not final.
+pub(crate) const CODES: [Code; 2] = [Code::ParameterImplausible, Code::GainImplausible];
 
-/// Those that are not.
+/// Parameters and gains that are not plausible.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    of_gains(evidence.calibration, evidence.axes.is_some())
-}
-
-/// Readings in SI have gains near one, each axis along its own.
-fn of_gains(calibration: &Calibration, reordered: bool) -> Diagnostics {
-    let mut warnings = Vec::new();
-    for (sensor_kind, unit) in [
-        (SensorKind::Accelerometer, calibration.accelerometer_unit),
-        (SensorKind::Gyroscope, calibration.unit(SensorKind::Gyroscope)),
-    ] {
-        if unit == ReadingUnit::Counts || (sensor_kind == SensorKind::Gyroscope && reordered) {
-            continue;
-        }
+    let calibration = evidence.calibration;
+    let (parameters, sd) = (described(evidence), calibration.sd());
+    let mut warnings: Diagnostics =
+        beyond_datasheet(&parameters, &calibration.values, &sd).into_iter().collect();
+    for &sensor_kind in calibration.sensor_kinds() {
         let matrix = &calibration.imu.sensor(sensor_kind).matrix;
-        if calibration.frame_is_known() && turned_frame(matrix) {
-            // the faces and turns say it better
+        let reordered = sensor_kind == SensorKind::Gyroscope && evidence.axes.is_some();
+        // of a turned frame the faces and turns say it better
+        if reordered || calibration.frame_is_known() && turned_frame(matrix) {
             continue;
         }
-        for axis in Axis::ALL {
-            let along = matrix[(axis.index(), axis.index())];
-            if !PLAUSIBLE_GAINS.contains(&along) {
-                warnings.push(Diagnostic::GainImplausible { sensor_kind, axis, gain: along, unit });
-            }
-        }
+        let allowed = |axis: Axis| {
+            let scale = ImuQuantity::Of(sensor_kind, Quantity::Scale(axis));
+            let is_known = evidence.problem.setup.known.iter().any(|known| known.quantity == scale);
+            let is_accelerometer = sensor_kind == SensorKind::Accelerometer;
+            is_known || is_accelerometer && allows_gain(&parameters, &calibration.values, &sd, axis)
+        };
+        warnings.extend(implausible_gains(sensor_kind, calibration.unit(sensor_kind), matrix, allowed));
     }
     warnings
+}
+
+/// The parameters of the result, those of the accelerometer with the values of its datasheet.
+fn described(evidence: &Evidence<'_>) -> Vec<Parameter> {
+    let (sensor, calibration) = (evidence.problem.accelerometer, evidence.calibration);
+    let like = sensor.nominal().unwrap_or(calibration.imu.accelerometer);
+    let lists = [
+        ParameterList::new(3, sensor.model),
+        evidence.problem.setup.holds.gauge.parameter_list(sensor.model),
+    ];
+    let known: Vec<Parameter> =
+        lists.iter().flat_map(|list| list.describe_accelerometer(sensor, &like)).collect();
+    let describe = |parameter: &Parameter| {
+        known.iter().find(|known| known.name == parameter.name).unwrap_or(parameter).clone()
+    };
+    calibration.parameters.iter().map(describe).collect()
 }

@@ -1,8 +1,8 @@
 //! The gyroscope's noise, where the datasheet gives it.
 
+use crate::estimate::datasheet::noise_not_as_given;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::problem::NoiseSource;
-use crate::estimate::statistics::noise_not_as_given;
 use crate::sensor::SensorKind;
 
 /// Does it scatter by much more or less in the holds?

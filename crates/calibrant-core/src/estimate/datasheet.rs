@@ -1,0 +1,71 @@
+//! A result beside the datasheet: parameters, gains and noise that no sensor of the type has.
+
+use crate::diagnostic::Diagnostic;
+use crate::sensor::{Axis, Parameter, ReadingUnit, SensorKind};
+use nalgebra::{Matrix3, Vector3};
+
+/// Number of datasheet spreads that a parameter may be from its nominal value.
+pub const ALLOWED_SPREADS: f64 = 6.0;
+/// Gains of readings in SI that are plausible.
+const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// A noise beyond this multiple of the given one, or below its inverse, is not as given.
+const NOT_AS_GIVEN: f64 = 2.0;
+/// A noise beyond this multiple of the given one is a fault.
+const IMPLAUSIBLE: f64 = 10.0;
+
+/// How far a value is from its nominal one, in spreads of datasheet and estimate together. `None` where the datasheet does not say.
+fn deviations(parameter: &Parameter, value: f64, sd: f64) -> Option<f64> {
+    let spread = parameter.spread.filter(|spread| *spread > 0.0)?.hypot(sd);
+    Some(((value - parameter.nominal?) / spread).abs())
+}
+
+/// The parameter that is farthest beyond what the datasheet allows: a mistake is more likely than a rare sensor.
+#[must_use]
+pub fn beyond_datasheet(parameters: &[Parameter], values: &[f64], sd: &[f64]) -> Option<Diagnostic> {
+    let (name, times) = (parameters.iter().zip(values).zip(sd))
+        .filter_map(|((parameter, value), sd)| Some((&parameter.name, deviations(parameter, *value, *sd)?)))
+        .max_by(|one, other| one.1.total_cmp(&other.1))?;
+    (times > ALLOWED_SPREADS)
+        .then(|| Diagnostic::ParameterImplausible { parameter: name.clone(), deviations: times })
+}
+
+/// The gains of readings in SI that are far from one. `allowed`: does the datasheet allow for the gain of this axis?
+pub fn implausible_gains(
+    sensor_kind: SensorKind,
+    unit: ReadingUnit,
+    matrix: &Matrix3<f64>,
+    allowed: impl Fn(Axis) -> bool,
+) -> Vec<Diagnostic> {
+    let along = |axis: Axis| matrix[(axis.index(), axis.index())];
+    let is_far = |axis: &Axis| !PLAUSIBLE_GAINS.contains(&along(*axis)) && !allowed(*axis);
+    let far = Axis::ALL.into_iter().filter(is_far).filter(|_| unit != ReadingUnit::Counts);
+    far.map(|axis| Diagnostic::GainImplausible { sensor_kind, axis, gain: along(axis), unit }).collect()
+}
+
+/// Does the datasheet allow for the gain of an axis, from a list that ends in the scale factors' names?
+#[must_use]
+pub fn allows_gain(parameters: &[Parameter], values: &[f64], sd: &[f64], axis: Axis) -> bool {
+    let ending = format!("scale.{axis}");
+    (parameters.iter().zip(values).zip(sd))
+        .filter(|((parameter, _), _)| parameter.name.ends_with(&ending))
+        .filter_map(|((parameter, value), sd)| deviations(parameter, *value, *sd))
+        .any(|times| times <= ALLOWED_SPREADS)
+}
+
+/// The noise that was found, where it differs from the given noise by more than a factor of two on an axis.
+#[must_use]
+pub fn noise_not_as_given(
+    sensor_kind: SensorKind,
+    found: &Vector3<f64>,
+    given: &Vector3<f64>,
+) -> Option<Diagnostic> {
+    let ratio = |axis: Axis| found[axis.index()] / given[axis.index()];
+    let off = |axis: &Axis| ratio(*axis).max(1.0 / ratio(*axis));
+    let axis = Axis::ALL.into_iter().max_by(|one, other| off(one).total_cmp(&off(other)))?;
+    let ratio = ratio(axis);
+    match off(&axis) > NOT_AS_GIVEN {
+        true if ratio > IMPLAUSIBLE => Some(Diagnostic::NoiseImplausible { sensor_kind, axis, ratio }),
+        true => Some(Diagnostic::NoiseNotAsGiven { sensor_kind, axis, ratio }),
+        false => None,
+    }
+}
