@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
 /// Rounds of limits between the nodes.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 12;
 /// A breach between the nodes that may remain, absolute and relative to what is gained.
 const BREACH: (f64, f64) = (1e-9, 0.3);
 /// Share of the way to the motion inside all limits at which the interior-point method starts: from a motion far from
@@ -84,11 +84,13 @@ impl<const D: usize> LongProgram<D> {
             let mut breach = 0.0_f64;
             for (k, region) in part.regions.iter().enumerate() {
                 breach = breach.max(region.breach(&own(&next, k)));
-                self.peaks[k].forget(region, &found.stages[k]);
                 self.peaks[k].update(region, &own(&next, k));
             }
             self.promise = found.gained.max(found.gap);
             if round == ROUNDS || breach <= BREACH.0 + BREACH.1 * found.gained {
+                for (k, region) in part.regions.iter().enumerate() {
+                    self.peaks[k].forget(region, &found.stages[k]);
+                }
                 return Some((next, self.promise));
             }
             start = mix(&part.inside, &part.restored(next), 1.0 - AGAIN);
