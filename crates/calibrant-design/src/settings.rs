@@ -8,7 +8,8 @@ use calibrant_core::error::{Error, InputError, Refusal, Result};
 pub struct DesignSettings {
     /// Largest number of starts for each axis. The search ends earlier once ten end at the same best value.
     pub starts: usize,
-    /// Time for the search, s, in place of a number of starts. The result then depends on the machine.
+    /// Time for the search, s, in place of a number of starts. The result then depends on the machine. A start that is
+    /// under way ends with it; the certificate does not.
     pub seconds: Option<f64>,
     /// Seed of the random starts and of the initial motion.
     pub seed: u64,
