@@ -40,6 +40,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         }
         let mut drawn: Vec<(f64, Nodes<D>)> = (0..DRAWN * count)
             .into_par_iter()
+            .filter(|_| !settings.interruption.is_asked())
             .map(|number| {
                 let mut rng = stream(settings.seed, Purpose::Start, COMBINED + number as u64);
                 let mut nodes = vec![SVector::zeros(); self.inside.len()];
@@ -64,6 +65,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
     fn optima(&self, settings: &DesignSettings) -> Vec<Nodes<D>> {
         let mut found: Vec<_> = (0..DESIGNED * settings.starts)
             .into_par_iter()
+            .filter(|_| !settings.interruption.is_asked())
             .filter_map(|number| {
                 let mut rng = stream(settings.seed, Purpose::Start, SINGLE + number as u64);
                 let outcome = self.improve(self.start(number, &mut rng)?, settings);

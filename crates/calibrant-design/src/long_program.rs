@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
 /// Rounds of limits between the nodes.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 12;
 /// A breach between the nodes that may remain, absolute and relative to what is gained.
 const BREACH: (f64, f64) = (1e-9, 0.3);
 /// Share of the way to the motion inside all limits at which the interior-point method starts: from a motion far from
@@ -48,8 +48,10 @@ struct Model<const D: usize> {
     slope: Nodes<D>,
     /// Half the sum of the squares of these forms is the bend; by form and unknown `i D + k`.
     bends: DMatrix<f64>,
-    /// Gain of the criterion per variance of each increment; empty unless this is modelled apart.
+    /// Loss of the criterion per variance of each increment; empty unless this is modelled apart.
     noise: Vec<SVector<f64, D>>,
+    /// Factor on the bend of these variances. Their kinks at increments of zero have no factor.
+    noise_bend: f64,
 }
 
 impl<const D: usize> LongProgram<D> {
@@ -57,21 +59,22 @@ impl<const D: usize> LongProgram<D> {
         Self { peaks: std::array::from_fn(|_| Peaks::default()), bend: ModelBend::full(), promise: 1.0 }
     }
 
-    /// The admissible motion that minimises the model, and what it promises: the decrease of the model, relative to the most
-    /// that the gradient could promise.
+    /// The admissible motion that minimises the model around a motion, and what it promises: the decrease of the model from
+    /// `a`, relative to the most that the gradient could promise. The motion of the model need not be admissible.
     pub(super) fn step<const P: usize>(
         &mut self,
         part: &Part<D, P>,
+        around: &[SVector<f64, D>],
         a: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, f64)> {
-        let model = part.model(a, self.bend.factor())?;
+        let model = part.model(around, self.bend.factor())?;
         let own =
             |nodes: &[SVector<f64, D>], k: usize| nodes.iter().map(|node| node[k]).collect::<Vec<f64>>();
         let near = (10.0 * self.promise).clamp(AGAIN / 10.0, START);
         let mut start = mix(&part.inside, a, 1.0 - near);
         let mut gap = GAP * near;
         for round in 1.. {
-            let program = part.chain_program(a, &model, &self.peaks);
+            let program = part.chain_program(around, a, &model, &self.peaks);
             let mut stages: Vec<Vec<Stage>> =
                 part.regions.iter().enumerate().map(|(k, region)| region.stages(&own(&start, k))).collect();
             if !model.noise.is_empty() {
@@ -84,11 +87,13 @@ impl<const D: usize> LongProgram<D> {
             let mut breach = 0.0_f64;
             for (k, region) in part.regions.iter().enumerate() {
                 breach = breach.max(region.breach(&own(&next, k)));
-                self.peaks[k].forget(region, &found.stages[k]);
                 self.peaks[k].update(region, &own(&next, k));
             }
             self.promise = found.gained.max(found.gap);
             if round == ROUNDS || breach <= BREACH.0 + BREACH.1 * found.gained {
+                for (k, region) in part.regions.iter().enumerate() {
+                    self.peaks[k].forget(region, &found.stages[k]);
+                }
                 return Some((next, self.promise));
             }
             start = mix(&part.inside, &part.restored(next), 1.0 - AGAIN);
@@ -109,22 +114,35 @@ impl<const D: usize, const P: usize> Part<D, P> {
         let omega = on_information(&first);
         let forms: Vec<_> = forms.iter().map(on_information).collect();
         let derivative = self.information.derivative(&at, &omega);
-        let total = self.information.total(a, &derivative);
-        let noisy = self.information.input_noise().is_some_and(|(_, ratio)| ratio > 0.0);
+        let mut total = self.information.total(a, &derivative);
         let InformationDerivative { nodes, variances } = derivative;
-        let (slope, noise) = if noisy {
+        let kinked = self.information.input_noise().filter(|(_, ratio)| *ratio > 0.0);
+        let (slope, noise) = if let Some((floor, ratio)) = kinked {
+            // the kinks stand in the program as they are
+            for (i, variance) in variances.iter().enumerate() {
+                let factor = 2.0 * floor * ratio * self.information.interval_s(i);
+                let kink = variance.component_mul(&(a[i + 1] - a[i]).map(f64::signum)) * factor;
+                total[i] += kink;
+                total[i + 1] -= kink;
+            }
             let slope = nodes.iter().zip(&total).map(|(held, all)| -(held * bend + all * (1.0 - bend)));
-            (slope.collect(), variances.iter().map(|v| v * -bend).collect())
+            (slope.collect(), variances.iter().map(|v| -v).collect())
         } else {
             (total.iter().map(|total| -total).collect(), Vec::new())
         };
         let signs: Vec<_> = a.windows(2).map(|pair| (pair[1] - pair[0]).map(f64::signum)).collect();
         let changes = self.information.first_derivatives(a, &at, &signs);
-        Some(Model { slope, bends: independent(&forms, &changes) * bend.sqrt(), noise })
+        Some(Model { slope, bends: independent(&forms, &changes) * bend.sqrt(), noise, noise_bend: bend })
     }
 
     /// The program of the model, in units of the most that the gradient could promise.
-    fn chain_program(&self, a: &[SVector<f64, D>], model: &Model<D>, peaks: &[Peaks; D]) -> ChainProgram {
+    fn chain_program(
+        &self,
+        around: &[SVector<f64, D>],
+        a: &[SVector<f64, D>],
+        model: &Model<D>,
+        peaks: &[Peaks; D],
+    ) -> ChainProgram {
         let size = |k: usize| self.regions[k].size;
         let reach =
             model.slope.iter().map(|s| (0..D).map(|k| s[k].abs() * size(k)).sum::<f64>()).sum::<f64>();
@@ -140,7 +158,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
                 for (k, chain) in chains.iter_mut().enumerate() {
                     let weight = noise[k] * scale * size(k) * ratio;
                     chain.slope[i][4] = 2.0 * weight * floor * self.information.interval_s(i);
-                    chain.square[i] = (2.0 * weight * size(k) * ratio).max(1e-12);
+                    chain.square[i] = (2.0 * weight * size(k) * ratio * model.noise_bend).max(1e-12);
                     for sign in [1.0, -1.0] {
                         let c = Stage::new(0.0, 0.0, 0.0, sign, -1.0);
                         chain.rows.push(StageRow { stage: i, c, bound: 0.0 });
@@ -148,13 +166,17 @@ impl<const D: usize, const P: usize> Part<D, P> {
                 }
             }
         }
-        let mut here: Vec<Vec<Stage>> = Vec::new();
-        for (k, region) in self.regions.iter().enumerate() {
-            here.push(region.stages(&a.iter().map(|node| node[k]).collect::<Vec<f64>>()));
-        }
-        if !model.noise.is_empty() {
-            here.iter_mut().flatten().for_each(|z| z[4] = z[3].abs());
-        }
+        let stages = |a: &[SVector<f64, D>]| {
+            let mut stages: Vec<Vec<Stage>> = Vec::new();
+            for (k, region) in self.regions.iter().enumerate() {
+                stages.push(region.stages(&a.iter().map(|node| node[k]).collect::<Vec<f64>>()));
+            }
+            if !model.noise.is_empty() {
+                stages.iter_mut().flatten().for_each(|z| z[4] = z[3].abs());
+            }
+            stages
+        };
+        let here = stages(around);
         let forms = model.bends.row_iter().map(|row| {
             let of = |k: usize| (0..a.len()).map(|i| row[i * D + k] * size(k) * scale.sqrt()).collect();
             let mut form = Form { b: (0..D).map(of).collect(), offset: 0.0 };
@@ -162,7 +184,8 @@ impl<const D: usize, const P: usize> Part<D, P> {
             form
         });
         let mut program = ChainProgram { forms: forms.collect(), chains, reached: 0.0 };
-        program.reached = program.objective(&here, &vec![0.0; program.forms.len()]);
+        let own = stages(a);
+        program.reached = program.objective(&own, &program.forms_at(&own));
         program
     }
 }

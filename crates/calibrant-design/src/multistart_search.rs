@@ -81,9 +81,15 @@ pub(super) fn search(
             ..problem.clone()
         };
         let axes = [0, 1, 2].map(|axis| part(&alone, setting.single(axis, initial), limits, inside, slack));
-        let combined = whole.combined(axes.each_ref(), settings.starts * 2 / 3, settings);
+        // the single axes take at most half of the time
+        let begun = Instant::now();
+        let half = settings.seconds.map(|seconds| begun + Duration::from_secs_f64(seconds / 2.0));
+        let alone = DesignSettings { interruption: settings.interruption.or_at(half), ..settings.clone() };
+        let combined = whole.combined(axes.each_ref(), settings.starts * 2 / 3, &alone);
         let all = problem.sensor.active_axes().to_vec();
-        found.take(&whole, &[all], combined, &search);
+        let left = settings.seconds.map(|seconds| (seconds - begun.elapsed().as_secs_f64()).max(0.0));
+        let settings = &DesignSettings { seconds: left, ..settings.clone() };
+        found.take(&whole, &[all], combined, &Search { settings, ..search });
         return Ok(found);
     }
     let mut classes: Vec<(Part<1, 2>, Vec<Vec<Axis>>)> = Vec::new();
@@ -224,7 +230,8 @@ impl Found {
         let share = (D * groups.len()) as f64 / problem.sensor.axes as f64;
         let deadline =
             settings.seconds.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds * share));
-        let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        let interruption = settings.interruption.or_at(deadline);
+        let settings = &DesignSettings { interruption, ..settings.clone() };
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::new();
         let mut numbers: Vec<usize> = Vec::new();
         let first_ones = count.div_ceil(FIRST);
@@ -243,7 +250,7 @@ impl Found {
                 progress(count.saturating_sub(outcomes.len()) as u64);
                 break;
             }
-            if (settings.interruption.is_asked() || late()) && !best.is_empty() {
+            if settings.interruption.is_asked() && !best.is_empty() {
                 break;
             }
             let optima: Vec<&Nodes<D>> = best.iter().map(|best| &best.nodes).collect();
@@ -258,7 +265,7 @@ impl Found {
                 .into_par_iter()
                 .filter_map(|number| {
                     // each axis keeps its initial motion at least
-                    if (settings.interruption.is_asked() || late()) && number >= groups.len() {
+                    if settings.interruption.is_asked() && number >= groups.len() {
                         return None;
                     }
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);

@@ -119,7 +119,7 @@ pub enum DesignStatus {
     IterationLimit,
     /// The best start stopped because a subproblem could not be solved: its motion is admissible, a better one may be near.
     Stalled,
-    /// The search was interrupted: its motion is the best so far, a better one may be near.
+    /// The search was interrupted, or its time was over before the best start converged: its motion is the best so far, a better one may be near.
     Interrupted,
 }
 

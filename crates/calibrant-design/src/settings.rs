@@ -9,7 +9,8 @@ pub struct DesignSettings {
     /// Largest number of starts for each axis. The search ends earlier once ten end at the same best value. A
     /// short motion of a single axis gets three for each, since they cost little.
     pub starts: usize,
-    /// Time for the search, s, in place of a number of starts. The result then depends on the machine.
+    /// Time for the search, s, in place of a number of starts. The result then depends on the machine. A start that is
+    /// under way ends with it; the certificate does not.
     pub seconds: Option<f64>,
     /// Seed of the random starts and of the initial motion.
     pub seed: u64,

@@ -21,26 +21,25 @@ pub(super) struct Peaks(Vec<InsideBreach>);
 const SPARE: f64 = 0.02;
 
 impl Peaks {
-    /// Adds the peaks beyond a limit. Of each interval the last two stay: the peak moves little from one motion to
-    /// the next.
+    /// Adds the peaks beyond a limit. None is left out before the program is solved, or rounds would go in circles.
     pub(super) fn update(&mut self, region: &Region, a: &[f64]) {
         self.0.extend(region.broken_inside(a));
+    }
+
+    /// Forgets the peaks that a motion keeps by far, once its program is solved. Of each interval the last two
+    /// stay: the peak moves little from one motion to the next.
+    pub(super) fn forget(&mut self, region: &Region, stages: &[Stage]) {
         let mut newer = vec![[0; 2]; region.intervals()];
         let mut kept = Vec::new();
         for peak in self.0.drain(..).rev() {
             let count = &mut newer[peak.interval][usize::from(peak.state == State::Velocity)];
-            if *count < 2 {
+            if *count < 2 && region.peak_form(&peak).dot(&stages[peak.interval]).abs() > 1.0 - SPARE {
                 kept.push(peak);
+                *count += 1;
             }
-            *count += 1;
         }
         kept.reverse();
         self.0 = kept;
-    }
-
-    /// Forgets those that a motion keeps by far.
-    pub(super) fn forget(&mut self, region: &Region, stages: &[Stage]) {
-        self.0.retain(|peak| region.peak_form(peak).dot(&stages[peak.interval]).abs() > 1.0 - SPARE);
     }
 }
 

@@ -1,5 +1,6 @@
 //! What designs and studies take, estimated before they begin.
 
+use super::sequential_programming::SHORT;
 use super::study::{DesignStudyProblem, StudiesProblem, StudyProblem, StudySettings};
 use super::{DesignProblem, DesignSettings};
 use calibrant_core::budget::Budget;
@@ -19,9 +20,14 @@ impl DesignSettings {
         };
         let noisy = if matches!(problem.trust, Trust::Noisy(_)) { 2.0 } else { 1.0 };
         let (starts, intervals) = ((self.starts * parts) as f64, problem.intervals as f64);
+        // the program of a long motion takes time in proportion to its length, as far as its iterations do
+        let axes = if parts == 1 { sensor.axes } else { 1 };
+        let per_interval = 2e-4 + 1e-5 * intervals;
+        let per_interval =
+            if (problem.intervals + 1) * axes > SHORT { per_interval.min(5e-4) } else { per_interval };
         Budget {
             bytes: starts * (24.0 * intervals + 500.0) + 1e4 * intervals,
-            seconds: self.seconds.unwrap_or(starts * size * noisy * intervals * (2e-4 + 1e-5 * intervals)),
+            seconds: self.seconds.unwrap_or(starts * size * noisy * intervals * per_interval),
         }
     }
 }

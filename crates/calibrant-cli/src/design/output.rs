@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use super::job::Job;
 use super::table;
-use crate::{Exit, budget, console};
+use crate::{Exit, budget, console, interruption};
 use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
 use calibrant::io::{Reached, design_json, write_atomically, write_dense_motion, write_design, write_motion};
@@ -64,7 +64,12 @@ pub(super) fn write(
 
 /// The exit status of a design, with its warnings.
 pub(super) fn exit_of(design: &Design) -> Exit {
-    if design.status == DesignStatus::Interrupted {
+    let out_of_time = design.status == DesignStatus::Interrupted && !interruption::is_asked();
+    if out_of_time {
+        console::warn(
+            "the time was over before the best start converged. The motion is the best so far, and a better one may be near (give it more --seconds)",
+        );
+    } else if design.status == DesignStatus::Interrupted {
         console::warn(
             "the search was interrupted. The motion is the best so far, and a better one may be near",
         );
@@ -82,11 +87,8 @@ pub(super) fn exit_of(design: &Design) -> Exit {
             group.remedy
         ));
     }
-    if design.status == DesignStatus::Converged && design.optimal.covariance.is_some() {
-        Exit::DONE
-    } else {
-        Exit::NOT_IDENTIFIABLE
-    }
+    let ended = design.status == DesignStatus::Converged || out_of_time;
+    if ended && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
 }
 
 /// Checks that the rows of motion_dense.csv fit into the budget.
