@@ -22,7 +22,7 @@ use rand::RngExt;
 /// The part of the way to a corner that a kick goes: shorter ones come back.
 const WAY: std::ops::Range<f64> = 0.4..0.9;
 /// Number of optima from which kicks are made.
-const PARENTS: usize = 6;
+const PARENTS: usize = 10;
 /// Largest shift, as a share of the motion.
 const SHIFT: f64 = 0.2;
 

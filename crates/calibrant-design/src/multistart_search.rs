@@ -225,7 +225,7 @@ impl Found {
             initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
         };
         let first = groups[0][0].index() as u64;
-        let count = settings.starts_of(D, part.inside.len()) * groups.len();
+        let count = settings.starts * D * groups.len();
         // axes that are designed one after the other share the time
         let share = (D * groups.len()) as f64 / problem.sensor.axes as f64;
         let deadline =

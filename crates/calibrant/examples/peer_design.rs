@@ -63,10 +63,11 @@ fn cases() -> Vec<Value> {
         cases.push(case("D1", 3, "full", letter));
     }
     cases.push(case("D4", 3, "full", "A"));
-    // their references are the best of 20, 6 and 3 of the peer's starts
-    cases.push(stage("scale-bias", false, 3.0 * 4.117_6e-10));
-    cases.push(stage("full", false, 1.340_7e-9));
-    cases.push(stage("full", true, 1.881_5e-5));
+    // the references of the first three are the best of 20, 6 and 3 of the peer's starts
+    cases.push(stage("scale-bias", false, 20, 3.0 * 4.117_6e-10));
+    cases.push(stage("full", false, 20, 1.340_7e-9));
+    cases.push(stage("full", true, 20, 1.881_5e-5));
+    cases.push(stage("scale-bias", true, 100, 3.324_9e-6));
     cases.push(under_gravity("A", 0.0));
     cases.push(under_gravity("D", MotionGravity::USUAL_TILT_SD_DEG.to_radians()));
     cases
@@ -92,11 +93,12 @@ fn under_gravity(letter: &str, tilt_sd_rad: f64) -> Value {
 }
 
 /// A stage with limits on velocity and displacement, for 10 s: what a user types first.
-fn stage(model: &str, noisy: bool, reference: f64) -> Value {
+fn stage(model: &str, noisy: bool, intervals: usize, reference: f64) -> Value {
     let mut case = case(if noisy { "D4" } else { "D3" }, 3, model, "A");
-    case["name"] = json!(format!("stage, {}, {model}", if noisy { "noisy" } else { "known" }));
-    case["intervals"] = json!(20);
-    case["interval_s"] = json!(0.5);
+    case["name"] =
+        json!(format!("stage, {}, {model}, N = {intervals}", if noisy { "noisy" } else { "known" }));
+    case["intervals"] = json!(intervals);
+    case["interval_s"] = json!(10.0 / intervals as f64);
     case["reference_value"] = json!(reference);
     case["limits"] = json!({
         "acceleration_mps2": 10.0,

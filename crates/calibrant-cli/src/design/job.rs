@@ -87,7 +87,7 @@ impl Job {
     /// Solves the problem, with a progress bar over its starts.
     pub(super) fn design(&self, problem: &DesignProblem<'_>) -> calibrant::Result<Design> {
         self.check_work(problem)?;
-        let bar = console::progress(self.settings.most_starts(problem) as u64, "starts");
+        let bar = console::progress((self.settings.starts * problem.sensor.axes) as u64, "starts");
         bar.set_message(self.standing(problem));
         bar.enable_steady_tick(std::time::Duration::from_millis(200));
         let outcome = design(problem, &self.settings, &|done| {

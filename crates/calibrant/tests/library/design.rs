@@ -156,7 +156,7 @@ fn realistic_limits_take_few_iterations() {
     let full = Sensor { model: SensorModel::Full, ..diagonal.clone() };
     let noisy = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
     for (name, sensor, trust, intervals, reach, iterations) in [
-        ("a", &diagonal, Trust::Known, 20, 1.232_701e-9, 10),
+        ("a", &diagonal, Trust::Known, 20, 1.2335e-9, 10),
         ("b", &full, Trust::Known, 20, 1.3316e-9, 20),
         ("c", &full, noisy, 20, 1.8749e-5, 25),
         ("d", &diagonal, noisy, 100, 3.3265e-6, 12),
