@@ -25,8 +25,8 @@ const BEYOND_BY_CHANCE: f64 = 0.0027;
 /// The most sensors that are drawn with error bars, and one by one.
 const MOST_BARS: usize = 150;
 const MOST_POINTS: usize = 600;
-/// The most sensors that a sentence names.
-const MOST_NAMES: usize = 6;
+/// The most sensors that are named for a parameter.
+const MOST_NAMES: usize = 5;
 
 /// The figures, and sentences on what they show.
 pub(crate) struct Drifts {
@@ -201,25 +201,27 @@ fn panel(
 
 /// The sensors beyond the control limits, and how many chance alone would put there.
 fn in_words(batch: &Batch, beyond: &[(usize, usize)], checked: usize, fewest: usize) -> String {
-    let by_chance = number_format::significant(BEYOND_BY_CHANCE * checked as f64, 2);
-    let mut words = match beyond.len() {
-        0 => "No value is beyond its control limits.".to_owned(),
-        found => {
-            let named: Vec<String> = beyond
-                .iter()
-                .take(MOST_NAMES)
-                .map(|&(place, number)| {
-                    format!("{} ({})", batch.sensors[number].name, batch.parameters[place].name)
-                })
-                .collect();
-            let further = found.saturating_sub(MOST_NAMES);
-            let rest = if further > 0 { format!(" and {further} more") } else { String::new() };
-            format!(
-                "Beyond the control limits: {}{rest}. Of {} values, chance alone puts about {by_chance} there.",
-                named.join(", "),
-                number_format::count(checked)
-            )
+    let of_parameter = |place: usize| {
+        let numbers: Vec<usize> = beyond.iter().filter(|of| of.0 == place).map(|of| of.1).collect();
+        if numbers.is_empty() {
+            return None;
         }
+        let named: Vec<&str> =
+            numbers.iter().take(MOST_NAMES).map(|&number| batch.sensors[number].name.as_str()).collect();
+        let further = numbers.len().saturating_sub(MOST_NAMES);
+        let rest = if further > 0 { format!(" and {further} more") } else { String::new() };
+        Some(format!("{} of {}{rest}", batch.parameters[place].name, named.join(", ")))
+    };
+    let found: Vec<String> = (0..batch.parameters.len()).filter_map(of_parameter).collect();
+    let mut words = match found.as_slice() {
+        [] => "No value is beyond its control limits.".to_owned(),
+        found => format!(
+            "Beyond the control limits: {}. That is {} of {} values; chance alone puts about {} there.",
+            found.join("; "),
+            beyond.len(),
+            number_format::count(checked),
+            number_format::significant(BEYOND_BY_CHANCE * checked as f64, 2)
+        ),
     };
     if fewest < RELIABLE {
         words.push_str(&format!(" Control limits of fewer than {RELIABLE} sensors are rough."));
