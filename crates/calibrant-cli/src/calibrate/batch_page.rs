@@ -6,17 +6,28 @@ use calibrant::acceptance::AcceptanceLimit;
 use calibrant::diagnostic::{Code, Severity};
 use calibrant::io::SummaryParameter;
 use calibrant::report::{Batch, BatchParameter, BatchSensor};
+use calibrant::sensor::{Parameter, ParameterList, Sensor};
 
 /// The recordings of a batch with their folders. The first result names the parameters.
 pub(super) fn batch_of(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) -> Batch {
     let named = recorded.iter().find_map(|of| of.outcome.as_ref().ok());
     let named = named.map_or(&[][..], |kept| kept.finished.summary.parameters());
     let sensors = folders.iter().zip(recorded).map(|(folder, of)| sensor(job, folder, of, named)).collect();
-    Batch { parameters: named.iter().map(|of| parameter(of, &job.limits)).collect(), sensors }
+    let datasheet = datasheet(&job.experiment.sensor);
+    let parameters = named.iter().map(|of| parameter(of, &datasheet, &job.limits)).collect();
+    Batch { parameters, sensors }
 }
 
-fn parameter(of: &SummaryParameter, limits: &[AcceptanceLimit]) -> BatchParameter {
-    let parameter = &of.parameter;
+/// What the datasheet says of the accelerometer. The results of an IMU or on a machine do not repeat it.
+fn datasheet(sensor: &Sensor) -> Vec<Parameter> {
+    let list = ParameterList::new(sensor.axes, sensor.model);
+    sensor.nominal().map_or_else(Vec::new, |nominal| list.describe_accelerometer(sensor, &nominal))
+}
+
+fn parameter(of: &SummaryParameter, datasheet: &[Parameter], limits: &[AcceptanceLimit]) -> BatchParameter {
+    let is_same = |one: &&Parameter| one.name == of.parameter.name && one.unit == of.parameter.unit;
+    let of_datasheet = datasheet.iter().find(is_same).filter(|_| of.parameter.spread.is_none());
+    let parameter = of_datasheet.unwrap_or(&of.parameter);
     let ranges = limits.iter().filter(|limit| limit.names(&parameter.name)).filter_map(|limit| limit.range);
     BatchParameter {
         name: parameter.name.clone(),

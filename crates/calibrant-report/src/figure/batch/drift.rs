@@ -8,8 +8,8 @@ use super::super::point_thinning::every;
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour};
 use super::groups::{Group, groups};
-use super::histogram::least_width;
-use super::reach::Reach;
+use super::reach::{Reach, least_width};
+use super::steps::whole_step;
 use crate::batch::Batch;
 use crate::number_format;
 use calibrant_core::diagnostic::Usability;
@@ -193,9 +193,7 @@ fn panel(
         let mark = Mark::Dots { shape: Shape::Cross, radius: 4.0 };
         panel = panel.with(Series::new("outside the axis", colour::VERMILLION, mark, outside));
     }
-    if last <= 10.0 {
-        panel.x_step = Some(1.0);
-    }
+    panel.x_step = Some(whole_step(batch.sensors.len()));
     panel
 }
 

@@ -5,7 +5,8 @@ use super::super::residuals::{Histogram, bin_count};
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour};
 use super::groups::groups;
-use super::reach::{Reach, median};
+use super::reach::{Reach, least_width};
+use super::steps::whole_step;
 use crate::batch::{Batch, BatchParameter};
 use calibrant_core::diagnostic::Usability;
 
@@ -105,16 +106,4 @@ fn panel(batch: &Batch, place: usize, name: &str) -> Option<Panel> {
         }
     }
     Some(panel)
-}
-
-/// The least width of an axis: where all sensors agree, their standard deviations show.
-pub(super) fn least_width(values: &[f64], sds: &[f64]) -> f64 {
-    let rounding = 1e-9 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    (2.0 * median(sds).unwrap_or(0.0)).max(rounding).max(f64::MIN_POSITIVE)
-}
-
-/// A step of 1, 2, 5, 10, … that makes at most five of them.
-fn whole_step(most: usize) -> f64 {
-    let steps = (0..).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));
-    steps.into_iter().find(|step| 5.0 * step >= most as f64).unwrap_or(1.0)
 }

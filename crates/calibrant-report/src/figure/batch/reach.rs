@@ -1,9 +1,9 @@
 //! The part of an axis that shows a batch, whatever a few of its sensors read.
 
 /// Robust standard deviations about the median that are shown, of many sensors.
-const SHOWN_SD: f64 = 5.0;
+const SHOWN_SD: f64 = 4.5;
 /// The same grows by this over the number of sensors, since the scale of few is not known well.
-const OF_FEW: f64 = 20.0;
+const OF_FEW: f64 = 12.0;
 /// A limit is shown where it makes the axis at most this many times longer.
 const MOST_LONGER: f64 = 6.0;
 /// Of a normal distribution, standard deviation over median absolute deviation.
@@ -50,8 +50,14 @@ impl Reach {
     }
 }
 
+/// The least width of an axis: where all sensors agree, their standard deviations show.
+pub(super) fn least_width(values: &[f64], sds: &[f64]) -> f64 {
+    let rounding = 1e-9 * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    (2.0 * median(sds).unwrap_or(0.0)).max(rounding).max(f64::MIN_POSITIVE)
+}
+
 /// The median of finite values.
-pub(super) fn median(values: &[f64]) -> Option<f64> {
+fn median(values: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
