@@ -2,9 +2,12 @@
 
 mod arguments;
 mod batch;
+mod batch_page;
 mod job;
 mod one;
+mod parallel;
 mod quality;
+mod recorded;
 mod sources;
 mod unused;
 mod worst_first;
@@ -14,6 +17,8 @@ pub(crate) use arguments::Arguments;
 use crate::Exit;
 use calibrant::io::{Experiment, ResultPlaces};
 use job::Job;
+use std::path::PathBuf;
+use std::sync::PoisonError;
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
@@ -33,13 +38,21 @@ impl crate::run::Run for Arguments {
             several => batch::folders(several),
         };
         let of_folder = |folder: &String| {
-            ["calibration.json", "report.html"].map(|name| self.output.join(folder).join(name))
+            ["calibration.json", "report.html", "resume.json"].map(|name| self.output.join(folder).join(name))
         };
         ResultPlaces {
             directory: Some(self.output.clone()),
-            results: folders.iter().flat_map(of_folder).chain([self.output.join("summary.csv")]).collect(),
+            results: folders
+                .iter()
+                .flat_map(of_folder)
+                .chain(["summary.csv", "batch.html"].map(|name| self.output.join(name)))
+                .collect(),
             inputs: inputs.cloned().collect(),
         }
+    }
+
+    fn kept(&self) -> Vec<PathBuf> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn run(&self) -> calibrant::Result<Exit> {

@@ -2,7 +2,7 @@
 
 use crate::{Exit, console};
 use calibrant::diagnostic::{Code, Diagnostic, Severity, Usability, Verdict};
-use calibrant::io::nearest;
+use calibrant::io::{Told, ToldKind, nearest};
 use calibrant::pipeline::Note;
 use calibrant::report::message;
 
@@ -15,6 +15,31 @@ pub(crate) struct Rules {
     /// Do not print this diagnostic, do not deny it, and do not count it for the verdict. JSON keeps it with the severity `allowed`. Repeatable.
     #[arg(long, value_name = "CODE", value_parser = code)]
     allow: Vec<Code>,
+}
+
+/// A diagnostic in its sentence.
+pub(crate) fn told_of(diagnostic: &Diagnostic) -> Told {
+    Told {
+        kind: ToldKind::Diagnostic,
+        code: Some(diagnostic.code()),
+        file: String::new(),
+        words: message(diagnostic),
+    }
+}
+
+/// A note of the pipeline in its sentence.
+pub(crate) fn told_of_note(note: &Note) -> Told {
+    let plain = |kind| Told { kind, code: None, file: String::new(), words: note.to_string() };
+    match note {
+        Note::Finding { file, finding } => Told {
+            kind: ToldKind::Finding,
+            code: Some(finding.code()),
+            file: file.clone(),
+            words: finding.to_string(),
+        },
+        Note::Warning(_) => plain(ToldKind::Warning),
+        Note::Remark(_) => plain(ToldKind::Remark),
+    }
 }
 
 /// A denied diagnostic, or all.
@@ -34,39 +59,27 @@ impl Rules {
         &self.allow
     }
 
-    /// Prints the diagnostics that are not allowed. Returns the exit status that they set. `prefix` stands before each.
-    pub(crate) fn show(&self, diagnostics: &[Diagnostic], prefix: &str) -> Exit {
+    /// Prints what is told of a recording, but for codes that are allowed. Returns the exit status that denied codes set. `folder` stands before each, in place of the name of a file.
+    pub(crate) fn show(&self, told: &[Told], folder: Option<&str>) -> Exit {
         let mut exit = Exit::DONE;
-        for diagnostic in diagnostics.iter().filter(|found| !self.allow.contains(&found.code())) {
-            let text = format!("{prefix}{}", message(diagnostic));
-            if self.denies(diagnostic.code()) {
-                exit = Exit::DENIED;
-                console::denied(diagnostic.code().name(), &text);
-            } else if diagnostic.severity() == Severity::Error {
-                console::fault(&text);
-            } else {
-                console::warn(&text);
-            }
-        }
-        exit
-    }
-
-    /// Prints the notes of a calibration, but for findings that are allowed, and gives the exit status that the findings set. `folder` replaces the name of the file.
-    pub(crate) fn show_notes(&self, notes: &[Note], folder: Option<&str>) -> Exit {
-        let mut exit = Exit::DONE;
-        for note in notes {
-            match note {
-                Note::Finding { finding, .. } if self.allow.contains(&finding.code()) => {}
-                Note::Finding { file, finding } => {
-                    let file = folder.unwrap_or(file);
-                    if self.denies(finding.code()) {
-                        exit = Exit::DENIED;
-                        console::denied(finding.code().name(), &format!("{file}: {finding}"));
-                    } else {
-                        console::finding(file, finding);
-                    }
+        for of in told.iter().filter(|of| of.code.is_none_or(|code| !self.allow.contains(&code))) {
+            let place = match of.kind {
+                ToldKind::Diagnostic | ToldKind::Finding => folder.unwrap_or(&of.file),
+                ToldKind::Warning | ToldKind::Remark => "",
+            };
+            let text = if place.is_empty() { of.words.clone() } else { format!("{place}: {}", of.words) };
+            let severity = of.code.map(Code::severity);
+            match of.code {
+                Some(code) if self.denies(code) => {
+                    exit = Exit::DENIED;
+                    console::denied(code.name(), &text);
                 }
-                _ => console::noted(note),
+                _ => match of.kind {
+                    ToldKind::Diagnostic if severity == Some(Severity::Error) => console::fault(&text),
+                    ToldKind::Finding if severity < Some(Severity::Warning) => console::note(&text),
+                    ToldKind::Diagnostic | ToldKind::Finding | ToldKind::Warning => console::warn(&text),
+                    ToldKind::Remark => console::note(&text),
+                },
             }
         }
         exit

@@ -100,7 +100,8 @@ fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
     let claimed = command.places().claim(force)?;
     interruption::handle_signals();
     let outcome = command.run();
-    for left_over in claimed.left_over() {
+    let kept = command.kept();
+    for left_over in claimed.left_over().filter(|path| !kept.iter().any(|of| of == path)) {
         console::warn(&format!("{} is that of an earlier run", left_over.display()));
     }
     outcome.map(|exit| if interruption::is_asked() { Exit::INTERRUPTED } else { exit })

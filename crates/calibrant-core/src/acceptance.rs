@@ -22,6 +22,15 @@ pub struct AcceptanceLimit {
     pub sd: Option<f64>,
 }
 
+impl AcceptanceLimit {
+    /// Does it limit the figure of this name?
+    #[must_use]
+    pub fn names(&self, figure: &str) -> bool {
+        let rest = figure.strip_prefix(&self.name);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    }
+}
+
 /// A number of a result that may have a limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
@@ -103,10 +112,6 @@ pub fn checked(limits: &[AcceptanceLimit], figures: &[Figure]) -> Vec<CheckedLim
 
 fn of_limit(limit: &AcceptanceLimit, figures: &[Figure]) -> Vec<CheckedLimit> {
     let (range, largest_sd) = (limit.range, limit.sd);
-    let named = |figure: &&Figure| {
-        let rest = figure.name.strip_prefix(&limit.name);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-    };
     let of_figure = |figure: &Figure| {
         let sd = figure.sd.unwrap_or(0.0);
         let of_range = range.map(|range| decide(figure.value, sd, range));
@@ -118,7 +123,8 @@ fn of_limit(limit: &AcceptanceLimit, figures: &[Figure]) -> Vec<CheckedLimit> {
         let decision = of_range.max(of_sd).unwrap_or(Decision::Pass);
         CheckedLimit { figure: figure.clone(), range, largest_sd, decision }
     };
-    let checked: Vec<CheckedLimit> = figures.iter().filter(named).map(of_figure).collect();
+    let checked: Vec<CheckedLimit> =
+        figures.iter().filter(|figure| limit.names(&figure.name)).map(of_figure).collect();
     if checked.is_empty() {
         let figure = Figure { name: limit.name.clone(), value: f64::NAN, sd: None };
         return vec![CheckedLimit { figure, range, largest_sd, decision: Decision::NotChecked }];

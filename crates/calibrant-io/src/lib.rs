@@ -16,6 +16,7 @@
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`write_noise`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
+//! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
 //! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
@@ -38,6 +39,7 @@ mod evaluation;
 mod experiment;
 mod experiment_presets;
 mod ferraris_sections;
+mod finished;
 mod gyroscope;
 mod holds;
 mod input;
@@ -56,6 +58,7 @@ mod recording;
 mod reference_inspection;
 mod reference_log;
 mod result_places;
+mod resume_key;
 mod sampling;
 mod shared_fields;
 mod study;
@@ -63,6 +66,7 @@ mod summary;
 mod sweep;
 mod text_decoding;
 mod text_excerpt;
+mod told;
 mod truth;
 mod validation;
 
@@ -87,6 +91,7 @@ pub use experiment::{
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
+pub use finished::Finished;
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_preset, missing_limits};
@@ -114,8 +119,10 @@ pub use reference_log::{
     read_reference_log, write_joint_log, write_pose_log,
 };
 pub use result_places::{ClaimedPlaces, ResultPlaces};
+pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
 pub use study::{study_json, write_study};
-pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};
+pub use summary::{Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
+pub use told::{Told, ToldKind};
 pub use truth::{truth_json, write_imu_truth, write_motion_truth, write_truth};

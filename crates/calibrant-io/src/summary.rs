@@ -72,22 +72,24 @@ pub fn calibrations_json<'a>(
 /// The part of a calibration that is kept in memory until `summary.csv` is written.
 #[derive(Debug, Clone)]
 pub struct Summary {
-    verdict: Verdict,
+    pub(super) verdict: Verdict,
     /// Names of the figures that break a limit.
-    limits_failed: Vec<String>,
-    status: CalibrationStatus,
+    pub(super) limits_failed: Vec<String>,
+    pub(super) status: CalibrationStatus,
     /// Its quality: name, with the unit at its end, and number.
-    quality: Vec<(&'static str, String)>,
-    parameters: Vec<Estimate>,
+    pub(super) quality: Vec<(String, String)>,
+    pub(super) parameters: Vec<SummaryParameter>,
 }
 
-#[derive(Debug, Clone)]
-struct Estimate {
-    name: String,
-    /// Its unit, as it ends a column's name.
-    ending: &'static str,
-    value: f64,
-    sd: f64,
+/// A parameter in a summary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SummaryParameter {
+    /// Name, unit, nominal value and datasheet spread.
+    pub parameter: Parameter,
+    /// The estimate.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sd: f64,
 }
 
 impl Summary {
@@ -116,20 +118,19 @@ impl Summary {
         quality.push(("degrees_of_freedom", fit.degrees_of_freedom.to_string()));
         quality.push(("p_value", number(fit.p_value)));
         let estimates = calibration.values.iter().zip(calibration.sd());
-        let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| Estimate {
-            name: parameter.name.clone(),
-            ending: ending(parameter.unit),
+        let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| SummaryParameter {
+            parameter: parameter.clone(),
             value: *value,
             sd,
         };
-        let spreads: Vec<_> = calibration.parameters.iter().map(|parameter| parameter.spread).collect();
-        let parameters: Vec<Estimate> = calibration.parameters.iter().zip(estimates).map(estimate).collect();
-        quality.splice(0..0, worst_sd(&parameters, &spreads));
+        let parameters: Vec<SummaryParameter> =
+            calibration.parameters.iter().zip(estimates).map(estimate).collect();
+        quality.splice(0..0, worst_sd(&parameters));
         Self {
             verdict: Verdict::on(calibration.warnings.iter().map(Diagnostic::code), &[]),
             limits_failed: Vec::new(),
             status: calibration.status,
-            quality,
+            quality: quality.into_iter().map(|(name, text)| (name.to_owned(), text)).collect(),
             parameters,
         }
     }
@@ -142,16 +143,15 @@ impl Summary {
         let (names, units, sd) = (calibration.names(), result.units(), calibration.sd());
         let fit = &calibration.fit;
         let estimate = |(k, quantity): (usize, &MachineQuantity)| {
-            matches!(quantity, MachineQuantity::Imu(_)).then(|| Estimate {
-                name: names[k].clone(),
-                ending: ending(units[k]),
+            matches!(quantity, MachineQuantity::Imu(_)).then(|| SummaryParameter {
+                parameter: Parameter { name: names[k].clone(), unit: units[k], nominal: None, spread: None },
                 value: calibration.values[k],
                 sd: sd[k],
             })
         };
-        let parameters: Vec<Estimate> =
+        let parameters: Vec<SummaryParameter> =
             calibration.quantities.iter().enumerate().filter_map(estimate).collect();
-        let mut quality = worst_sd(&parameters, &vec![None; parameters.len()]).to_vec();
+        let mut quality = worst_sd(&parameters).to_vec();
         quality.extend([
             ("warnings", calibration.warnings.len().to_string()),
             ("used_share", number(Some(calibration.used_share))),
@@ -163,7 +163,7 @@ impl Summary {
             verdict: Verdict::on(calibration.warnings.iter().map(Diagnostic::code), &[]),
             limits_failed: Vec::new(),
             status: calibration.status,
-            quality,
+            quality: quality.into_iter().map(|(name, text)| (name.to_owned(), text)).collect(),
             parameters,
         }
     }
@@ -181,26 +181,38 @@ impl Summary {
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
     }
+
+    /// Names of the figures that break a limit.
+    #[must_use]
+    pub fn limits_failed(&self) -> &[String] {
+        &self.limits_failed
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn parameters(&self) -> &[SummaryParameter] {
+        &self.parameters
+    }
 }
 
 /// The largest standard deviation of the parameters: whose, its ratio, and to what. That is the datasheet's spread where it is known, otherwise the
 /// value of a scale factor.
-fn worst_sd(parameters: &[Estimate], spreads: &[Option<f64>]) -> [(&'static str, String); 3] {
+fn worst_sd(parameters: &[SummaryParameter]) -> [(&'static str, String); 3] {
     let largest = |ratio: &dyn Fn(usize) -> Option<f64>| {
         let ratios = (0..parameters.len()).filter_map(|k| Some((k, ratio(k)?)));
         let finite = ratios.filter(|(_, ratio)| ratio.is_finite());
         finite.max_by(|one, other| one.1.total_cmp(&other.1))
     };
-    let over_spread = |k: usize| Some(parameters[k].sd / spreads[k]?);
+    let over_spread = |k: usize| Some(parameters[k].sd / parameters[k].parameter.spread?);
     let over_value = |k: usize| {
-        let Estimate { name, value, sd, .. } = &parameters[k];
-        name.contains(".scale.").then(|| sd / value.abs())
+        let SummaryParameter { parameter, value, sd } = &parameters[k];
+        parameter.name.contains(".scale.").then(|| sd / value.abs())
     };
     let found = match largest(&over_spread) {
         Some(found) => Some((found, "datasheet")),
         None => largest(&over_value).map(|found| (found, "value")),
     };
-    let name = found.map_or_else(String::new, |((k, _), _)| parameters[k].name.clone());
+    let name = found.map_or_else(String::new, |((k, _), _)| parameters[k].parameter.name.clone());
     [
         ("worst_sd_parameter", name),
         ("worst_sd_ratio", number(found.map(|((_, ratio), _)| ratio))),
@@ -224,8 +236,9 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
         let first = ["file", "recording", "verdict", "codes", "status", "error", "code", "limits_failed"];
         let mut header = first.map(String::from).to_vec();
         if let Some(named) = named {
-            header.extend(named.quality.iter().map(|(name, _)| (*name).to_owned()));
-            for Estimate { name, ending, .. } in &named.parameters {
+            header.extend(named.quality.iter().map(|(name, _)| name.clone()));
+            for SummaryParameter { parameter: Parameter { name, unit, .. }, .. } in &named.parameters {
+                let ending = ending(unit);
                 header.extend([format!("{name}{ending}"), format!("{name}_sd{ending}")]);
             }
         }
@@ -261,7 +274,8 @@ impl Summary {
         ];
         fields.extend(self.quality.iter().map(|(_, text)| text.clone()));
         for column in &named.parameters {
-            let found = self.parameters.iter().find(|estimate| estimate.name == column.name);
+            let found =
+                self.parameters.iter().find(|estimate| estimate.parameter.name == column.parameter.name);
             fields.push(number(found.map(|estimate| estimate.value)));
             fields.push(number(found.map(|estimate| estimate.sd)));
         }
@@ -279,23 +293,31 @@ fn as_text(text: &str) -> String {
     if formula { format!("'{text}") } else { text.to_owned() }
 }
 
+/// Units of parameters, each as it ends a column's name.
+const ENDINGS: [(&str, &str); 15] = [
+    ("1", ""),
+    ("m/s²", "_mps2"),
+    ("counts", "_counts"),
+    ("counts/(m/s²)", "_counts_per_mps2"),
+    ("rad/s", "_radps"),
+    ("counts/(rad/s)", "_counts_per_radps"),
+    ("(rad/s)/(m/s²)", "_radps_per_mps2"),
+    ("m/s²/K", "_mps2_per_k"),
+    ("m/s²/K²", "_mps2_per_k2"),
+    ("rad/s/K", "_radps_per_k"),
+    ("rad/s/K²", "_radps_per_k2"),
+    ("counts/K", "_counts_per_k"),
+    ("counts/K²", "_counts_per_k2"),
+    ("1/K", "_per_k"),
+    ("1/K²", "_per_k2"),
+];
+
 /// A unit as it ends a column's name.
 pub(super) fn ending(unit: &str) -> &'static str {
-    match unit {
-        "m/s²" => "_mps2",
-        "counts" => "_counts",
-        "counts/(m/s²)" => "_counts_per_mps2",
-        "rad/s" => "_radps",
-        "counts/(rad/s)" => "_counts_per_radps",
-        "(rad/s)/(m/s²)" => "_radps_per_mps2",
-        "m/s²/K" => "_mps2_per_k",
-        "m/s²/K²" => "_mps2_per_k2",
-        "rad/s/K" => "_radps_per_k",
-        "rad/s/K²" => "_radps_per_k2",
-        "counts/K" => "_counts_per_k",
-        "counts/K²" => "_counts_per_k2",
-        "1/K" => "_per_k",
-        "1/K²" => "_per_k2",
-        _ => "",
-    }
+    ENDINGS.iter().find(|(of, _)| *of == unit).map_or("", |(_, ending)| ending)
+}
+
+/// The unit of a parameter that has this symbol.
+pub(super) fn unit_of(symbol: &str) -> Option<&'static str> {
+    ENDINGS.iter().find(|(of, _)| *of == symbol).map(|(unit, _)| *unit)
 }

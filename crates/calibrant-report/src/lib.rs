@@ -4,6 +4,7 @@
 //! figures. Cells of tables already have their digits ([`number_format`]). Figures are data (`figure`) until
 //! the page is written.
 
+mod batch;
 mod calibration;
 mod design;
 mod evaluation;
@@ -24,6 +25,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
+pub use batch::{Batch, BatchParameter, BatchSensor, batch_report};
 pub use calibration::{
     calibration_quality, calibration_report, nuisances_in_words, over_the_gain, temperature_in_words,
     used_in_words,

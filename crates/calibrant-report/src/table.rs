@@ -7,6 +7,8 @@ use super::html::escape;
 pub(super) enum Cell {
     /// The name of the row.
     Name(String),
+    /// The name of the row, with the address of its own page.
+    Link { text: String, address: String },
     /// A number, or its replacement: right-aligned, never broken.
     Number(String),
     /// A short text.
@@ -15,6 +17,8 @@ pub(super) enum Cell {
     Words(String),
     /// A short text that should be noticed.
     Mark(String),
+    /// One word that should be noticed.
+    Flag(String),
 }
 
 /// A table under construction.
@@ -91,10 +95,35 @@ impl Cell {
     fn html(&self) -> String {
         match self {
             Self::Name(text) => format!("<th scope=\"row\">{}</th>", escape(text)),
+            Self::Link { text, address } => {
+                format!(
+                    "<th scope=\"row\"><a href=\"{}\">{}</a></th>",
+                    escape(&encoded(address)),
+                    escape(text)
+                )
+            }
             Self::Number(text) => format!("<td class=\"n\">{}</td>", escape(text)),
             Self::Text(text) => format!("<td>{}</td>", escape(text)),
             Self::Words(text) => format!("<td class=\"words\">{}</td>", escape(text)),
             Self::Mark(text) => format!("<td class=\"mark\">{}</td>", escape(text)),
+            Self::Flag(text) => format!("<td class=\"flag\">{}</td>", escape(text)),
         }
+    }
+}
+
+/// A relative path as an address: signs that have a meaning in addresses are encoded.
+fn encoded(path: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
+    let sign = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    path.bytes().map(sign).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_are_encoded() {
+        assert_eq!(encoded("a b#1?/µ:\"/report.html"), "a%20b%231%3F/%C2%B5%3A%22/report.html");
     }
 }

@@ -1,6 +1,6 @@
 //! Tests of what holds for every report page.
 
-use super::{About, calibration_report, study_report};
+use super::{About, Batch, BatchParameter, BatchSensor, calibration_report, study_report};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{Calibration, Recovered};
 use calibrant_core::sensor::Recording;
@@ -8,6 +8,9 @@ use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};
 use nalgebra::Vector3;
 
+mod batch_pages;
+#[path = "../examples/report_gallery/batches.rs"]
+mod batches;
 mod design_pages;
 #[path = "../examples/report_gallery/designs.rs"]
 mod designs;

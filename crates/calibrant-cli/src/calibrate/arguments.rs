@@ -3,11 +3,12 @@
 use crate::diagnostics::Rules;
 use crate::recording_options::RecordingOptions;
 use std::path::PathBuf;
+use std::sync::Mutex;
 
 /// Calibrate sensors from their recordings.
 ///
 /// Writes calibration.json and report.html into DIR. Several recordings get a subfolder of DIR each, named after the file, and one
-/// DIR/summary.csv. One bad recording does not stop the others. The exit status is the highest of all.
+/// DIR/summary.csv and DIR/batch.html. One bad recording does not stop the others. The exit status is the highest of all.
 /// Each result has a verdict: ok, doubtful or bad. The exit status is 5 where one is bad, or breaks a limit of [accept].
 /// Each warning has a code: --deny CODE sets the exit status 1, --allow CODE silences the warning.
 #[derive(clap::Args)]
@@ -56,18 +57,29 @@ pub(crate) struct Arguments {
     /// Write no report.html. This saves time with many sensors.
     #[arg(long)]
     pub(super) no_report: bool,
+    /// Continue a batch that was interrupted. Results in DIR that are of the same recordings, experiment, options and version are not computed again.
+    #[arg(long)]
+    pub(super) resume: bool,
     /// Print calibration.json on stdout instead of the tables. Several recordings give an array: the file of each, and its calibration or its error.
     #[arg(long)]
     pub(super) json: bool,
     /// Directory for the results.
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: PathBuf,
+    /// Results of an earlier run that this one has taken over.
+    #[arg(skip)]
+    pub(super) kept: Mutex<Vec<PathBuf>>,
 }
 
 impl Arguments {
     /// The file that the command names at its end.
     pub(super) fn main_result(&self) -> PathBuf {
-        self.output.join(if self.no_report { "calibration.json" } else { "report.html" })
+        self.output.join(self.main_file())
+    }
+
+    /// The file of a result that people open first.
+    pub(super) fn main_file(&self) -> &'static str {
+        if self.no_report { "calibration.json" } else { "report.html" }
     }
 }
 

@@ -1,50 +1,21 @@
 //! Several recordings in one call. Each is calibrated by itself, and none stops the others.
 
+use super::batch_page::batch_of;
 use super::job::Job;
+use super::parallel::in_parallel;
 use super::quality;
+use super::recorded::Recorded;
 use super::worst_first::{Row, table_of};
 use crate::{Exit, console};
-use calibrant::diagnostic::{Diagnostic, Verdict};
-use calibrant::io::{Summary, SummaryRow, calibrations_json, write_summary};
-use calibrant::pipeline::{Note, Source};
+use calibrant::io::{SummaryRow, calibrations_json, write_atomically, write_summary};
+use calibrant::report::{About, batch_report};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// The outcome of a recording.
-struct Outcome {
-    /// Notes and warnings about the recording.
-    notes: Vec<Note>,
-    calibrated: calibrant::Result<Calibrated>,
-}
-
-/// The part of a calibration that is kept for the tables.
-struct Calibrated {
-    verdict: Verdict,
-    warnings: Vec<Diagnostic>,
-    /// Cells of the table between the verdict and the codes.
-    cells: Vec<String>,
-    summary: Summary,
-    /// calibration.json, if it is to be printed.
-    json: Option<String>,
-}
-
-/// Calibrates from a recording and writes the results into this directory. Returns what is to be printed.
-fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
-    let mut notes = Vec::new();
-    let calibrated = job.run(source, directory, &mut notes).map(|outcome| Calibrated {
-        verdict: outcome.verdict(),
-        warnings: outcome.warnings().to_vec(),
-        cells: quality::cells(&outcome.calibrated),
-        summary: outcome.summary(),
-        json: job.arguments.json.then(|| outcome.json()),
-    });
-    Outcome { notes, calibrated }
-}
+use std::sync::PoisonError;
 
 /// Calibrates from all recordings, then prints the outcome of each.
 pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
-    let (arguments, columns) = (job.arguments, quality::columns(job.experiment));
+    let arguments = job.arguments;
     let folders = folders(&arguments.recordings);
     for (folder, path) in folders.iter().zip(&arguments.recordings) {
         if *folder != stem(path) {
@@ -52,83 +23,117 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         }
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
-    let outcomes = in_parallel(folders.len(), |number| {
-        let outcome = calibrate(job, &job.sources[number], &arguments.output.join(&folders[number]));
+    let recorded = in_parallel(folders.len(), |number| {
+        let directory = arguments.output.join(&folders[number]);
+        let recorded = Recorded::of(job, &job.sources[number], &directory);
         bar.inc(1);
-        outcome
+        recorded
     });
     bar.finish_and_clear();
+    keep_earlier(job, &folders, &recorded);
 
-    let (mut exit, mut rows, mut texts, mut summary) = (Exit::DONE, Vec::new(), Vec::new(), Vec::new());
-    for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(outcomes) {
-        exit = exit.max(arguments.rules.show_notes(&outcome.notes, Some(folder)));
-        let outcome = match outcome.calibrated {
-            Ok(calibrated) => {
-                let Calibrated { verdict, warnings, cells, summary, json } = calibrated;
-                exit = exit.max(arguments.rules.show(&warnings, &format!("{folder}: ")));
-                exit = exit.max(arguments.rules.exit_of(&verdict));
-                rows.push(Row::of_result(folder, &verdict, cells));
-                texts.push(json.unwrap_or_default());
-                Ok(summary)
-            }
-            Err(error) => {
-                console::error_in(&error, path);
-                exit = exit.max(Exit::of(&error));
-                rows.push(Row::of_failure(folder, error.code().name(), columns.len()));
-                texts.push(String::new());
-                Err((&error).into())
-            }
-        };
-        summary.push(SummaryRow { file: folder.clone(), recording: path.display().to_string(), outcome });
-    }
+    let exit = show(job, &folders, &recorded);
+    let row = |((folder, path), recorded): ((&String, &PathBuf), &Recorded)| SummaryRow {
+        file: folder.clone(),
+        recording: path.display().to_string(),
+        outcome: match &recorded.outcome {
+            Ok(result) => Ok(result.finished.summary.clone()),
+            Err(error) => Err(error.into()),
+        },
+    };
+    let summary: Vec<SummaryRow> =
+        folders.iter().zip(&arguments.recordings).zip(&recorded).map(row).collect();
     let path = arguments.output.join("summary.csv");
     write_summary(&path, &summary)?;
+    let page_path = arguments.output.join("batch.html");
+    let page = batch_report(&batch_of(job, &folders, &recorded), &about(job));
+    write_atomically(&page_path, |out| out.write_all(page.as_bytes()))?;
     if arguments.json {
         let files: Vec<String> = arguments.recordings.iter().map(|path| path.display().to_string()).collect();
-        let outcomes = summary.iter().zip(&texts).map(|(row, text)| match &row.outcome {
-            Ok(_) => Ok(text.as_str()),
-            Err(failure) => Err(failure),
-        });
+        let outcomes =
+            summary.iter().zip(&recorded).map(|(row, recorded)| match (&row.outcome, &recorded.outcome) {
+                (Err(failure), _) => Err(failure),
+                (Ok(_), recorded) => Ok(recorded.as_ref().map_or("", |result| result.json.as_str())),
+            });
         console::print(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
     } else {
-        console::print(&table_of(rows, columns));
         let failed = summary.iter().filter(|row| row.outcome.is_err()).count();
         console::print(&format!(
-            "\n{} calibrated, {failed} failed: {}\n",
+            "\n{} calibrated, {failed} failed: {}\n{}\n",
             summary.len() - failed,
-            path.display()
+            path.display(),
+            page_path.display()
         ));
     }
     Ok(exit)
 }
 
-/// All results in order, from one thread for each processor.
-///
-/// These are not threads of rayon. A thread of rayon that waits takes up other work, which could be a whole recording. The recordings would then
-/// pile up in memory.
-fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|number| *number < count);
-        std::iter::from_fn(take).map(|number| (number, of(number))).collect::<Vec<_>>()
+/// Prints what is told of each recording, then the table. Gives the exit status.
+fn show(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) -> Exit {
+    let (arguments, columns) = (job.arguments, quality::columns(job.experiment));
+    let (mut exit, mut rows) = (Exit::DONE, Vec::new());
+    for ((path, folder), recorded) in arguments.recordings.iter().zip(folders).zip(recorded) {
+        exit = exit.max(arguments.rules.show(recorded.told(), Some(folder)));
+        match &recorded.outcome {
+            Ok(result) => {
+                let verdict = result.finished.summary.verdict();
+                exit = exit.max(arguments.rules.exit_of(verdict));
+                rows.push(Row::of_result(folder, verdict, result.finished.cells.clone()));
+            }
+            Err(error) => {
+                console::error_in(error, path);
+                exit = exit.max(Exit::of(error));
+                rows.push(Row::of_failure(folder, error.code().name(), columns.len()));
+            }
+        }
+    }
+    if !arguments.json {
+        console::print(&table_of(rows, columns));
+    }
+    exit
+}
+
+/// Notes the results that stay as an earlier run wrote them, and says how many there are.
+fn keep_earlier(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) {
+    if !job.arguments.resume {
+        return;
+    }
+    let is_earlier = |recorded: &Recorded| recorded.outcome.as_ref().is_ok_and(|result| result.earlier);
+    let earlier: Vec<&String> =
+        folders.iter().zip(recorded).filter(|(_, of)| is_earlier(of)).map(|(folder, _)| folder).collect();
+    console::note(&format!("{} of {} recordings were calibrated before", earlier.len(), recorded.len()));
+    let files = |folder: &&String| {
+        let directory = job.arguments.output.join(folder.as_str());
+        ["calibration.json", "report.html", "resume.json"].map(|name| directory.join(name))
     };
-    let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let threads: Vec<_> =
-            (0..rayon::current_num_threads().min(count)).map(|_| scope.spawn(work)).collect();
-        let results = threads.into_iter().flat_map(|thread| match thread.join() {
-            Ok(results) => results,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        results.collect()
-    });
-    results.sort_by_key(|(number, _)| *number);
-    results.into_iter().map(|(_, result)| result).collect()
+    *job.arguments.kept.lock().unwrap_or_else(PoisonError::into_inner) =
+        earlier.iter().flat_map(files).collect();
+}
+
+/// The head of the page.
+fn about(job: &Job<'_>) -> About {
+    let mut facts = vec![
+        ("Experiment".to_owned(), job.arguments.experiment.display().to_string()),
+        ("Recordings".to_owned(), job.arguments.recordings.len().to_string()),
+    ];
+    facts.extend(
+        job.arguments.motion.as_ref().map(|motion| ("Motion".to_owned(), motion.display().to_string())),
+    );
+    facts.extend(
+        job.arguments.accept.as_ref().map(|limits| ("Limits".to_owned(), limits.display().to_string())),
+    );
+    About {
+        title: format!("Batch of {} sensors", job.arguments.recordings.len()),
+        facts,
+        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+        ..About::default()
+    }
 }
 
 /// A subfolder for each recording: the file's name without its ending. A number is added if the name repeats, or if another file of DIR has it.
 /// Capitals do not count, since not every file system distinguishes them.
 pub(super) fn folders(recordings: &[PathBuf]) -> Vec<String> {
-    let mut seen = HashSet::from(["summary.csv".to_owned()]);
+    let mut seen = HashSet::from(["summary.csv", "batch.html"].map(str::to_owned));
     let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
     recordings
         .iter()

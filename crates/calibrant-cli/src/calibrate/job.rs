@@ -3,26 +3,40 @@
 use super::arguments::{Arguments, Unit};
 use super::sources::{check_motion, sources};
 use crate::console;
-use calibrant::io::{Experiment, read_acceptance};
+use calibrant::acceptance::AcceptanceLimit;
+use calibrant::io::{Experiment, Plan, ResumeKey, UrdfSource, read_acceptance};
 use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use calibrant::sensor::ReadingUnit;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The pipeline and its recordings.
 pub(super) struct Job<'a> {
     pub(super) arguments: &'a Arguments,
     pub(super) sources: Vec<Source>,
     pub(super) experiment: &'a Experiment,
+    /// The limits that a result must keep.
+    pub(super) limits: Vec<AcceptanceLimit>,
     pipeline: Pipeline<'a>,
+    /// What the results of all recordings depend on.
+    key: Option<ResumeKey>,
 }
 
 impl<'a> Job<'a> {
     pub(super) fn prepare(arguments: &'a Arguments, experiment: &'a Experiment) -> calibrant::Result<Self> {
         check_motion(arguments, experiment)?;
-        let pipeline = Pipeline::from_experiment(experiment, options(arguments)?)?;
+        let options = options(arguments)?;
+        let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
+        let key = ResumeKey::of(&format!("{options:?}"), shared_files(arguments, experiment));
+        let pipeline = Pipeline::from_experiment(experiment, options)?;
         pipeline.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
-        Ok(Self { arguments, sources, experiment, pipeline })
+        Ok(Self { arguments, sources, experiment, limits, pipeline, key })
+    }
+
+    /// The key of the result of a recording; `None` where a file cannot be read.
+    pub(super) fn key(&self, source: &Source) -> Option<ResumeKey> {
+        let files = [Some(&source.recording), source.gyroscope.as_ref(), source.sections.as_ref()];
+        self.key.as_ref()?.with(files.into_iter().flatten().map(PathBuf::as_path))
     }
 
     /// Calibrates from a recording and writes the results. Adds notes and warnings to `notes`, even if it fails.
@@ -36,6 +50,20 @@ impl<'a> Job<'a> {
         outcome.write(directory)?;
         Ok(outcome)
     }
+}
+
+/// The files on which all results depend.
+fn shared_files<'a>(arguments: &'a Arguments, experiment: &'a Experiment) -> impl Iterator<Item = &'a Path> {
+    let machine = match &experiment.plan {
+        Plan::Machine(plan) => plan.source.as_ref(),
+        _ => None,
+    };
+    let urdf = machine.and_then(|source| match &source.urdf {
+        UrdfSource::File(path) => Some(path),
+        UrdfSource::Preset(_) => None,
+    });
+    let optional = [arguments.motion.as_ref(), urdf].into_iter().flatten();
+    std::iter::once(&arguments.experiment).chain(optional).map(PathBuf::as_path)
 }
 
 fn options(arguments: &Arguments) -> calibrant::Result<PipelineOptions> {

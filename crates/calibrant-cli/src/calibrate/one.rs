@@ -1,6 +1,7 @@
 //! `calibrant calibrate` with one recording: calibrates, writes the results, prints diagnostics and tables, and returns the exit status.
 
 use super::job::Job;
+use crate::diagnostics::{told_of, told_of_note};
 use crate::{Exit, console};
 use calibrant::pipeline::{Outcome, Source};
 
@@ -9,7 +10,7 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let directory = &job.arguments.output;
     let mut notes = Vec::new();
     let outcome = job.run(source, directory, &mut notes);
-    let denied = job.arguments.rules.show_notes(&notes, None);
+    let denied = job.arguments.rules.show(&notes.iter().map(told_of_note).collect::<Vec<_>>(), None);
     match outcome {
         Ok(outcome) => show(job, &outcome).max(denied).max(job.arguments.rules.exit_of(&outcome.verdict())),
         Err(error) => {
@@ -24,7 +25,8 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
 
 /// Prints the diagnostics, then the tables or calibration.json. Gives the exit status that denied diagnostics set.
 fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
-    let exit = job.arguments.rules.show(outcome.warnings(), "");
+    let told: Vec<_> = outcome.warnings().iter().map(told_of).collect();
+    let exit = job.arguments.rules.show(&told, None);
     if job.arguments.json {
         console::print(&outcome.json());
         return exit;

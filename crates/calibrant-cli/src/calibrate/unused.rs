@@ -7,6 +7,9 @@ use calibrant::io::{Experiment, Plan};
 /// Warns about options for another kind of experiment.
 pub(super) fn warn(arguments: &Arguments, experiment: &Experiment) {
     let motion = arguments.motion.is_some();
+    if arguments.resume && (arguments.together || arguments.recordings.len() == 1) {
+        console::warn("--resume is not used: it continues a batch of several recordings");
+    }
     let on_machine = matches!(experiment.plan, Plan::Machine(_));
     if !on_machine && arguments.validate_motion.is_some() {
         console::warn("--validate-motion is not used: it is for a [machine] experiment");

@@ -49,6 +49,25 @@ impl Bench {
         self.write(file, text);
     }
 
+    /// Writes experiment.toml with datasheet, motion.csv, and recordings s1.csv to s6.csv of six sensors. The gain of the fourth is far off in x.
+    pub(crate) fn six_sensors(&self) {
+        self.preset("report", "experiment.toml", &[]);
+        self.run("simulate experiment.toml -o made").done();
+        self.write("motion.csv", self.read("made/motion.csv"));
+        for seed in 1..=6 {
+            self.run(&format!("simulate experiment.toml --motion motion.csv --seed {seed} -o made")).done();
+            let text = self.read("made/recording.csv");
+            let (header, rows) = text.split_once('\n').expect("a header");
+            let changed = |row: &str| {
+                let mut fields: Vec<f64> = row.split(',').map(|f| f.parse().expect("a number")).collect();
+                fields[1] *= if seed == 4 { 1.3 } else { 1.0 };
+                fields.iter().map(|field| format!("{field:?}")).collect::<Vec<_>>().join(",") + "\n"
+            };
+            let rows: String = rows.lines().map(changed).collect();
+            self.write(&format!("s{seed}.csv"), format!("{header}\n{rows}"));
+        }
+    }
+
     /// Writes poses.toml, an honest recording of it, and stepped.csv: the same with a bias that steps half-way.
     pub(crate) fn stepped_poses(&self) {
         self.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 32 ")]);

@@ -2,6 +2,7 @@
 
 mod apply;
 mod batch;
+mod batch_page;
 mod bench;
 mod broken;
 mod commands;
@@ -30,6 +31,7 @@ mod noise;
 mod on_machine;
 mod real_recordings;
 mod repaired_recordings;
+mod resume;
 mod sensor_change;
 mod simulate;
 mod simulate_machine;

@@ -4,10 +4,12 @@
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};
 use calibrant_report::{
-    About, calibration_report, design_report, evaluation_report, machine_report, study_report, sweep_report,
+    About, Batch, BatchParameter, BatchSensor, batch_report, calibration_report, design_report,
+    evaluation_report, machine_report, study_report, sweep_report,
 };
 use std::path::PathBuf;
 
+mod batches;
 mod designs;
 mod fakes;
 mod imus;
@@ -35,6 +37,11 @@ fn main() -> std::io::Result<()> {
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
+
+    for (name, count) in [("batch.html", 40), ("batch_small.html", 6)] {
+        let about = about("Batch of sensors", "–", 101);
+        write(name, batch_report(&batches::drifting_batch(count), &about))?;
+    }
 
     let case = fakes::motion_case(3, 14, 2.0, 4);
     let simulated = About {

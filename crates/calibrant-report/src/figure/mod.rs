@@ -5,6 +5,7 @@
 //! phone. The legend comes from the series themselves. Only [`svg`] knows the plotting library.
 
 mod allan;
+mod batch;
 mod before_after;
 mod clipping;
 mod colour;
@@ -33,6 +34,7 @@ mod unit;
 mod validation;
 
 pub(super) use allan::allan_figure;
+pub(super) use batch::{code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
 pub(super) use clipping::renumbered;
 pub(super) use correlation::{correlation_map, correlation_map_of};

@@ -100,6 +100,8 @@ pub(super) struct Panel {
     pub(super) y_includes: Vec<f64>,
     /// Distance between ticks of the x axis, where it is not left to the plotting library.
     pub(super) x_step: Option<f64>,
+    /// The same of the y axis.
+    pub(super) y_step: Option<f64>,
     /// Equal ranges of both axes in a square.
     pub(super) square: bool,
     /// Logarithmic x axis; only positive points are drawn.

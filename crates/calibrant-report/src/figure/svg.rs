@@ -45,6 +45,9 @@ pub(super) fn svg(panel: &Panel) -> String {
     if let Some(step) = panel.x_step {
         layout = layout.with_x_tick_step(step);
     }
+    if let Some(step) = panel.y_step {
+        layout = layout.with_y_tick_step(step);
+    }
     if panel.log_x {
         layout = layout.with_log_x();
     }

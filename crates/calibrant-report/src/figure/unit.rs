@@ -10,7 +10,7 @@ pub(crate) struct DisplayUnit {
 }
 
 impl DisplayUnit {
-    /// A unit that shows `largest`, given in `unit`, without leading zeros: mm/s² or µm/s² for m/s², mrad/s for rad/s, % or ppm
+    /// A unit that shows `largest`, given in `unit`, without leading zeros: mm/s² or µm/s² for m/s², mrad/s for rad/s, the same for a g-sensitivity, % or ppm
     /// for `1`.
     pub(crate) fn suited(unit: &'static str, largest: f64) -> Self {
         let small = largest > 0.0 && largest < 0.03;
@@ -19,6 +19,7 @@ impl DisplayUnit {
             "m/s²" if small && largest < 3e-5 => Self { factor: 1e6, symbol: "µm/s²" },
             "m/s²" if small => Self { factor: 1e3, symbol: "mm/s²" },
             "rad/s" if small => Self { factor: 1e3, symbol: "mrad/s" },
+            "(rad/s)/(m/s²)" if small => Self { factor: 1e3, symbol: "(mrad/s)/(m/s²)" },
             "1" if small => Self { factor: 1e6, symbol: "ppm" },
             "1" => Self { factor: 1.0, symbol: "" },
             other => Self { factor: 1.0, symbol: other },

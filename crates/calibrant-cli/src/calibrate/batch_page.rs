@@ -1,0 +1,82 @@
+//! What the page of a batch shows of each recording.
+
+use super::job::Job;
+use super::recorded::Recorded;
+use calibrant::acceptance::AcceptanceLimit;
+use calibrant::diagnostic::{Code, Severity};
+use calibrant::io::SummaryParameter;
+use calibrant::report::{Batch, BatchParameter, BatchSensor};
+use calibrant::sensor::{Parameter, ParameterList, Sensor};
+
+/// The recordings of a batch with their folders. The first result names the parameters.
+pub(super) fn batch_of(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) -> Batch {
+    let named = recorded.iter().find_map(|of| of.outcome.as_ref().ok());
+    let named = named.map_or(&[][..], |kept| kept.finished.summary.parameters());
+    let sensors = folders.iter().zip(recorded).map(|(folder, of)| sensor(job, folder, of, named)).collect();
+    let datasheet = datasheet(&job.experiment.sensor);
+    let parameters = named.iter().map(|of| parameter(of, &datasheet, &job.limits)).collect();
+    Batch { parameters, sensors }
+}
+
+/// What the datasheet says of the accelerometer. The results of an IMU or on a machine do not repeat it.
+fn datasheet(sensor: &Sensor) -> Vec<Parameter> {
+    let list = ParameterList::new(sensor.axes, sensor.model);
+    sensor.nominal().map_or_else(Vec::new, |nominal| list.describe_accelerometer(sensor, &nominal))
+}
+
+fn parameter(of: &SummaryParameter, datasheet: &[Parameter], limits: &[AcceptanceLimit]) -> BatchParameter {
+    let is_same = |one: &&Parameter| one.name == of.parameter.name && one.unit == of.parameter.unit;
+    let of_datasheet = datasheet.iter().find(is_same).filter(|_| of.parameter.spread.is_none());
+    let parameter = of_datasheet.unwrap_or(&of.parameter);
+    let ranges = limits.iter().filter(|limit| limit.names(&parameter.name)).filter_map(|limit| limit.range);
+    BatchParameter {
+        name: parameter.name.clone(),
+        unit: parameter.unit,
+        nominal: parameter.nominal,
+        spread: parameter.spread,
+        // all limits are to be kept
+        accepted: ranges.reduce(|one, other| (one.0.max(other.0), one.1.min(other.1))),
+    }
+}
+
+fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryParameter]) -> BatchSensor {
+    let allowed = job.arguments.rules.allowed();
+    let mut codes: Vec<Code> = Vec::new();
+    for code in recorded.told().iter().filter_map(|told| told.code) {
+        if code.severity() >= Severity::Warning && !allowed.contains(&code) && !codes.contains(&code) {
+            codes.push(code);
+        }
+    }
+    let name = folder.to_owned();
+    match &recorded.outcome {
+        Ok(kept) => {
+            let (summary, file) = (&kept.finished.summary, job.arguments.main_file());
+            let estimate = |column: &SummaryParameter| {
+                let found = summary.parameters().iter().find(|of| of.parameter.name == column.parameter.name);
+                found.map_or((f64::NAN, f64::NAN), |of| (of.value, of.sd))
+            };
+            let deciding = recorded
+                .told()
+                .iter()
+                .filter(|told| told.code.is_some_and(|code| summary.verdict().codes.contains(&code)));
+            BatchSensor {
+                name,
+                link: Some(format!("{folder}/{file}")),
+                verdict: Ok(summary.verdict().clone()),
+                codes,
+                limits_failed: summary.limits_failed().to_vec(),
+                reasons: deciding.map(|told| told.words.clone()).collect(),
+                estimates: named.iter().map(estimate).collect(),
+            }
+        }
+        Err(error) => BatchSensor {
+            name,
+            link: None,
+            verdict: Err(error.code()),
+            codes,
+            limits_failed: Vec::new(),
+            reasons: vec![error.to_string()],
+            estimates: Vec::new(),
+        },
+    }
+}

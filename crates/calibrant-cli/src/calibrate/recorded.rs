@@ -1,0 +1,61 @@
+//! A recording of a batch: it is calibrated, or its result is taken over from an earlier run.
+
+use super::job::Job;
+use super::quality;
+use crate::diagnostics::{told_of, told_of_note};
+use calibrant::io::{Finished, Told};
+use calibrant::pipeline::Source;
+use std::path::Path;
+
+/// A recording and what came of it.
+pub(super) struct Recorded {
+    /// What was told before an error ended the work. With a result, it is there.
+    told: Vec<Told>,
+    pub(super) outcome: calibrant::Result<Kept>,
+}
+
+/// The part of a result that is kept in memory.
+pub(super) struct Kept {
+    pub(super) finished: Finished,
+    /// calibration.json, if it is to be printed.
+    pub(super) json: String,
+    /// Did an earlier run compute it?
+    pub(super) earlier: bool,
+}
+
+impl Recorded {
+    /// Calibrates from the recording and writes the results into this directory; or takes over those that are there, where the user asks for it.
+    pub(super) fn of(job: &Job<'_>, source: &Source, directory: &Path) -> Self {
+        let kept_text = |text: String| if job.arguments.json { text } else { String::new() };
+        let key = job.key(source);
+        let earlier = key.as_ref().filter(|_| job.arguments.resume);
+        if let Some((finished, text)) = earlier.and_then(|key| Finished::read(directory, key)) {
+            return Self {
+                told: Vec::new(),
+                outcome: Ok(Kept { finished, json: kept_text(text), earlier: true }),
+            };
+        }
+        let mut notes = Vec::new();
+        let outcome = job.run(source, directory, &mut notes);
+        let mut told: Vec<Told> = notes.iter().map(told_of_note).collect();
+        let outcome = outcome.and_then(|outcome| {
+            told.extend(outcome.warnings().iter().map(told_of));
+            let finished = Finished {
+                summary: outcome.summary(),
+                cells: quality::cells(&outcome.calibrated),
+                told: std::mem::take(&mut told),
+            };
+            if let Some(key) = &key {
+                finished.write(directory, key, !job.arguments.no_report)?;
+            }
+            let text = if job.arguments.json { outcome.json() } else { String::new() };
+            Ok(Kept { finished, json: text, earlier: false })
+        });
+        Self { told, outcome }
+    }
+
+    /// What is told of it.
+    pub(super) fn told(&self) -> &[Told] {
+        self.outcome.as_ref().map_or(&self.told, |kept| &kept.finished.told)
+    }
+}

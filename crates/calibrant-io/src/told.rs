@@ -1,0 +1,49 @@
+//! What was told of a recording, as it is kept beside its result.
+
+use calibrant_core::diagnostic::Code;
+
+/// A sentence on a recording or its result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// Who says it.
+    pub kind: ToldKind,
+    /// Its code, where it has one.
+    pub code: Option<Code>,
+    /// The file in which a reader found it; empty for all else.
+    pub file: String,
+    /// The sentence.
+    pub words: String,
+}
+
+/// Who says a sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToldKind {
+    /// A diagnostic of the calibration.
+    Diagnostic,
+    /// A finding of the reader of the recording.
+    Finding,
+    /// A warning of the pipeline.
+    Warning,
+    /// A remark of the pipeline.
+    Remark,
+}
+
+impl ToldKind {
+    /// All kinds.
+    const ALL: [Self; 4] = [Self::Diagnostic, Self::Finding, Self::Warning, Self::Remark];
+
+    /// As files state it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Diagnostic => "diagnostic",
+            Self::Finding => "finding",
+            Self::Warning => "warning",
+            Self::Remark => "remark",
+        }
+    }
+
+    /// The kind of this name.
+    pub(super) fn parse(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}

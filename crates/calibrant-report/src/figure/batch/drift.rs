@@ -1,0 +1,243 @@
+//! Each parameter over the order of the recordings, with the limits of an individuals chart.
+//!
+//! The limits are `x̄ ± 2.66 MR̄`, with `MR̄` the mean of `|x_k − x_{k−1}|`: three standard deviations as neighbours show them, since
+//! `3 / 1.128 = 2.66` (`iso7870_2`). A slow drift widens the spread of all sensors, but not that of neighbours. Sensors that are bad are left out.
+
+use super::super::panel::{Mark, Panel, Series, Shape};
+use super::super::point_thinning::every;
+use super::super::unit::DisplayUnit;
+use super::super::{Figure, colour};
+use super::groups::{Group, groups};
+use super::reach::{Reach, least_width};
+use super::steps::whole_step;
+use crate::batch::Batch;
+use crate::number_format;
+use calibrant_core::diagnostic::Usability;
+
+/// Half the width of the control limits over the mean moving range.
+const OVER_MOVING_RANGE: f64 = 2.66;
+/// The fewest sensors that give control limits.
+const FEWEST: usize = 5;
+/// From this number of sensors on, control limits are reliable.
+const RELIABLE: usize = 20;
+/// The share of a normal distribution beyond three standard deviations.
+const BEYOND_BY_CHANCE: f64 = 0.0027;
+/// The most sensors that are drawn with error bars, and one by one.
+const MOST_BARS: usize = 150;
+const MOST_POINTS: usize = 600;
+/// The most sensors that are named for a parameter.
+const MOST_NAMES: usize = 5;
+
+/// The figures, and sentences on what they show.
+pub(crate) struct Drifts {
+    pub(crate) figures: Vec<Figure>,
+    pub(crate) findings: Vec<String>,
+}
+
+/// Limits within which sensors scatter at random.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    mean: f64,
+    half_width: f64,
+}
+
+impl Control {
+    /// Of values in their order; `None` for too few.
+    fn of(values: &[f64]) -> Option<Self> {
+        if values.len() < FEWEST {
+            return None;
+        }
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let ranges = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let moving_range = ranges.sum::<f64>() / (values.len() - 1) as f64;
+        (moving_range > 0.0).then_some(Self { mean, half_width: OVER_MOVING_RANGE * moving_range })
+    }
+
+    fn ends(self) -> [f64; 2] {
+        [self.mean - self.half_width, self.mean + self.half_width]
+    }
+}
+
+/// A sensor that has the parameter.
+struct Point {
+    /// Its place in the batch, from 0.
+    number: usize,
+    value: f64,
+    sd: f64,
+    usability: Usability,
+}
+
+/// A figure for each sensor of an IMU, a panel for each of its parameters. None for a single result.
+pub(crate) fn drifts(batch: &Batch) -> Drifts {
+    let mut drifts = Drifts { figures: Vec::new(), findings: Vec::new() };
+    let (mut beyond, mut checked, mut fewest) = (Vec::new(), 0, usize::MAX);
+    for group in groups(batch) {
+        let mut panels = Vec::new();
+        for &place in &group.members {
+            let points = points(batch, place);
+            if points.len() < 2 {
+                continue;
+            }
+            let usable: Vec<f64> =
+                points.iter().filter(|of| of.usability != Usability::Bad).map(|of| of.value).collect();
+            let control = Control::of(&usable);
+            if let Some(control) = control {
+                checked += usable.len();
+                fewest = fewest.min(usable.len());
+                let far = |of: &&Point| {
+                    of.usability != Usability::Bad && (of.value - control.mean).abs() > control.half_width
+                };
+                beyond.extend(points.iter().filter(far).map(|of| (place, of.number)));
+            }
+            panels.push(panel(batch, &group, place, &points, control));
+        }
+        if !panels.is_empty() {
+            drifts.figures.push(Figure::new(group.name, panels, caption(batch)).with_columns(3));
+        }
+    }
+    if checked > 0 {
+        drifts.findings.push(in_words(batch, &beyond, checked, fewest));
+    }
+    drifts
+}
+
+fn caption(batch: &Batch) -> String {
+    let mut caption = "Control limits are the mean ± 2.66 times the mean difference of neighbours, of the sensors that are not bad (individuals chart, \
+                       ISO 7870-2). Good: no pattern, and hardly a sensor beyond them. Sensors outside the axis are crosses at its edge."
+        .to_owned();
+    if batch.sensors.len() > MOST_POINTS {
+        caption.push_str(&format!(
+            " Of {} sensors, {MOST_POINTS} spread evenly over the list are drawn.",
+            number_format::count(batch.sensors.len())
+        ));
+    }
+    caption
+}
+
+fn points(batch: &Batch, place: usize) -> Vec<Point> {
+    let point = |(number, sensor): (usize, &crate::batch::BatchSensor)| {
+        let (value, sd) = sensor.estimate(place)?;
+        Some(Point { number, value, sd, usability: sensor.usability()? })
+    };
+    batch.sensors.iter().enumerate().filter_map(point).collect()
+}
+
+fn panel(
+    batch: &Batch,
+    group: &Group<'_>,
+    place: usize,
+    points: &[Point],
+    control: Option<Control>,
+) -> Panel {
+    let parameter = &batch.parameters[place];
+    let name = group.short(&parameter.name);
+    let of = |f: fn(&Point) -> f64| points.iter().map(f).collect::<Vec<f64>>();
+    let (values, sds) = (of(|of| of.value), of(|of| of.sd));
+    let bulk = Reach::of(&values, least_width(&values, &sds)).unwrap_or(Reach { low: -1.0, high: 1.0 });
+    let control = control.filter(|control| bulk.with(&control.ends()).is_some());
+    let reach = control.and_then(|control| bulk.with(&control.ends())).unwrap_or(bulk);
+    let limits = parameter.accepted.filter(|(low, high)| bulk.with(&[*low, *high]).is_some());
+    let reach = limits.and_then(|(low, high)| reach.with(&[low, high])).unwrap_or(reach);
+    let unit = DisplayUnit::suited_to(parameter.unit, [reach.low, reach.high]);
+    let factor = unit.factor;
+    let last = batch.sensors.len() as f64;
+    let level = |label: &str, colour, width, dashes, y: f64| {
+        let ends = vec![(0.5, y * factor), (last + 0.5, y * factor)];
+        Series::new(label, colour, Mark::Line { width, dashes }, ends)
+    };
+
+    let mut panel = Panel::new(name, "order of the recordings", unit.label(name));
+    let drawn: Vec<&Point> = every(points.len(), MOST_POINTS).iter().map(|&k| &points[k]).collect();
+    let inside = || drawn.iter().filter(|of| reach.contains(of.value));
+    if points.len() <= MOST_BARS {
+        let bar = |of: &&&Point| {
+            let ends =
+                [-2.0, 2.0].map(|side| (of.value + side * of.sd).clamp(reach.low, reach.high) * factor);
+            (((of.number + 1) as f64, 0.5 * (ends[0] + ends[1])), 0.5 * (ends[1] - ends[0]))
+        };
+        let (centres, spread) = inside().filter(|of| of.sd.is_finite()).map(|of| bar(&of)).unzip();
+        panel = panel.with(Series::new("±2 sd", colour::SKY, Mark::ErrorBars, centres).with_spread(spread));
+    }
+    if let Some(control) = control {
+        panel = panel.with(level("mean", colour::GREY, 1.0, "", control.mean));
+        for (label, y) in ["control limits", ""].into_iter().zip(control.ends()) {
+            panel = panel.with(level(label, colour::GREY, 1.4, "3 3", y));
+        }
+    }
+    if let Some((low, high)) = limits {
+        for (label, y) in [("acceptance limits", low), ("", high)] {
+            panel = panel.with(level(label, colour::BLACK, 1.6, "7 4", y));
+        }
+    }
+    let looks = [
+        (Usability::Ok, colour::BLUE, Shape::Circle),
+        (Usability::Doubtful, colour::ORANGE, Shape::Triangle),
+        (Usability::Bad, colour::VERMILLION, Shape::Square),
+    ];
+    for (usability, colour, shape) in looks {
+        let dots: Vec<(f64, f64)> = inside()
+            .filter(|of| of.usability == usability)
+            .map(|of| ((of.number + 1) as f64, of.value * factor))
+            .collect();
+        if !dots.is_empty() {
+            panel =
+                panel.with(Series::new(usability.name(), colour, Mark::Dots { shape, radius: 3.0 }, dots));
+        }
+    }
+    let outside: Vec<(f64, f64)> = drawn
+        .iter()
+        .filter(|of| !reach.contains(of.value))
+        .map(|of| ((of.number + 1) as f64, of.value.clamp(reach.low, reach.high) * factor))
+        .collect();
+    if !outside.is_empty() {
+        let mark = Mark::Dots { shape: Shape::Cross, radius: 4.0 };
+        panel = panel.with(Series::new("outside the axis", colour::VERMILLION, mark, outside));
+    }
+    panel.x_step = Some(whole_step(batch.sensors.len()));
+    panel
+}
+
+/// The sensors beyond the control limits, and how many chance alone would put there.
+fn in_words(batch: &Batch, beyond: &[(usize, usize)], checked: usize, fewest: usize) -> String {
+    let of_parameter = |place: usize| {
+        let numbers: Vec<usize> = beyond.iter().filter(|of| of.0 == place).map(|of| of.1).collect();
+        if numbers.is_empty() {
+            return None;
+        }
+        let named: Vec<&str> =
+            numbers.iter().take(MOST_NAMES).map(|&number| batch.sensors[number].name.as_str()).collect();
+        let further = numbers.len().saturating_sub(MOST_NAMES);
+        let rest = if further > 0 { format!(" and {further} more") } else { String::new() };
+        Some(format!("{} of {}{rest}", batch.parameters[place].name, named.join(", ")))
+    };
+    let found: Vec<String> = (0..batch.parameters.len()).filter_map(of_parameter).collect();
+    let mut words = match found.as_slice() {
+        [] => "No value is beyond its control limits.".to_owned(),
+        found => format!(
+            "Beyond the control limits: {}. That is {} of {} values; chance alone puts about {} there.",
+            found.join("; "),
+            beyond.len(),
+            number_format::count(checked),
+            number_format::significant(BEYOND_BY_CHANCE * checked as f64, 2)
+        ),
+    };
+    if fewest < RELIABLE {
+        words.push_str(&format!(" Control limits of fewer than {RELIABLE} sensors are rough."));
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_limits_are_those_of_the_individuals_chart() {
+        // mean 10, moving ranges 2, 2, 1, 1, 2: mean 1.6
+        let control = Control::of(&[9.0, 11.0, 9.0, 10.0, 11.0, 9.0]).expect("six values");
+        assert!((control.mean - 59.0 / 6.0).abs() < 1e-12);
+        assert!((control.half_width - 2.66 * 1.6).abs() < 1e-12);
+        assert_eq!(Control::of(&[1.0; 4]), None, "too few");
+        assert_eq!(Control::of(&[1.0; 9]), None, "no scatter");
+    }
+}

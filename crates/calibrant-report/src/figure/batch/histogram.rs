@@ -1,0 +1,109 @@
+//! Histogram of each parameter over the sensors, with its limits and the spread of the datasheet.
+
+use super::super::panel::{Mark, Panel, Series};
+use super::super::residuals::{Histogram, bin_count};
+use super::super::unit::DisplayUnit;
+use super::super::{Figure, colour};
+use super::groups::groups;
+use super::reach::{Reach, least_width};
+use super::steps::whole_step;
+use crate::batch::{Batch, BatchParameter};
+use calibrant_core::diagnostic::Usability;
+
+/// A figure for each sensor of an IMU, a panel for each of its parameters.
+pub(crate) fn parameter_histograms(batch: &Batch) -> Vec<Figure> {
+    let of_group = |group: super::groups::Group<'_>| {
+        let panels: Vec<Panel> = group
+            .members
+            .iter()
+            .filter_map(|&place| panel(batch, place, group.short(&batch.parameters[place].name)))
+            .collect();
+        Figure::new(group.name, panels, CAPTION).with_columns(3)
+    };
+    groups(batch).into_iter().map(of_group).collect()
+}
+
+const CAPTION: &str = "The height is the number of sensors. The axis is made for the bulk of them: its label counts those that lie outside, and names \
+                       limits and spreads that are too far away to be drawn. Good: one heap, well inside the limits, about as wide as the datasheet's band. \
+                       Two heaps are two lots, or two stations.";
+
+/// What is drawn beside the bars.
+#[derive(Default)]
+struct Marks {
+    limits: Option<(f64, f64)>,
+    datasheet: Option<(f64, f64)>,
+    /// What is too far away to be drawn.
+    far: Vec<&'static str>,
+}
+
+impl Marks {
+    fn of(parameter: &BatchParameter, bulk: Reach) -> Self {
+        let band = parameter.nominal.zip(parameter.spread).filter(|(_, spread)| *spread > 0.0);
+        let datasheet = band.map(|(nominal, spread)| (nominal - spread, nominal + spread));
+        let mut marks = Self { limits: parameter.accepted, datasheet, far: Vec::new() };
+        for (mark, name) in [(&mut marks.limits, "limits"), (&mut marks.datasheet, "datasheet")] {
+            if mark.is_some_and(|(low, high)| bulk.with(&[low, high]).is_none()) {
+                *mark = None;
+                marks.far.push(name);
+            }
+        }
+        marks
+    }
+}
+
+fn panel(batch: &Batch, place: usize, name: &str) -> Option<Panel> {
+    let parameter = &batch.parameters[place];
+    let found: Vec<(f64, f64, bool)> = batch
+        .sensors
+        .iter()
+        .filter_map(|of| Some((of.estimate(place)?, of.usability() == Some(Usability::Bad))))
+        .map(|((value, sd), bad)| (value, sd, bad))
+        .collect();
+    let values: Vec<f64> = found.iter().map(|of| of.0).collect();
+    let sds: Vec<f64> = found.iter().map(|of| of.1).collect();
+    let bulk = Reach::of(&values, least_width(&values, &sds))?;
+    let marks = Marks::of(parameter, bulk);
+    let drawn = [marks.limits, marks.datasheet].into_iter().flatten().flat_map(|(low, high)| [low, high]);
+    let unit = DisplayUnit::suited_to(parameter.unit, drawn.chain([bulk.low, bulk.high]));
+    let factor = unit.factor;
+
+    let inside = |only_bad: bool| -> Vec<f64> {
+        let inside = found.iter().filter(|(value, _, bad)| bulk.contains(*value) && (*bad || !only_bad));
+        inside.map(|(value, ..)| value * factor).collect()
+    };
+    let bars = |values: &[f64]| {
+        Histogram::within(values, bulk.low * factor, bulk.high * factor, bin_count(found.len()))
+    };
+    let all = bars(&inside(false));
+    let most = all.counts.iter().copied().max().unwrap_or(1).max(1);
+    let top = 1.06 * most as f64;
+
+    let outside = found.len() - inside(false).len();
+    let mut label = unit.label(name);
+    if outside > 0 {
+        label.push_str(&format!(", {outside} outside"));
+    }
+    if !marks.far.is_empty() {
+        label.push_str(&format!(", {} far outside", marks.far.join(" and ")));
+    }
+    let mut panel = Panel::new(name, label, "sensors");
+    panel.y_step = Some(whole_step(most));
+    if let Some((low, high)) = marks.datasheet {
+        let ends = vec![(low * factor, 0.5 * top), (high * factor, 0.5 * top)];
+        let band = Series::new("datasheet, nominal ± 1 sd", colour::GREEN, Mark::Band, ends);
+        panel = panel.with(band.with_spread(vec![0.5 * top; 2]));
+    }
+    panel = panel.with(Series::new("sensors", colour::SKY, Mark::Area, all.outline()));
+    let bad = bars(&inside(true));
+    if bad.counts.iter().any(|count| *count > 0) {
+        panel = panel.with(Series::new("of these bad", colour::VERMILLION, Mark::Area, bad.outline()));
+    }
+    if let Some((low, high)) = marks.limits {
+        let mark = Mark::Line { width: 1.6, dashes: "7 4" };
+        for (label, x) in [("acceptance limits", low), ("", high)] {
+            let ends = vec![(x * factor, 0.0), (x * factor, top)];
+            panel = panel.with(Series::new(label, colour::BLACK, mark, ends));
+        }
+    }
+    Some(panel)
+}

@@ -1,0 +1,12 @@
+//! Figures of a batch of sensors.
+
+mod drift;
+mod groups;
+mod histogram;
+mod pareto;
+mod reach;
+mod steps;
+
+pub(crate) use drift::drifts;
+pub(crate) use histogram::parameter_histograms;
+pub(crate) use pareto::code_bars;

@@ -1,0 +1,43 @@
+//! Tests of the page on a batch of sensors.
+
+use super::batches::drifting_batch;
+use super::{about, assert_sound};
+use crate::{Batch, batch_report};
+
+#[test]
+fn the_page_shows_yield_failures_causes_and_every_parameter() {
+    let batch = drifting_batch(40);
+    let html = batch_report(&batch, &about());
+    assert_sound(&html);
+    assert!(
+        html.contains("✗ Yield 88 %: 35 of 40 sensors ok."),
+        "three have spikes, one is bad, one has no result"
+    );
+    assert!(html.contains("1 bad, 3 doubtful, 1 without a result. 1 breaks a limit of [accept]."));
+    let table = html.find("Sensors that are not ok").expect("a section");
+    let order = ["sensor-14<", "sensor-21/report.html", "sensor-5/report.html"].map(|name| html.find(name));
+    assert!(Some(table) < order[0] && order.is_sorted(), "no result, bad, doubtful: {order:?}");
+    assert!(!html.contains("sensor-14/report.html"), "it has no page");
+    let causes = ["spikes</th>", "parameter-implausible</th>"].map(|code| html.find(code));
+    assert!(causes[0].is_some() && causes.is_sorted(), "the most frequent is first: {causes:?}");
+    for parameter in &batch.parameters {
+        let short = parameter.name.trim_start_matches("accelerometer.");
+        let panels = html.matches(&format!("aria-label=\"{short}\"")).count();
+        assert_eq!(panels, 2, "a histogram and a chart of {short}");
+    }
+    assert!(html.contains("scale.x, 1 outside"), "the bad one does not flatten the others");
+    assert!(html.contains("Beyond the control limits: accelerometer.bias.x of sensor-1, "));
+}
+
+#[test]
+fn a_batch_without_results_has_a_page() {
+    assert_sound(&batch_report(&Batch::default(), &about()));
+    let mut batch = drifting_batch(6);
+    batch.sensors.retain(|sensor| sensor.verdict.is_err());
+    let html = batch_report(&batch, &about());
+    assert_sound(&html);
+    assert!(html.contains("file-empty") && !html.contains("Distribution of the parameters"));
+    let mut one = drifting_batch(6);
+    one.sensors.truncate(1);
+    assert_sound(&batch_report(&one, &about()));
+}
