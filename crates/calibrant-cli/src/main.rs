@@ -15,6 +15,7 @@ mod inspect;
 mod interruption;
 mod noise;
 mod recording_options;
+mod rest_remark;
 mod run;
 mod simulate;
 mod study;

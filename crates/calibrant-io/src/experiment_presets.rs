@@ -5,6 +5,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("report", include_str!("../presets/report.toml")),
     ("report-unknown", include_str!("../presets/report-unknown.toml")),
     ("report-noisy", include_str!("../presets/report-noisy.toml")),
+    ("stage", include_str!("../presets/stage.toml")),
     ("static-poses", include_str!("../presets/static-poses.toml")),
     ("static-poses-counts", include_str!("../presets/static-poses-counts.toml")),
     ("imu", include_str!("../presets/imu.toml")),

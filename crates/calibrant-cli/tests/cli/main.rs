@@ -30,6 +30,7 @@ mod noise;
 mod on_machine;
 mod real_recordings;
 mod repaired_recordings;
+mod rest;
 mod sensor_change;
 mod simulate;
 mod simulate_machine;
