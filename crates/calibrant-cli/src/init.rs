@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Write a commented experiment file, to be edited.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The preset: report, report-unknown, report-noisy, stage, static-poses, static-poses-counts, imu, imu-counts, ferraris, arm, rate-table, gantry, mocap.
+    /// The preset: report, report-unknown, report-noisy, stage, static-poses, faces, static-poses-counts, imu, imu-counts, ferraris, arm, rate-table, gantry, mocap.
     #[arg(default_value = "report")]
     preset: String,
     /// Where to write it (default: stdout).

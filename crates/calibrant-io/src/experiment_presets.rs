@@ -7,6 +7,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("report-noisy", include_str!("../presets/report-noisy.toml")),
     ("stage", include_str!("../presets/stage.toml")),
     ("static-poses", include_str!("../presets/static-poses.toml")),
+    ("faces", include_str!("../presets/faces.toml")),
     ("static-poses-counts", include_str!("../presets/static-poses-counts.toml")),
     ("imu", include_str!("../presets/imu.toml")),
     ("imu-counts", include_str!("../presets/imu-counts.toml")),
