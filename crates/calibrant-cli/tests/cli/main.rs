@@ -18,6 +18,7 @@ mod examples;
 mod ferraris;
 mod headerless_text;
 mod imu;
+mod init;
 mod inspect;
 mod inspect_motion;
 #[cfg(unix)]
