@@ -5,6 +5,7 @@ mod budget;
 mod calibrate;
 mod calibration_file;
 mod compare;
+mod completions;
 mod console;
 mod convert;
 mod design;
@@ -13,6 +14,7 @@ mod exit;
 mod init;
 mod inspect;
 mod interruption;
+mod man;
 mod noise;
 mod recording_options;
 mod rest_remark;
@@ -55,6 +57,8 @@ enum Command {
     Convert(convert::Arguments),
     Apply(apply::Arguments),
     Compare(compare::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -74,6 +78,8 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => arguments,
         Command::Apply(arguments) => arguments,
         Command::Compare(arguments) => arguments,
+        Command::Completions(arguments) => arguments,
+        Command::Man(arguments) => arguments,
     };
     let done = set_threads(cli.threads).and_then(|()| run(command, cli.force));
     let exit = done.unwrap_or_else(|error| {

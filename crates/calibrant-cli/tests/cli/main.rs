@@ -21,6 +21,7 @@ mod imu;
 mod init;
 mod inspect;
 mod inspect_motion;
+mod installation;
 #[cfg(unix)]
 mod interruption;
 mod invalid_samples;

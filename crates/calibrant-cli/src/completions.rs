@@ -1,0 +1,23 @@
+//! `calibrant completions`: the script with which a shell completes commands, options and files.
+
+use crate::{Cli, Exit, console};
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+/// Print the completions for a shell.
+///
+/// For bash: calibrant completions bash > ~/.local/share/bash-completion/completions/calibrant
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The shell.
+    shell: Shell,
+}
+
+impl crate::run::Run for Arguments {
+    fn run(&self) -> calibrant::Result<Exit> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut Cli::command(), "calibrant", &mut script);
+        console::print(&String::from_utf8_lossy(&script));
+        Ok(Exit::DONE)
+    }
+}
