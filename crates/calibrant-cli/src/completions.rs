@@ -17,7 +17,7 @@ impl crate::run::Run for Arguments {
     fn run(&self) -> calibrant::Result<Exit> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "calibrant", &mut script);
-        console::print(&String::from_utf8_lossy(&script));
+        console::print_always(&String::from_utf8_lossy(&script));
         Ok(Exit::DONE)
     }
 }

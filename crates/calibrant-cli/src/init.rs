@@ -35,7 +35,7 @@ impl crate::run::Run for Arguments {
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if arguments.list {
-        console::print(&list());
+        console::print_always(&list());
         return Ok(Exit::DONE);
     }
     let reject = |code, message, help| Err(Error::Experiment(Box::new(InputError::new(code, message, help))));
@@ -48,7 +48,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         );
     };
     match &arguments.output {
-        None => console::print(text),
+        None => console::print_always(text),
         Some(path) => {
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
             let next = NextSteps::of(&Experiment::parse(text, None)?, path);

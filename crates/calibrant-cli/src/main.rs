@@ -23,7 +23,8 @@ mod simulate;
 mod study;
 
 use calibrant::budget::Budget;
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use console::Manner;
 use exit::Exit;
 use run::Run;
 use std::process::ExitCode;
@@ -43,6 +44,12 @@ struct Cli {
     /// Replace files that calibrant did not write, and begin work of more than 8 GiB or an hour. Inputs are never replaced.
     #[arg(long, global = true)]
     force: bool,
+    /// Print errors and warnings only: no table, no notes, no progress. With --json the JSON is printed.
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Colours in messages. `auto`: where stderr is a terminal and NO_COLOR is not set.
+    #[arg(long, global = true, value_name = "WHEN", default_value_t)]
+    color: ColorChoice,
 }
 
 #[derive(Subcommand)]
@@ -62,7 +69,15 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let color =
+        console::color_among(std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into()));
+    let matches = Cli::command().color(color).get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    console::set_manner(Manner {
+        quiet: cli.quiet,
+        no_tables: cli.quiet && !asks_for_json(&matches),
+        in_colour: console::shows_colour(cli.color),
+    });
     if cli.force {
         budget::lift();
     }
@@ -87,6 +102,13 @@ fn main() -> ExitCode {
         Exit::of(&error)
     });
     ExitCode::from(exit.0)
+}
+
+/// Has the command `--json`?
+fn asks_for_json(matches: &ArgMatches) -> bool {
+    let json =
+        matches.subcommand().and_then(|(_, command)| command.try_get_one::<bool>("json").ok().flatten());
+    json.copied().unwrap_or(false)
 }
 
 /// Sets the number of threads.

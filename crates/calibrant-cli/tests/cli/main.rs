@@ -30,6 +30,7 @@ mod machine;
 mod manners;
 mod noise;
 mod on_machine;
+mod quiet_and_color;
 mod real_recordings;
 mod repaired_recordings;
 mod rest;
