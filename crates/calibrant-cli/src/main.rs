@@ -72,12 +72,17 @@ fn main() -> ExitCode {
     let color =
         console::color_among(std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into()));
     let matches = Cli::command().color(color).get_matches();
-    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     console::set_manner(Manner {
         quiet: cli.quiet,
         no_tables: cli.quiet && !asks_for_json(&matches),
         in_colour: console::shows_colour(cli.color),
     });
+    match &mut cli.command {
+        Command::Completions(arguments) => *arguments.program = Cli::command(),
+        Command::Man(arguments) => *arguments.program = Cli::command(),
+        _ => {}
+    }
     if cli.force {
         budget::lift();
     }
