@@ -2,10 +2,12 @@
 
 mod calibration;
 mod machine;
+mod manner;
 mod table;
 mod validation;
 
 pub(crate) use calibration::calibration;
+pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
 pub(crate) use table::table;
 
 use calibrant::Error;
@@ -27,36 +29,62 @@ pub(crate) fn harmless(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
-/// Prints to stdout. A closed reader (`| head`) is not an error.
+/// Prints a result to stdout, unless `--quiet` hides it.
 pub(crate) fn print(text: &str) {
+    if !manner::get().no_tables {
+        print_always(text);
+    }
+}
+
+/// Prints what was asked for to stdout, also with `--quiet`. A closed reader (`| head`) is not an error.
+pub(crate) fn print_always(text: &str) {
     let mut out = std::io::stdout();
     match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            let _ = writeln!(std::io::stderr(), "error: cannot write to standard output: {error}");
+            say(ERROR, &format!("cannot write to standard output: {error}"));
             std::process::exit(2);
         }
         _ => {}
     }
 }
 
-/// Prints a note to stderr.
+/// How a line on stderr begins, with its colour.
+type Label = (&'static str, &'static str);
+/// An error: bold red.
+const ERROR: Label = ("error:", "\u{1b}[1;31m");
+/// A warning: bold yellow.
+const WARNING: Label = ("warning:", "\u{1b}[1;33m");
+
+/// A label, in colour where stderr shows it.
+fn shown((label, colour): Label) -> String {
+    if manner::get().in_colour { format!("{colour}{label}\u{1b}[0m") } else { label.to_owned() }
+}
+
+/// Writes a labelled text to stderr. Nobody can be told where that fails.
+fn say(label: Label, text: &str) {
+    let _ = writeln!(std::io::stderr(), "{} {text}", shown(label));
+}
+
+/// Prints a note to stderr, unless the console is quiet.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(std::io::stderr(), "note: {}", harmless(text));
+    if !manner::get().quiet {
+        let _ = writeln!(std::io::stderr(), "note: {}", harmless(text));
+    }
 }
 
 /// Prints a warning to stderr.
 pub(crate) fn warn(text: &str) {
-    let _ = writeln!(std::io::stderr(), "warning: {}", harmless(text));
+    say(WARNING, &harmless(text));
 }
 
 /// Prints a diagnostic that forbids the use of a result to stderr.
 pub(crate) fn fault(text: &str) {
-    let _ = writeln!(std::io::stderr(), "error: {}", harmless(text));
+    say(ERROR, &harmless(text));
 }
 
 /// Prints a denied diagnostic to stderr.
 pub(crate) fn denied(code: &str, text: &str) {
-    let _ = writeln!(std::io::stderr(), "error: denied: {code}: {}", harmless(text));
+    say(ERROR, &format!("denied: {code}: {}", harmless(text)));
 }
 
 /// Prints a finding about a recording, as a note or a warning.
@@ -89,7 +117,7 @@ pub(crate) fn warn_beyond(imu: &CalibratedImu, range_c: [f64; 2]) {
 
 /// Prints an error to stderr, with the place in the file underlined where it is known.
 pub(crate) fn error(error: &Error) {
-    let _ = match error.input_error() {
+    match error.input_error() {
         Some(input_error) if input_error.excerpt.is_some() => {
             let (text, range) = input_error.excerpt.clone().unwrap_or_default();
             let mut title = input_error.clone();
@@ -110,25 +138,25 @@ pub(crate) fn error(error: &Error) {
                 .map(|sign| if sign.is_ascii_control() && !"\n\r\t".contains(sign) { '?' } else { sign })
                 .collect();
             let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, text));
-            writeln!(std::io::stderr(), "error: {report:?}")
+            say(ERROR, &format!("{report:?}"));
         }
-        _ => writeln!(std::io::stderr(), "error: {} [{}]", harmless(&error.to_string()), error.code().name()),
-    };
+        _ => say(ERROR, &format!("{} [{}]", harmless(&error.to_string()), error.code().name())),
+    }
 }
 
 /// Prints an error about this recording to stderr. An error without a file's name gets its name.
 pub(crate) fn error_in(found: &Error, recording: &Path) {
     if found.is_not_identifiable() {
         let text = harmless(&format!("{}: {found}", recording.display()));
-        let _ = writeln!(std::io::stderr(), "error: {text} [{}]", found.code().name());
+        say(ERROR, &format!("{text} [{}]", found.code().name()));
     } else {
         error(found);
     }
 }
 
-/// A count on stderr, of work whose length is not known. It is invisible if stderr is not a terminal.
+/// A count on stderr, of work whose length is not known. It is invisible if stderr is not a terminal, or the console quiet.
 pub(crate) fn spinner(what: &str) -> ProgressBar {
-    let bar = ProgressBar::new_spinner();
+    let bar = if manner::get().quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
     if let Ok(style) = ProgressStyle::with_template(&format!("{{spinner}} {{human_pos}} {what} {{per_sec}}"))
     {
         bar.set_style(style);
@@ -136,9 +164,9 @@ pub(crate) fn spinner(what: &str) -> ProgressBar {
     bar
 }
 
-/// A progress bar on stderr. It is invisible if stderr is not a terminal.
+/// A progress bar on stderr. It is invisible if stderr is not a terminal, or the console quiet.
 pub(crate) fn progress(length: u64, what: &str) -> ProgressBar {
-    let bar = ProgressBar::new(length);
+    let bar = if manner::get().quiet { ProgressBar::hidden() } else { ProgressBar::new(length) };
     let template =
         format!("{{spinner}} {what} [{{bar:30}}] {{human_pos}}/{{human_len}} {{per_sec}} {{eta}} {{msg}}");
     if let Ok(style) = ProgressStyle::with_template(&template) {

@@ -16,7 +16,7 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::Exit;
+use crate::{Exit, rest_remark};
 use calibrant::design::DesignProblem;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{Plan, ResultPlaces};
@@ -63,6 +63,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
     }
     let problem = job.problem(&arguments.experiment)?;
+    rest_remark::remark(problem.limits);
     check_dense(arguments, &problem)?;
     match (&arguments.evaluate, &arguments.sweep) {
         (Some(path), _) => evaluate::run(arguments, &job, &problem, path),

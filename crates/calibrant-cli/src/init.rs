@@ -1,20 +1,26 @@
 //! `calibrant init`: writes a commented experiment file.
 
+mod next_steps;
+
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, PRESETS, Plan, ResultPlaces, preset, write_atomically};
+use calibrant::io::{Experiment, PRESETS, ResultPlaces, preset, write_atomically};
+use next_steps::NextSteps;
 use std::path::PathBuf;
 
 /// Write a commented experiment file, to be edited.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The preset: report, report-unknown, report-noisy, static-poses, static-poses-counts, imu, imu-counts, ferraris, arm, rate-table, gantry, mocap.
+    /// The preset. --list shows all of them.
     #[arg(default_value = "report")]
     preset: String,
     /// Where to write it (default: stdout).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// List the presets, each with what it is for.
+    #[arg(long, conflicts_with_all = ["preset", "output"])]
+    list: bool,
 }
 
 impl crate::run::Run for Arguments {
@@ -28,9 +34,13 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    if arguments.list {
+        console::print_always(&list());
+        return Ok(Exit::DONE);
+    }
     let reject = |code, message, help| Err(Error::Experiment(Box::new(InputError::new(code, message, help))));
     let Some(text) = preset(&arguments.preset) else {
-        let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
+        let names: Vec<_> = PRESETS.iter().map(|preset| preset.name).collect();
         return reject(
             Refusal::KeyUnknown,
             format!("there is no preset `{}`", arguments.preset),
@@ -38,21 +48,18 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         );
     };
     match &arguments.output {
-        None => console::print(text),
+        None => console::print_always(text),
         Some(path) => {
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
-            let file = path.display();
-            let experiment = Experiment::parse(text, None)?;
-            let then = match experiment.plan {
-                Plan::Machine(_) => format!("calibrant calibrate {file} RECORDING --motion LOG -o DIR"),
-                // counts of unknown gain can be calibrated, but not simulated
-                _ if experiment.sensor.gain.is_none() => format!(
-                    "calibrant calibrate {file} RECORDING -o DIR (calibrant simulate {file} needs the gains)"
-                ),
-                _ => format!("calibrant simulate {file} -o DIR"),
-            };
-            console::note(&format!("wrote {file}. Edit it, then run: {then}"));
+            let next = NextSteps::of(&Experiment::parse(text, None)?, path);
+            console::note(&format!("wrote {}. {}", path.display(), next.note()));
         }
     }
     Ok(Exit::DONE)
+}
+
+/// One line for each preset: its name, and what it is for.
+fn list() -> String {
+    let width = PRESETS.iter().map(|preset| preset.name.len()).max().unwrap_or(0);
+    PRESETS.iter().map(|preset| format!("{:width$}  {}\n", preset.name, preset.summary)).collect()
 }

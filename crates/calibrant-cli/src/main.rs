@@ -5,6 +5,7 @@ mod budget;
 mod calibrate;
 mod calibration_file;
 mod compare;
+mod completions;
 mod console;
 mod convert;
 mod design;
@@ -13,14 +14,17 @@ mod exit;
 mod init;
 mod inspect;
 mod interruption;
+mod man;
 mod noise;
 mod recording_options;
+mod rest_remark;
 mod run;
 mod simulate;
 mod study;
 
 use calibrant::budget::Budget;
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use console::Manner;
 use exit::Exit;
 use run::Run;
 use std::process::ExitCode;
@@ -40,6 +44,12 @@ struct Cli {
     /// Replace files that calibrant did not write, and begin work of more than 8 GiB or an hour. Inputs are never replaced.
     #[arg(long, global = true)]
     force: bool,
+    /// Print errors and warnings only: no table, no notes, no progress. With --json the JSON is printed.
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Colours in messages. `auto`: where stderr is a terminal and NO_COLOR is not set.
+    #[arg(long, global = true, value_name = "WHEN", default_value_t)]
+    color: ColorChoice,
 }
 
 #[derive(Subcommand)]
@@ -54,10 +64,25 @@ enum Command {
     Convert(convert::Arguments),
     Apply(apply::Arguments),
     Compare(compare::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let color =
+        console::color_among(std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into()));
+    let matches = Cli::command().color(color).get_matches();
+    let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    console::set_manner(Manner {
+        quiet: cli.quiet,
+        no_tables: cli.quiet && !asks_for_json(&matches),
+        in_colour: console::shows_colour(cli.color),
+    });
+    match &mut cli.command {
+        Command::Completions(arguments) => *arguments.program = Cli::command(),
+        Command::Man(arguments) => *arguments.program = Cli::command(),
+        _ => {}
+    }
     if cli.force {
         budget::lift();
     }
@@ -73,6 +98,8 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => arguments,
         Command::Apply(arguments) => arguments,
         Command::Compare(arguments) => arguments,
+        Command::Completions(arguments) => arguments,
+        Command::Man(arguments) => arguments,
     };
     let done = set_threads(cli.threads).and_then(|()| run(command, cli.force));
     let exit = done.unwrap_or_else(|error| {
@@ -80,6 +107,13 @@ fn main() -> ExitCode {
         Exit::of(&error)
     });
     ExitCode::from(exit.0)
+}
+
+/// Has the command `--json`?
+fn asks_for_json(matches: &ArgMatches) -> bool {
+    let json =
+        matches.subcommand().and_then(|(_, command)| command.try_get_one::<bool>("json").ok().flatten());
+    json.copied().unwrap_or(false)
 }
 
 /// Sets the number of threads.

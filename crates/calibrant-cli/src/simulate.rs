@@ -10,7 +10,7 @@ mod random;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console};
+use crate::{Exit, console, rest_remark};
 use calibrant::Error;
 use calibrant::design::initial_motion;
 use calibrant::error::{InputError, Refusal};
@@ -152,6 +152,9 @@ fn simulate_motion(
     let sensor = &experiment.sensor;
     let limits = experiment.limits.within_range(plan.range_left(sensor));
     let given = arguments.motion.as_deref();
+    if given.is_none() {
+        rest_remark::remark(&limits);
+    }
     let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
     length::check_motion(&motion, plan.rate_hz)?;
     let mut rng = random.sensor();

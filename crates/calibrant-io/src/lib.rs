@@ -89,7 +89,7 @@ pub use experiment::{
     MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, PoseOptions, Prior, ScaleBy,
     StudyOptions, UnknownVariant, UrdfSource, nearest, read_acceptance, read_columns,
 };
-pub use experiment_presets::{PRESETS, preset};
+pub use experiment_presets::{PRESETS, Preset, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use finished::Finished;
 pub use input::{Input, file_name};

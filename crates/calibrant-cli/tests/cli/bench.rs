@@ -86,8 +86,13 @@ impl Bench {
 
     /// Runs the program; the arguments are separated by blanks.
     pub(crate) fn run(&self, arguments: &str) -> Outcome {
+        self.run_with(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs the program with arguments that may contain blanks.
+    pub(crate) fn run_with(&self, arguments: &[&str]) -> Outcome {
         let output = Command::new(env!("CARGO_BIN_EXE_calibrant"))
-            .args(arguments.split_whitespace())
+            .args(arguments)
             .current_dir(self.directory.path())
             .env_remove("RAYON_NUM_THREADS")
             .env_remove("FORCE_COLOR")
@@ -95,7 +100,7 @@ impl Bench {
             .expect("the program runs");
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
         let outcome = Outcome {
-            command: format!("calibrant {arguments}"),
+            command: format!("calibrant {}", arguments.join(" ")),
             status: output.status.code().expect("an exit status, not a signal"),
             stdout: text(output.stdout),
             stderr: text(output.stderr),

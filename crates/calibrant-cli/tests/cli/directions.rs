@@ -37,3 +37,15 @@ fn directions_fix_the_frame_and_wrong_ones_are_refused() {
     bench.refuses(&calibrate("nonsense"), 2, &["hold 1", "correct the directions"]);
     bench.refuses(&format!("{} --folds 3", calibrate("faces")), 2, &["folds say nothing"]);
 }
+
+#[test]
+fn six_known_faces_determine_twelve_parameters() {
+    let bench = Bench::new();
+    bench.preset("faces", "faces.toml", &[]);
+    bench.run("simulate faces.toml -o made").done();
+    let done = bench.run("calibrate faces.toml made/recording.csv --no-report -o result").done();
+    assert!(done.stdout.contains("6 holds, all used") && !done.stderr.contains("warning"), "{done:?}");
+    let found = bench.json("result/calibration.json");
+    assert_eq!(names(&found["parameters"]).len(), 12);
+    assert_close_to_truth(&found, &bench.json("made/truth.json"));
+}

@@ -132,6 +132,14 @@ fn guide_to_the_design_of_poses() {
     follow_text(&bench, "design-poses.md", &guide, 7);
 }
 
+/// The README's design, from `init` to a calibration.
+#[test]
+fn design_in_the_readme() {
+    let readme = include_str!("../../../../README.md");
+    let part = readme.split("\n## ").find(|part| part.starts_with("Design a motion\n")).expect("the part");
+    follow_text(&Bench::new(), "README.md", part, 4);
+}
+
 #[test]
 fn every_example_is_followed() {
     let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples"].iter().collect();

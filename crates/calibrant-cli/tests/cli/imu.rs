@@ -32,9 +32,7 @@ fn counts_are_simulated_with_gains_alone_and_turns_do_not_overlap() {
     let bench = Bench::new();
     bench.preset("imu-counts", "counts.toml", &[]);
     let wrote = bench.run("init imu-counts -o written.toml").done();
-    wrote.says(
-        "calibrant calibrate written.toml RECORDING -o DIR (calibrant simulate written.toml needs the gains)",
-    );
+    wrote.says("with your recording.csv: calibrant calibrate written.toml recording.csv -o result");
     bench.refuses(
         "simulate counts.toml -o sim",
         2,

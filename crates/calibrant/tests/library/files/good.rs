@@ -1,7 +1,8 @@
 //! Tests of good experiment files: their values arrive, and missing keys have their defaults.
 
 use calibrant::io::{
-    CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Prior, ScaleBy, preset,
+    CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Preset, Prior, ScaleBy,
+    preset,
 };
 use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
@@ -28,7 +29,7 @@ fn holds(experiment: &Experiment) -> &HoldsPlan {
 
 #[test]
 fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
-    for (name, text) in PRESETS {
+    for Preset { name, text, .. } in PRESETS {
         parse(text);
         assert_eq!(preset(name), Some(*text));
         for (at, line) in text.lines().enumerate() {

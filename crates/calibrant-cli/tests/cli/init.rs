@@ -1,0 +1,83 @@
+//! Tests of `init`: the list of presets, and the commands that it prints.
+
+use crate::bench::Bench;
+
+/// The names of the presets, from the list.
+fn presets() -> Vec<String> {
+    let list = Bench::new().run("init --list").done().stdout;
+    list.lines().map(|line| line.split_whitespace().next().expect("a name").to_owned()).collect()
+}
+
+/// The sensor of imu-counts, as `simulate` needs it.
+const COUNTS: &str =
+    "gain_counts_per_mps2 = 400.0\noffset_counts = 32768.0\nnoise_counts = 4.0\nunit = \"counts\"";
+
+/// Writes the files that the printed commands need from a user.
+fn bring_own_files(bench: &Bench, preset: &str) {
+    let switch_on = |key: &'static str| (key, key.trim_start_matches("# "));
+    let gains = match preset {
+        "imu-counts" => vec![
+            ("unit = \"counts\"", COUNTS),
+            switch_on("# gain_counts_per_radps"),
+            switch_on("# noise_counts"),
+        ],
+        "static-poses-counts" => ["# gain_counts", "# offset_counts", "# noise_counts"].map(switch_on).into(),
+        "ferraris" => return session(bench),
+        _ => return,
+    };
+    bench.preset(preset, "gains.toml", &gains);
+    bench.run("simulate gains.toml -o own").done();
+    std::fs::copy(bench.path("own/recording.csv"), bench.path("recording.csv")).expect("copied");
+}
+
+/// Writes a Ferraris session as imucal exports it: samples without times, and turns that are clockwise.
+fn session(bench: &Bench) {
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("table.toml", table.replace("angle_deg = 360.0", "angle_deg = -360.0"));
+    bench.run("simulate table.toml -o own").done();
+    let recording = bench.read("own/recording.csv");
+    let mut text = "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n".to_owned();
+    for (number, line) in recording.lines().skip(1).enumerate() {
+        let row: Vec<f64> = line.split(',').map(|field| field.parse().expect("a number")).collect();
+        let [ax, ay, az] = [row[1], row[2], row[3]];
+        let [gx, gy, gz] = [row[4], row[5], row[6]].map(f64::to_degrees);
+        text.push_str(&format!("{number},{gx},{gy},{gz},{ax},{ay},{az}\n"));
+    }
+    bench.write("session.csv", text);
+    bench.write("sections.json", include_str!("../../../../examples/06_whole_imu/sections.json"));
+}
+
+#[test]
+fn the_list_has_one_line_for_each_preset() {
+    let list = Bench::new().run("init --list").done();
+    assert!(
+        list.stdout.contains("stage                accelerometer on a linear stage, from rest to rest\n")
+    );
+    assert!(list.stdout.lines().all(|line| line.chars().count() <= 100), "{}", list.stdout);
+    assert!(list.stderr.is_empty());
+    Bench::new().refuses("init stage --list", 2, &["cannot be used with"]);
+}
+
+#[test]
+fn the_printed_commands_work_for_every_preset() {
+    for preset in presets() {
+        let bench = Bench::new();
+        bring_own_files(&bench, &preset);
+        let note = bench.run(&format!("init {preset} -o {preset}.toml")).done().stderr;
+        let commands: Vec<&str> = note.lines().filter_map(|line| line.strip_prefix("  calibrant ")).collect();
+        assert!(!commands.is_empty(), "{note}");
+        for command in commands {
+            let outcome = bench.run(command);
+            assert_eq!(outcome.status, 0, "{preset}: {outcome:?}");
+        }
+        assert!(bench.path("result/calibration.json").exists(), "{preset}: {note}");
+    }
+}
+
+#[test]
+fn a_name_with_blanks_is_quoted() {
+    let bench = Bench::new();
+    bench.write("my stage/x", "");
+    let outcome = bench.run_with(&["init", "stage", "-o", "my stage/it's.toml"]).done();
+    outcome.says(r"calibrant design 'my stage/it'\''s.toml' -o best");
+}
