@@ -193,6 +193,10 @@ impl<const D: usize, const P: usize> Part<D, P> {
 /// The forms `⟨Ω_m, dF⟩` of the change of the motion, combined so that the sum of their squares is the same and none is
 /// superfluous.
 fn independent<const P: usize>(forms: &[SMatrix<f64, P, P>], changes: &[SMatrix<f64, P, P>]) -> DMatrix<f64> {
+    if forms.is_empty() {
+        // the criterion has no curvature here
+        return DMatrix::zeros(0, changes.len());
+    }
     // symmetric matrices by their upper triangles
     let places: Vec<(usize, usize)> = (0..P).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
     let forms = DMatrix::from_fn(forms.len(), places.len(), |m, at| {
