@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// Where X and Z begin, as multiples of the identity.
-const BEGIN: (f64, f64) = (0.3, 0.01);
+const BEGIN: (f64, f64) = (1.0, 0.01);
 /// Share of the way to the boundary that a step takes.
 const NEARLY: f64 = 0.9;
 /// Iterations in a row that do not improve the bound, at which the method ends.
