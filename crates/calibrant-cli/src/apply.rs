@@ -1,6 +1,6 @@
 //! `calibrant apply`: corrects a recording, and writes the standard uncertainty of the correction.
 
-use crate::calibration_file::{Reading, in_words};
+use crate::calibration_file::{Content, in_words};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
     #[command(flatten)]
-    reading: Reading,
+    content: Content,
     /// Temperature of the recording, °C, for a calibration with temperature terms. It replaces that of the recording.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
@@ -62,7 +62,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     for recording in std::iter::once(&arguments.recording).chain(&arguments.gyroscope) {
         check_not_corrected(recording)?;
     }
-    let imu = arguments.reading.read(&arguments.calibration)?.imu;
+    let imu = arguments.content.read(&arguments.calibration, arguments.file.raw_units())?.imu;
     let correction = ImuCorrection::of(&imu)?;
     let mut recording = read_for(&imu, arguments)?;
     match arguments.temperature {

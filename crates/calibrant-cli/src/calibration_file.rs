@@ -2,7 +2,9 @@
 
 use crate::console;
 use calibrant::Result;
-use calibrant::io::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, read_calibrated_imu};
+use calibrant::io::{
+    CalibratedImuFile, ConventionOptions, ImuFormat, ImuUnit, RawUnits, read_calibrated_imu,
+};
 use calibrant::sensor::{CalibratedImu, SensorKind};
 use std::path::Path;
 
@@ -37,25 +39,31 @@ impl From<Format> for ImuFormat {
 /// What the file of a calibration may not state itself.
 #[derive(clap::Args)]
 pub(crate) struct Reading {
+    #[command(flatten)]
+    content: Content,
+    /// Unit of the readings, if the file does not state it (imu_tk, some files of imucal): si, or counts.
+    #[arg(long, value_parser = raw_units)]
+    unit: Option<RawUnits>,
+}
+
+/// The same without the unit of the readings.
+#[derive(clap::Args)]
+pub(crate) struct Content {
     /// Format of the calibration (default: by its content).
     #[arg(long, value_enum)]
-    pub(crate) from: Option<Format>,
-    /// Unit of the readings, if the file does not state it (imu_tk, some files of imucal).
-    #[arg(long, value_enum)]
-    pub(crate) unit: Option<Unit>,
+    from: Option<Format>,
     /// Sensor of a file of one sensor, if the file does not state it (imu_tk).
     #[arg(long, value_enum)]
     sensor: Option<Sensor>,
 }
 
-/// Unit of readings.
-#[derive(Clone, Copy, clap::ValueEnum)]
-pub(crate) enum Unit {
-    /// m/s² and rad/s.
-    #[value(alias = "mps2", alias = "radps")]
-    Si,
-    /// Raw counts.
-    Counts,
+/// The unit of a calibration's readings: `si`, m/s² or rad/s in one of their usual spellings, or `counts`.
+fn raw_units(text: &str) -> std::result::Result<RawUnits, String> {
+    match (text, ImuUnit::parse(text)) {
+        ("si", _) | (_, Some(ImuUnit::MetrePerSecondSquared | ImuUnit::RadianPerSecond)) => Ok(RawUnits::Si),
+        (_, Some(ImuUnit::Counts)) => Ok(RawUnits::Counts),
+        _ => Err("a calibration is of readings in m/s² and rad/s (si), or in counts".into()),
+    }
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -67,20 +75,29 @@ enum Sensor {
 impl Reading {
     /// The sensor that the options name.
     pub(crate) fn sensor_kind(&self) -> Option<SensorKind> {
+        self.content.sensor_kind()
+    }
+
+    /// Reads a calibration, and prints the findings of its reader.
+    pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
+        self.content.read(path, self.unit)
+    }
+}
+
+impl Content {
+    /// The sensor that the options name.
+    fn sensor_kind(&self) -> Option<SensorKind> {
         self.sensor.map(|sensor| match sensor {
             Sensor::Accelerometer => SensorKind::Accelerometer,
             Sensor::Gyroscope => SensorKind::Gyroscope,
         })
     }
 
-    /// Reads a calibration, and prints the findings of its reader.
-    pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
+    /// Reads a calibration of readings in this unit, if its file does not state another, and prints the findings of its reader.
+    pub(crate) fn read(&self, path: &Path, units: Option<RawUnits>) -> Result<CalibratedImuFile> {
         let options = ConventionOptions {
             format: self.from.map(ImuFormat::from),
-            units: self.unit.map(|unit| match unit {
-                Unit::Si => RawUnits::Si,
-                Unit::Counts => RawUnits::Counts,
-            }),
+            units,
             sensor_kind: self.sensor_kind(),
         };
         let file = read_calibrated_imu(path, &options)?;

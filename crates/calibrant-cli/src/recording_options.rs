@@ -1,7 +1,9 @@
 //! The options of all commands that read a recording. They state what its file does not.
 
 use crate::budget::budget;
-use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit, read_columns};
+use calibrant::Error;
+use calibrant::error::{InputError, Refusal};
+use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, RawUnits, SampleTimes, TimeUnit, read_columns};
 use calibrant::sensor::{SensorKind, WORKING_C};
 use std::path::Path;
 
@@ -10,6 +12,9 @@ pub(crate) struct RecordingOptions {
     /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
+    /// Unit of the readings, if the file does not state it: m/s2, g or mg of the accelerometer, rad/s, deg/s or mdps of the gyroscope, counts of both.
+    #[arg(long, value_parser = any_unit)]
+    unit: Option<ImuUnit>,
     /// Unit of the accelerometer, if the file does not state it: m/s2, g, mg or counts.
     #[arg(long, value_name = "UNIT", value_parser = accelerometer_unit)]
     accelerometer_unit: Option<ImuUnit>,
@@ -31,8 +36,31 @@ pub(crate) struct RecordingOptions {
 }
 
 impl RecordingOptions {
-    /// The options, as the readers take them.
-    pub(crate) fn options(&self) -> ImuReadOptions {
+    /// The options, as the readers take them. --unit is that of each sensor that can have it.
+    pub(crate) fn options(&self) -> calibrant::Result<ImuReadOptions> {
+        SensorKind::ALL.into_iter().try_fold(self.plain(), |options, sensor_kind| match self.unit {
+            Some(unit) if unit.suits(sensor_kind) => with_unit(options, sensor_kind, unit),
+            _ => Ok(options),
+        })
+    }
+
+    /// What --unit says of a calibration of such readings.
+    pub(crate) fn raw_units(&self) -> Option<RawUnits> {
+        self.unit.map(|unit| if unit == ImuUnit::Counts { RawUnits::Counts } else { RawUnits::Si })
+    }
+
+    /// The same, for the readings of this sensor: --unit must be one of its units, and says nothing of the other sensor.
+    pub(crate) fn options_of(&self, sensor_kind: SensorKind) -> calibrant::Result<ImuReadOptions> {
+        let Some(unit) = self.unit else { return Ok(self.plain()) };
+        if !unit.suits(sensor_kind) {
+            let message = format!("--unit {} is no unit of the {sensor_kind}", unit.symbol());
+            return Err(usage(&message, &format!("its readings are in {}", ImuUnit::choices(sensor_kind))));
+        }
+        with_unit(self.plain(), sensor_kind, unit)
+    }
+
+    /// The options but --unit.
+    fn plain(&self) -> ImuReadOptions {
         ImuReadOptions {
             format: self.format,
             time_unit: self.time_unit,
@@ -48,10 +76,37 @@ impl RecordingOptions {
 
     /// The same options, completed from `[columns]` of an experiment file.
     pub(crate) fn with_columns(&self, experiment: Option<&Path>) -> calibrant::Result<ImuReadOptions> {
-        let given = self.options();
-        let Some(experiment) = experiment else { return Ok(given) };
-        Ok(given.or(read_columns(experiment)?))
+        completed(self.options()?, experiment)
     }
+}
+
+/// Options, completed from `[columns]` of an experiment file.
+pub(crate) fn completed(
+    given: ImuReadOptions,
+    experiment: Option<&Path>,
+) -> calibrant::Result<ImuReadOptions> {
+    let Some(experiment) = experiment else { return Ok(given) };
+    Ok(given.or(read_columns(experiment)?))
+}
+
+/// The options with --unit, which must not contradict the option of the sensor.
+fn with_unit(
+    options: ImuReadOptions,
+    sensor_kind: SensorKind,
+    unit: ImuUnit,
+) -> calibrant::Result<ImuReadOptions> {
+    match options.unit(sensor_kind).filter(|other| *other != unit) {
+        Some(other) => {
+            let (unit, other) = (unit.symbol(), other.symbol());
+            let message = format!("--unit is {unit}, but the {sensor_kind}'s unit is given as {other}");
+            Err(usage(&message, "omit one of them"))
+        }
+        None => Ok(options.with_unit(sensor_kind, Some(unit))),
+    }
+}
+
+fn usage(message: &str, help: &str) -> Error {
+    Error::experiment(InputError::new(Refusal::UnitContradicted, message, help))
 }
 
 fn format(text: &str) -> Result<FileFormat, String> {
@@ -73,7 +128,7 @@ fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
 }
 
 /// A unit of readings, of either sensor.
-pub(crate) fn any_unit(text: &str) -> Result<ImuUnit, String> {
+fn any_unit(text: &str) -> Result<ImuUnit, String> {
     ImuUnit::parse(text).ok_or_else(|| {
         let [accelerometer, gyroscope] = SensorKind::ALL.map(ImuUnit::choices);
         format!("the accelerometer is in {accelerometer}, the gyroscope in {gyroscope}")

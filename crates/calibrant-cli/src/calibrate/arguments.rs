@@ -46,9 +46,6 @@ pub(crate) struct Arguments {
     pub(super) folds: Option<usize>,
     #[command(flatten)]
     pub(super) reading: RecordingOptions,
-    /// Unit of the readings, if the file does not state it.
-    #[arg(long, value_enum)]
-    pub(super) unit: Option<Unit>,
     /// The limits that a result must keep, in place of [accept] of the experiment file. It is a file with this section.
     #[arg(long, value_name = "FILE")]
     pub(super) accept: Option<PathBuf>,
@@ -81,12 +78,4 @@ impl Arguments {
     pub(super) fn main_file(&self) -> &'static str {
         if self.no_report { "calibration.json" } else { "report.html" }
     }
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-pub(super) enum Unit {
-    /// Metres per second squared.
-    Mps2,
-    /// Raw counts.
-    Counts,
 }

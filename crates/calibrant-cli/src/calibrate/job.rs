@@ -1,12 +1,11 @@
 //! What all recordings of a call share.
 
-use super::arguments::{Arguments, Unit};
+use super::arguments::Arguments;
 use super::sources::{check_motion, sources};
 use crate::console;
 use calibrant::acceptance::AcceptanceLimit;
 use calibrant::io::{Experiment, Plan, ResumeKey, UrdfSource, read_acceptance};
 use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
-use calibrant::sensor::ReadingUnit;
 use std::path::{Path, PathBuf};
 
 /// The pipeline and its recordings.
@@ -74,11 +73,7 @@ fn options(arguments: &Arguments) -> calibrant::Result<PipelineOptions> {
     Ok(PipelineOptions {
         experiment_file: arguments.experiment.clone(),
         motion: arguments.motion.clone(),
-        reading: arguments.reading.options(),
-        unit: arguments.unit.map(|unit| match unit {
-            Unit::Mps2 => ReadingUnit::MetrePerSecondSquared,
-            Unit::Counts => ReadingUnit::Counts,
-        }),
+        reading: arguments.reading.options()?,
         validate: arguments.validate.as_ref().map(other),
         validate_motion: arguments.validate_motion.clone(),
         folds: arguments.folds,

@@ -18,9 +18,6 @@ pub(super) fn warn(arguments: &Arguments, experiment: &Experiment) {
         console::warn("--sections is not used: a [machine] experiment has no faces and turns");
     }
     if experiment.imu.is_some() {
-        if arguments.unit.is_some() {
-            console::warn("--unit is not used for an IMU: give --accelerometer-unit and --gyroscope-unit");
-        }
         if motion && !on_machine {
             console::warn(
                 "--motion is not used: an IMU is calibrated from holds and the rotations between them",

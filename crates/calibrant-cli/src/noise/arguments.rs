@@ -1,6 +1,5 @@
 //! The arguments of `calibrant noise`.
 
-use calibrant::io::ImuUnit;
 use calibrant::sensor::SensorKind;
 use nalgebra::Vector3;
 use std::path::PathBuf;
@@ -19,9 +18,6 @@ pub(crate) struct Arguments {
     /// Examine only this sensor. It is also the sensor of columns t x y z (default: accelerometer).
     #[arg(long, value_enum)]
     pub(super) sensor: Option<SensorChoice>,
-    /// Unit of the accelerometer, or of --sensor, if the file does not state it: m/s2, g, mg, rad/s, deg/s, mdps or counts.
-    #[arg(long, value_parser = crate::recording_options::any_unit)]
-    pub(super) unit: Option<ImuUnit>,
     #[command(flatten)]
     pub(super) reading: crate::recording_options::RecordingOptions,
     /// Experiment file whose [columns] name the columns.

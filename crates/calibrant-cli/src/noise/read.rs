@@ -1,6 +1,7 @@
 //! Reads the recording for `calibrant noise`, in any format, with the user's options.
 
 use super::arguments::{Arguments, Gains};
+use crate::recording_options::completed;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_sensor};
@@ -52,26 +53,12 @@ pub(super) fn read(
 /// The options, with --unit as that of the sensor. The unit of a sensor that --sensor excludes is not needed:
 /// it only shows when the IMU is stationary.
 fn options(arguments: &Arguments, sensor_kind: SensorKind) -> calibrant::Result<ImuReadOptions> {
-    let mut options = arguments.reading.with_columns(arguments.columns.as_deref())?;
+    let given = arguments.reading.options_of(sensor_kind)?;
+    let mut options = completed(given, arguments.columns.as_deref())?;
     if arguments.sensor.is_some() {
         options.counts_unless_stated = SensorKind::ALL.map(|other| other != sensor_kind);
     }
-    let Some(unit) = arguments.unit else { return Ok(options) };
-    if !unit.suits(sensor_kind) {
-        let message = format!("--unit {} is no unit of the {sensor_kind}", unit.symbol());
-        return Err(usage(&message, &format!("its readings are in {}", ImuUnit::choices(sensor_kind))));
-    }
-    match options.unit(sensor_kind).filter(|other| *other != unit) {
-        Some(other) => Err(usage(
-            &format!(
-                "--unit is {}, but the {sensor_kind}'s unit is given as {}",
-                unit.symbol(),
-                other.symbol()
-            ),
-            "omit one of them",
-        )),
-        None => Ok(options.with_unit(sensor_kind, Some(unit))),
-    }
+    Ok(options)
 }
 
 fn usage(message: &str, help: &str) -> Error {

@@ -278,6 +278,24 @@ fn the_unit_is_the_option_where_the_header_does_not_say() {
     bench.run("calibrate experiment.toml plain.csv -o result").done();
     bench.run("calibrate experiment.toml plain.csv --unit mps2 -o named").done();
     assert_eq!(bench.read("result/calibration.json"), bench.read("named/calibration.json"));
+    let in_g = |line: &str| match line.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>() {
+        Ok(values) => {
+            let [t, a @ ..] = values.as_slice() else { panic!("{line}") };
+            let a: Vec<_> = a.iter().map(|a| (a / 9.806_65).to_string()).collect();
+            format!("{t},{}\n", a.join(","))
+        }
+        Err(_) => format!("{line}\n"),
+    };
+    bench.write("g.csv", bench.read("plain.csv").lines().map(in_g).collect::<String>());
+    bench.run("calibrate experiment.toml g.csv --unit g -o g").done();
+    let bias = |of: &str| bench.json(&format!("{of}/calibration.json"))["parameters"][0]["value"].as_f64();
+    let [of_g, of_mps2] = [bias("g"), bias("result")].map(|bias| bias.expect("a number"));
+    assert!((of_g - of_mps2).abs() < 1e-9, "{of_g} {of_mps2}");
+    bench.refuses(
+        "calibrate experiment.toml plain.csv --unit g --accelerometer-unit mg -o refused",
+        2,
+        &["--unit is g, but the accelerometer's unit is given as mg"],
+    );
     bench.refuses(
         "calibrate experiment.toml plain.csv --unit counts -o refused",
         3,

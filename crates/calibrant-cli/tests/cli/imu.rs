@@ -406,3 +406,24 @@ fn a_unit_that_the_recording_contradicts_is_named_by_its_key() {
     );
     bench.refuses("calibrate gyroscope.toml none.csv -o out", 3, &["none.csv"]);
 }
+
+#[test]
+fn without_a_gyroscope_the_accelerometer_is_calibrated_and_the_result_says_so() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o sim").done();
+    let alone = |line: &str| line.split(',').take(4).collect::<Vec<_>>().join(",") + "\n";
+    bench.write("alone.csv", bench.read("sim/recording.csv").lines().map(alone).collect::<String>());
+    let outcome = bench.run("calibrate imu.toml alone.csv -o out").done();
+    assert!(outcome.stdout.starts_with("verdict: doubtful (gyroscope-missing)"), "{outcome:?}");
+    let calibration = bench.json("out/calibration.json");
+    assert!(calibration.get("gyroscope").is_none_or(Value::is_null), "{calibration}");
+    let mut truth = bench.json("sim/truth.json");
+    let of_accelerometer =
+        |of: &Value| of["name"].as_str().is_some_and(|name| name.starts_with("accelerometer."));
+    truth["parameters"].as_array_mut().expect("a list").retain(of_accelerometer);
+    assert_close_to_truth(&calibration, &truth);
+    // in a batch it stands among the others
+    let outcome = bench.run("calibrate imu.toml alone.csv sim/recording.csv --no-report -o batch").done();
+    assert!(outcome.stdout.starts_with("verdicts: 0 failed, 0 bad, 1 doubtful, 1 ok"), "{outcome:?}");
+}

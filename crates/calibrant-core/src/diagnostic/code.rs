@@ -78,6 +78,10 @@ codes! {
         "Spikes were replaced, or invalid samples were removed."
         "A spike is far from the median of nine neighbouring samples. The limit is 7 robust standard deviations of the difference of two samples, and 12 in a movement."
         "Look for a loose contact, or for bytes that are lost on the way.";
+    GyroscopeMissing "gyroscope-missing" Warning
+        "The recording of an IMU has no gyroscope. Only the accelerometer was calibrated."
+        "The file has no columns of a gyroscope, and no other file gives it."
+        "Give its file with --gyroscope, name its columns in [columns], or leave `kind = \"imu\"` out of the experiment file.";
     CoarseSteps "coarse-steps" Warning
         "The readings come in steps of more than twice their noise. The mean of a hold has an error, however long the hold is."
         "Rounding moves the mean of a hold by more than a quarter of the standard deviation that noise gives it."

@@ -84,6 +84,8 @@ diagnostics! {
         time_s: f64 = "Its time, s.",
         deviations: f64 = "Its distance from its neighbours, in standard deviations of a sample's noise. Infinite where the noise is zero.",
     }
+    /// The recording of an IMU has no gyroscope.
+    GyroscopeMissing {}
     /// Readings come in coarse steps.
     CoarseSteps {
         sensor_kind: SensorKind = "The sensor.",

@@ -19,6 +19,7 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
         Diagnostic::Spikes { sensor_kind, unit, replaced, cut, axis, reading, time_s, deviations } => {
             spikes(*sensor_kind, *unit, (*replaced, *cut), *axis, (*reading, *time_s, *deviations))
         }
+        Diagnostic::GyroscopeMissing {} => "the recording has no gyroscope, so only the accelerometer is calibrated. Give the gyroscope's file with --gyroscope, or name its columns in [columns].".into(),
         Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd } => {
             let found = CoarseAxis { axis: *axis, step: *step, noise: *noise, mean_sd: *mean_sd };
             let coarse = coarse_axis(*sensor_kind, *unit, &found);

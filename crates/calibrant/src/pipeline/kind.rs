@@ -5,6 +5,7 @@ use super::options::PipelineOptions;
 use super::sections::{setup_of, unused_face_sd};
 use super::setup::{Faces, Setup};
 use super::source::Source;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::ImuRecording;
@@ -42,6 +43,12 @@ impl<'e> Kind<'e> {
         }
     }
 
+    /// What the recording lacks of this kind.
+    pub(crate) fn missing(&self, recording: &ImuRecording) -> Vec<Diagnostic> {
+        let without = matches!(self, Self::Imu(..)) && recording.gyroscope.is_none();
+        without.then_some(Diagnostic::GyroscopeMissing {}).into_iter().collect()
+    }
+
     /// What is known of one recording.
     pub(crate) fn setup(
         &self,
@@ -51,19 +58,26 @@ impl<'e> Kind<'e> {
     ) -> Result<Setup<'e>> {
         Ok(match self {
             Self::Motion(command) => Setup::Motion(command.clone()),
-            Self::Holds(plan) => match &plan.directions {
-                Some(directions) => {
-                    Setup::Faces(Faces { holds: plan.setup(), directions, face_sd_rad: plan.face_sd_rad })
-                }
-                None => {
-                    notes.extend(unused_face_sd(plan.face_sd_rad));
-                    Setup::Holds(plan.setup())
-                }
-            },
+            Self::Holds(plan) => held(plan, notes),
+            // it cannot be lost unnoticed: the calibration gets a diagnostic
+            Self::Imu(_, plan) if recording.gyroscope.is_none() => held(plan, notes),
             Self::Imu(plan, holds) => {
                 Setup::Imu(&plan.gyroscope, Box::new(setup_of(plan, holds, source, recording, notes)?))
             }
         })
+    }
+}
+
+/// An accelerometer that is held still.
+fn held<'e>(plan: &'e HoldsPlan, notes: &mut Vec<Note>) -> Setup<'e> {
+    match &plan.directions {
+        Some(directions) => {
+            Setup::Faces(Faces { holds: plan.setup(), directions, face_sd_rad: plan.face_sd_rad })
+        }
+        None => {
+            notes.extend(unused_face_sd(plan.face_sd_rad));
+            Setup::Holds(plan.setup())
+        }
     }
 }
 

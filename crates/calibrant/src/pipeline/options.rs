@@ -3,7 +3,6 @@
 use super::source::Source;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Code;
-use calibrant_core::sensor::ReadingUnit;
 use calibrant_io::ImuReadOptions;
 use std::path::PathBuf;
 
@@ -16,8 +15,6 @@ pub struct PipelineOptions {
     pub motion: Option<PathBuf>,
     /// What the recordings' files do not say themselves. It counts before `[columns]` of the experiment.
     pub reading: ImuReadOptions,
-    /// Unit of an accelerometer's readings, where neither its file nor `reading` says it.
-    pub unit: Option<ReadingUnit>,
     /// Another recording of the sensor, on which the calibration is tried.
     pub validate: Option<Source>,
     /// The log of the machine's motion in that recording; on a machine it needs one, or has it in its own file.
@@ -38,7 +35,6 @@ impl Default for PipelineOptions {
             experiment_file: PathBuf::new(),
             motion: None,
             reading: ImuReadOptions::default(),
-            unit: None,
             validate: None,
             validate_motion: None,
             folds: None,

@@ -6,7 +6,7 @@ use super::recorded::Recorded;
 use super::source::Source;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::ReadingUnit;
-use calibrant_io::{Experiment, ImuReadOptions, ImuUnit};
+use calibrant_io::{Experiment, ImuReadOptions};
 
 /// How the recordings are read.
 pub(crate) enum Reader<'e> {
@@ -23,7 +23,6 @@ impl<'e> Reader<'e> {
             None => {
                 let sensor = &experiment.sensor;
                 let given = ImuReadOptions {
-                    accelerometer_unit: options.unit.map(ImuUnit::from),
                     counts_unless_stated: [sensor.unit == ReadingUnit::Counts, false],
                     ..ImuReadOptions::accelerometer(sensor.axes, sensor.unit)
                 };

@@ -64,9 +64,10 @@ impl<'e> Task<'e> {
         }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_rate_sd(recorded.rate_sd);
-        let outliers = setup.prepare(self.accelerometer, &mut recorded.recording);
+        let mut before = self.kind.missing(&recorded.recording);
+        before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
         let (mut calibration, noise) = self.calibrate(source, &recorded, &setup, options.report)?;
-        calibration.warnings.splice(0..0, outliers);
+        calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
         setup.set_white_noise(noise.white_noise);
         let validations = self.validations(options, &calibration, (&recorded, &setup), notes)?;

@@ -30,8 +30,8 @@ const CASES: &[(&str, &[&str])] = &[
         &["absent.csv: cannot read the motion"],
     ),
     (
-        "calibrate experiment.toml recording.csv --motion motion.csv --unit g -o result",
-        &["invalid value 'g' for '--unit <UNIT>'", "mps2, counts"],
+        "calibrate experiment.toml recording.csv --motion motion.csv --unit furlongs -o result",
+        &["invalid value 'furlongs' for '--unit <UNIT>'", "m/s², g, mg or counts"],
     ),
     ("study --sensors 0", &["0 is not in 1..="]),
     ("study static.toml -o result", &["a study needs a [motion] experiment, this one has [holds]"]),
