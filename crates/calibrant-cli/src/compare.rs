@@ -52,7 +52,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
     if arguments.json {
-        console::print(&comparison_json(&comparison, &name_a, &name_b));
+        console::print_always(&comparison_json(&comparison, &name_a, &name_b));
         return Ok(Exit::DONE);
     }
     console::print(&format!("A: {name_a} ({})\nB: {name_b} ({})\n\n", in_words(&a), in_words(&b)));

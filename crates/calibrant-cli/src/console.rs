@@ -5,10 +5,12 @@ mod machine;
 mod manner;
 mod table;
 mod validation;
+mod width;
 
 pub(crate) use calibration::calibration;
 pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
 pub(crate) use table::table;
+pub(crate) use width::paragraph;
 
 use calibrant::Error;
 use calibrant::io::Finding;
@@ -29,14 +31,20 @@ pub(crate) fn harmless(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
-/// Prints a result to stdout, unless `--quiet` hides it.
+/// Prints a result to stdout as people read it, unless `--quiet` hides it. Its lines fit the terminal, and its minus signs can be copied into a
+/// program.
 pub(crate) fn print(text: &str) {
-    if !manner::get().no_tables {
-        print_always(text);
+    if manner::get().no_tables {
+        return;
     }
+    let text = text.replace('−', "-");
+    print_always(&match width::of_terminal() {
+        Some(width) => width::wrapped(&text, width),
+        None => text,
+    });
 }
 
-/// Prints what was asked for to stdout, also with `--quiet`. A closed reader (`| head`) is not an error.
+/// Prints what was asked for to stdout as it is, also with `--quiet`. A closed reader (`| head`) is not an error.
 pub(crate) fn print_always(text: &str) {
     let mut out = std::io::stdout();
     match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {

@@ -81,7 +81,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     console::findings(&warnings, &file_name(&arguments.file), arguments.second().map(file_name).as_deref());
     let inspection = inspect(&file);
     if arguments.json {
-        console::print(&inspection_json(&file, &inspection));
+        console::print_always(&inspection_json(&file, &inspection));
     } else {
         console::print(&text(&file, &inspection, arguments));
     }

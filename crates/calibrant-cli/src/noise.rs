@@ -101,7 +101,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|found| console::warn(&message(found)));
     if arguments.json {
-        console::print(&noise_json(&noise, &inputs, &words));
+        console::print_always(&noise_json(&noise, &inputs, &words));
     } else {
         noise.iter().for_each(|sensor| console::print(&table::noise_table(sensor, examined.as_deref())));
     }

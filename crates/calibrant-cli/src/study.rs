@@ -111,7 +111,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let html = study_report(&studies, &about);
     write_atomically(&report, |out| out.write_all(html.as_bytes()))?;
     if arguments.json {
-        console::print(&study_json(&studies));
+        console::print_always(&study_json(&studies));
     } else {
         console::print(&table::studies(&studies));
         console::print(&format!("\n{}\n", report.display()));

@@ -61,6 +61,7 @@ mod result_places;
 mod resume_key;
 mod sampling;
 mod shared_fields;
+mod standard_input;
 mod study;
 mod summary;
 mod sweep;

@@ -1,6 +1,7 @@
 //! Decodes the bytes of a file to text: size, encoding and binary content, each with an error that names the
 //! file's real kind.
 
+use super::standard_input;
 use calibrant_core::error::{InputError, Refusal};
 use std::fs::File;
 use std::io::Read;
@@ -36,7 +37,7 @@ pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>
     }
 }
 
-/// Opens a file to be read.
+/// Opens a file to be read; `-` is standard input.
 pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
     let input_error = if path.is_dir() {
         InputError::new(
@@ -45,7 +46,8 @@ pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
             "name a file in it",
         )
     } else {
-        match File::open(path) {
+        let opened = if standard_input::is_named(path) { standard_input::open() } else { File::open(path) };
+        match opened {
             Ok(file) => return Ok(file),
             Err(error) => unreadable(what, &error),
         }

@@ -55,7 +55,7 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
                 (Err(failure), _) => Err(failure),
                 (Ok(_), recorded) => Ok(recorded.as_ref().map_or("", |result| result.json.as_str())),
             });
-        console::print(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
+        console::print_always(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
     } else {
         let failed = summary.iter().filter(|row| row.outcome.is_err()).count();
         console::print(&format!(

@@ -28,7 +28,7 @@ fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
     let told: Vec<_> = outcome.warnings().iter().map(told_of).collect();
     let exit = job.arguments.rules.show(&told, None);
     if job.arguments.json {
-        console::print(&outcome.json());
+        console::print_always(&outcome.json());
         return exit;
     }
     console::print(&console::calibration(outcome));

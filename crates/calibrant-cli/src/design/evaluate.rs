@@ -35,7 +35,7 @@ pub(super) fn run(
     let page = arguments.output.join("evaluation.html");
     write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
     if arguments.json {
-        console::print(&evaluation_json(&assessment, problem, &job.settings));
+        console::print_always(&evaluation_json(&assessment, problem, &job.settings));
     } else {
         console::print(&text(&assessment, path));
         console::print(&format!("\n{}\n", page.display()));
@@ -93,7 +93,7 @@ fn text(assessment: &Assessment, path: &Path) -> String {
     );
     text.push_str(&console::table(&header, &rows));
     if let Some(other) = &assessment.other_setting {
-        text.push_str(&super::table::wrapped(&format!(
+        text.push_str(&console::paragraph(&format!(
             "{} has {} over {} s, but the experiment has {} over {} s. The optimum is that of the experiment, which explains part of the difference.",
             path.display(),
             counted(other.intervals, "interval"),
@@ -106,7 +106,7 @@ fn text(assessment: &Assessment, path: &Path) -> String {
         let certain = assessment.certain_efficiency().map_or_else(String::new, |certain| {
             format!(" (at least {} % of any admissible motion)", significant(100.0 * certain, 3))
         });
-        text.push_str(&super::table::wrapped(&format!(
+        text.push_str(&console::paragraph(&format!(
             "Efficiency {} % of the best motion found{certain}: {}.",
             significant(100.0 * efficiency, 3),
             recordings(efficiency)

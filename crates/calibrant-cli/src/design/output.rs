@@ -19,11 +19,16 @@ pub(super) fn finish(
 ) -> calibrant::Result<Exit> {
     write(arguments, job, problem, design, reached)?;
     if arguments.json {
-        console::print(&design_json(design, reached.map(|(reached, _)| reached), problem, &job.settings));
+        console::print_always(&design_json(
+            design,
+            reached.map(|(reached, _)| reached),
+            problem,
+            &job.settings,
+        ));
     } else {
         console::print(&table::design(design));
         if let Some((_, sentence)) = reached {
-            console::print(&table::wrapped(sentence));
+            console::print(&console::paragraph(sentence));
         }
         let output = &arguments.output;
         console::print(&format!(

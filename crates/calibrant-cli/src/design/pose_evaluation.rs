@@ -2,7 +2,6 @@
 
 use super::job::{Job, in_file};
 use super::pose_output::{about, write_page};
-use super::table::wrapped;
 use super::{Arguments, pose_table};
 use crate::{Exit, console};
 use calibrant::design::poses::evaluate_poses;
@@ -44,10 +43,10 @@ pub(super) fn run(arguments: &Arguments, job: &Job, recording: &Path) -> calibra
     let page = output.join("evaluation.html");
     write_page(&page, &pose_evaluation_report(&evaluation, &directions, &problem, unit, &about))?;
     if arguments.json {
-        console::print(&pose_evaluation_json(&evaluation, &directions, &problem, unit));
+        console::print_always(&pose_evaluation_json(&evaluation, &directions, &problem, unit));
     } else {
         console::print(&pose_table::evaluation(&evaluation, &problem, unit));
-        console::print(&wrapped(&evaluation_in_words(&evaluation, directions.len())));
+        console::print(&console::paragraph(&evaluation_in_words(&evaluation, directions.len())));
         console::print(&format!("\n{}\n", page.display()));
     }
     Ok(Exit::DONE)

@@ -1,6 +1,6 @@
 //! The tables of a design of poses on the console.
 
-use super::table::{gap, wrapped};
+use super::table::gap;
 use crate::console;
 use calibrant::design::poses::{PoseDesign, PoseEvaluation, PoseProblem};
 use calibrant::report::design_in_words;
@@ -38,7 +38,7 @@ pub(super) fn design(
         gap(criterion, criterion.gap(design.value, design.bound.value)),
         console::table(&["pose", "how", "up x", "up y", "up z"], &rows),
         parameters(problem, unit, &design.covariance),
-        wrapped(&sentence)
+        console::paragraph(&sentence)
     )
 }
 

@@ -3,7 +3,6 @@
 use super::job::{Job, in_file};
 use super::pose_output::{about, write_page};
 use super::reach_request::{asked, goals};
-use super::table::wrapped;
 use super::{Arguments, pose_evaluation, pose_table};
 use crate::{Exit, console};
 use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, design_poses, fewest_poses};
@@ -55,11 +54,11 @@ fn design(arguments: &Arguments, job: &Job, problem: &PoseProblem) -> calibrant:
     about.findings.extend(sentence.clone());
     write_page(&output.join("report.html"), &pose_report(&design, problem, unit, &about))?;
     if arguments.json {
-        console::print(&pose_design_json(&design, reached.as_ref(), problem, unit));
+        console::print_always(&pose_design_json(&design, reached.as_ref(), problem, unit));
     } else {
         console::print(&pose_table::design(&design, problem, unit, &words));
         if let Some(sentence) = sentence {
-            console::print(&wrapped(&sentence));
+            console::print(&console::paragraph(&sentence));
         }
         let (poses, report) = (output.join("poses.csv"), output.join("report.html"));
         console::print(&format!("\n{}\n{}\n", poses.display(), report.display()));

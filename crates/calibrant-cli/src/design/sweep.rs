@@ -39,7 +39,7 @@ pub(super) fn run(
     write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))?;
     say(&swept);
     if arguments.json {
-        console::print(&sweep_json(&swept, problem, &job.settings));
+        console::print_always(&sweep_json(&swept, problem, &job.settings));
     } else {
         console::print(&table(&swept));
         let output = &arguments.output;

@@ -32,7 +32,7 @@ pub(crate) fn design(design: &Design) -> String {
     if !reached.is_empty() {
         text.push_str(&format!("  the motion reaches its limits of {reached}\n"));
     }
-    text + "\n" + &wrapped(&design.statement())
+    text + "\n" + &console::paragraph(&design.statement())
 }
 
 fn criterion(design: &Design) -> String {
@@ -94,18 +94,4 @@ pub(crate) fn gap(criterion: &Criterion, gap: f64) -> String {
 /// `3.1×`.
 pub(crate) fn factor(ratio: f64) -> String {
     if ratio.is_finite() { format!("{}×", significant(ratio, 3)) } else { "–".into() }
-}
-
-/// A paragraph of at most a hundred characters a line, indented.
-pub(crate) fn wrapped(text: &str) -> String {
-    let (mut lines, mut line) = (String::new(), String::new());
-    for word in text.split_whitespace() {
-        if line.chars().count() + word.chars().count() > 100 {
-            lines.push_str(&format!("  {}\n", line.trim_end()));
-            line.clear();
-        }
-        line.push_str(word);
-        line.push(' ');
-    }
-    lines + &format!("  {}\n", line.trim_end())
 }

@@ -46,7 +46,7 @@ impl Options {
             if self.packages.is_empty() { Vec::new() } else { machine.missing_meshes(&self.packages) };
         meshes.iter().for_each(|mesh: &MissingMesh| console::warn(&mesh.to_string()));
         if json {
-            console::print(&machine_json(&machine, &chain, &meshes));
+            console::print_always(&machine_json(&machine, &chain, &meshes));
         } else {
             console::print(&text(file, &machine, &chain));
         }

@@ -22,10 +22,11 @@ pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calib
     let warnings: Vec<_> = file.findings.iter().filter(|finding| finding.is_warning()).cloned().collect();
     console::findings(&warnings, &file_name(path), None);
     let inspection = inspect_reference_log(&file);
-    console::print(&match as_json {
-        true => reference_inspection_json(&file, &inspection),
-        false => text(path, &file, &inspection),
-    });
+    if as_json {
+        console::print_always(&reference_inspection_json(&file, &inspection));
+    } else {
+        console::print(&text(path, &file, &inspection));
+    }
     Ok(Exit::DONE)
 }
 

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// A temporary directory, the working directory of every command.
 pub(crate) struct Bench {
@@ -91,11 +91,22 @@ impl Bench {
 
     /// Runs the program with arguments that may contain blanks.
     pub(crate) fn run_with(&self, arguments: &[&str]) -> Outcome {
+        self.outcome(arguments, Stdio::null())
+    }
+
+    /// Runs the program with this file as standard input.
+    pub(crate) fn run_from(&self, input: &str, arguments: &str) -> Outcome {
+        let file = std::fs::File::open(self.path(input)).expect("there");
+        self.outcome(&arguments.split_whitespace().collect::<Vec<_>>(), file.into())
+    }
+
+    fn outcome(&self, arguments: &[&str], input: Stdio) -> Outcome {
         let output = Command::new(env!("CARGO_BIN_EXE_calibrant"))
             .args(arguments)
             .current_dir(self.directory.path())
             .env_remove("RAYON_NUM_THREADS")
             .env_remove("FORCE_COLOR")
+            .stdin(input)
             .output()
             .expect("the program runs");
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");

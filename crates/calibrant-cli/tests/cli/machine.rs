@@ -15,7 +15,7 @@ fn the_joints_of_a_machine_are_listed_with_their_limits() {
     for words in [
         "arm.urdf: machine arm, 8 links",
         "from base to flange: 6 joints, reach 1.13 m",
-        "shoulder_pan    revolute   −6.28319 to 6.28319 rad   3.14159 rad/s   150 N·m",
+        "shoulder_pan    revolute   -6.28319 to 6.28319 rad   3.14159 rad/s   150 N·m",
         "URDF has no limits of acceleration and jerk.",
     ] {
         assert!(outcome.stdout.contains(words), "{words}\n{}", outcome.stdout);

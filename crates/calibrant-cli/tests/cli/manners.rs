@@ -144,3 +144,18 @@ fn scale_and_bias_without_g_sensitivity_are_calibrated() {
     bench.run("simulate imu.toml -o made").done();
     bench.run("calibrate imu.toml made/recording.csv -o result");
 }
+
+#[test]
+fn a_dash_is_standard_input() {
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[]);
+    bench.run_from("experiment.toml", "simulate - -o sim").done();
+    let calibrate = "calibrate experiment.toml --motion sim/motion.csv";
+    bench.run(&format!("{calibrate} sim/recording.csv -o named")).done();
+    bench.run_from("sim/recording.csv", &format!("{calibrate} - -o read")).done();
+    let of_file = bench.read("named/calibration.json").replacen("\"recording.csv\"", "\"-\"", 1);
+    assert_eq!(bench.read("read/calibration.json"), of_file);
+    let outcome = bench.run_from("sim/recording.csv", "inspect -").done();
+    assert!(outcome.stdout.starts_with("-: CSV, "), "{outcome:?}");
+    bench.refuses("inspect -", 3, &["-: the file is empty"]);
+}
