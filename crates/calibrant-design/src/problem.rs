@@ -1,10 +1,14 @@
 //! The design problem: sensor, motion grid, limits and criterion.
 
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::information::criterion::AOptimality;
 use calibrant_core::information::{Criterion, GravityMarginal, MotionInformation};
 use calibrant_core::motion::{KnownEnds, Limits, MotionGravity, Trust};
 use calibrant_core::sensor::{Axis, Sensor, SensorModel, SensorParameters};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// Intervals of the usual motion.
+const INTERVALS: usize = 20;
 
 /// Find the motion whose recording determines the parameters best:
 ///
@@ -35,7 +39,60 @@ pub struct DesignProblem<'a> {
     pub prior: Option<DMatrix<f64>>,
 }
 
-impl DesignProblem<'_> {
+impl<'a> DesignProblem<'a> {
+    /// The usual problem: a motion of 20 intervals that lasts this long (s), known from rest on, recorded at 100 Hz, which minimises the sum of the
+    /// variances (criterion A, in SI units) about the sensor's nominal parameters. Change a field for anything else.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the nominal gain or offset of a sensor in counts is not known.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant_core::motion::{InputNoise, Limits, Rest, Trust};
+    /// use calibrant_core::sensor::Sensor;
+    /// use calibrant_design::{DesignProblem, DesignSettings, design};
+    /// use nalgebra::Vector3;
+    ///
+    /// let sensor = Sensor::memsic_mxd2020u();
+    /// let limits = Limits {
+    ///     acceleration_mps2: Some(Vector3::repeat(2.0)),
+    ///     velocity_mps: Some(Vector3::repeat(0.5)),
+    ///     rest: Rest::Both,
+    ///     ..Limits::default()
+    /// };
+    /// let problem = DesignProblem::new(&sensor, &limits, 10.0)?;
+    /// let known = design(&problem, &DesignSettings::default(), &|_| {})?;
+    ///
+    /// // a robot whose jerk differs from the commanded one by 1 %
+    /// let noisy = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
+    /// let noisy = design(&DesignProblem { trust: noisy, ..problem }, &DesignSettings::default(), &|_| {})?;
+    /// assert!(noisy.optimal.value > known.optimal.value);
+    /// # Ok::<(), calibrant_core::Error>(())
+    /// ```
+    pub fn new(sensor: &'a Sensor, limits: &'a Limits, duration_s: f64) -> Result<Self> {
+        let at = sensor.nominal().ok_or_else(|| {
+            Error::experiment(InputError::new(
+                Refusal::KeyMissing,
+                "the sensor's nominal gain and offset are not known, so a design has nothing to begin with",
+                "give Sensor::gain and Sensor::offset, or the parameters of an earlier calibration (DesignProblem::at)",
+            ))
+        })?;
+        let scale = DVector::repeat(sensor.parameter_list().len(), 1.0);
+        Ok(Self {
+            sensor,
+            at,
+            intervals: INTERVALS,
+            interval_s: duration_s / INTERVALS as f64,
+            rate_hz: 100.0,
+            trust: Trust::Known,
+            known_ends: KnownEnds::Start,
+            gravity: None,
+            limits,
+            criterion: Criterion::A(AOptimality { scale }),
+            prior: None,
+        })
+    }
+
     /// The limits with the sensor's range among them, less what gravity takes of it.
     #[must_use]
     pub fn effective_limits(&self) -> Limits {

@@ -38,7 +38,50 @@
 //! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
-//! # An example
+//! # From files
+//! A sensor that a robot moved, and the commanded motion, as on the command line:
+//! ```
+//! use calibrant::io::Experiment;
+//! use calibrant::pipeline::{Pipeline, PipelineOptions, Source};
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/04_many_sensors");
+//! let text = std::fs::read_to_string(format!("{folder}/experiment.toml")).expect("it is there");
+//! let experiment = Experiment::parse(&text, None)?;
+//! let options = PipelineOptions { motion: Some(format!("{folder}/motion.csv").into()), ..PipelineOptions::default() };
+//! let outcome = Pipeline::from_experiment(&experiment, options)?.run(&Source::from_file(format!("{folder}/sensor-17.csv")))?;
+//!
+//! let calibration = outcome.calibration().expect("of a motion");
+//! for (parameter, (value, sd)) in calibration.parameters.iter().zip(calibration.values.iter().zip(calibration.sd().iter())) {
+//!     println!("{} {value} ± {sd} {}", parameter.name, parameter.unit);
+//! }
+//! println!("{}", outcome.verdict());
+//! # Ok::<(), calibrant::Error>(())
+//! ```
+//!
+//! # A design
+//! The best ten seconds on a linear stage, and how far from the best possible they are:
+//! ```
+//! use calibrant::design::{DesignProblem, DesignSettings, design};
+//! use calibrant::motion::{Limits, Rest};
+//! use calibrant::nalgebra::Vector3;
+//! use calibrant::sensor::Sensor;
+//!
+//! let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
+//! let limits = Limits {
+//!     acceleration_mps2: Some(Vector3::repeat(2.0)),
+//!     jerk_mps3: Some(Vector3::repeat(20.0)),
+//!     velocity_mps: Some(Vector3::repeat(0.5)),
+//!     displacement_m: Some(Vector3::repeat(0.3)),
+//!     rest: Rest::Both,
+//!     ..Limits::default()
+//! };
+//! let best = design(&DesignProblem::new(&sensor, &limits, 10.0)?, &DesignSettings::default(), &|_| {})?;
+//! println!("{}", best.statement());
+//! assert!(best.optimal.sd()[1] < 1e-4, "the scale factor to 100 ppm");
+//! # Ok::<(), calibrant::Error>(())
+//! ```
+//!
+//! # Without files
 //! Simulate a sensor of the report on a random motion and calibrate it:
 //! ```
 //! use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
@@ -79,3 +122,5 @@ pub use calibrant_design::study;
 pub use calibrant_io as io;
 pub use calibrant_machine as machine;
 pub use calibrant_report as report;
+/// The linear algebra in the signatures: vectors and matrices.
+pub use nalgebra;
