@@ -100,6 +100,27 @@ pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[Stri
     (header, rows)
 }
 
+/// A line for each kind of error: its ratio, and what that says of the covariance.
+pub(super) fn validation_in_short(validations: &[Validation]) -> Vec<String> {
+    let line = |errors: &ValidatedErrors| {
+        let says = match errors.verdict {
+            CovarianceVerdict::Believed => "the covariance is consistent with the errors",
+            CovarianceVerdict::LargerThanNeeded => "the standard deviations are too large",
+            CovarianceVerdict::TooFew => "the data are too few for a verdict",
+            CovarianceVerdict::Doubtful => "as predicted, but the errors confirm nothing",
+            CovarianceVerdict::TooSmall => "the errors are larger than predicted",
+        };
+        format!(
+            "{}: {} rms, {} predicted, ratio {}: {says}.",
+            what(errors.kind),
+            measured(errors.kind, errors.rms),
+            measured(errors.kind, errors.predicted_rms),
+            between(errors.factor, errors.factor_interval)
+        )
+    };
+    validations.iter().flat_map(|validation| validation.kinds.iter().map(line)).collect()
+}
+
 /// The section on all validations of a calibration. Without a validation there is no section.
 pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
     if validations.is_empty() {

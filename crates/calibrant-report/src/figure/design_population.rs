@@ -1,4 +1,4 @@
-//! Figures of initial against optimal motions over many sensors: the report's Figures 9 to 11, 13 and 14.
+//! Figures of initial against optimal motions over many sensors: the thesis's Figures 9 to 11, 13 and 14.
 
 use super::motion::{TIME, nodes};
 use super::panel::{Mark, Panel, Series, Shape};
@@ -54,8 +54,8 @@ pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -
     let caption = format!(
         "Is there one best motion? Each later line is thinner, which keeps lines visible where they coincide. {} A motion, its \
          mirror image, and the same motion on another axis with the same limits give the same information. If only these appear, there is one \
-         best motion. The report finds this too. Its curves look sinusoidal. \
-         Other curves follow from other limits. The report starts each design from one motion. Here each is the best of {} start{}.",
+         best motion. The thesis finds this too. Its curves look sinusoidal. \
+         Other curves follow from other limits. The thesis starts each design from one motion. Here each is the best of {} start{}.",
         alike.join(" "),
         study.starts,
         if study.starts == 1 { "" } else { "s" }
@@ -165,7 +165,7 @@ pub(crate) fn absolute_errors(title: &str, study: &DesignStudy) -> Figure {
                        the table above. Single sensors may be lucky with a poor motion."
         .to_string();
     if logarithmic {
-        caption.push_str(" Axes are logarithmic if the two motions differ by more than a factor of four. The report's axes are linear.");
+        caption.push_str(" Axes are logarithmic if the two motions differ by more than a factor of four. The axes of the thesis are linear.");
     }
     caption.push_str(&subset(study.outcomes.len(), sensors.len()));
     let columns = if study.parameters.len() == 2 { 2 } else { 3 };

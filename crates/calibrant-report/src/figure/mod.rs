@@ -56,6 +56,7 @@ pub(super) use rotations::rotation_errors;
 pub(super) use sphere::{hold_directions, pose_directions};
 pub(super) use starts::start_values;
 pub(super) use surface::trace_map;
+pub(super) use svg::CHART_SCRIPT;
 pub(super) use sweep::sweep_curves;
 pub(super) use temperature::bias_over_temperature;
 pub(super) use unit::DisplayUnit;

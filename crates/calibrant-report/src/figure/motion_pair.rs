@@ -1,4 +1,4 @@
-//! Figures of motions over time with their limits: the report's Figure 8, and the motion of the arm for it.
+//! Figures of motions over time with their limits: the thesis's Figure 8, and the motion of the arm for it.
 
 use super::motion::{TIME, nodes, steps};
 use super::panel::{Mark, Panel, Series};
@@ -103,7 +103,7 @@ fn dense(nodes: &[f64]) -> Vec<f64> {
     inside.chain(nodes.last().copied()).collect()
 }
 
-/// Jerk in steps and acceleration in lines: the report's Figure 8.
+/// Jerk in steps and acceleration in lines: the thesis's Figure 8.
 pub(crate) fn jerk_and_acceleration(
     title: &str,
     motions: &[Drawn<'_>],
@@ -115,12 +115,12 @@ pub(crate) fn jerk_and_acceleration(
     figure(title, &[Profile::Jerk, Profile::Acceleration], motions, axes, limits, caption)
 }
 
-/// The report's state, where it is limited: the intercept of each interval's line at t = 0.
+/// The thesis's state, where it is limited: the intercept of each interval's line at t = 0.
 pub(crate) fn states(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> Option<Figure> {
     limits.intercept_mps2?;
     let caption = "Acceleration in interval i is α(t) = xᵢ + uᵢ t. A limit on xᵢ, the line's value at t = 0, restricts late intervals more than \
-                   early ones. No arm has such a limit. Limit acceleration, velocity and displacement unless you compare with the report.";
-    Some(figure("States xᵢ, which the report limits", &[Profile::Intercept], motions, axes, limits, caption))
+                   early ones. No arm has such a limit. Limit acceleration, velocity and displacement unless you compare with the thesis.";
+    Some(figure("States xᵢ, which the thesis limits", &[Profile::Intercept], motions, axes, limits, caption))
 }
 
 /// Velocity and displacement between the nodes too.

@@ -7,6 +7,9 @@ use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot,
 use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
 use std::sync::Arc;
 
+/// The script that shows values, and zooms, in panels that state the ranges of their axes.
+pub(crate) const CHART_SCRIPT: &str = include_str!("chart.js");
+
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
 const WIDTH: f64 = 400.0;
 /// Height of a panel in SVG units.
@@ -59,7 +62,14 @@ pub(super) fn svg(panel: &Panel) -> String {
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
         );
     }
-    responsive(&kuva::render_to_svg(plots, layout), height, &panel.title)
+    let axis = |(low, high): (f64, f64), log: bool| format!("{low} {high}{}", if log { " 1" } else { "" });
+    let axes = format!(" data-x=\"{}\" data-y=\"{}\"", axis(x, panel.log_x), axis(y, panel.log_y));
+    responsive(
+        &kuva::render_to_svg(plots, layout),
+        height,
+        &panel.title,
+        if panel.square { "" } else { &axes },
+    )
 }
 
 /// A tick's label. Where the x axis is far from zero, as in seconds since 1970, six digits do not distinguish
@@ -170,15 +180,15 @@ fn swatch(drawing: &str) -> String {
     format!("<svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>")
 }
 
-/// An SVG of fixed size made to follow its column, named for screen readers, its numbers shortened.
-fn responsive(svg: &str, height: f64, name: &str) -> String {
+/// An SVG of fixed size made to follow its column, named for screen readers, its numbers shortened, with further attributes.
+fn responsive(svg: &str, height: f64, name: &str, attributes: &str) -> String {
     let body = svg.find('>').map_or("", |end| &svg[end + 1..]);
     let body = match (body.find("<!--"), body.find("-->")) {
         (Some(start), Some(end)) if start < end => format!("{}{}", &body[..start], &body[end + 3..]),
         _ => body.to_string(),
     };
     format!(
-        "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\" fill=\"#1b1f24\">{}",
+        "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\" fill=\"#1b1f24\"{attributes}>{}",
         escape(name),
         shortened(&body)
     )
