@@ -9,14 +9,14 @@
   };
   // what a part of a drawing and its sign in the legend have in common
   const look = (node) => {
-    const of = (name) => node.getAttribute(name) || "none";
-    const ink = of("fill") === "none" ? `${of("stroke")} ${of("stroke-dasharray")}` : of("fill");
+    const of = (name) => node.getAttribute(name) || "none", line = of("fill") === "none";
+    const ink = line ? `${of("stroke")} ${of("stroke-dasharray")}` : of("fill");
     return `${node.tagName} ${ink.replace(" none", "")}`;
   };
   const tidy = (value, span) => {
     const digits = 3 - Math.floor(Math.log10(span || 1));
     const text = digits > 7 ? value.toExponential(3) : value.toFixed(Math.max(0, digits));
-    return text.replace(/-/g, "\u2212");
+    return text.replace(/\.0+$/, "").replace(/-/g, "\u2212");
   };
   const axis = (words) => {
     const [low, high, log] = words.split(" ").map(Number);
@@ -25,7 +25,6 @@
     const span = (value, part) => (log ? Math.abs(value) : (high - low) * part);
     return { a, b, log, span, value: (share) => (log ? 10 ** (a + share * (b - a)) : a + share * (b - a)) };
   };
-
   const chart = (svg) => {
     const group = svg.querySelector("g[clip-path]"), frame = svg.querySelector("clipPath rect");
     const [left, top, width, height] = ["x", "y", "width", "height"].map((name) => number(frame, name));
@@ -37,8 +36,7 @@
       const sign = entry.querySelector("path, circle, rect");
       if (sign) names[look(sign)] = entry.textContent;
     }
-    const share = (at) => (at - left) / width;
-    const value = (at) => y.value((bottom - at) / height);
+    const share = (at) => (at - left) / width, value = (at) => y.value((bottom - at) / height);
     const add = (label, at, low, high) => (series.get(label) || series.set(label, []).get(label)).push({ at: share(at), low: value(low), high: value(high) });
     const stretch = (node, from, to) => { node.setAttribute("x", from); node.setAttribute("width", to - from); };
     // how each part of the drawing moves; what values it has
@@ -53,7 +51,7 @@
           node.setAttribute("d", path.replace(numbers, (text) => (k++ % 2 ? text : place(share(Number(text))).toFixed(2))));
         };
       }
-      const bar = path && box.height > 12, shade = node.tagName === "rect" && box.height > height - 2;
+      const bar = path && 0.1 > box.width, shade = !path && box.height > height - 2;
       if (label && !shade) add(label, middle, bar ? box.y + box.height : centre, bar ? box.y : centre);
       if (!shade) return (place) => node.setAttribute("transform", `translate(${(place(share(middle)) - middle).toFixed(2)})`);
       return (place) => stretch(node, place(share(box.x)), place(share(box.x + box.width)));
@@ -100,21 +98,23 @@
     const mark = (from, to) => stretch(box, place(Math.min(from, to)), place(Math.max(from, to)));
     const at = (event) => {
       const { left: start, width: shown } = svg.getBoundingClientRect();
-      const across = share(((event.clientX - start) * svg.viewBox.baseVal.width) / shown);
-      return view[0] + Math.max(0, Math.min(1, across)) * (view[1] - view[0]);
+      const across = Math.max(0, Math.min(1, share(((event.clientX - start) * svg.viewBox.baseVal.width) / shown)));
+      return view[0] + across * (view[1] - view[0]);
     };
-    return { zoom, read, mark, at, view: () => view, hide: () => cursor.removeAttribute("d") };
+    return { zoom, read, mark, at, x, label: labels[0], view: () => view, hide: () => cursor.removeAttribute("d") };
   };
-
   const tip = document.body.appendChild(document.createElement("div"));
   Object.assign(tip, { className: "tip", role: "status", hidden: true });
   for (const svg of document.querySelectorAll("svg[data-x]")) {
-    let start = null, last = null, made = null;
-    const own = () => (made = made || svg.chart || (svg.chart = chart(svg)));
-    // panels of a figure with the same x axis are zoomed together
+    let start = null, last = null;
+    const own = () => (svg.chart = svg.chart || chart(svg));
+    // panels of a figure with the same quantity along x are zoomed together
     const zoom = (view) => {
-      const alike = [...svg.parentNode.children].filter((other) => other.dataset.x === svg.dataset.x);
-      alike.forEach((other) => (other.chart = other.chart || chart(other)).zoom(view));
+      const { x, label } = own(), whole = view[0] === 0 && view[1] === 1;
+      const charts = [...svg.parentNode.querySelectorAll("svg[data-x]")].map((other) => (other.chart = other.chart || chart(other)));
+      for (const one of charts.filter((other) => other.label === label && !other.x.log === !x.log)) {
+        one.zoom(whole ? view : view.map((at) => (x.a + at * (x.b - x.a) - one.x.a) / (one.x.b - one.x.a)));
+      }
     };
     const hide = () => { tip.hidden = true; own().hide(); own().mark(0, 0); start = null; };
     const show = (wanted) => {
@@ -134,8 +134,7 @@
     on("pointerup", (event) => {
       const [low, high] = [start, own().at(event)].sort((a, b) => a - b), [from, to] = own().view();
       if (start !== null && high - low > Math.max(0.03 * (to - from), 1e-4)) zoom([low, high]);
-      own().mark(0, 0);
-      start = null;
+      own().mark(0, (start = null));
     });
     for (const name of ["pointercancel", "pointerleave", "blur"]) on(name, hide);
     on("dblclick", () => zoom([0, 1]));

@@ -19,15 +19,6 @@ const SAME: f64 = 0.01;
 
 /// The optimal accelerations of several sensors on top of each other.
 pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -> Figure {
-    let colours = [
-        colour::BLACK,
-        colour::ORANGE,
-        colour::SKY,
-        colour::GREEN,
-        colour::BLUE,
-        colour::VERMILLION,
-        colour::GREY,
-    ];
     let shown: Vec<&JerkControlledMotion> =
         study.outcomes.iter().take(study.motions_shown).map(|outcome| &outcome.optimal.motion).collect();
     let mut alike = Vec::new();
@@ -37,10 +28,10 @@ pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -
             let mut panel = Panel::new(format!("axis {axis}"), TIME, "acceleration (m/s²)");
             for (i, motion) in shown.iter().enumerate() {
                 let place = i as f64 / shown.len() as f64;
-                let mark = Mark::Line { width: 1.1 + 5.0 * (1.0 - place), dashes: "" };
+                let (colour, dashes) = colour::look(i);
+                let mark = Mark::Line { width: 1.1 + 5.0 * (1.0 - place), dashes };
                 let label = format!("sensor {}", i + 1);
-                panel =
-                    panel.with(Series::new(&label, colours[i % colours.len()], mark, nodes(motion, axis)));
+                panel = panel.with(Series::new(&label, colour, mark, nodes(motion, axis)));
             }
             alike.push(counted(axis, &shown));
             if let Some(limit) = study.limits.axis(axis.index()).acceleration

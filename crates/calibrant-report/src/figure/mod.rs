@@ -30,6 +30,7 @@ mod surface;
 mod svg;
 mod sweep;
 mod temperature;
+mod ticks;
 mod unit;
 mod validation;
 

@@ -14,24 +14,25 @@ const POINTS_PER_INTERVAL: usize = 24;
 /// curves.
 const NEAR: f64 = 4.0;
 
-/// A motion as it is drawn: name in the legend, colour, width of its lines.
+/// A motion as it is drawn: name in the legend, colour, width and dashes of its lines.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drawn<'a> {
     pub(crate) name: &'static str,
     pub(crate) motion: &'a JerkControlledMotion,
     colour: &'static str,
     width: f64,
+    dashes: &'static str,
 }
 
 impl<'a> Drawn<'a> {
     /// The motion to compare with: thin and blue.
     pub(crate) fn before(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
-        Self { name, motion, colour: colour::BLUE, width: 1.4 }
+        Self { name, motion, colour: colour::BLUE, width: 1.4, dashes: "2 2.5" }
     }
 
     /// The motion that the page is about: bold and vermillion.
     pub(crate) fn after(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
-        Self { name, motion, colour: colour::VERMILLION, width: 2.3 }
+        Self { name, motion, colour: colour::VERMILLION, width: 2.3, dashes: "" }
     }
 }
 
@@ -156,7 +157,7 @@ fn figure(
             let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, profile.label());
             // thin over bold: both show where they coincide
             for drawn in motions.iter().rev() {
-                let mark = Mark::Line { width: drawn.width, dashes: "" };
+                let mark = Mark::Line { width: drawn.width, dashes: drawn.dashes };
                 let curve = profile.curve(drawn.motion, axis);
                 panel = panel.with(Series::new(drawn.name, drawn.colour, mark, curve));
             }

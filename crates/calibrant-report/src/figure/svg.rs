@@ -22,9 +22,10 @@ const FONT: &str = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', Arial, sans-se
 /// The panel as an SVG that takes the width of its column.
 pub(super) fn svg(panel: &Panel) -> String {
     let height = if panel.square { SQUARE_HEIGHT } else { HEIGHT };
-    let Some([x, y]) = panel.ranges() else {
+    let Some(axes) = panel.axes() else {
         return nothing(panel, height);
     };
+    let [x, y] = axes.map(|axis| axis.range);
     let plots: Vec<Plot> = panel.series.iter().flat_map(|series| plots(panel, series)).collect();
     let mut layout = Layout::new(x, y)
         .with_width(WIDTH)
@@ -45,10 +46,10 @@ pub(super) fn svg(panel: &Panel) -> String {
     if !panel.title.is_empty() {
         layout = layout.with_title(panel.title.as_str());
     }
-    if let Some(step) = panel.x_step {
+    if let Some(step) = axes[0].step {
         layout = layout.with_x_tick_step(step);
     }
-    if let Some(step) = panel.y_step {
+    if let Some(step) = axes[1].step {
         layout = layout.with_y_tick_step(step);
     }
     if panel.log_x {
@@ -63,12 +64,12 @@ pub(super) fn svg(panel: &Panel) -> String {
         );
     }
     let axis = |(low, high): (f64, f64), log: bool| format!("{low} {high}{}", if log { " 1" } else { "" });
-    let axes = format!(" data-x=\"{}\" data-y=\"{}\"", axis(x, panel.log_x), axis(y, panel.log_y));
+    let ranges = format!(" data-x=\"{}\" data-y=\"{}\"", axis(x, panel.log_x), axis(y, panel.log_y));
     responsive(
         &kuva::render_to_svg(plots, layout),
         height,
         &panel.title,
-        if panel.square { "" } else { &axes },
+        if panel.square { "" } else { &ranges },
     )
 }
 
@@ -129,8 +130,9 @@ fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {
             vec![BandPlot::new(x, low, high).with_color(series.colour).with_opacity(0.25).into()]
         }
         Mark::Area => vec![line(points, 1.2, "").with_fill().with_fill_opacity(0.35).into()],
-        Mark::ErrorBars => {
-            drawn().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], 1.1, "").into()).collect()
+        Mark::ErrorBars | Mark::Ranges { .. } => {
+            let width = if let Mark::Ranges { width } = series.mark { width } else { 1.1 };
+            drawn().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], width, "").into()).collect()
         }
         // one line that returns to zero between the stems: it draws the zero line too
         Mark::Stems => {
@@ -164,6 +166,9 @@ pub(super) fn key(series: &Series) -> String {
             "<rect x=\"1\" y=\"2\" width=\"32\" height=\"10\" fill=\"{colour}\" fill-opacity=\"0.35\" stroke=\"{colour}\"/>"
         ),
         Mark::ErrorBars => format!("<path d=\"M17 1V13\" stroke=\"{colour}\" stroke-width=\"1.4\"/>"),
+        Mark::Ranges { width } => {
+            format!("<path d=\"M17 1V13\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
+        }
         Mark::Stems => {
             format!("<path d=\"M1 12H33M8 12V2M17 12V6M26 12V8\" stroke=\"{colour}\" stroke-width=\"1.5\"/>")
         }
