@@ -6,7 +6,7 @@ use super::correction::correction;
 use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::motion::{motion_section, residual_section};
-use super::parameters::{estimate_table, parameter_table};
+use super::parameters::{column_notes, estimate_table, parameter_table};
 use super::quality::nuisances_in_words;
 use super::rotations::{rotation_summary, rotation_table, turn_table};
 use super::temperature::temperature_in_words;
@@ -78,6 +78,9 @@ fn parameters(page: &mut Page, calibration: &Calibration, about: &About) {
         }
     };
     page.push(tables);
+    if calibration.gyroscope.is_none() {
+        page.paragraph(&column_notes(calibration));
+    }
     page.paragraph(match calibration.gyroscope {
         None => "Readings are y = S f + b, with f the specific force. Biases are the entries of b, scale factors and matrix entries those of S.",
         Some(_) => "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate. Biases are \
@@ -97,10 +100,11 @@ fn correction_section(calibration: &Calibration, about: &About) -> Page {
     page.section("Correction, raw → true", "");
     page.push(correction(calibration));
     if calibration.gyroscope.is_some() {
-        page.section("Parameters against the datasheet", "");
+        page.section("Parameters in detail", "");
         for &sensor_kind in calibration.sensor_kinds() {
             page.push(parameter_table(calibration, sensor_kind, about.truth.as_ref()));
         }
+        page.paragraph(&column_notes(calibration));
     }
     if let Some(table) = axis_table(calibration) {
         page.subsection("Axes");

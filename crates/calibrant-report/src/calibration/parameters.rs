@@ -85,13 +85,18 @@ pub(crate) fn parameter_table(
         }
         table.row(row);
     }
-    let mut explanation = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
-    if with_prior {
-        explanation.push_str(
+    table.html()
+}
+
+/// What the columns of [`parameter_table`] mean.
+pub(crate) fn column_notes(calibration: &Calibration) -> String {
+    let mut notes = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
+    if (0..calibration.parameters.len()).any(|k| calibration.known_beforehand(k).is_some()) {
+        notes.push_str(
             " From prior: the share of the information that comes from the prior and not from the data.",
         );
     }
-    format!("{}<p>{explanation}</p>", table.html())
+    notes
 }
 
 /// A parameter over the gain of its axis, with the sd of this ratio. A bias is then in the unit of the stimulus, a

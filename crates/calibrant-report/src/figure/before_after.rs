@@ -159,7 +159,7 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
         magnitude,
     ));
     let mut change = Panel::new("change by the correction", "time (s)", "ω after − before (°/s)");
-    let looks = [(colour::VERMILLION, ""), (colour::GREEN, "6 3"), (colour::SKY, "2 2")];
+    let looks = [(colour::VERMILLION, ""), (colour::GREEN, "6 3"), (colour::BLUE, "2 2")];
     for (axis, (colour, dashes)) in Axis::ALL.into_iter().zip(looks) {
         let row = before.matrix.row(axis.index()).transpose();
         let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
@@ -168,7 +168,7 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
         change = change.with(Series::new(
             &format!("change of axis {axis}"),
             colour,
-            Mark::Line { width: 0.9, dashes },
+            Mark::Line { width: 1.1, dashes },
             difference,
         ));
     }

@@ -179,7 +179,9 @@ impl Panel {
             let both = Range { low: x.low.min(y.low), high: x.high.max(y.high), log: false }.padded(0.05);
             return Some([AxisRange { range: both, step: None }; 2]);
         }
-        let mut axes = [x.axis(MOST_STEPS.0, self.x_step, 0.02), y.axis(MOST_STEPS.1, self.y_step, 0.07)];
+        // seconds since 1970 need room
+        let most = if x.low.abs().max(x.high.abs()) < 1e5 { MOST_STEPS } else { MOST_LONG_STEPS };
+        let mut axes = [x.axis(most, self.x_step, 0.02), y.axis(MOST_STEPS, self.y_step, 0.07)];
         if self.series.iter().any(Series::starts_at_zero) && y.low >= 0.0 && !self.log_y {
             axes[1].range.0 = 0.0;
         }
@@ -187,8 +189,10 @@ impl Panel {
     }
 }
 
-/// Largest number of steps between ticks of the x axis and of the y axis.
-const MOST_STEPS: (usize, usize) = (6, 7);
+/// Largest number of steps between the ticks of an axis.
+const MOST_STEPS: usize = 7;
+/// The same where ticks have long numbers.
+const MOST_LONG_STEPS: usize = 4;
 
 /// The range of an axis, and the distance of its ticks where it is not left to the plotting library.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,6 @@
 //! The chapter on calibrations of a population of sensors: the thesis's chapter 3.
 
-use crate::calibration::parameter_table;
+use crate::calibration::{column_notes, parameter_table};
 use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
@@ -49,6 +49,7 @@ fn rates(what: &str, case: &SingleCase) -> String {
 
 fn single(page: &mut Page, case: &SingleCase) {
     page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
+    page.paragraph(&column_notes(&case.calibration));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 4 of the thesis: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
