@@ -84,7 +84,8 @@ impl Table {
         };
         let explains =
             self.rows.iter().flat_map(|(_, cells)| cells).any(|cell| matches!(cell, Cell::Words(_)));
-        let class = if explains { " class=\"explained\"" } else { "" };
+        // on a phone, the words stand below name and value
+        let class = if explains && self.columns.len() == 3 { " class=\"explained\"" } else { "" };
         format!(
             "<div class=\"scroll\"><table{class}>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
         )
