@@ -27,7 +27,7 @@ use calibrant_core::sensor::{ImuRecording, SensorKind};
 /// A calibration as one HTML file: verdict, parameters, validations and corrections, the recovered motion or the holds,
 /// rotations and turns, noise, fit and correlations.
 ///
-/// The file needs nothing else: no network, no script. It suits a wide screen, a phone and A4 paper. Long recordings are
+/// The file needs nothing else and fetches nothing. A small script shows values under the pointer and zooms; without it, the page is complete. It suits a wide screen, a phone and A4 paper. Long recordings are
 /// thinned for the plots, so that the file stays below about 2 MB whatever their length.
 ///
 /// `recording` is the calibrated recording; `noise` may be empty.

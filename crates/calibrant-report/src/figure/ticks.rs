@@ -3,6 +3,9 @@
 /// Room beyond the outermost ticks, as a share of the range.
 const ROOM: f64 = 0.02;
 
+/// Data this close to a tick, as a share of a step, reach it.
+const NEAR: f64 = 0.01;
+
 /// The range of a linear axis, and the distance of its ticks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ticked {
@@ -22,8 +25,8 @@ pub(super) fn ticked((low, high): (f64, f64), most: usize, step: Option<f64>) ->
     let steps = [0.1, 0.2, 0.25, 0.5, 1.0, 2.0].map(|of| of * decade);
     let choices = step.as_slice().iter().chain(step.is_none().then_some(&steps).into_iter().flatten());
     let ended = choices.map(|&step| {
-        // rounding of the data must not add a step
-        let (first, last) = ((low / step + 1e-9).floor(), (high / step - 1e-9).ceil());
+        // rounding of the data must not add a step, and there is room beyond the ticks
+        let (first, last) = ((low / step + NEAR).floor(), (high / step - NEAR).ceil());
         (step, first, last)
     });
     let fits =
