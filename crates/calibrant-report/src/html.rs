@@ -25,6 +25,9 @@ pub(super) fn escape(text: &str) -> String {
 const THESIS: &str = "“The thesis” is V. Vamvaka, Optimal Experimental Design for Calibration, University of Groningen and Xsens Technologies B.V., 2021 \
                       (vamvaka2021 in references.bib).";
 
+/// How to use the script of the figures.
+const HINT: &str = "<p class=\"screen\">Figures: point at a place for its values, drag to zoom along x, double-click to see all again. With the keyboard: Tab, arrows, + and Escape.</p>";
+
 /// A page under construction: its pieces in order.
 #[derive(Debug, Default)]
 pub(super) struct Page {
@@ -100,10 +103,12 @@ impl Page {
             escape(title),
             include_str!("style.css"),
         );
-        let script = match has("<svg") && has(" data-x=\"") {
+        let is_alive = has(" data-x=\"");
+        let script = match is_alive {
             true => format!("<script>\n{CHART_SCRIPT}</script>\n"),
             false => String::new(),
         };
+        let footer = footer + if is_alive { HINT } else { "" };
         let end = format!("</main>\n<footer>{footer}</footer>\n{script}</body>\n</html>\n");
         let headings: Vec<&str> = (self.pieces.iter())
             .filter_map(

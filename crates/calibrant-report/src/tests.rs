@@ -23,6 +23,15 @@ mod noise_pages;
 mod studies;
 mod study_pages;
 
+#[test]
+fn the_script_of_the_figures_is_short_and_fetches_nothing() {
+    let script = super::figure::CHART_SCRIPT;
+    for bad in ["http", "fetch", "import", "innerHTML", "eval", "url(", "<"] {
+        assert!(!script.contains(bad), "{bad}");
+    }
+    assert!(script.lines().count() <= 150);
+}
+
 fn about() -> About {
     About { title: "A test".to_string(), program: "calibrant".to_string(), ..About::default() }
 }

@@ -9,9 +9,9 @@
   };
   // what a part of a drawing and its sign in the legend have in common
   const look = (node) => {
-    const of = (name) => node.getAttribute(name) || "none", line = of("fill") === "none";
-    const ink = line ? `${of("stroke")} ${of("stroke-dasharray")}` : of("fill");
-    return `${node.tagName} ${ink.replace(" none", "")}`;
+    const of = (name) => node.getAttribute(name) || "none";
+    if (of("fill") !== "none") return `${node.tagName === "circle" ? "dot" : of("stroke")} ${of("fill")}`;
+    return `${0.1 > node.getBBox().width ? "bar" : of("stroke-dasharray")} ${of("stroke")}`;
   };
   const tidy = (value, span) => {
     const digits = 3 - Math.floor(Math.log10(span || 1));
@@ -44,8 +44,9 @@
       const box = node.getBBox(), label = names[look(node)], path = node.getAttribute("d");
       const middle = box.x + box.width / 2, centre = box.y + box.height / 2;
       if (path && box.width > 14) {
-        const numbers = /-?\d+(\.\d+)?/g, at = path.match(numbers).map(Number);
-        for (let k = 0; label && at.length > k; k += 2) add(label, at[k], at[k + 1], at[k + 1]);
+        const numbers = /-?\d+(\.\d+)?/g, at = path.match(numbers).map(Number), all = at.length;
+        const band = node.getAttribute("fill") !== "none"; // its upper edge, and back along the lower one
+        for (let k = 0; label && (band ? all / 2 : all) > k; k += 2) add(label, at[k], at[band ? all - 1 - k : k + 1], at[k + 1]);
         return (place) => {
           let k = 0;
           node.setAttribute("d", path.replace(numbers, (text) => (k++ % 2 ? text : place(share(Number(text))).toFixed(2))));
@@ -106,7 +107,7 @@
   const tip = document.body.appendChild(document.createElement("div"));
   Object.assign(tip, { className: "tip", role: "status", hidden: true });
   for (const svg of document.querySelectorAll("svg[data-x]")) {
-    let start = null, last = null;
+    let start = null, last = svg.tabIndex = 0;
     const own = () => (svg.chart = svg.chart || chart(svg));
     // panels of a figure with the same quantity along x are zoomed together
     const zoom = (view) => {
@@ -128,7 +129,6 @@
       last = found.at;
     };
     const on = (name, act) => svg.addEventListener(name, act);
-    svg.tabIndex = 0;
     on("pointerdown", (event) => { start = own().at(event); svg.setPointerCapture(event.pointerId); show(start); });
     on("pointermove", (event) => { if (start !== null) own().mark(start, own().at(event)); show(own().at(event)); });
     on("pointerup", (event) => {
@@ -139,7 +139,7 @@
     for (const name of ["pointercancel", "pointerleave", "blur"]) on(name, hide);
     on("dblclick", () => zoom([0, 1]));
     on("keydown", (event) => {
-      const [low, high] = own().view(), middle = last >= low && high >= last && last !== null ? last : (low + high) / 2;
+      const [low, high] = own().view(), middle = last > low && high >= last ? last : (low + high) / 2;
       const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key], near = (high - low) / 4;
       if (step) show(Math.max(low, Math.min(high, middle + step * (high - low))));
       else if (event.key === "+") zoom([Math.max(0, middle - near), Math.min(1, middle + near)]);
