@@ -7,9 +7,6 @@ use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot,
 use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
 use std::sync::Arc;
 
-/// The script that shows values, and zooms, in panels that state the ranges of their axes.
-pub(crate) const CHART_SCRIPT: &str = include_str!("chart.js");
-
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
 const WIDTH: f64 = 400.0;
 /// Height of a panel in SVG units.
