@@ -12,14 +12,14 @@ use calibrant::study::run_studies;
 use plan::{Choice, Material};
 use std::path::PathBuf;
 
-/// The experiment without a file: the report's chapters 3 and 4.
+/// The experiment without a file: the thesis's chapters 3 and 4.
 const DEFAULT: &str = "report";
 
 /// Simulate many sensors. Compare predicted and realised errors of their calibrations, and the optimal motion with a random one.
 ///
 /// Each sensor is calibrated on a random motion. The best motion is designed at this estimate, and the sensor is calibrated on it. If no motion can be
 /// designed (trust "unknown", or limits that do not bound it), the sensors are calibrated once. Without EXPERIMENT, the command repeats chapters 3 and 4
-/// of the report, which `calibrant init report` describes. Writes study.json and report.html.
+/// of the thesis (vamvaka2021 in references.bib), which `calibrant init report` describes. Writes study.json and report.html.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (default: the preset report; see `calibrant init`).
@@ -103,7 +103,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let about = About {
         title: match &arguments.experiment {
             Some(path) => format!("Study of {}", path.display()),
-            None => "Calibration and optimal experimental design: the report's chapters 3 and 4".into(),
+            None => "Calibration and optimal experimental design: the thesis's chapters 3 and 4".into(),
         },
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()

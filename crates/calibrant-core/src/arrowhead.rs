@@ -22,7 +22,7 @@
 //!
 //! Eliminating `w` has the pivot `diag(d) + diag(l) H diag(l)`. Here `H` is the information that the data
 //! right of node i have on node i+1. The pivot is at least one wherever there is a prior, so nothing is
-//! divided by a vanishing `q`. The report's problems (5), (6) and (3) are the rows `q = 0`, `0 < q < ∞` and
+//! divided by a vanishing `q`. The thesis's problems (5), (6) and (3) are the rows `q = 0`, `0 < q < ∞` and
 //! `q = ∞` of one table.
 //!
 //! # Cost

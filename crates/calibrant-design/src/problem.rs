@@ -12,7 +12,7 @@ const INTERVALS: usize = 20;
 
 /// Find the motion whose recording determines the parameters best:
 ///
-/// `minimise over a: Φ(Σ_p(a, p̄))` subject to the limits, the report's (4).
+/// `minimise over a: Φ(Σ_p(a, p̄))` subject to the limits, the thesis's (4).
 #[derive(Debug, Clone)]
 pub struct DesignProblem<'a> {
     /// The datasheet.

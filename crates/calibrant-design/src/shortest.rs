@@ -140,7 +140,7 @@ mod tests {
     use calibrant_core::sensor::{Sensor, SensorParameters};
     use nalgebra::{DVector, Vector3};
 
-    /// The report's stage, D1, on one axis.
+    /// The thesis's stage, D1, on one axis.
     fn with_stage(run: impl FnOnce(&DesignProblem<'_>)) {
         let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
         let all = |limit: f64| Some(Vector3::repeat(limit));

@@ -6,7 +6,7 @@ use super::figure::{
     DisplayUnit, Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, states,
     velocity_and_displacement,
 };
-use super::html::{Page, escape, facts, verdict_box};
+use super::html::{Page, verdict_box};
 use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::motion::Limits;
@@ -27,11 +27,8 @@ const WORTH_IT: f64 = 1.5;
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
 pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
-    let mut page = Page::default();
     let title = if about.title.is_empty() { "Evaluation of a motion" } else { &about.title };
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(assessment, about));
+    let mut page = Page::opened(title, verdict(assessment, about));
 
     let (own, parameters) = (&assessment.evaluation, &assessment.parameters);
     let optimum = assessment.optimum.as_ref().ok();
@@ -75,7 +72,7 @@ pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
         Some(covariance) => page.push(correlation_map(parameters, covariance)),
         None => page.paragraph("The motion does not determine the parameters, so they have no covariance."),
     }
-    page.finish(title, &about.footer())
+    page.finish(title, &about.facts, &about.footer())
 }
 
 fn verdict(assessment: &Assessment, about: &About) -> String {

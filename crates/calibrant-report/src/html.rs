@@ -1,6 +1,7 @@
 //! The page: escaped text, sections, and one file that needs nothing else.
 
-use super::figure::renumbered;
+use super::contents;
+use super::figure::{CHART_SCRIPT, renumbered};
 use rayon::prelude::*;
 
 /// Text made safe for HTML, also within attributes.
@@ -20,6 +21,13 @@ pub(super) fn escape(text: &str) -> String {
     safe
 }
 
+/// What pages call the thesis: `vamvaka2021`.
+const THESIS: &str = "“The thesis” is V. Vamvaka, Optimal Experimental Design for Calibration, University of Groningen and Xsens Technologies B.V., 2021 \
+                      (vamvaka2021 in references.bib).";
+
+/// How to use the script of the figures.
+const HINT: &str = "<p class=\"screen\">Figures: point at a place for its values, drag to zoom along x, double-click to see all again. With the keyboard: Tab, arrows, + and Escape.</p>";
+
 /// A page under construction: its pieces in order.
 #[derive(Debug, Default)]
 pub(super) struct Page {
@@ -31,6 +39,8 @@ enum Piece {
     Html(String),
     /// A heading of a section, to be numbered.
     Heading(String),
+    /// The place of the contents.
+    Contents,
 }
 
 impl Page {
@@ -38,6 +48,15 @@ impl Page {
     pub(super) fn of_parts<const N: usize>(parts: [&(dyn Fn() -> Self + Sync); N]) -> Self {
         let pages: Vec<Self> = parts.par_iter().map(|part| part()).collect();
         Self { pieces: pages.into_iter().flat_map(|page| page.pieces).collect() }
+    }
+
+    /// A page that opens with its title, the verdict, and the contents.
+    pub(super) fn opened(title: &str, verdict: String) -> Self {
+        let mut page = Self::default();
+        page.push(format!("<h1>{}</h1>", escape(title)));
+        page.push(verdict);
+        page.pieces.push(Piece::Contents);
+        page
     }
 
     /// Appends HTML that is already safe.
@@ -63,9 +82,18 @@ impl Page {
         self.push(format!("<p>{}</p>", escape(text)));
     }
 
-    /// The whole file.
-    pub(super) fn finish(self, title: &str, footer: &[String]) -> String {
-        let footer: String = footer.iter().map(|line| format!("<p>{}</p>", escape(line))).collect();
+    /// The whole file. It ends with the inputs: `facts` has the label and the value of each.
+    pub(super) fn finish(mut self, title: &str, inputs: &[(String, String)], footer: &[String]) -> String {
+        if !inputs.is_empty() {
+            self.section("Inputs", "");
+            self.push(facts(inputs.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+        }
+        let has = |text: &str| {
+            self.pieces.iter().any(|piece| matches!(piece, Piece::Html(html) if html.contains(text)))
+        };
+        let source = has("the thesis").then_some(THESIS).map(str::to_string);
+        let footer: String =
+            footer.iter().chain(&source).map(|line| format!("<p>{}</p>", escape(line))).collect();
         let head = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"generator\" content=\"calibrant {}\">\n\
@@ -75,15 +103,26 @@ impl Page {
             escape(title),
             include_str!("style.css"),
         );
-        let end = format!("</main>\n<footer>{footer}</footer>\n</body>\n</html>\n");
-        let mut sections = 0;
+        let is_alive = has(" data-x=\"");
+        let script = match is_alive {
+            true => format!("<script>\n{CHART_SCRIPT}</script>\n"),
+            false => String::new(),
+        };
+        let footer = footer + if is_alive { HINT } else { "" };
+        let end = format!("</main>\n<footer>{footer}</footer>\n{script}</body>\n</html>\n");
+        let headings: Vec<&str> = (self.pieces.iter())
+            .filter_map(
+                |piece| if let Piece::Heading(heading) = piece { Some(heading.as_str()) } else { None },
+            )
+            .collect();
+        let entries = contents::entries(&headings);
+        let list = contents::list(&entries);
+        let mut sections = entries.iter();
         let mut lines = vec![head];
-        lines.extend(self.pieces.into_iter().map(|piece| match piece {
-            Piece::Html(html) => html + "\n",
-            Piece::Heading(heading) => {
-                sections += 1;
-                format!("<h2><span class=\"number\">{sections}</span> {heading}</h2>\n")
-            }
+        lines.extend(self.pieces.iter().map(|piece| match piece {
+            Piece::Html(html) => format!("{html}\n"),
+            Piece::Heading(_) => sections.next().map_or_else(String::new, contents::heading),
+            Piece::Contents => list.clone(),
         }));
         lines.push(end);
         renumbered(&lines.concat())
@@ -140,7 +179,7 @@ mod tests {
         assert_eq!(escape("a<b>&\"c\"'d'\u{0}"), "a&lt;b&gt;&amp;&quot;c&quot;&#39;d&#39;\u{fffd}");
         let mut page = Page::default();
         page.section("<script>", "1 < 2");
-        let html = page.finish("</title><b>", &["x & y".to_string()]);
+        let html = page.finish("</title><b>", &[], &["x & y".to_string()]);
         assert!(!html.contains("<script") && !html.contains("</title><b>") && html.contains("x &amp; y"));
     }
 }

@@ -6,6 +6,7 @@
 
 mod batch;
 mod calibration;
+mod contents;
 mod design;
 mod evaluation;
 mod figure;

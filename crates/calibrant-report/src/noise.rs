@@ -2,7 +2,7 @@
 
 use super::About;
 use super::figure::allan_figure;
-use super::html::{Page, escape, facts, verdict_box};
+use super::html::{Page, escape, verdict_box};
 use super::number_format;
 use super::table::{Cell, Table};
 use crate::words::{capitalised, message};
@@ -20,14 +20,8 @@ const FILTERED: f64 = 0.95;
 #[must_use]
 pub fn noise_report(noise: &[SensorNoise], about: &About) -> String {
     let title = if about.title.is_empty() { "Noise" } else { &about.title };
-    let opening = || {
-        let mut page = Page::default();
-        page.push(format!("<h1>{}</h1>", escape(title)));
-        page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-        page.push(verdict(noise, about));
-        page
-    };
-    Page::of_parts([&opening, &|| noise_sections(noise)]).finish(title, &about.footer())
+    let opening = || Page::opened(title, verdict(noise, about));
+    Page::of_parts([&opening, &|| noise_sections(noise)]).finish(title, &about.facts, &about.footer())
 }
 
 /// A section on each sensor: its figure, coefficients, samples.
@@ -50,9 +44,8 @@ fn noise_section(page: &mut Page, noise: &SensorNoise, figure: String) {
             number_format::significant(segment.rate_hz(), 5)
         ),
     );
-    page.push(figure);
-    page.subsection("Coefficients");
     page.push(coefficient_table(noise));
+    page.push(figure);
     page.subsection("White noise of one sample");
     page.push(sample_table(noise));
 }

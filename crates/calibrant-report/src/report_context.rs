@@ -54,9 +54,7 @@ impl About {
     pub(super) fn footer(&self) -> Vec<String> {
         vec![
             self.made(),
-            "“The report” whose figures are named is V. Vamvaka, Optimal Experimental Design for Calibration, 2021. Readings are \
-             y = S s + b + ν (true → raw); sd is the standard deviation."
-                .to_string(),
+            "Readings are y = S s + b + ν (true → raw); sd is the standard deviation.".to_string(),
         ]
     }
 }

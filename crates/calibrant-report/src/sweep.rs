@@ -3,7 +3,7 @@
 use super::About;
 use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
-use super::html::{Page, escape, facts, verdict_box};
+use super::html::{Page, verdict_box};
 use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::information::Criterion;
@@ -14,11 +14,8 @@ use calibrant_design::{DesignStatus, Sweep, SweepPoint};
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
 pub fn sweep_report(sweep: &Sweep, about: &About) -> String {
-    let mut page = Page::default();
     let title = if about.title.is_empty() { "Sweep" } else { &about.title };
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(sweep, about));
+    let mut page = Page::opened(title, verdict(sweep, about));
 
     page.section(
         "Curves",
@@ -35,7 +32,7 @@ pub fn sweep_report(sweep: &Sweep, about: &About) -> String {
         ),
     );
     page.push(table(sweep));
-    page.finish(title, &about.footer())
+    page.finish(title, &about.facts, &about.footer())
 }
 
 fn verdict(sweep: &Sweep, about: &About) -> String {

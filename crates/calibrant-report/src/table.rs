@@ -84,7 +84,9 @@ impl Table {
         };
         let explains =
             self.rows.iter().flat_map(|(_, cells)| cells).any(|cell| matches!(cell, Cell::Words(_)));
-        let class = if explains { " class=\"explained\"" } else { "" };
+        // on a phone, the words stand below name and value; a row of several numbers has no room for that
+        let numbers = (0..self.columns.len()).filter(|&column| numeric(column)).count();
+        let class = if explains && numbers <= 1 { " class=\"explained\"" } else { "" };
         format!(
             "<div class=\"scroll\"><table{class}>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
         )

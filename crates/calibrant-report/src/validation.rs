@@ -100,6 +100,27 @@ pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[Stri
     (header, rows)
 }
 
+/// A line for each kind of error: its ratio, and what that says of the covariance.
+pub(super) fn validation_in_short(validations: &[Validation]) -> Vec<String> {
+    let line = |errors: &ValidatedErrors| {
+        let says = match errors.verdict {
+            CovarianceVerdict::Believed => "the covariance is consistent with the errors",
+            CovarianceVerdict::LargerThanNeeded => "the standard deviations are too large",
+            CovarianceVerdict::TooFew => "the data are too few for a verdict",
+            CovarianceVerdict::Doubtful => "as predicted, but the errors confirm nothing",
+            CovarianceVerdict::TooSmall => "the errors are larger than predicted",
+        };
+        format!(
+            "{}: {} rms, {} predicted, ratio {}: {says}.",
+            what(errors.kind),
+            measured(errors.kind, errors.rms),
+            measured(errors.kind, errors.predicted_rms),
+            between(errors.factor, errors.factor_interval)
+        )
+    };
+    validations.iter().flat_map(|validation| validation.kinds.iter().map(line)).collect()
+}
+
 /// The section on all validations of a calibration. Without a validation there is no section.
 pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
     if validations.is_empty() {
@@ -113,16 +134,42 @@ pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
     for validation in validations {
         page.subsection(&validation_heading(validation));
         page.push(list(&validation_sentences(validation)));
-        let (header, rows) = validation_rows(validation);
-        let mut table = Table::new("", &header);
-        for row in rows {
-            let [name, numbers @ ..] = row;
-            let mut cells = vec![Cell::Name(name)];
-            cells.extend(numbers.map(Cell::Number));
-            table.row(cells);
-        }
-        page.push(table.html());
+        page.push(table(validation));
         page.push(validation_errors(validation).html());
+    }
+}
+
+/// The rows of [`validation_rows`], with the units in a column of their own.
+fn table(validation: &Validation) -> String {
+    let ([name, number, distinct, rms, predicted, ratio, p_value], rows) = validation_rows(validation);
+    let mut table = Table::new("", &[name, number, distinct, rms, predicted, "unit", ratio, p_value]);
+    let units = validation.kinds.iter().flat_map(|errors| [Some(unit(errors.kind)), None]);
+    let with_parts = validation.kinds.iter().flat_map(|errors| [true, errors.parameters.is_some()]);
+    let units = units.zip(with_parts).filter(|(_, there)| *there).map(|(unit, _)| unit);
+    for ([name, number, distinct, rms, predicted, ratio, p_value], unit) in rows.into_iter().zip(units) {
+        let bare = |text: String| match unit {
+            Some(unit) => Cell::Number(text.trim_end_matches(unit).trim_end().to_string()),
+            None => Cell::Number(text),
+        };
+        table.row(vec![
+            Cell::Name(name),
+            Cell::Number(number),
+            Cell::Number(distinct),
+            bare(rms),
+            bare(predicted),
+            Cell::Text(unit.unwrap_or(number_format::UNKNOWN).to_string()),
+            Cell::Number(ratio),
+            Cell::Number(p_value),
+        ]);
+    }
+    table.html()
+}
+
+fn unit(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::Magnitude => "mm/s²",
+        ErrorKind::Rate => "°/s",
+        ErrorKind::Rotation => "°",
     }
 }
 

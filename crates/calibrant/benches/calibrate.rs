@@ -1,4 +1,4 @@
-//! Benchmark of whole calibrations: every trust and model at the report's size (N = 14, M = 141), and 38
+//! Benchmark of whole calibrations: every trust and model at the thesis's size (N = 14, M = 141), and 38
 //! static holds with their detection.
 
 #[allow(unreachable_pub)]

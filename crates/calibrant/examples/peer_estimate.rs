@@ -3,7 +3,7 @@
 //! way. `peers/casadi/estimate.py` is one of them; `scripts/peers` runs both.
 //!
 //! The problems have every trust and model at N = 14 intervals of 5 s, sampled at 2 Hz (M = 141). That is the
-//! size of the report's experiments. Beside them are motions with intervals of exactly known increment (σ_u =
+//! size of the thesis's experiments. Beside them are motions with intervals of exactly known increment (σ_u =
 //! 0). Times are of the whole `calibrate()` call on one thread.
 
 #[allow(unreachable_pub)]

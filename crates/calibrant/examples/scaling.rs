@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// N and samples per interval: ten for each interval, then more and more samples in the report's 14
+/// N and samples per interval: ten for each interval, then more and more samples in the thesis's 14
 /// intervals.
 const SIZES: [(usize, usize); 8] =
     [(100, 10), (1_000, 10), (10_000, 10), (100_000, 10), (14, 72), (14, 715), (14, 7_143), (14, 71_429)];

@@ -16,7 +16,7 @@ fn the_page_names_the_bad_sensor_its_codes_and_the_yield() {
     let page = bench.read("results/batch.html");
     assert!(page.contains("✗ Yield 67 %: 4 of 6 sensors ok."), "{outcome:?}");
     assert!(page.contains("1 bad, 0 doubtful, 1 without a result."));
-    let list = page.split("Sensors that are not ok").nth(1).and_then(|of| of.split("</table>").next());
+    let list = page.split("Sensors that are not ok</h2>").nth(1).and_then(|of| of.split("</table>").next());
     let list = list.expect("a table");
     for text in ["<a href=\"s4/report.html\">s4</a>", "parameter-implausible", "s6</th>", "file-empty"] {
         assert!(list.contains(text), "{text}: {list}");
@@ -24,7 +24,7 @@ fn the_page_names_the_bad_sensor_its_codes_and_the_yield() {
     assert!(!list.contains("s1") && !list.contains("s6/report.html"), "{list}");
     let causes = page.split("Sensors with each code").nth(1).expect("bars");
     assert!(causes.contains("<th scope=\"row\">file-empty</th><td class=\"n\">1 (17 %)</td>"));
-    assert!(page.contains("aria-label=\"scale.x\"") && page.contains("scale.x, 1 outside"));
+    assert!(page.contains("aria-label=\"accelerometer.scale.x\"") && page.contains("estimate, 1 outside"));
 }
 
 #[test]

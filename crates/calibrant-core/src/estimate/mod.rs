@@ -6,7 +6,7 @@
 //!                    + anchors (known start, known end) + optional prior on p
 //! ```
 //!
-//! [`Trust`](crate::motion::Trust) in the commanded motion chooses between the report's problems (5), (6) and (3). A static calibration has an
+//! [`Trust`](crate::motion::Trust) in the commanded motion chooses between the thesis's problems (5), (6) and (3). A static calibration has an
 //! unknown direction for each hold instead of a chain ([`HoldsSetup`]). An IMU ([`ImuProblem`])
 //! adds rotations of its gyroscope. All end in a [`Calibration`].
 //!

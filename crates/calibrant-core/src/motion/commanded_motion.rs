@@ -3,15 +3,15 @@
 use super::{JerkControlledMotion, MotionGravity};
 use nalgebra::Vector3;
 
-/// How far the commanded motion is trusted. The report's problems (5), (6) and (3) are one problem with three
+/// How far the commanded motion is trusted. The thesis's problems (5), (6) and (3) are one problem with three
 /// answers to this question.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trust {
-    /// The arm did exactly what was commanded: linear least squares, the report's (5).
+    /// The arm did exactly what was commanded: linear least squares, the thesis's (5).
     Known,
-    /// Commanded plus process noise on the jerk, the report's (6).
+    /// Commanded plus process noise on the jerk, the thesis's (6).
     Noisy(InputNoise),
-    /// Only the acceleration at both ends is known, the report's (3).
+    /// Only the acceleration at both ends is known, the thesis's (3).
     Unknown,
 }
 

@@ -1,7 +1,7 @@
 //! Jerk-controlled motion: acceleration that is continuous and linear between nodes. This file holds the
 //! nodes and converts them to jerk, velocity and displacement.
 //!
-//! All computations use the node form, `a_i` at breakpoint `τ_i`. Only the boundary uses the report's form
+//! All computations use the node form, `a_i` at breakpoint `τ_i`. Only the boundary uses the thesis's form
 //! (x, u): intercept and jerk of each interval, `α(t) = x_i + u_i t`. Both describe the same motions: the
 //! report's continuity constraint holds identically in node form.
 
@@ -116,7 +116,7 @@ impl JerkControlledMotion {
         self.times_s[i + 1] - self.times_s[i]
     }
 
-    /// Jerk `u_i = (a_{i+1} − a_i)/Δτ_i` of each interval, m/s³: the report's control.
+    /// Jerk `u_i = (a_{i+1} − a_i)/Δτ_i` of each interval, m/s³: the thesis's control.
     #[must_use]
     pub fn jerk_mps3(&self) -> Vec<Vector3<f64>> {
         (0..self.intervals())
@@ -124,7 +124,7 @@ impl JerkControlledMotion {
             .collect()
     }
 
-    /// Intercept `x_i = a_i − u_i τ_i` of each interval, m/s²: the report's state. It is the line's value at
+    /// Intercept `x_i = a_i − u_i τ_i` of each interval, m/s²: the thesis's state. It is the line's value at
     /// t = 0.
     #[must_use]
     pub fn intercept_mps2(&self) -> Vec<Vector3<f64>> {
@@ -193,7 +193,7 @@ mod tests {
         }
         for i in 0..2 {
             let tau = motion.times_s()[i + 1];
-            assert!((x[i] - x[i + 1] - (u[i + 1] - u[i]) * tau).amax() < 1e-14, "the report's continuity");
+            assert!((x[i] - x[i + 1] - (u[i + 1] - u[i]) * tau).amax() < 1e-14, "the thesis's continuity");
         }
     }
 

@@ -21,7 +21,7 @@ pub struct Limits {
     pub acceleration_mps2: Option<Vector3<f64>>,
     /// Largest jerk, m/s³.
     pub jerk_mps3: Option<Vector3<f64>>,
-    /// Largest intercept of an interval's line at t = 0 (the report's bound on x), m/s².
+    /// Largest intercept of an interval's line at t = 0 (the thesis's bound on x), m/s².
     pub intercept_mps2: Option<Vector3<f64>>,
     /// Largest velocity, m/s.
     pub velocity_mps: Option<Vector3<f64>>,

@@ -5,7 +5,7 @@ use crate::motion::{JerkControlledMotion, Limits, Rest};
 use nalgebra::Vector3;
 use rand::RngExt;
 
-/// Largest acceleration and jerk where no limit is given: the report's ±30 m/s² and m/s³.
+/// Largest acceleration and jerk where no limit is given: the thesis's ±30 m/s² and m/s³.
 const DEFAULT_LIMIT: f64 = 30.0;
 
 /// A random motion on each of `axes` axes, shrunk into the limits: jerk `u_i ~ U(−1, 1) u_max/10`, start

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 
 /// The motion that happens when this one is commanded. Process noise `w_i ~ N(0, σ_u(u_i)²)` acts on each
-/// interval's jerk, the report's `ū_i = u_i + w_i`.
+/// interval's jerk, the thesis's `ū_i = u_i + w_i`.
 ///
 /// Where both ends are known, the walk is drawn on the condition that it ends where it was commanded to (a
 /// bridge). The deviation at the end is distributed over the nodes, in proportion to the variance of the

@@ -245,7 +245,7 @@ impl ChainPart<'_> {
         let d = state(states.displacement, bounds.d[i], variables);
         let sum = state(states.sum, bounds.sum[i], variables);
         if let (Some(limit), None, None, false) = (l.intercept, start, end, stops) {
-            // the report's variables: the limits act on them, and nodes far from t = 0 would be badly scaled
+            // the thesis's variables: the limits act on them, and nodes far from t = 0 would be badly scaled
             let x = variables.add(limit);
             for k in 0..width {
                 let bound = l.jerk.unwrap_or(f64::INFINITY).min((bounds.a[i + k] + bounds.a[i + k + 1]) / dt);

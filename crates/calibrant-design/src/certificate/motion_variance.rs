@@ -220,7 +220,7 @@ fn segments(
     most_order: u8,
 ) -> Option<MotionVarianceBound> {
     let n = chain.sums.len();
-    // the same bounds everywhere make segments equal, but for the report's intercept, which counts from t = 0
+    // the same bounds everywhere make segments equal, but for the thesis's intercept, which counts from t = 0
     let uniform = bounds.everywhere();
     let (bounds, moves) = if chain.limits.intercept.is_some() { (bounds, true) } else { (&uniform, false) };
     let mut total =

@@ -57,7 +57,7 @@ fn gap(bound: &MotionVarianceBound, sd: f64) -> f64 {
     sd / (2e-4 / bound.value.sqrt()) - 1.0
 }
 
-/// The limits of the report's case D1: acceleration and jerk.
+/// The limits of the thesis's case D1: acceleration and jerk.
 const D1: AxisLimits = AxisLimits {
     acceleration: Some(30.0),
     jerk: Some(30.0),

@@ -35,7 +35,7 @@ impl StudiesProblem<'_> {
 /// The result of `calibrant study`: the studies that were wanted. The preset `report` wants all of them.
 #[derive(Debug, Clone, Default)]
 pub struct Studies {
-    /// Sensors calibrated without a design: the report's chapter 3, where only the ends of the motion are
+    /// Sensors calibrated without a design: the thesis's chapter 3, where only the ends of the motion are
     /// known (Figures 4 to 6).
     pub calibration: Option<Study>,
     /// The criterion over the jerks of two intervals (Figure 7).

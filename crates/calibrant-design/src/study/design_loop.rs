@@ -1,4 +1,4 @@
-//! The design study, the report's loop (Figure 2) over many sensors: calibrate, design at the estimate,
+//! The design study, the thesis's loop (Figure 2) over many sensors: calibrate, design at the estimate,
 //! calibrate again.
 
 use super::simulated_recording::record;

@@ -6,7 +6,7 @@ use calibrant_core::information::Criterion;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::sensor::{Parameter, Sensor};
 
-/// Sensors that went round the report's loop (Figure 2). Each was calibrated on a random motion, then again
+/// Sensors that went round the thesis's loop (Figure 2). Each was calibrated on a random motion, then again
 /// on the best motion, designed at the estimate.
 #[derive(Debug, Clone)]
 pub struct DesignStudy {
@@ -38,10 +38,10 @@ pub struct DesignStudy {
     pub seed: u64,
     /// One entry for each sensor.
     pub outcomes: Vec<DesignOutcome>,
-    /// Number of the first sensors whose optimal motions are shown together (the report's Figure 9). At most
+    /// Number of the first sensors whose optimal motions are shown together (the thesis's Figure 9). At most
     /// the number of outcomes.
     pub motions_shown: usize,
-    /// The whole design of the first sensor (the report's Figure 8).
+    /// The whole design of the first sensor (the thesis's Figure 8).
     pub design: Design,
     /// Summary over the sensors, one entry for each parameter.
     pub summary: Vec<Improvement>,

@@ -1,6 +1,6 @@
 //! Studies over many simulated sensors: what a calibration promises beside what it delivers.
 //!
-//! | experiment | of the report | gives |
+//! | experiment | of the thesis | gives |
 //! |---|---|---|
 //! | [`run_study`]: sensors moved by the same command, truth beside estimate | Figures 4 to 6 | [`Study`] |
 //! | [`trace_surface`]: the criterion over the jerks of two intervals | Figure 7 | [`TraceSurface`] |

@@ -24,9 +24,9 @@ pub struct Study {
     pub outcomes: Vec<SensorOutcome>,
     /// Summary over the sensors, one entry for each parameter.
     pub summary: Vec<ParameterSummary>,
-    /// One sensor in detail at the population's rate (the report's Figure 4).
+    /// One sensor in detail at the population's rate (the thesis's Figure 4).
     pub single: SingleCase,
-    /// One sensor in detail at a higher rate (the report's Figure 5).
+    /// One sensor in detail at a higher rate (the thesis's Figure 5).
     pub fine: SingleCase,
 }
 

@@ -1,4 +1,4 @@
-//! The criterion as a surface over the jerks of two intervals: the report's Figure 7.
+//! The criterion as a surface over the jerks of two intervals: the thesis's Figure 7.
 
 use crate::{DesignProblem, evaluate};
 use calibrant_core::error::Result;
@@ -16,7 +16,7 @@ pub struct SurfaceSettings {
     pub jerk_mps3: f64,
     /// Number of jerks in each direction; odd numbers have zero among them.
     pub points: usize,
-    /// Acceleration at the start, m/s²: the report's `x_1`.
+    /// Acceleration at the start, m/s²: the thesis's `x_1`.
     pub start_mps2: f64,
     /// Duration of each of the two intervals, s.
     pub interval_s: f64,

@@ -11,7 +11,7 @@ use nalgebra::{DVector, Vector3};
 use sensor::{Axis, Sensor, SensorParameters};
 use simulate::{Purpose, initial_motion, stream};
 
-/// The report's sensor on an arm with limits on everything.
+/// The thesis's sensor on an arm with limits on everything.
 pub(crate) fn arm() -> Limits {
     Limits {
         acceleration_mps2: Some(Vector3::repeat(30.0)),
@@ -23,7 +23,7 @@ pub(crate) fn arm() -> Limits {
     }
 }
 
-/// The problem D3 of the report's sensor.
+/// The problem D3 of the thesis's sensor.
 pub(crate) fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits) -> DesignProblem<'a> {
     let parameters = sensor.parameter_list().len();
     DesignProblem {

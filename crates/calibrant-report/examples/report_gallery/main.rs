@@ -93,7 +93,7 @@ fn main() -> std::io::Result<()> {
     let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
     let problem = designs::problem(&sensor, &limits);
     let design = designs::design_of(&problem, 30);
-    write("design.html", design_report(&design, &about("Design for the report's sensor", "–", 101)))?;
+    write("design.html", design_report(&design, &about("Design for the sensor of the thesis", "–", 101)))?;
 
     let own = designs::swing(&problem, [1.0; 3]).motion;
     let assessment = design::assess(&problem, &own, Ok(design)).expect("a valid setting");

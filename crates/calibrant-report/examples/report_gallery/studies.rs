@@ -17,7 +17,7 @@ pub(crate) fn calibrations(study: Study) -> Studies {
     Studies { calibration: Some(study), ..Studies::default() }
 }
 
-/// All studies of the report.
+/// All studies of the thesis.
 pub(crate) fn everything(calibrated: usize, designed: usize) -> Studies {
     let surface =
         SurfaceSettings { jerk_mps3: 0.5, points: 41, start_mps2: 0.0, interval_s: 1.0, rate_hz: 10.0 };

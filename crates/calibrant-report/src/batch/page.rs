@@ -4,7 +4,7 @@ use super::sensors::Batch;
 use super::summary::yield_box;
 use super::tables;
 use crate::figure::{code_bars, drifts, parameter_histograms};
-use crate::html::{Page, escape, facts};
+use crate::html::Page;
 use crate::report_context::About;
 
 /// A batch of sensors as one HTML file: yield, the sensors that are not ok, the codes that occur most, and each parameter as a histogram and
@@ -27,14 +27,11 @@ pub fn batch_report(batch: &Batch, about: &About) -> String {
         about.made(),
         "Values are of the readings: true → raw. sd is the standard deviation.".to_owned(),
     ];
-    page.finish(title, &footer)
+    page.finish(title, &about.facts, &footer)
 }
 
 fn opening(batch: &Batch, title: &str, about: &About) -> Page {
-    let mut page = Page::default();
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(yield_box(batch, about));
+    let mut page = Page::opened(title, yield_box(batch, about));
     if let Some((table, further)) = tables::not_ok(batch) {
         page.section(
             "Sensors that are not ok",

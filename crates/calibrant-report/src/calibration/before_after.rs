@@ -51,18 +51,19 @@ fn table(rows: &[Improved]) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let mut table = Table::new("", &["", "before → after, smaller by", "meaning"]);
+    let mut table = Table::new("", &["", "before", "after", "unit", "smaller by", "meaning"]);
     for row in rows {
-        let factor = row.before / row.after;
-        let factor = if factor.is_finite() {
-            format!(", {}×", number_format::significant(factor, 3))
-        } else {
-            String::new()
+        let factor = match row.before / row.after {
+            factor if factor.is_finite() => format!("{} ×", number_format::significant(factor, 3)),
+            _ => number_format::UNKNOWN.into(),
         };
         let [before, after] = [row.before, row.after].map(|value| number_format::significant(value, 3));
         table.row(vec![
             Cell::Name(row.name.to_string()),
-            Cell::Number(format!("{before} → {after} {}{factor}", row.unit)),
+            Cell::Number(before),
+            Cell::Number(after),
+            Cell::Text(row.unit.to_string()),
+            Cell::Number(factor),
             Cell::Words(row.meaning.to_string()),
         ]);
     }

@@ -15,7 +15,7 @@ mod verdict;
 
 pub use page::calibration_report;
 pub use parameters::over_the_gain;
-pub(super) use parameters::parameter_table;
+pub(super) use parameters::{column_notes, parameter_table};
 pub(super) use quality::noise_explains;
 pub use quality::{calibration_quality, nuisances_in_words, used_in_words};
 pub use temperature::temperature_in_words;

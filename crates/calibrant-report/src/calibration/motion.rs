@@ -31,16 +31,16 @@ pub(super) fn motion_section(
     let Some(recording) = &recording.accelerometer else { return page };
     let truth = about.true_motion.as_ref();
     let title = match truth {
-        Some(_) => "Actual, measured and estimated acceleration (Figure 4 of the report)",
-        None => "Measured and estimated acceleration (Figure 4 of the report)",
+        Some(_) => "Actual, measured and estimated acceleration (Figure 4 of the thesis)",
+        None => "Measured and estimated acceleration (Figure 4 of the thesis)",
     };
     page.push(acceleration_figure(title, calibration, recovered, recording, truth).html());
     if let Some(figure) = motion_error_figure(recovered, recording, truth) {
         page.push(figure.html());
     }
     let title = match truth {
-        Some(_) => "Actual and estimated states and inputs (Figure 5 of the report)",
-        None => "Estimated states and inputs (Figure 5 of the report)",
+        Some(_) => "Actual and estimated states and inputs (Figure 5 of the thesis)",
+        None => "Estimated states and inputs (Figure 5 of the thesis)",
     };
     page.push(state_and_jerk_figure(title, recovered, recording, truth).html());
     page

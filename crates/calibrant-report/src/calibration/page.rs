@@ -6,7 +6,7 @@ use super::correction::correction;
 use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::motion::{motion_section, residual_section};
-use super::parameters::parameter_table;
+use super::parameters::{column_notes, estimate_table, parameter_table};
 use super::quality::nuisances_in_words;
 use super::rotations::{rotation_summary, rotation_table, turn_table};
 use super::temperature::temperature_in_words;
@@ -16,7 +16,7 @@ use crate::figure::{
     bias_over_temperature, correlation_map_of, drawn, hold_directions, hold_residuals,
     holds_before_and_after, recording_before_and_after, recording_overview, rotation_errors, still_gyroscope,
 };
-use crate::html::{Page, escape, facts};
+use crate::html::{Page, escape};
 use crate::limits::limit_section;
 use crate::noise::noise_sections;
 use crate::validation::validation_section;
@@ -24,10 +24,10 @@ use calibrant_core::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
-/// A calibration as one HTML file: verdict, parameters and corrections, the recovered motion or the holds,
-/// rotations and turns, noise, validations, fit and correlations.
+/// A calibration as one HTML file: verdict, parameters, validations and corrections, the recovered motion or the holds,
+/// rotations and turns, noise, fit and correlations.
 ///
-/// The file needs nothing else: no network, no script. It suits a wide screen, a phone and A4 paper. Long recordings are
+/// The file needs nothing else and fetches nothing. A small script shows values under the pointer and zooms; without it, the page is complete. It suits a wide screen, a phone and A4 paper. Long recordings are
 /// thinned for the plots, so that the file stays below about 2 MB whatever their length.
 ///
 /// `recording` is the calibrated recording; `noise` may be empty.
@@ -41,11 +41,11 @@ pub fn calibration_report(
     let title = if about.title.is_empty() { "Calibration" } else { &about.title };
     let page = Page::of_parts([
         &|| opening(calibration, title, about),
-        &|| parameters(calibration, about),
+        &|| correction_section(calibration, about),
         &|| recovered(calibration, recording, about),
         &|| rotations(calibration),
         &|| noise_sections(noise),
-        &|| fit(calibration, recording, about),
+        &|| fit(calibration, recording),
     ]);
     let footer = match calibration.recovered {
         Recovered::Motion(_) => about.footer(),
@@ -54,44 +54,62 @@ pub fn calibration_report(
             "Directions are true → raw unless stated otherwise. sd is the standard deviation.".to_string(),
         ],
     };
-    page.finish(title, &footer)
+    page.finish(title, &about.facts, &footer)
 }
 
 fn opening(calibration: &Calibration, title: &str, about: &About) -> Page {
-    let mut page = Page::default();
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(calibration, about));
+    let mut page = Page::opened(title, verdict(calibration, about));
     limit_section(&mut page, &about.limits);
+    parameters(&mut page, calibration, about);
+    validation_section(&mut page, &about.validations);
     page
 }
 
-fn parameters(calibration: &Calibration, about: &About) -> Page {
-    let mut page = Page::default();
-    page.section(
-        "Parameters",
-        match calibration.gyroscope {
-            None => "Readings are y = S f + b, with f the specific force. Biases are the entries of b, scale factors and matrix entries those of S. In files, their names begin with that of the sensor: accelerometer.bias.x.",
-            Some(_) => "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate. Biases are \
-             the entries of b, scale factors and matrix entries those of S, g-sensitivities those of Γ. In files, their names begin with that of the sensor: gyroscope.bias.x.",
-        },
-    );
-    for &sensor_kind in calibration.sensor_kinds() {
-        page.subsection(capitalised(sensor_kind));
-        page.push(parameter_table(calibration, sensor_kind, about.truth.as_ref()));
+/// The numbers: on the first screen with the verdict, as far as it goes.
+fn parameters(page: &mut Page, calibration: &Calibration, about: &About) {
+    page.section("Parameters", "");
+    let tables: String = match calibration.sensor_kinds() {
+        [one] => parameter_table(calibration, *one, about.truth.as_ref()),
+        both => {
+            let of = |sensor_kind: &SensorKind| {
+                format!("<div>{}</div>", estimate_table(calibration, *sensor_kind))
+            };
+            format!("<div class=\"pair\">{}</div>", both.iter().map(of).collect::<String>())
+        }
+    };
+    page.push(tables);
+    if calibration.gyroscope.is_none() {
+        page.paragraph(&column_notes(calibration));
     }
+    page.paragraph(match calibration.gyroscope {
+        None => "Readings are y = S f + b, with f the specific force. Biases are the entries of b, scale factors and matrix entries those of S.",
+        Some(_) => "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate. Biases are \
+             the entries of b, scale factors and matrix entries those of S, g-sensitivities those of Γ.",
+    });
     for line in nuisances_in_words(calibration).iter().filter(|_| calibration.holds().is_none()) {
         page.push(format!("<p>{}.</p>", escape(&crate::words::capitalised(line))));
     }
     if let Some(line) = temperature_in_words(calibration) {
         page.push(format!("<p>{}</p>", escape(&line)));
     }
+}
+
+/// The correction, and what the parameters mean for it.
+fn correction_section(calibration: &Calibration, about: &About) -> Page {
+    let mut page = Page::default();
+    page.section("Correction, raw → true", "");
+    page.push(correction(calibration));
+    if calibration.gyroscope.is_some() {
+        page.section("Parameters in detail", "");
+        for &sensor_kind in calibration.sensor_kinds() {
+            page.push(parameter_table(calibration, sensor_kind, about.truth.as_ref()));
+        }
+        page.paragraph(&column_notes(calibration));
+    }
     if let Some(table) = axis_table(calibration) {
         page.subsection("Axes");
         page.push(table);
     }
-    page.section("Correction, raw → true", "");
-    page.push(correction(calibration));
     page
 }
 
@@ -158,32 +176,17 @@ fn rotations(calibration: &Calibration) -> Page {
     page
 }
 
-fn fit(calibration: &Calibration, recording: &ImuRecording, about: &About) -> Page {
+fn fit(calibration: &Calibration, recording: &ImuRecording) -> Page {
     let mut page = Page::default();
     if let Recovered::Motion(motion) = &calibration.recovered {
         residual_section(&mut page, calibration, motion, recording);
     }
-    validation_section(&mut page, &about.validations);
     page.section(
         "Fit and correlations",
         "Whether the model and the noise describe the data. Only then are the standard deviations right.",
     );
     page.push(fit_table(calibration));
-    let names: Vec<&str> = calibration
-        .parameters
-        .iter()
-        .map(|parameter| match (&calibration.gyroscope, parameter.name.split_once('.')) {
-            (None, Some((_, short))) => short,
-            _ => &parameter.name,
-        })
-        .collect();
+    let names: Vec<&str> = calibration.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     page.push(correlation_map_of(&names, &calibration.covariance));
     page
-}
-
-fn capitalised(sensor_kind: SensorKind) -> &'static str {
-    match sensor_kind {
-        SensorKind::Accelerometer => "Accelerometer",
-        SensorKind::Gyroscope => "Gyroscope",
-    }
 }

@@ -1,6 +1,5 @@
 //! The table of the parameters of one sensor, also in units of the stimulus.
 
-use crate::figure::DisplayUnit;
 use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::Calibration;
@@ -8,12 +7,31 @@ use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters, ThermalPart,
 };
 
-/// Shares from here on are in %, smaller ones in ppm.
-const PER_CENT: f64 = 1e-3;
 /// Standard gravity, m/s²: 1 g.
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Name without that of the sensor, estimate and sd, unit, and value over the gain. Also the datasheet's
+/// Name, estimate and sd of the parameters of one sensor.
+pub(super) fn estimate_table(calibration: &Calibration, sensor_kind: SensorKind) -> String {
+    let mut table = Table::new("", &ESTIMATE);
+    for k in calibration.places_of(sensor_kind) {
+        table.row(estimate(calibration, k).into());
+    }
+    table.html()
+}
+
+/// The first columns of a table of parameters.
+const ESTIMATE: [&str; 3] = ["parameter", "estimate ± sd", "unit"];
+
+fn estimate(calibration: &Calibration, k: usize) -> [Cell; 3] {
+    let parameter = &calibration.parameters[k];
+    [
+        Cell::Name(parameter.name.clone()),
+        Cell::Number(number_format::with_sd(calibration.values[k], calibration.sd()[k])),
+        Cell::Text(if parameter.unit == "1" { "–" } else { parameter.unit }.to_string()),
+    ]
+}
+
+/// Name, estimate and sd, unit, and value over the gain. Also the datasheet's
 /// values, the share of the prior, and truth and error, where there are some.
 pub(crate) fn parameter_table(
     calibration: &Calibration,
@@ -31,22 +49,18 @@ pub(crate) fn parameter_table(
         (with_prior, &["from prior"]),
         (truth.is_some(), &["truth", "error / sd"]),
     ];
-    let mut columns = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
+    let mut columns = [&ESTIMATE[..], &["over the gain"]].concat();
     columns.extend(optional.iter().filter(|(there, _)| *there).flat_map(|(_, names)| *names));
     let mut table = Table::new("", &columns);
-    let (sds, prefix) = (calibration.sd(), format!("{sensor_kind}."));
+    let sds = calibration.sd();
     let number = |value: Option<f64>, show: &dyn Fn(f64) -> String| {
         Cell::Number(value.map_or(number_format::UNKNOWN.to_string(), show))
     };
     for &k in &places {
         let (quantity, parameter) = (calibration.quantities[k], &calibration.parameters[k]);
         let (value, sd) = (calibration.values[k], sds[k]);
-        let mut row = vec![
-            Cell::Name(parameter.name.trim_start_matches(&prefix).to_string()),
-            Cell::Number(number_format::with_sd(value, sd)),
-            Cell::Text(if parameter.unit == "1" { "–" } else { parameter.unit }.to_string()),
-            Cell::Number(over_the_gain(calibration, quantity, sd)),
-        ];
+        let mut row: Vec<Cell> = estimate(calibration, k).into();
+        row.push(Cell::Number(over_the_gain(calibration, quantity, sd)));
         if with_nominal {
             row.push(number(parameter.nominal, &number_format::short));
         }
@@ -71,13 +85,18 @@ pub(crate) fn parameter_table(
         }
         table.row(row);
     }
-    let mut explanation = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
-    if with_prior {
-        explanation.push_str(
+    table.html()
+}
+
+/// What the columns of [`parameter_table`] mean.
+pub(crate) fn column_notes(calibration: &Calibration) -> String {
+    let mut notes = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
+    if (0..calibration.parameters.len()).any(|k| calibration.known_beforehand(k).is_some()) {
+        notes.push_str(
             " From prior: the share of the information that comes from the prior and not from the data.",
         );
     }
-    format!("{}<p>{explanation}</p>", table.html())
+    notes
 }
 
 /// A parameter over the gain of its axis, with the sd of this ratio. A bias is then in the unit of the stimulus, a
@@ -114,17 +133,17 @@ pub fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) 
     in_display_unit(unit, per, Some(value), sd)
 }
 
-/// A value with its sd in a unit that suits it, `per` something; the sd alone without a value.
+/// A value with its sd, `per` something; the sd alone without a value. The unit follows from the kind of quantity
+/// alone, so that a column has one unit.
 fn in_display_unit(unit: &'static str, per: &str, value: Option<f64>, sd: f64) -> String {
-    let largest = value.unwrap_or(0.0).abs().max(sd);
-    let suited = match unit {
-        "(rad/s)/(m/s²)" => DisplayUnit { factor: STANDARD_GRAVITY.to_degrees(), symbol: "(°/s)/g" },
-        "1" if largest >= PER_CENT => DisplayUnit { factor: 100.0, symbol: "%" },
-        _ => DisplayUnit::suited(unit, largest),
+    let (factor, symbol) = match unit {
+        "(rad/s)/(m/s²)" => (STANDARD_GRAVITY.to_degrees(), "(°/s)/g"),
+        "1" if per.is_empty() => (100.0, "%"),
+        "1" => (1e6, "ppm"),
+        _ => (1.0, unit),
     };
-    let text = match value {
-        Some(value) => number_format::with_sd(suited.factor * value, suited.factor * sd),
-        None => format!("± {}", number_format::significant(suited.factor * sd, 2)),
-    };
-    if suited.symbol.is_empty() { text } else { format!("{text} {}{per}", suited.symbol) }
+    match value {
+        Some(value) => format!("{} {symbol}{per}", number_format::with_sd(factor * value, factor * sd)),
+        None => format!("± {} {symbol}{per}", number_format::significant(factor * sd, 2)),
+    }
 }

@@ -1,6 +1,7 @@
 //! The verdict on a calibration: can it be used?
 
 use super::quality::{calibration_quality, used_in_words};
+use crate::validation::validation_in_short;
 use crate::words::{capitalised, message};
 use crate::{About, html, number_format};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability, Verdict};
@@ -21,13 +22,15 @@ pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
         .chain(hardly_determined(calibration))
         .chain(mostly_prior(calibration))
         .chain(unchecked(calibration));
-    calibration_verdict(&calibration.warnings, remarks, &sentence(calibration), about)
+    let validation = validation_in_short(&about.validations);
+    calibration_verdict(&calibration.warnings, remarks, validation, &sentence(calibration), about)
 }
 
-/// The verdict with its errors, warnings and further remarks; with a sentence on what was calibrated.
+/// The verdict with its errors, warnings, further remarks and the validation in short; with a sentence on what was calibrated.
 pub(crate) fn calibration_verdict(
     diagnostics: &[Diagnostic],
     remarks: impl IntoIterator<Item = String>,
+    validation: Vec<String>,
     sentence: &str,
     about: &About,
 ) -> String {
@@ -47,6 +50,7 @@ pub(crate) fn calibration_verdict(
         ("Errors", of(Severity::Error)),
         ("Warnings", of(Severity::Warning)),
         ("Remarks", remarks),
+        ("Validation", validation),
         ("About the recording", about.findings.clone()),
     ];
     html::verdict_box(class, &word, sentence, &lists)

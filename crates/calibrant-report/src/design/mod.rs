@@ -17,7 +17,7 @@ use super::figure::{
     Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, start_values, states,
     velocity_and_displacement,
 };
-use super::html::{Page, escape, facts};
+use super::html::Page;
 use calibrant_design::{Design, limit_use};
 use predicted_sd::criterion_table;
 use verdict::verdict;
@@ -28,11 +28,8 @@ use verdict::verdict;
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
 pub fn design_report(design: &Design, about: &About) -> String {
-    let mut page = Page::default();
     let title = if about.title.is_empty() { "Design" } else { &about.title };
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(design, about));
+    let mut page = Page::opened(title, verdict(design, about));
 
     page.section(
         "Predicted standard deviations",
@@ -65,7 +62,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
     );
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
-    let title8 = "Figure 8 of the report: initial against optimal jerk (a) and acceleration (b)";
+    let title8 = "Figure 8 of the thesis: initial against optimal jerk (a) and acceleration (b)";
     page.push(jerk_and_acceleration(title8, &motions, axes, &design.limits).html());
     page.push(velocity_and_displacement(&motions, axes, &design.limits).html());
     if let Some(figure) = states(&motions, axes, &design.limits) {
@@ -89,7 +86,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
 
     page.section("The search", "");
     search(&mut page, design);
-    page.finish(title, &about.footer())
+    page.finish(title, &about.facts, &about.footer())
 }
 
 fn search(page: &mut Page, design: &Design) {

@@ -60,11 +60,8 @@ pub(crate) fn promised_table(
             row.extend([Cell::Number(bound), Cell::Number(above)]);
         }
         if with_spread {
-            let symbol = if parameter.unit == "1" { "" } else { parameter.unit };
-            let spread = parameter.spread.map(|spread| format!("{} {symbol}", number_format::short(spread)));
-            row.push(Cell::Number(
-                spread.map_or_else(|| number_format::UNKNOWN.into(), |text| text.trim_end().into()),
-            ));
+            let spread = parameter.spread.map(|spread| number_format::short(spread * unit.factor));
+            row.push(Cell::Number(spread.unwrap_or_else(|| number_format::UNKNOWN.into())));
         }
         table.row(row);
     }

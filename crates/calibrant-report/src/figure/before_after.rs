@@ -1,7 +1,7 @@
 //! Figures of the readings before and after the correction.
 
 use super::panel::{Mark, Panel, Series, Shape};
-use super::point_thinning::{is_thinned, thinned, thinned_dots};
+use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::{Calibration, HoldCalibration, Uncalibrated};
@@ -107,14 +107,8 @@ fn force_panels(
     let before = |k: usize| (recording.times_s[k], before[k]);
     let after = |k: usize| (recording.times_s[k], after[k]);
     let all = || 0..recording.len();
-    let still: Vec<usize> =
-        holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end).collect();
-    let still = || still.iter().copied();
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
-    let dots = |label: &str, colour, points| {
-        Series::new(label, colour, Mark::Dots { shape: Shape::Circle, radius: 1.0 }, points)
-    };
     let (first, last) = (*recording.times_s.first()?, *recording.times_s.last()?);
     let at_gravity = Series::new(
         "g",
@@ -128,10 +122,28 @@ fn force_panels(
             .with(line(AFTER, colour::BLUE, thinned(all().map(after))))
             .with(at_gravity.clone()),
         Panel::new("specific force in holds", "time (s)", "|f| (m/s²)")
-            .with(dots("before, in holds", colour::ORANGE, thinned_dots(still().map(before))))
-            .with(dots("after, in holds", colour::BLUE, thinned_dots(still().map(after))))
+            .with(ranges("before, in a hold", colour::ORANGE, 5.5, holds, before))
+            .with(ranges("after, in a hold", colour::BLUE, 2.5, holds, after))
             .with(at_gravity),
     ])
+}
+
+/// The smallest and the largest value in each hold, as a bar at its middle. `sample`: time and value of a sample.
+fn ranges(
+    label: &str,
+    colour: &'static str,
+    width: f64,
+    holds: &HoldCalibration,
+    sample: impl Fn(usize) -> (f64, f64),
+) -> Series {
+    let ends = holds.holds.iter().map(|result| {
+        let values = (result.hold.first..result.hold.end).map(&sample).map(|(_, value)| value);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let middle_s = 0.5 * (result.hold.start_s + result.hold.end_s);
+        ((middle_s, 0.5 * (low + high)), 0.5 * (high - low))
+    });
+    let (points, spread) = ends.unzip();
+    Series::new(label, colour, Mark::Ranges { width }, points).with_spread(spread)
 }
 
 /// The rate after the correction, and the change by it. `after` are the corrected readings.
@@ -147,20 +159,26 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
         magnitude,
     ));
     let mut change = Panel::new("change by the correction", "time (s)", "ω after − before (°/s)");
-    for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
+    let looks = [(colour::VERMILLION, ""), (colour::GREEN, "6 3"), (colour::BLUE, "2 2")];
+    for (axis, (colour, dashes)) in Axis::ALL.into_iter().zip(looks) {
         let row = before.matrix.row(axis.index()).transpose();
         let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
             (t, (after[axis.index()] - row.dot(&(reading - before.bias))).to_degrees())
         }));
-        change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
+        change = change.with(Series::new(
+            &format!("change of axis {axis}"),
+            colour,
+            Mark::Line { width: 1.1, dashes },
+            difference,
+        ));
     }
     Some(vec![rate, change])
 }
 
 fn caption(recording: &Recording, before: &str, more: &str) -> String {
     let mut caption = format!(
-        "Magnitude of the specific force, of all samples and of those in holds. {before} Good: in all holds the blue points lie on g, and their width is \
-         the noise of the samples.{more}"
+        "Magnitude of the specific force, of all samples and in the holds, where a bar reaches from the smallest to the largest. {before} Good: the blue line and all \
+         blue bars lie about g, as wide as the noise of the samples.{more}"
     );
     if is_thinned(recording.len()) {
         caption.push_str(" The smallest and the largest value of each pixel column are drawn.");

@@ -12,5 +12,16 @@ pub(super) const GREEN: &str = "#009e73";
 pub(super) const BLUE: &str = "#0072b2";
 /// Vermillion, an orange red.
 pub(super) const VERMILLION: &str = "#d55e00";
+/// Reddish purple.
+pub(super) const PURPLE: &str = "#cc79a7";
 /// Grey.
 pub(super) const GREY: &str = "#6e7781";
+
+/// The look of each of many lines: a colour and SVG's dashes. The first ten have colours of their own, which also differ in lightness from
+/// their neighbours.
+pub(super) fn look(place: usize) -> (&'static str, &'static str) {
+    const COLOURS: [&str; 10] =
+        [BLACK, ORANGE, BLUE, SKY, VERMILLION, GREEN, PURPLE, GREY, "#8f8600", "#5d3a9b"];
+    const DASHES: [&str; 3] = ["", "7 3", "2 3"];
+    (COLOURS[place % COLOURS.len()], DASHES[(place / (COLOURS.len() / 2)) % DASHES.len()])
+}

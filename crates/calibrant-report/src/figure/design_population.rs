@@ -1,4 +1,4 @@
-//! Figures of initial against optimal motions over many sensors: the report's Figures 9 to 11, 13 and 14.
+//! Figures of initial against optimal motions over many sensors: the thesis's Figures 9 to 11, 13 and 14.
 
 use super::motion::{TIME, nodes};
 use super::panel::{Mark, Panel, Series, Shape};
@@ -19,15 +19,6 @@ const SAME: f64 = 0.01;
 
 /// The optimal accelerations of several sensors on top of each other.
 pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -> Figure {
-    let colours = [
-        colour::BLACK,
-        colour::ORANGE,
-        colour::SKY,
-        colour::GREEN,
-        colour::BLUE,
-        colour::VERMILLION,
-        colour::GREY,
-    ];
     let shown: Vec<&JerkControlledMotion> =
         study.outcomes.iter().take(study.motions_shown).map(|outcome| &outcome.optimal.motion).collect();
     let mut alike = Vec::new();
@@ -37,10 +28,10 @@ pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -
             let mut panel = Panel::new(format!("axis {axis}"), TIME, "acceleration (m/s²)");
             for (i, motion) in shown.iter().enumerate() {
                 let place = i as f64 / shown.len() as f64;
-                let mark = Mark::Line { width: 1.1 + 5.0 * (1.0 - place), dashes: "" };
+                let (colour, dashes) = colour::look(i);
+                let mark = Mark::Line { width: 1.1 + 5.0 * (1.0 - place), dashes };
                 let label = format!("sensor {}", i + 1);
-                panel =
-                    panel.with(Series::new(&label, colours[i % colours.len()], mark, nodes(motion, axis)));
+                panel = panel.with(Series::new(&label, colour, mark, nodes(motion, axis)));
             }
             alike.push(counted(axis, &shown));
             if let Some(limit) = study.limits.axis(axis.index()).acceleration
@@ -54,8 +45,8 @@ pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -
     let caption = format!(
         "Is there one best motion? Each later line is thinner, which keeps lines visible where they coincide. {} A motion, its \
          mirror image, and the same motion on another axis with the same limits give the same information. If only these appear, there is one \
-         best motion. The report finds this too. Its curves look sinusoidal. \
-         Other curves follow from other limits. The report starts each design from one motion. Here each is the best of {} start{}.",
+         best motion. The thesis finds this too. Its curves look sinusoidal. \
+         Other curves follow from other limits. The thesis starts each design from one motion. Here each is the best of {} start{}.",
         alike.join(" "),
         study.starts,
         if study.starts == 1 { "" } else { "s" }
@@ -165,7 +156,7 @@ pub(crate) fn absolute_errors(title: &str, study: &DesignStudy) -> Figure {
                        the table above. Single sensors may be lucky with a poor motion."
         .to_string();
     if logarithmic {
-        caption.push_str(" Axes are logarithmic if the two motions differ by more than a factor of four. The report's axes are linear.");
+        caption.push_str(" Axes are logarithmic if the two motions differ by more than a factor of four. The axes of the thesis are linear.");
     }
     caption.push_str(&subset(study.outcomes.len(), sensors.len()));
     let columns = if study.parameters.len() == 2 { 2 } else { 3 };

@@ -37,10 +37,10 @@ pub(crate) fn confidence_ellipses(
         let units = units(parameters, i, j, &largest);
         let mut panel = panel(format!("axis {axis}"), units);
         if let Some(old) = old {
-            panel = panel.with(ellipse(before.0, colour::BLUE, 1.6, &old, units));
+            panel = panel.with(ellipse(before.0, BEFORE, &old, units));
         }
         if let Some(new) = new {
-            panel = panel.with(ellipse(after_name, colour::VERMILLION, 2.2, &new, units));
+            panel = panel.with(ellipse(after_name, AFTER, &new, units));
         }
         together.push(panel.with(centre()));
         if let (Some(old), Some(new)) = (old, new) {
@@ -48,11 +48,7 @@ pub(crate) fn confidence_ellipses(
             let ratio = (extent(&old).x / extent(&new).x).max(extent(&old).y / extent(&new).y);
             magnified |= ratio > SAME_SIZE;
             let title = format!("axis {axis}, {after_name} alone");
-            alone.push(
-                self::panel(title, own)
-                    .with(ellipse(after_name, colour::VERMILLION, 2.2, &new, own))
-                    .with(centre()),
-            );
+            alone.push(self::panel(title, own).with(ellipse(after_name, AFTER, &new, own)).with(centre()));
         }
     }
     if together.is_empty() {
@@ -95,10 +91,14 @@ fn panel(title: String, [x, y]: [DisplayUnit; 2]) -> Panel {
     Panel::new(title, x.label("error of the bias"), y.label("error of the scale factor"))
 }
 
+/// Colour, width and dashes of a line: those of the motion in the other figures.
+type Look = (&'static str, f64, &'static str);
+const BEFORE: Look = (colour::BLUE, 1.6, "2 2.5");
+const AFTER: Look = (colour::VERMILLION, 2.2, "");
+
 fn ellipse(
     label: &str,
-    colour: &'static str,
-    width: f64,
+    (colour, width, dashes): Look,
     factor: &Matrix2<f64>,
     [x, y]: [DisplayUnit; 2],
 ) -> Series {
@@ -107,7 +107,7 @@ fn ellipse(
         .map(|angle| factor * Vector2::new(angle.cos(), angle.sin()) * RADIUS_95)
         .map(|error| (error.x * x.factor, error.y * y.factor))
         .collect();
-    Series::new(label, colour, Mark::Line { width, dashes: "" }, points)
+    Series::new(label, colour, Mark::Line { width, dashes }, points)
 }
 
 fn centre() -> Series {

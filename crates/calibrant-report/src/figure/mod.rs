@@ -7,6 +7,7 @@
 mod allan;
 mod batch;
 mod before_after;
+mod chart;
 mod clipping;
 mod colour;
 mod correlation;
@@ -30,12 +31,14 @@ mod surface;
 mod svg;
 mod sweep;
 mod temperature;
+mod ticks;
 mod unit;
 mod validation;
 
 pub(super) use allan::allan_figure;
 pub(super) use batch::{code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
+pub(super) use chart::CHART_SCRIPT;
 pub(super) use clipping::renumbered;
 pub(super) use correlation::{correlation_map, correlation_map_of};
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};

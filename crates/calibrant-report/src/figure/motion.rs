@@ -1,4 +1,4 @@
-//! Figures of the recovered motion: the report's Figures 4 and 5.
+//! Figures of the recovered motion: the thesis's Figures 4 and 5.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::{is_thinned, thinned};
@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 /// Label of the time axis.
 pub(super) const TIME: &str = "time (s)";
 
-/// Acceleration as measured, as estimated, and the true one where it is known: the report's Figure 4.
+/// Acceleration as measured, as estimated, and the true one where it is known: the thesis's Figure 4.
 pub(crate) fn acceleration_figure(
     title: &str,
     calibration: &Calibration,
@@ -132,7 +132,7 @@ pub(crate) fn motion_error_figure(
     Some(Figure::new(title, panels, caption))
 }
 
-/// The states xᵢ and the inputs uᵢ of each interval, true and estimated: the report's Figure 5.
+/// The states xᵢ and the inputs uᵢ of each interval, true and estimated: the thesis's Figure 5.
 pub(crate) fn state_and_jerk_figure(
     title: &str,
     recovered: &RecoveredMotion,

@@ -1,4 +1,4 @@
-//! Figures of motions over time with their limits: the report's Figure 8, and the motion of the arm for it.
+//! Figures of motions over time with their limits: the thesis's Figure 8, and the motion of the arm for it.
 
 use super::motion::{TIME, nodes, steps};
 use super::panel::{Mark, Panel, Series};
@@ -14,24 +14,25 @@ const POINTS_PER_INTERVAL: usize = 24;
 /// curves.
 const NEAR: f64 = 4.0;
 
-/// A motion as it is drawn: name in the legend, colour, width of its lines.
+/// A motion as it is drawn: name in the legend, colour, width and dashes of its lines.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drawn<'a> {
     pub(crate) name: &'static str,
     pub(crate) motion: &'a JerkControlledMotion,
     colour: &'static str,
     width: f64,
+    dashes: &'static str,
 }
 
 impl<'a> Drawn<'a> {
     /// The motion to compare with: thin and blue.
     pub(crate) fn before(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
-        Self { name, motion, colour: colour::BLUE, width: 1.4 }
+        Self { name, motion, colour: colour::BLUE, width: 1.4, dashes: "2 2.5" }
     }
 
     /// The motion that the page is about: bold and vermillion.
     pub(crate) fn after(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
-        Self { name, motion, colour: colour::VERMILLION, width: 2.3 }
+        Self { name, motion, colour: colour::VERMILLION, width: 2.3, dashes: "" }
     }
 }
 
@@ -103,7 +104,7 @@ fn dense(nodes: &[f64]) -> Vec<f64> {
     inside.chain(nodes.last().copied()).collect()
 }
 
-/// Jerk in steps and acceleration in lines: the report's Figure 8.
+/// Jerk in steps and acceleration in lines: the thesis's Figure 8.
 pub(crate) fn jerk_and_acceleration(
     title: &str,
     motions: &[Drawn<'_>],
@@ -115,12 +116,12 @@ pub(crate) fn jerk_and_acceleration(
     figure(title, &[Profile::Jerk, Profile::Acceleration], motions, axes, limits, caption)
 }
 
-/// The report's state, where it is limited: the intercept of each interval's line at t = 0.
+/// The thesis's state, where it is limited: the intercept of each interval's line at t = 0.
 pub(crate) fn states(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> Option<Figure> {
     limits.intercept_mps2?;
     let caption = "Acceleration in interval i is α(t) = xᵢ + uᵢ t. A limit on xᵢ, the line's value at t = 0, restricts late intervals more than \
-                   early ones. No arm has such a limit. Limit acceleration, velocity and displacement unless you compare with the report.";
-    Some(figure("States xᵢ, which the report limits", &[Profile::Intercept], motions, axes, limits, caption))
+                   early ones. No arm has such a limit. Limit acceleration, velocity and displacement unless you compare with the thesis.";
+    Some(figure("States xᵢ, which the thesis limits", &[Profile::Intercept], motions, axes, limits, caption))
 }
 
 /// Velocity and displacement between the nodes too.
@@ -156,7 +157,7 @@ fn figure(
             let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, profile.label());
             // thin over bold: both show where they coincide
             for drawn in motions.iter().rev() {
-                let mark = Mark::Line { width: drawn.width, dashes: "" };
+                let mark = Mark::Line { width: drawn.width, dashes: drawn.dashes };
                 let curve = profile.curve(drawn.motion, axis);
                 panel = panel.with(Series::new(drawn.name, drawn.colour, mark, curve));
             }

@@ -1,5 +1,7 @@
 //! One pair of axes and the series in it, as data.
 
+use super::ticks::{Ticked, ticked};
+
 /// The look of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Mark {
@@ -13,6 +15,8 @@ pub(super) enum Mark {
     Area,
     /// A bar from `y − spread` to `y + spread` at each point.
     ErrorBars,
+    /// The same, as wide as a range of values deserves.
+    Ranges { width: f64 },
     /// A line from zero to each point.
     Stems,
 }
@@ -153,8 +157,8 @@ impl Panel {
         (!self.log_x || x > 0.0) && (!self.log_y || y > 0.0)
     }
 
-    /// Ranges of the axes; `None` where nothing can be drawn.
-    pub(super) fn ranges(&self) -> Option<[(f64, f64); 2]> {
+    /// The axes; `None` where nothing can be drawn.
+    pub(super) fn axes(&self) -> Option<[AxisRange; 2]> {
         let mut x = Range { log: self.log_x, ..Range::default() };
         let mut y = Range { log: self.log_y, ..Range::default() };
         for series in &self.series {
@@ -173,13 +177,28 @@ impl Panel {
         self.y_includes.iter().for_each(|&value| y.include(value));
         if self.square {
             let both = Range { low: x.low.min(y.low), high: x.high.max(y.high), log: false }.padded(0.05);
-            return Some([both, both]);
+            return Some([AxisRange { range: both, step: None }; 2]);
         }
-        let flush = self.series.iter().any(Series::starts_at_zero);
-        let (low, high) = y.padded(0.07);
-        let low = if flush && y.low >= 0.0 && !self.log_y { 0.0 } else { low };
-        Some([x.padded(0.02), (low, high)])
+        // seconds since 1970 need room
+        let most = if x.low.abs().max(x.high.abs()) < 1e5 { MOST_STEPS } else { MOST_LONG_STEPS };
+        let mut axes = [x.axis(most, self.x_step, 0.02), y.axis(MOST_STEPS, self.y_step, 0.07)];
+        if self.series.iter().any(Series::starts_at_zero) && y.low >= 0.0 && !self.log_y {
+            axes[1].range.0 = 0.0;
+        }
+        Some(axes)
     }
+}
+
+/// Largest number of steps between the ticks of an axis.
+const MOST_STEPS: usize = 7;
+/// The same where ticks have long numbers.
+const MOST_LONG_STEPS: usize = 4;
+
+/// The range of an axis, and the distance of its ticks where it is not left to the plotting library.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AxisRange {
+    pub(super) range: (f64, f64),
+    pub(super) step: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -205,6 +224,14 @@ impl Range {
 
     fn is_empty(&self) -> bool {
         self.low > self.high
+    }
+
+    /// The axis that reaches all values.
+    fn axis(&self, most: usize, step: Option<f64>, fraction: f64) -> AxisRange {
+        match ticked((self.low, self.high), most, step).filter(|_| !self.log) {
+            Some(Ticked { range, step }) => AxisRange { range, step: Some(step) },
+            None => AxisRange { range: self.padded(fraction), step },
+        }
     }
 
     /// The range with some room on both sides; never of zero width.
@@ -246,14 +273,14 @@ mod tests {
     fn ranges_hold_all_points_and_are_never_empty_or_infinite() {
         let points = vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 5.0)];
         let panel = Panel::new("", "", "").with(Series::line("a", "#000000", points));
-        let [x, y] = panel.ranges().expect("two points");
+        let [x, y] = panel.axes().expect("two points").map(|axis| axis.range);
         assert!(x.0 <= 0.0 && x.1 >= 2.0 && y.0 < 1.0 && y.1 > 5.0);
 
         for value in [0.0, 3.0, -3.0, 1e-12] {
             let panel = Panel::new("", "", "").with(Series::line("a", "#000000", vec![(value, value)]));
-            let [x, y] = panel.ranges().expect("one point");
+            let [x, y] = panel.axes().expect("one point").map(|axis| axis.range);
             assert!(x.0 < value && value < x.1 && y.0 < value && value < y.1, "{value}: {x:?} {y:?}");
         }
-        assert!(Panel::new("", "", "").ranges().is_none());
+        assert!(Panel::new("", "", "").axes().is_none());
     }
 }

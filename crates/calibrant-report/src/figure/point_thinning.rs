@@ -6,20 +6,11 @@ const COLUMNS: usize = 400;
 /// The smallest and the largest value of each column of pixels, in order of x. It looks the same as all
 /// points.
 pub(super) fn thinned(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    thinned_to(COLUMNS, points)
-}
-
-/// The same for dots, each of which is as wide as two columns.
-pub(super) fn thinned_dots(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    thinned_to(COLUMNS / 2, points)
-}
-
-fn thinned_to(columns: usize, points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    if points.len() <= 3 * columns {
+    if points.len() <= 3 * COLUMNS {
         return points.collect();
     }
-    let per_column = points.len().div_ceil(columns);
-    let mut kept = Vec::with_capacity(2 * columns);
+    let per_column = points.len().div_ceil(COLUMNS);
+    let mut kept = Vec::with_capacity(2 * COLUMNS);
     let (mut column, mut room) = (Column::default(), per_column);
     points.for_each(|point| {
         if room == 0 {

@@ -1,4 +1,4 @@
-//! Figures of a population of sensors: the report's Figure 6 and the errors behind it.
+//! Figures of a population of sensors: the thesis's Figure 6 and the errors behind it.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::every;
@@ -13,7 +13,7 @@ const MOST_POINTS: usize = 500;
 /// Largest number of sensors that are drawn with error bars.
 const MOST_BARS: usize = 150;
 
-/// Estimated against true parameters, biases left and scale factors right: the report's Figure 6.
+/// Estimated against true parameters, biases left and scale factors right: the thesis's Figure 6.
 pub(crate) fn parameters_against_truth(study: &Study) -> Figure {
     let sensors = every(study.outcomes.len(), MOST_POINTS);
     let panels: Vec<Panel> = groups(study)
@@ -64,7 +64,7 @@ pub(crate) fn parameters_against_truth(study: &Study) -> Figure {
         subset(study, sensors.len())
     );
     let columns = if panels.len() > 2 { 3 } else { 2 };
-    Figure::new("Figure 6 of the report: actual and estimated parameter errors", panels, caption)
+    Figure::new("Figure 6 of the thesis: actual and estimated parameter errors", panels, caption)
         .with_columns(columns)
 }
 

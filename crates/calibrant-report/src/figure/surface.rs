@@ -1,4 +1,4 @@
-//! The figure of the criterion over the jerks of two intervals, as a map in bands: the report's Figure 7.
+//! The figure of the criterion over the jerks of two intervals, as a map in bands: the thesis's Figure 7.
 //!
 //! This file draws it itself: bands whose edges read as contours, with a bar that names them, are beyond the
 //! plotting library.
@@ -40,14 +40,14 @@ pub(crate) fn trace_map(surface: &TraceSurface) -> String {
         "A uniaxial sensor and two intervals of {} s, at {} Hz, starting at {} m/s²: decimal logarithm of the sum of the variances of bias \
          and scale factor (in SI units) over the jerks of both intervals. The peak lies where both jerks vanish: a sensor \
          that hardly moves does not determine its scale factor. The smallest values lie in corners, \
-         where the jerks are largest, so the optimum lies on the limits. Edges of the bands are contours. The report estimates at each \
+         where the jerks are largest, so the optimum lies on the limits. Edges of the bands are contours. The thesis estimates at each \
          point, draws a surface in space, and does not name its logarithm. The trace needs no estimation: it follows from \
          the motion alone.",
         number_format::short(settings.interval_s),
         number_format::short(settings.rate_hz),
         number_format::short(settings.start_mps2),
     );
-    let title = "Figure 7 of the report: logarithm of the trace over the two jerks";
+    let title = "Figure 7 of the thesis: logarithm of the trace over the two jerks";
     framed(title, &legend, &drawing(surface), 1, &caption)
 }
 

@@ -19,9 +19,10 @@ const FONT: &str = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', Arial, sans-se
 /// The panel as an SVG that takes the width of its column.
 pub(super) fn svg(panel: &Panel) -> String {
     let height = if panel.square { SQUARE_HEIGHT } else { HEIGHT };
-    let Some([x, y]) = panel.ranges() else {
+    let Some(axes) = panel.axes() else {
         return nothing(panel, height);
     };
+    let [x, y] = axes.map(|axis| axis.range);
     let plots: Vec<Plot> = panel.series.iter().flat_map(|series| plots(panel, series)).collect();
     let mut layout = Layout::new(x, y)
         .with_width(WIDTH)
@@ -42,10 +43,10 @@ pub(super) fn svg(panel: &Panel) -> String {
     if !panel.title.is_empty() {
         layout = layout.with_title(panel.title.as_str());
     }
-    if let Some(step) = panel.x_step {
+    if let Some(step) = axes[0].step {
         layout = layout.with_x_tick_step(step);
     }
-    if let Some(step) = panel.y_step {
+    if let Some(step) = axes[1].step {
         layout = layout.with_y_tick_step(step);
     }
     if panel.log_x {
@@ -59,7 +60,14 @@ pub(super) fn svg(panel: &Panel) -> String {
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
         );
     }
-    responsive(&kuva::render_to_svg(plots, layout), height, &panel.title)
+    let axis = |(low, high): (f64, f64), log: bool| format!("{low} {high}{}", if log { " 1" } else { "" });
+    let ranges = format!(" data-x=\"{}\" data-y=\"{}\"", axis(x, panel.log_x), axis(y, panel.log_y));
+    responsive(
+        &kuva::render_to_svg(plots, layout),
+        height,
+        &panel.title,
+        if panel.square { "" } else { &ranges },
+    )
 }
 
 /// A tick's label. Where the x axis is far from zero, as in seconds since 1970, six digits do not distinguish
@@ -119,8 +127,9 @@ fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {
             vec![BandPlot::new(x, low, high).with_color(series.colour).with_opacity(0.25).into()]
         }
         Mark::Area => vec![line(points, 1.2, "").with_fill().with_fill_opacity(0.35).into()],
-        Mark::ErrorBars => {
-            drawn().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], 1.1, "").into()).collect()
+        Mark::ErrorBars | Mark::Ranges { .. } => {
+            let width = if let Mark::Ranges { width } = series.mark { width } else { 1.1 };
+            drawn().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], width, "").into()).collect()
         }
         // one line that returns to zero between the stems: it draws the zero line too
         Mark::Stems => {
@@ -154,6 +163,9 @@ pub(super) fn key(series: &Series) -> String {
             "<rect x=\"1\" y=\"2\" width=\"32\" height=\"10\" fill=\"{colour}\" fill-opacity=\"0.35\" stroke=\"{colour}\"/>"
         ),
         Mark::ErrorBars => format!("<path d=\"M17 1V13\" stroke=\"{colour}\" stroke-width=\"1.4\"/>"),
+        Mark::Ranges { width } => {
+            format!("<path d=\"M17 1V13\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
+        }
         Mark::Stems => {
             format!("<path d=\"M1 12H33M8 12V2M17 12V6M26 12V8\" stroke=\"{colour}\" stroke-width=\"1.5\"/>")
         }
@@ -170,15 +182,15 @@ fn swatch(drawing: &str) -> String {
     format!("<svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>")
 }
 
-/// An SVG of fixed size made to follow its column, named for screen readers, its numbers shortened.
-fn responsive(svg: &str, height: f64, name: &str) -> String {
+/// An SVG of fixed size made to follow its column, named for screen readers, its numbers shortened, with further attributes.
+fn responsive(svg: &str, height: f64, name: &str, attributes: &str) -> String {
     let body = svg.find('>').map_or("", |end| &svg[end + 1..]);
     let body = match (body.find("<!--"), body.find("-->")) {
         (Some(start), Some(end)) if start < end => format!("{}{}", &body[..start], &body[end + 3..]),
         _ => body.to_string(),
     };
     format!(
-        "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\" fill=\"#1b1f24\">{}",
+        "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\" fill=\"#1b1f24\"{attributes}>{}",
         escape(name),
         shortened(&body)
     )

@@ -24,7 +24,7 @@ pub(crate) fn sweep_curves(sweep: &Sweep) -> Figure {
         unit => format!("{} ({unit})", sweep.variable.name()),
     };
     let kinds = [("bias.", "bias"), ("scale.", "scale factor"), ("matrix.", "cross-axis sensitivity")];
-    let mut bounded = false;
+    let (mut bounded, mut place) = (false, 0);
     let panels: Vec<Panel> = kinds
         .into_iter()
         .filter_map(|(prefix, kind)| {
@@ -36,8 +36,9 @@ pub(crate) fn sweep_curves(sweep: &Sweep) -> Figure {
                 || members.iter().flat_map(|&p| sd.iter().map(move |sd| sd[p])).filter(|v| v.is_finite());
             let unit = DisplayUnit::suited_to(unit, all());
             let mut panel = Panel::new(kind, x_label.as_str(), unit.label("sd with the best motion"));
-            for (place, group) in alike(&members, &sd).into_iter().enumerate() {
+            for group in alike(&members, &sd) {
                 let (colour, shape) = look(place);
+                place += 1;
                 let names: Vec<&str> =
                     group.iter().map(|&p| sweep.parameters[p].name.trim_start_matches(prefix)).collect();
                 let label = format!("{kind} {}", names.join(", "));

@@ -11,7 +11,7 @@ use crate::figure::{
     PLAYER_SCRIPT, Scene, correlation_map_of, drawn, player, residual_coherence, residual_densities,
     residuals_and_speed, sensor_on_tip, three_views,
 };
-use crate::html::{Page, escape, facts};
+use crate::html::Page;
 use crate::limits::limit_section;
 use crate::table::Table;
 use crate::{About, number_format};
@@ -38,8 +38,7 @@ pub fn machine_report(
     let scene = Scene::of(calibration);
     let page = Page::of_parts([
         &|| opening(calibration, validations, title, about),
-        &|| parameters(calibration, setup),
-        &|| validation(calibration, validations),
+        &|| mount(calibration, setup),
         &|| machine(calibration, scene.as_ref()),
         &|| residuals(calibration, recording, scene.as_ref()),
         &|| noise(calibration),
@@ -49,7 +48,7 @@ pub fn machine_report(
         about.made(),
         "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope. Motion time = IMU time + delay. sd is the standard deviation.".to_string(),
     ];
-    page.finish(title, &footer)
+    page.finish(title, &about.facts, &footer)
 }
 
 fn opening(
@@ -58,25 +57,19 @@ fn opening(
     title: &str,
     about: &About,
 ) -> Page {
-    let mut page = Page::default();
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(calibration, validations, about));
+    let mut page = Page::opened(title, verdict(calibration, validations, about));
     limit_section(&mut page, &about.limits);
+    page.section("Parameters of the sensor", "");
+    let table = |sensor| format!("<div>{}</div>", sensor_table(calibration, sensor));
+    let tables: String = calibration.noise.iter().map(|of| table(of.sensor)).collect();
+    page.push(format!("<div class=\"pair\">{tables}</div>"));
+    page.paragraph("Biases are the entries of b, matrix entries those of S, g-sensitivities those of Γ.");
+    validation_section(&mut page, validations, calibration);
     page
 }
 
-fn parameters(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
+fn mount(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     let mut page = Page::default();
-    page.section("Parameters of the sensor", "Biases are the entries of b, matrix entries those of S, g-sensitivities those of Γ. In files, their names begin with that of the sensor.");
-    let tables: String = calibration
-        .noise
-        .iter()
-        .map(|of| {
-            format!("<div><h3>{}</h3>{}</div>", capitalised(of.sensor), sensor_table(calibration, of.sensor))
-        })
-        .collect();
-    page.push(format!("<div class=\"pair\">{tables}</div>"));
     page.section("Mount and clock", "Lever arm: from the origin of the tip or the tracked body to the sensor, in its axes. Mounting: turn of the sensor about its own axes against the expected one. Delay: motion time less IMU time. Clock rate: that of the reference against the IMU’s. Tilt: of gravity against the base.");
     page.push(mount_table(calibration, setup));
     if let Some(sentence) = mounting_in_words(calibration, setup) {
@@ -87,12 +80,6 @@ fn parameters(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     }
     page.section("Budget", "The variance of each parameter of the sensor, by its sources.");
     page.push(budget(calibration));
-    page
-}
-
-fn validation(calibration: &MachineCalibration, validations: &[MachineValidation]) -> Page {
-    let mut page = Page::default();
-    validation_section(&mut page, validations, calibration);
     page
 }
 
@@ -213,11 +200,4 @@ fn fit(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     let covariance = calibration.covariance.select_rows(&places).select_columns(&places);
     page.push(correlation_map_of(&names, &covariance));
     page
-}
-
-fn capitalised(sensor: SensorKind) -> &'static str {
-    match sensor {
-        SensorKind::Accelerometer => "Accelerometer",
-        SensorKind::Gyroscope => "Gyroscope",
-    }
 }

@@ -37,7 +37,6 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
     let columns = ["parameter", "estimate ± sd", "unit", "sd widened"];
     let mut table = Table::new("", &columns[..if is_widened(calibration) { 4 } else { 3 }]);
     let sds = calibration.sd();
-    let prefix = format!("{sensor}.");
     for (k, quantity) in calibration.quantities.iter().enumerate() {
         let MachineQuantity::Imu(of) = quantity else { continue };
         if of.sensor_kind() != sensor {
@@ -45,7 +44,7 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
         }
         let (factor, unit) = machine_unit(calibration, *quantity);
         let mut cells = vec![
-            Cell::Name(of.name().trim_start_matches(&prefix).to_string()),
+            Cell::Name(of.name()),
             Cell::Number(with_sd(factor * calibration.values[k], factor * sds[k])),
             Cell::Text(if unit == "1" { "–" } else { unit }.to_string()),
         ];

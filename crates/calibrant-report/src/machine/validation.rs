@@ -97,7 +97,6 @@ fn largest(
     let (factor, unit) = machine_unit(calibration, largest.quantity);
     let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
     let name = largest.quantity.name(&calibration.joints);
-    let name = name.split_once('.').map_or(name.as_str(), |(_, name)| name);
     let moved = format!(
         "{name} by {}{unit}, {} sd",
         number_format::significant(factor * largest.shift, 2),
@@ -116,6 +115,13 @@ fn largest(
 pub(super) fn doubts(validations: &[MachineValidation]) -> impl Iterator<Item = String> {
     let too_small = |shift: &&ParameterShift| shift.verdict == CovarianceVerdict::TooSmall;
     validations.iter().flat_map(move |of| of.shifts.iter().filter(too_small).map(sentence))
+}
+
+/// A line for each sensor whose covariance a validation does not doubt: the others are among the [`doubts`].
+pub(super) fn validation_in_short(validations: &[MachineValidation]) -> Vec<String> {
+    let agrees = |shift: &&ParameterShift| shift.verdict != CovarianceVerdict::TooSmall;
+    let line = |shift: &ParameterShift| format!("{} The ratio is {}.", sentence(shift), ratio(shift));
+    validations.iter().flat_map(|of| of.shifts.iter().filter(agrees).map(line)).collect()
 }
 
 /// A section with all validations; none without any.

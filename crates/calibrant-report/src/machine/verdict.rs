@@ -1,6 +1,6 @@
 //! The verdict on a calibration on a machine: can it be used?
 
-use super::validation::doubts;
+use super::validation::{doubts, validation_in_short};
 use crate::calibration::{calibration_verdict, noise_explains};
 use crate::words::capitalised;
 use crate::{About, number_format};
@@ -17,7 +17,8 @@ pub(super) fn verdict(
     about: &About,
 ) -> String {
     let remarks = unexplained(calibration).into_iter().chain(doubts(validations));
-    calibration_verdict(&calibration.warnings, remarks, &sentence(calibration), about)
+    let validation = validation_in_short(validations);
+    calibration_verdict(&calibration.warnings, remarks, validation, &sentence(calibration), about)
 }
 
 fn sentence(calibration: &MachineCalibration) -> String {

@@ -6,7 +6,7 @@ pub use attitude::pose_in_words;
 
 use super::About;
 use super::figure::{DisplayUnit, device, pose_directions};
-use super::html::{Page, escape, facts, verdict_box};
+use super::html::{Page, escape, verdict_box};
 use super::number_format::{self, significant};
 use super::table::{Cell, Table};
 use attitude::Attitude;
@@ -22,11 +22,12 @@ const WORTH_CHANGING: f64 = 0.7;
 /// The best poses as one HTML file that can be printed and ticked off. Self-contained.
 #[must_use]
 pub fn pose_report(design: &PoseDesign, problem: &PoseProblem, unit: ReadingUnit, about: &About) -> String {
-    let mut page = begin(about);
     let efficiency = design.efficiency(&problem.criterion);
     let word = if efficiency >= AS_GOOD_AS_ANY { "✓ As good as any." } else { "✓ Found." };
     let sentence = design_in_words(design, efficiency);
-    page.push(verdict_box("good", word, &sentence, &[("Findings", about.findings.clone())]));
+    let verdict = verdict_box("good", word, &sentence, &[("Findings", about.findings.clone())]);
+    let mut page = Page::opened(&about.title, verdict);
+    predicted_section(&mut page, &design.sd(), problem, unit);
     page.section(
         "The poses",
         "Hold the device still in each pose, in this order. The room is drawn with its vertical upwards. Turns are right-handed, about \
@@ -39,8 +40,8 @@ pub fn pose_report(design: &PoseDesign, problem: &PoseProblem, unit: ReadingUnit
         "In this order a drift of the biases looks least like a parameter, and little turning is needed."
     });
     page.push(checklist(&design.directions));
-    results(&mut page, (&design.directions, &design.sd(), &design.bound), problem, unit);
-    page.finish(&about.title, &about.footer())
+    direction_section(&mut page, &design.directions, &design.bound);
+    page.finish(&about.title, &about.facts, &about.footer())
 }
 
 /// The efficiency of designed poses in a sentence.
@@ -67,16 +68,17 @@ pub fn pose_evaluation_report(
     unit: ReadingUnit,
     about: &About,
 ) -> String {
-    let mut page = begin(about);
     let efficiency = evaluation.efficiency;
     let (class, word) = match efficiency {
         _ if efficiency >= AS_GOOD_AS_ANY => ("good", "✓ As good as any."),
         _ if efficiency >= WORTH_CHANGING => ("good", "✓ Good poses."),
         _ => ("caution", "! Better poses exist."),
     };
-    page.push(verdict_box(class, word, &evaluation_in_words(evaluation, directions.len()), &[]));
-    results(&mut page, (directions, &evaluation.sd(), &evaluation.bound), problem, unit);
-    page.finish(&about.title, &about.footer())
+    let verdict = verdict_box(class, word, &evaluation_in_words(evaluation, directions.len()), &[]);
+    let mut page = Page::opened(&about.title, verdict);
+    predicted_section(&mut page, &evaluation.sd(), problem, unit);
+    direction_section(&mut page, directions, &evaluation.bound);
+    page.finish(&about.title, &about.facts, &about.footer())
 }
 
 /// The efficiency of holds in a sentence or two.
@@ -95,13 +97,6 @@ pub fn evaluation_in_words(evaluation: &PoseEvaluation, holds: usize) -> String 
         "Efficiency {} %: the {holds} holds have at least this share of the information that any {holds} directions can have.{more}",
         significant(100.0 * efficiency, 3)
     )
-}
-
-fn begin(about: &About) -> Page {
-    let mut page = Page::default();
-    page.push(format!("<h1>{}</h1>", escape(&about.title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page
 }
 
 /// A card for each pose: a box to tick, the picture, the words, the unit vector.
@@ -126,13 +121,8 @@ fn checklist(directions: &[Vector3<f64>]) -> String {
     format!("<ol class=\"poses\">{cards}</ol>")
 }
 
-/// Standard deviations, directions, and how the bound is meant.
-fn results(
-    page: &mut Page,
-    (directions, sd, bound): (&[Vector3<f64>], &DVector<f64>, &PoseBound),
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) {
+/// The standard deviations, and what they are compared by.
+fn predicted_section(page: &mut Page, sd: &DVector<f64>, problem: &PoseProblem, unit: ReadingUnit) {
     page.section(
         "Predicted standard deviations",
         "Standard deviations that a calibration from these poses will state, if the noise is as assumed. They include the uncertainty of \
@@ -146,6 +136,10 @@ fn results(
         criterion.formula(),
         criterion.scaling()
     ));
+}
+
+/// The directions, and how the bound is meant.
+fn direction_section(page: &mut Page, directions: &[Vector3<f64>], bound: &PoseBound) {
     page.section("The directions", "");
     page.push(pose_directions(directions, &bound.directions));
     page.subsection("The lower bound");

@@ -1,6 +1,6 @@
-//! The chapter on calibrations of a population of sensors: the report's chapter 3.
+//! The chapter on calibrations of a population of sensors: the thesis's chapter 3.
 
-use crate::calibration::parameter_table;
+use crate::calibration::{column_notes, parameter_table};
 use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
@@ -12,7 +12,7 @@ use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::SensorKind;
 use calibrant_design::study::{SingleCase, Study};
 
-/// The report's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
+/// The thesis's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
 pub(super) fn chapter(page: &mut Page, study: &Study) {
     page.section(
         "Calibration of a population",
@@ -49,8 +49,9 @@ fn rates(what: &str, case: &SingleCase) -> String {
 
 fn single(page: &mut Page, case: &SingleCase) {
     page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
+    page.paragraph(&column_notes(&case.calibration));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
-        let title = "Figure 4 of the report: actual, measured and estimated acceleration";
+        let title = "Figure 4 of the thesis: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
         page.push(acceleration_figure(title, &case.calibration, recovered, &case.recording, truth).html());
         if let Some(figure) = motion_error_figure(recovered, &case.recording, truth) {
@@ -62,7 +63,7 @@ fn single(page: &mut Page, case: &SingleCase) {
 fn fine(page: &mut Page, case: &SingleCase) {
     page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
-        let title = "Figure 5 of the report: actual and estimated states and inputs";
+        let title = "Figure 5 of the thesis: actual and estimated states and inputs";
         page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
     }
 }

@@ -1,4 +1,4 @@
-//! The chapter on initial against optimal motions over many sensors: the report's chapter 4.
+//! The chapter on initial against optimal motions over many sensors: the thesis's chapter 4.
 
 use super::settings::settings;
 use crate::design::{axes, limit_table, times};
@@ -25,26 +25,26 @@ pub(super) struct Chapter {
     errors: &'static str,
 }
 
-/// The report's section 4.2.
+/// The thesis's section 4.2.
 pub(super) const OPTIMAL: Chapter = Chapter {
     heading: "Initial against optimal motion",
-    lead: "Each sensor goes round the loop of the report's Figure 2: calibrated on a random initial motion, the best motion designed at that \
+    lead: "Each sensor goes round the loop of the thesis's Figure 2: calibrated on a random initial motion, the best motion designed at that \
            estimate, calibrated again on it.",
-    motion: "Figure 8 of the report: initial against optimal jerk (a) and acceleration (b), first sensor",
-    motions: "Figure 9 of the report: optimal motions on each axis",
-    traces: "Figure 10 of the report: trace of the covariance, sensor by sensor",
-    errors: "Figure 11 of the report: absolute errors of biases (a) and scale factors (b)",
+    motion: "Figure 8 of the thesis: initial against optimal jerk (a) and acceleration (b), first sensor",
+    motions: "Figure 9 of the thesis: optimal motions on each axis",
+    traces: "Figure 10 of the thesis: trace of the covariance, sensor by sensor",
+    errors: "Figure 11 of the thesis: absolute errors of biases (a) and scale factors (b)",
 };
 
-/// The report's section 4.3.
+/// The thesis's section 4.3.
 pub(super) const NOISY: Chapter = Chapter {
     heading: "Initial against optimal motion, with process noise",
     lead: "The arm follows its command only up to noise on the jerk, which is estimated along with the parameters. Motions and figures are those of the \
            section before.",
     motion: "As Figure 8, with process noise: initial against optimal jerk (a) and acceleration (b), first sensor",
     motions: "As Figure 9, with process noise: optimal motions on each axis",
-    traces: "Figure 13 of the report: trace of the covariance with process noise, sensor by sensor",
-    errors: "Figure 14 of the report: absolute errors with process noise, of biases (a) and scale factors (b)",
+    traces: "Figure 13 of the thesis: trace of the covariance with process noise, sensor by sensor",
+    errors: "Figure 14 of the thesis: absolute errors with process noise, of biases (a) and scale factors (b)",
 };
 
 /// One study with its tables and figures.

@@ -1,4 +1,4 @@
-//! The report page on studies: the source report's chapters 3 and 4, figure by figure.
+//! The report page on studies: the thesis's chapters 3 and 4, figure by figure.
 
 mod calibration;
 mod design;
@@ -6,10 +6,10 @@ mod settings;
 
 use super::About;
 use super::figure::trace_map;
-use super::html::{Page, escape, facts, list, verdict_box};
+use super::html::{Page, list, verdict_box};
 use calibrant_design::study::Studies;
 
-/// Studies as one HTML file: for each study its settings, a summary, and the report's figures. Figures 4 to 6
+/// Studies as one HTML file: for each study its settings, a summary, and the figures of the thesis. Figures 4 to 6
 /// show calibrations, 7 the surface of the trace, and 8 to 11 initial against optimal motion. Figures 13 and
 /// 14 show the latter with process noise.
 ///
@@ -41,32 +41,26 @@ pub fn study_report(studies: &Studies, about: &About) -> String {
     if let Some(study) = &studies.noisy {
         design::chapter(&mut page, study, &design::NOISY);
     }
-    page.finish(title(about), &about.footer())
+    page.finish(title(about), &about.facts, &about.footer())
 }
 
 fn title(about: &About) -> &str {
     if about.title.is_empty() { "Study" } else { &about.title }
 }
 
-/// A page with title, facts and verdict.
+/// A page with title and verdict.
 fn headed(about: &About, judged: &[(bool, String)], remarks: &[String]) -> Page {
-    let mut page = Page::default();
-    page.push(format!("<h1>{}</h1>", escape(title(about))));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     let good = !judged.is_empty() && judged.iter().all(|(good, _)| *good);
     let (class, word) = if good { ("good", "✓ As predicted.") } else { ("caution", "! Look closer.") };
     let lists = [("Not run", remarks.to_vec()), ("Findings", about.findings.clone())];
-    match judged {
-        [(_, sentence)] => page.push(verdict_box(class, word, sentence, &lists)),
+    let verdict = match judged {
+        [(_, sentence)] => verdict_box(class, word, sentence, &lists),
         _ => {
             let sentences: Vec<String> = judged.iter().map(|(_, sentence)| sentence.clone()).collect();
             let what = if judged.is_empty() { "No study was run." } else { "" };
-            page.push(verdict_box(class, word, what, &lists).replacen(
-                "</p>",
-                &format!("</p>{}", list(&sentences)),
-                1,
-            ));
+            let sentences = format!("</p>{}", list(&sentences));
+            verdict_box(class, word, what, &lists).replacen("</p>", &sentences, 1)
         }
-    }
-    page
+    };
+    Page::opened(title(about), verdict)
 }

@@ -36,7 +36,7 @@ fn a_design_shows_every_number_of_the_result() {
         assert!(html.contains(&number_format::significant(start.value, 8)));
     }
     for text in [
-        "Figure 8 of the report",
+        "Figure 8 of the thesis",
         "jerk uᵢ (m/s³)",
         "acceleration (m/s²)",
         "velocity (m/s)",

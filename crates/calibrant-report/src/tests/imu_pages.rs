@@ -85,7 +85,10 @@ fn the_magnitude_before_is_that_of_plain_readings() {
     let html = calibration_report(&case.calibration, &case.recording, &[], &about());
     let [before, after] =
         [found, holds.magnitude_residual_rms_mps2].map(|v| number_format::significant(v, 3));
-    assert!(html.contains(&format!("{before} → {after} m/s², ")), "{before} → {after}");
+    assert!(
+        html.contains(&format!("<td class=\"n\">{before}</td><td class=\"n\">{after}</td><td>m/s²</td>")),
+        "{before}, {after}"
+    );
 }
 
 #[test]

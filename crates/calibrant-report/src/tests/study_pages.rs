@@ -11,7 +11,7 @@ fn a_study_of_everything_shows_the_figures_of_chapters_three_and_four() {
     let html = study_report(&everything, &about());
     assert_sound(&html);
     for figure in (4..=11).chain(13..=14) {
-        assert!(html.contains(&format!("Figure {figure} of the report")), "Figure {figure}");
+        assert!(html.contains(&format!("Figure {figure} of the thesis")), "Figure {figure}");
     }
     for study in [&everything.design, &everything.noisy].into_iter().flatten() {
         for entry in &study.summary {

@@ -117,7 +117,7 @@ fn noisy_motion_delivers_the_promised_covariance() {
     assert_honest(&study(SensorModel::Full, noise, 10, 1.0, 10.0, 20.0));
 }
 
-/// The best motion of the report's chapter 4 within ±bound on x and u.
+/// The best motion of the thesis's chapter 4 within ±bound on x and u.
 fn optimal_motion(trust: Trust, bound: f64) -> JerkControlledMotion {
     let sensor = Sensor::memsic_mxd2020u();
     let limits = Limits {
@@ -274,7 +274,7 @@ fn the_bias_of_a_long_noisy_motion_is_foretold() {
             words[at + 1].parse::<f64>().expect("a number")
         })
     };
-    assert_eq!(foretold(10), None, "the report's example is hardly biased");
+    assert_eq!(foretold(10), None, "the thesis's example is hardly biased");
     let long = foretold(2000).expect("a long noisy motion is biased");
     let errors: Vec<[f64; 3]> = (0..100_u64)
         .into_par_iter()

@@ -1,4 +1,4 @@
-//! Tests of the experiments of the report's chapter 4: the surface, the loop of Figure 2.
+//! Tests of the experiments of the thesis's chapter 4: the surface, the loop of Figure 2.
 
 use calibrant::design::DesignSettings;
 use calibrant::information::criterion::{AOptimality, Criterion};

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Sum of the variances, the report's criterion.
+/// Sum of the variances, the thesis's criterion.
 ///
 /// `Φ_A(C) = trace C = Σ C_ii / s_i²`
 ///
-/// Units decide: with `s = 1` a bias in m/s² is added to a scale factor without unit. On the report's problem
+/// Units decide: with `s = 1` a bias in m/s² is added to a scale factor without unit. On the thesis's problem
 /// the bias contributes at least `σ²/M`, whatever the motion. That hides the effect of the motion on the
 /// scale factor. Divide by the datasheet's spread to see it.
 ///

@@ -7,7 +7,7 @@ use super::super::panel::{Mark, Panel, Series, Shape};
 use super::super::point_thinning::every;
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour};
-use super::groups::{Group, groups};
+use super::groups::groups;
 use super::reach::{Reach, least_width};
 use super::steps::whole_step;
 use crate::batch::Batch;
@@ -89,7 +89,7 @@ pub(crate) fn drifts(batch: &Batch) -> Drifts {
                 };
                 beyond.extend(points.iter().filter(far).map(|of| (place, of.number)));
             }
-            panels.push(panel(batch, &group, place, &points, control));
+            panels.push(panel(batch, place, &points, control));
         }
         if !panels.is_empty() {
             drifts.figures.push(Figure::new(group.name, panels, caption(batch)).with_columns(3));
@@ -122,15 +122,9 @@ fn points(batch: &Batch, place: usize) -> Vec<Point> {
     batch.sensors.iter().enumerate().filter_map(point).collect()
 }
 
-fn panel(
-    batch: &Batch,
-    group: &Group<'_>,
-    place: usize,
-    points: &[Point],
-    control: Option<Control>,
-) -> Panel {
+fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>) -> Panel {
     let parameter = &batch.parameters[place];
-    let name = group.short(&parameter.name);
+    let name = parameter.name.as_str();
     let of = |f: fn(&Point) -> f64| points.iter().map(f).collect::<Vec<f64>>();
     let (values, sds) = (of(|of| of.value), of(|of| of.sd));
     let bulk = Reach::of(&values, least_width(&values, &sds)).unwrap_or(Reach { low: -1.0, high: 1.0 });
@@ -142,11 +136,11 @@ fn panel(
     let factor = unit.factor;
     let last = batch.sensors.len() as f64;
     let level = |label: &str, colour, width, dashes, y: f64| {
-        let ends = vec![(0.5, y * factor), (last + 0.5, y * factor)];
+        let ends = vec![(1.0, y * factor), (last.max(2.0), y * factor)];
         Series::new(label, colour, Mark::Line { width, dashes }, ends)
     };
 
-    let mut panel = Panel::new(name, "order of the recordings", unit.label(name));
+    let mut panel = Panel::new(name, "order of the recordings", unit.label("estimate"));
     let drawn: Vec<&Point> = every(points.len(), MOST_POINTS).iter().map(|&k| &points[k]).collect();
     let inside = || drawn.iter().filter(|of| reach.contains(of.value));
     if points.len() <= MOST_BARS {

@@ -29,10 +29,3 @@ pub(super) fn groups(batch: &Batch) -> Vec<Group<'_>> {
     }
     groups
 }
-
-impl Group<'_> {
-    /// The name of a parameter without that of its sensor.
-    pub(super) fn short<'n>(&self, name: &'n str) -> &'n str {
-        name.strip_prefix(self.prefix).map_or(name, |rest| rest.trim_start_matches('.'))
-    }
-}

@@ -16,7 +16,7 @@ pub(crate) fn parameter_histograms(batch: &Batch) -> Vec<Figure> {
         let panels: Vec<Panel> = group
             .members
             .iter()
-            .filter_map(|&place| panel(batch, place, group.short(&batch.parameters[place].name)))
+            .filter_map(|&place| panel(batch, place, &batch.parameters[place].name))
             .collect();
         Figure::new(group.name, panels, CAPTION).with_columns(3)
     };
@@ -79,7 +79,7 @@ fn panel(batch: &Batch, place: usize, name: &str) -> Option<Panel> {
     let top = 1.06 * most as f64;
 
     let outside = found.len() - inside(false).len();
-    let mut label = unit.label(name);
+    let mut label = unit.label("estimate");
     if outside > 0 {
         label.push_str(&format!(", {outside} outside"));
     }

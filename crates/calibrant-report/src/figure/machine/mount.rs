@@ -34,7 +34,7 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
     };
     let ((left, right), (top, bottom)) = (extent(|at| at.0), extent(|at| at.1));
-    view.scale = ((SIZE.0 - 90.0) / (right - left)).min((SIZE.1 - 90.0) / (bottom - top));
+    view.scale = ((SIZE.0 - 230.0) / (right - left)).min((SIZE.1 - 90.0) / (bottom - top));
     view.middle = (
         SIZE.0 / 2.0 - view.scale * (left + right) / 2.0,
         SIZE.1 / 2.0 - 8.0 - view.scale * (top + bottom) / 2.0,

@@ -125,7 +125,7 @@ fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
         let x = view.at(&(view.centre + view.right * (value - view.right.dot(&view.centre)))).0;
         let text = number_format::tick(value);
         svg += &format!(
-            "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"12\" text-anchor=\"middle\">{text}</text>",
+            "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"11\" text-anchor=\"middle\">{text}</text>",
             bottom + 16.0
         );
     }
@@ -133,7 +133,7 @@ fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
         let y = view.at(&(view.centre + view.up * (value - view.up.dot(&view.centre)))).1;
         let text = number_format::tick(value);
         svg += &format!(
-            "<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"end\">{text}</text>",
+            "<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"end\">{text}</text>",
             left - 5.0,
             y + 4.0
         );
