@@ -4,6 +4,7 @@ mod arguments;
 mod batch;
 mod batch_page;
 mod job;
+mod naming;
 mod one;
 mod parallel;
 mod quality;

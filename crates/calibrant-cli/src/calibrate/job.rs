@@ -84,6 +84,7 @@ fn options(arguments: &Arguments) -> calibrant::Result<PipelineOptions> {
         folds: arguments.folds,
         accept: arguments.accept.as_deref().map(read_acceptance).transpose()?,
         allowed: arguments.rules.allowed().to_vec(),
+        naming: arguments.naming.options()?,
         report: !arguments.no_report,
     })
 }

@@ -4,7 +4,7 @@ use super::source::Source;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Code;
 use calibrant_core::sensor::ReadingUnit;
-use calibrant_io::ImuReadOptions;
+use calibrant_io::{ImuReadOptions, SensorNaming};
 use std::path::PathBuf;
 
 /// What is said of all recordings of a pipeline beside the experiment.
@@ -28,6 +28,8 @@ pub struct PipelineOptions {
     pub accept: Option<Vec<AcceptanceLimit>>,
     /// Diagnostics that the files mark as allowed. They do not count for the verdict.
     pub allowed: Vec<Code>,
+    /// Which sensor a recording is of, and where it was made.
+    pub naming: SensorNaming,
     /// Is `report.html` written?
     pub report: bool,
 }
@@ -44,6 +46,7 @@ impl Default for PipelineOptions {
             folds: None,
             accept: None,
             allowed: Vec::new(),
+            naming: SensorNaming::default(),
             report: true,
         }
     }
