@@ -17,6 +17,7 @@
 //! | `noise.json` | | [`write_noise`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
+//! | records of calibrations, an SQLite database | `Records` | `Records` |
 //! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
@@ -56,6 +57,7 @@ mod pose_design;
 mod poses;
 mod reach;
 mod recording;
+mod records;
 mod reference_inspection;
 mod reference_log;
 mod result_places;
@@ -114,6 +116,9 @@ pub use recording::{
     parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
     write_recording,
 };
+pub use records::Record;
+#[cfg(feature = "records")]
+pub use records::{Inserted, KeptRecord, RecordFilter, Records};
 pub use reference_inspection::{
     JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,
     reference_inspection_json,
