@@ -8,6 +8,7 @@ mod naming;
 mod one;
 mod parallel;
 mod quality;
+mod record_keeper;
 mod recorded;
 mod sources;
 mod unused;

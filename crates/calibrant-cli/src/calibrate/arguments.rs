@@ -55,6 +55,9 @@ pub(crate) struct Arguments {
     pub(super) accept: Option<PathBuf>,
     #[command(flatten)]
     pub(super) naming: Naming,
+    /// Add each result to these records, an SQLite database that is made where there is none (see `calibrant records`).
+    #[arg(long, value_name = "FILE")]
+    pub(super) records: Option<PathBuf>,
     #[command(flatten)]
     pub(super) rules: Rules,
     /// Write no report.html. This saves time with many sensors.

@@ -33,7 +33,12 @@ pub(crate) struct Heading {
 
 impl Heading {
     pub(crate) fn new() -> Self {
-        Self { schema: 2, kind: KIND, program: crate::atomic_output::program() }
+        Self::of(crate::atomic_output::program())
+    }
+
+    /// That of a calibration by this program.
+    pub(crate) fn of(program: String) -> Self {
+        Self { schema: 2, kind: KIND, program }
     }
 }
 

@@ -25,7 +25,21 @@
 #[cfg(feature = "records")]
 mod database;
 #[cfg(feature = "records")]
+mod drift;
+#[cfg(feature = "records")]
+mod export;
+#[cfg(all(feature = "records", feature = "parquet"))]
+mod export_parquet;
+#[cfg(feature = "records")]
+mod export_table;
+#[cfg(feature = "records")]
 mod failure;
+#[cfg(feature = "records")]
+mod fleet;
+#[cfg(feature = "records")]
+mod history;
+#[cfg(feature = "records")]
+mod json;
 #[cfg(feature = "records")]
 mod model;
 #[cfg(feature = "records")]
@@ -37,7 +51,19 @@ mod schema;
 #[cfg(feature = "records")]
 pub use database::{Inserted, Records};
 #[cfg(feature = "records")]
+pub use drift::SensorDrift;
+#[cfg(feature = "records")]
+pub use export::ExportFormat;
+#[cfg(feature = "records")]
+pub use fleet::FleetParameter;
+#[cfg(feature = "records")]
+pub use history::{SensorChange, SensorHistory};
+#[cfg(feature = "records")]
+pub use json::{drifts_json, fleet_json, history_json, record_json, records_json};
+#[cfg(feature = "records")]
 pub use query::{KeptRecord, RecordFilter};
 pub use record::Record;
+#[cfg(all(test, feature = "records"))]
+mod large_tests;
 #[cfg(all(test, feature = "records"))]
 mod tests;

@@ -16,7 +16,7 @@ pub(super) fn text_of(imu: &CalibratedImu) -> String {
     let none = Thermal::none();
     (model.parameters.thermal.reference_c, model.parameters.thermal.range_c) =
         (none.reference_c, none.range_c);
-    to_json(&ImuCore::of(&model, 3, &[]))
+    to_json(&ImuCore::of(&model, 3, &[]).without_inputs())
 }
 
 /// The IMU of a model's text; all its estimates are zero.
