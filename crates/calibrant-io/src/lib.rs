@@ -65,6 +65,7 @@ mod resume_key;
 mod sampling;
 mod sensor_naming;
 mod shared_fields;
+mod stated_rate;
 mod study;
 mod summary;
 mod sweep;
