@@ -112,7 +112,7 @@ fn aged(QuantityAging { invariant, unit, aging }: &QuantityAging) -> Vec<String>
         number_format::with_sd(scale * aging.per_year, scale * aging.sd),
         number_format::signed(aging.per_year / aging.sd, 1),
         number_format::probability(aging.p_value),
-        aging.birge_ratio.map_or_else(dash, |ratio| number_format::significant(ratio, 2)),
+        aging.birge_ratio.map_or_else(dash, |ratio| format!("{ratio:.2}")),
         if is_angle { "°".to_owned() } else { (*unit).to_owned() },
     ]
 }

@@ -90,6 +90,8 @@ impl Records {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX | further;
         let opened = Connection::open_with_flags(path, flags).and_then(|connection| {
             connection.busy_timeout(PATIENCE)?;
+            // for a new database; covariances of 20 parameters leave half of a page of 4 KiB empty
+            connection.pragma_update(None, "page_size", 16_384)?;
             connection.pragma_update(None, "foreign_keys", true)?;
             Ok(connection)
         });

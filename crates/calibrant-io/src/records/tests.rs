@@ -200,7 +200,7 @@ fn damage_is_an_error() {
     }
     drop(records);
     let mut bytes = std::fs::read(&path).expect("there");
-    for byte in &mut bytes[4096..] {
+    for byte in &mut bytes[16_384..] {
         *byte = 0x5a;
     }
     std::fs::write(&path, bytes).expect("written");
@@ -247,4 +247,67 @@ fn a_writer_that_ends_within_a_transaction_leaves_what_it_finished() {
         (0..20).map(|k| record("A", k)).collect::<Vec<_>>().iter().collect::<Vec<_>>()
     );
     assert!(!journal(&copy).exists());
+}
+
+#[test]
+fn a_table_has_a_row_for_each_calibration_and_reads_back_to_the_last_bit() {
+    let (directory, path) = place();
+    let mut records = Records::open(&path).expect("made");
+    let mut counts = record("=B", 2);
+    counts.imu.accelerometer_unit = Some(ReadingUnit::Counts);
+    let bare = Record { recorded: None, imu: CalibratedImu { covariance: None, ..imu(1) }, ..record("A", 1) };
+    records.insert_all([bare, counts]).expect("inserted");
+    let table = directory.path().join("t.csv");
+    assert_eq!(records.export(&table, ExportFormat::Csv, &RecordFilter::default()).expect("written"), 2);
+    let text = std::fs::read_to_string(&table).expect("read");
+    let (about, text) = text.split_once('\n').expect("a line");
+    assert!(about.starts_with("# calibrant "), "{about}");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers().expect("a header").clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(|row| row.expect("whole")).collect();
+    let field = |row: usize, name: &str| {
+        let place = header.iter().position(|found| found == name).unwrap_or_else(|| panic!("{name}"));
+        rows[row][place].to_owned()
+    };
+    // by the order of the sensors' names
+    let (b, a) = (0, 1);
+    assert_eq!(
+        (field(a, "sensor"), field(b, "sensor")),
+        ("A".into(), "'=B".into()),
+        "no formula for a spreadsheet"
+    );
+    assert_eq!((field(a, "recorded"), field(b, "recorded")), (String::new(), "2026-05-03".into()));
+    assert_eq!(field(a, "recording"), "a, 1.csv, g, 1.csv");
+    // a quantity in two units has a column for each
+    let value = imu(1).parameters.accelerometer.bias.y;
+    assert_eq!(field(a, "accelerometer.bias.y_mps2").parse(), Ok(value));
+    assert_eq!(field(b, "accelerometer.bias.y_mps2"), "");
+    assert_ne!(field(b, "accelerometer.bias.y_counts"), "");
+    assert_eq!(field(a, "gyroscope.scale.x_sd_counts_per_radps"), "", "no covariance");
+    let sd = imu(2).covariance.expect("there")[(1, 1)].sqrt();
+    assert_eq!(field(b, "accelerometer.bias.y_sd_counts").parse(), Ok(sd));
+
+    #[cfg(feature = "parquet")]
+    {
+        use parquet::file::reader::{FileReader, SerializedFileReader};
+        use parquet::record::Field;
+        let table = directory.path().join("t.parquet");
+        records.export(&table, ExportFormat::Parquet, &RecordFilter::default()).expect("written");
+        let file = SerializedFileReader::new(std::fs::File::open(&table).expect("there")).expect("Parquet");
+        let mut found = 0;
+        for (row, read) in file.get_row_iter(None).expect("rows").enumerate() {
+            for (name, value) in read.expect("a row").get_column_iter() {
+                let text = field(row, name);
+                match value {
+                    Field::Null => assert_eq!(text, ""),
+                    Field::Double(number) => assert_eq!(text.parse(), Ok(*number), "{name}"),
+                    Field::Long(id) => assert_eq!(text.parse(), Ok(*id)),
+                    Field::Str(read) => assert_eq!(text.trim_start_matches('\''), read),
+                    other => panic!("{name}: {other:?}"),
+                }
+                found += 1;
+            }
+        }
+        assert_eq!(found, 2 * header.len());
+    }
 }
