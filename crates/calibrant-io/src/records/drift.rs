@@ -100,7 +100,7 @@ impl SensorDrift {
             calibrations: calibrations.len(),
             dates: dates()
                 .next()
-                .zip(dates().last())
+                .zip(dates().next_back())
                 .map(|(first, last)| [first, last])
                 .filter(|[a, b]| a != b),
             last_change,
