@@ -17,6 +17,8 @@ mod interruption;
 mod man;
 mod noise;
 mod recording_options;
+#[cfg(feature = "records")]
+mod records;
 mod rest_remark;
 mod run;
 mod simulate;
@@ -58,12 +60,14 @@ enum Command {
     Inspect(inspect::Arguments),
     Design(design::Arguments),
     Simulate(simulate::Arguments),
-    Calibrate(calibrate::Arguments),
+    Calibrate(Box<calibrate::Arguments>),
     Study(study::Arguments),
     Noise(noise::Arguments),
     Convert(convert::Arguments),
     Apply(apply::Arguments),
     Compare(compare::Arguments),
+    #[cfg(feature = "records")]
+    Records(records::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -92,12 +96,14 @@ fn main() -> ExitCode {
         Command::Inspect(arguments) => arguments,
         Command::Design(arguments) => arguments,
         Command::Simulate(arguments) => arguments,
-        Command::Calibrate(arguments) => arguments,
+        Command::Calibrate(arguments) => arguments.as_ref(),
         Command::Study(arguments) => arguments,
         Command::Noise(arguments) => arguments,
         Command::Convert(arguments) => arguments,
         Command::Apply(arguments) => arguments,
         Command::Compare(arguments) => arguments,
+        #[cfg(feature = "records")]
+        Command::Records(arguments) => arguments,
         Command::Completions(arguments) => arguments,
         Command::Man(arguments) => arguments,
     };
@@ -109,11 +115,11 @@ fn main() -> ExitCode {
     ExitCode::from(exit.0)
 }
 
-/// Has the command `--json`?
+/// Has the command `--json`, or a command of it?
 fn asks_for_json(matches: &ArgMatches) -> bool {
-    let json =
-        matches.subcommand().and_then(|(_, command)| command.try_get_one::<bool>("json").ok().flatten());
-    json.copied().unwrap_or(false)
+    let Some((_, command)) = matches.subcommand() else { return false };
+    let json = command.try_get_one::<bool>("json").ok().flatten();
+    json.copied().unwrap_or(false) || asks_for_json(command)
 }
 
 /// Sets the number of threads.

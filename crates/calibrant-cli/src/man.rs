@@ -46,7 +46,14 @@ impl Arguments {
     fn pages(&self) -> Vec<Command> {
         let mut program = self.program.as_ref().clone().disable_help_subcommand(true);
         program.build();
-        std::iter::once(program.clone()).chain(program.get_subcommands().cloned()).collect()
+        let mut pages = vec![program];
+        let mut next = 0;
+        while let Some(page) = pages.get(next) {
+            let further: Vec<Command> = page.get_subcommands().cloned().collect();
+            pages.extend(further);
+            next += 1;
+        }
+        pages
     }
 }
 

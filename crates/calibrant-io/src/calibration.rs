@@ -6,8 +6,8 @@ use super::convention::{Heading, ImuCore};
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::gyroscope::{RotationsFields, StillFields, TurnFields};
 use super::holds::HoldsFields;
-use super::input::Input;
 use super::json;
+use super::origin::{Origin, OriginFields};
 use super::shared_fields::{FitFields, MotionFields, matrix_rows};
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
@@ -21,7 +21,7 @@ use std::path::Path;
 /// `holds`, and `still_gyroscope`, `rotations`, `turns` of an IMU. Arrays over axes have 1 or 3 entries.
 /// Fields in the unit of the readings end in `_mps2`, `_radps` or `_counts`. Angles are in rad; of a rotation
 /// that could not be integrated they are `null`. `validations` are the errors on data that the calibration
-/// did not use. `inputs` has one entry for each file of the recording.
+/// did not use. `origin` says of which sensor it is, and from which files.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -29,10 +29,10 @@ pub fn write_calibration(
     path: &Path,
     calibration: &Calibration,
     validations: &[Validation],
-    inputs: &[Input],
+    origin: &Origin,
     words: &DiagnosticWords<'_>,
 ) -> Result<()> {
-    json::write_json(path, &CalibrationFile::of(calibration, validations, inputs, words))
+    json::write_json(path, &CalibrationFile::of(calibration, validations, origin, words))
 }
 
 /// The text that [`write_calibration`] writes.
@@ -40,16 +40,18 @@ pub fn write_calibration(
 pub fn calibration_json(
     calibration: &Calibration,
     validations: &[Validation],
-    inputs: &[Input],
+    origin: &Origin,
     words: &DiagnosticWords<'_>,
 ) -> String {
-    json::to_json(&CalibrationFile::of(calibration, validations, inputs, words))
+    json::to_json(&CalibrationFile::of(calibration, validations, origin, words))
 }
 
 #[derive(Serialize)]
 struct CalibrationFile<'a> {
     #[serde(flatten)]
     heading: Heading,
+    #[serde(flatten)]
+    origin: OriginFields<'a>,
     verdict: VerdictFields,
     status: &'static str,
     iterations: usize,
@@ -81,7 +83,7 @@ impl<'a> CalibrationFile<'a> {
     fn of(
         calibration: &'a Calibration,
         validations: &[Validation],
-        inputs: &[Input],
+        origin: &'a Origin,
         words: &DiagnosticWords<'_>,
     ) -> Self {
         let (axes, unit) = (calibration.axes(), calibration.accelerometer_unit);
@@ -95,12 +97,13 @@ impl<'a> CalibrationFile<'a> {
         };
         Self {
             heading: Heading::new(),
+            origin: origin.fields(),
             verdict: words.verdict(&calibration.warnings),
             status: calibration.status.name(),
             iterations: calibration.iterations,
             gradient_norm: calibration.gradient_norm,
             prior: calibration.datasheet_prior.then_some("datasheet"),
-            core: ImuCore::of(&calibration.calibrated(), axes, inputs).with_knowledge(calibration),
+            core: ImuCore::of(&calibration.calibrated(), axes, &origin.inputs).with_knowledge(calibration),
             correlation: matrix_rows(&calibration.correlation()),
             fit: FitFields::of(&calibration.fit, unit, axes),
             motion,

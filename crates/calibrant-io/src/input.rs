@@ -1,5 +1,6 @@
 //! The files that a result came from.
 
+use super::stated_rate::stated_rate_hz;
 use calibrant_core::sensor::Recording;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -13,7 +14,7 @@ pub struct Input {
     pub sha256: String,
     /// Number of samples read.
     pub samples: usize,
-    /// Sample rate, Hz.
+    /// Sample rate, Hz, with the digits that the times have.
     pub rate_hz: f64,
 }
 
@@ -25,7 +26,8 @@ impl Input {
             file: file_name(path),
             sha256: sha256.to_owned(),
             samples: readings.map_or(0, Recording::len),
-            rate_hz: readings.map_or(0.0, Recording::rate_hz),
+            rate_hz: readings
+                .map_or(0.0, |of| stated_rate_hz(of.rate_hz(), of.times_s.last().copied().unwrap_or(0.0))),
         }
     }
 }

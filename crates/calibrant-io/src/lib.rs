@@ -17,6 +17,7 @@
 //! | `noise.json` | | [`write_noise`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
+//! | records of calibrations, an SQLite database | `Records` | `Records` |
 //! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
@@ -51,17 +52,21 @@ mod machine_truth;
 mod machine_validation;
 mod motion;
 mod noise;
+mod origin;
 mod pose_design;
 mod poses;
 mod reach;
 mod recording;
+mod records;
 mod reference_inspection;
 mod reference_log;
 mod result_places;
 mod resume_key;
 mod sampling;
+mod sensor_naming;
 mod shared_fields;
 mod standard_input;
+mod stated_rate;
 mod study;
 mod summary;
 mod sweep;
@@ -69,6 +74,7 @@ mod text_decoding;
 mod text_excerpt;
 mod told;
 mod truth;
+mod utc_time;
 mod validation;
 
 pub use atomic_output::{remove_unfinished, write_atomically};
@@ -102,6 +108,7 @@ pub use machine_calibration::{
 pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
+pub use origin::{HashedFile, Origin};
 pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
 pub use poses::{read_poses, write_poses};
 pub use reach::Reached;
@@ -110,6 +117,12 @@ pub use recording::{
     ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
     parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
     write_recording,
+};
+pub use records::Record;
+#[cfg(feature = "records")]
+pub use records::{
+    ExportFormat, FleetParameter, Inserted, KeptRecord, RecordFilter, Records, SensorChange, SensorDrift,
+    SensorHistory, drifts_json, fleet_json, history_json, record_json, records_json,
 };
 pub use reference_inspection::{
     JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,
@@ -122,8 +135,10 @@ pub use reference_log::{
 pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
+pub use sensor_naming::{NamePattern, NamedRecording, SensorNaming};
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
 pub use told::{Told, ToldKind};
 pub use truth::{truth_json, write_imu_truth, write_motion_truth, write_truth};
+pub use utc_time::UtcTime;

@@ -3,9 +3,9 @@
 use super::acceptance::{LimitFields, VerdictFields};
 use super::convention::{Heading, ImuCore};
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
-use super::input::Input;
 use super::json;
 use super::machine_validation::{ValidationFields, validation_fields};
+use super::origin::{Origin, OriginFields};
 use super::shared_fields::{FitFields, matrix_rows};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
@@ -82,26 +82,28 @@ impl<'a> MachineResult<'a> {
 pub fn write_machine_calibration(
     path: &Path,
     result: &MachineResult<'_>,
-    inputs: &[Input],
+    origin: &Origin,
     words: &DiagnosticWords<'_>,
 ) -> Result<()> {
-    json::write_json(path, &CalibrationFile::of(result, inputs, words))
+    json::write_json(path, &CalibrationFile::of(result, origin, words))
 }
 
 /// The text that [`write_machine_calibration`] writes.
 #[must_use]
 pub fn machine_calibration_json(
     result: &MachineResult<'_>,
-    inputs: &[Input],
+    origin: &Origin,
     words: &DiagnosticWords<'_>,
 ) -> String {
-    json::to_json(&CalibrationFile::of(result, inputs, words))
+    json::to_json(&CalibrationFile::of(result, origin, words))
 }
 
 #[derive(Serialize)]
 struct CalibrationFile<'a> {
     #[serde(flatten)]
     heading: Heading,
+    #[serde(flatten)]
+    origin: OriginFields<'a>,
     verdict: VerdictFields,
     status: &'static str,
     iterations: usize,
@@ -119,16 +121,17 @@ struct CalibrationFile<'a> {
 }
 
 impl<'a> CalibrationFile<'a> {
-    fn of(result: &MachineResult<'a>, inputs: &[Input], words: &DiagnosticWords<'_>) -> Self {
+    fn of(result: &MachineResult<'a>, origin: &'a Origin, words: &DiagnosticWords<'_>) -> Self {
         let calibration = result.calibration;
         let imu = calibration.calibrated();
         Self {
             heading: Heading::new(),
+            origin: origin.fields(),
             verdict: words.verdict(&calibration.warnings),
             status: calibration.status.name(),
             iterations: calibration.iterations,
             gradient_norm: calibration.gradient_norm,
-            core: ImuCore::of(&imu, 3, inputs),
+            core: ImuCore::of(&imu, 3, &origin.inputs),
             correlation: imu.covariance.as_ref().map_or(Vec::new(), |sigma| matrix_rows(&correlation(sigma))),
             fit: FitFields::of(&calibration.fit, ReadingUnit::MetrePerSecondSquared, 3),
             machine: MachineFields::of(result),

@@ -1,5 +1,6 @@
 //! The times of samples, as `inspect` shows them: rate, jitter, gaps.
 
+use super::stated_rate::stated_rate_hz;
 use calibrant_core::sensor::{missing, rate_hz};
 use serde::Serialize;
 
@@ -81,7 +82,7 @@ impl SamplingFields {
             samples: sampling.samples,
             start_s: sampling.span_s.0,
             end_s: sampling.span_s.1,
-            rate_hz: sampling.rate_hz,
+            rate_hz: stated_rate_hz(sampling.rate_hz, sampling.span_s.1),
             shortest_step_s: sampling.steps_s.0,
             longest_step_s: sampling.steps_s.1,
             jitter_s: sampling.jitter_s,

@@ -288,7 +288,7 @@ fn number(value: Option<f64>) -> String {
 }
 
 /// A text that a spreadsheet takes for a text: one that begins like a formula gets an apostrophe before it.
-fn as_text(text: &str) -> String {
+pub(super) fn as_text(text: &str) -> String {
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if formula { format!("'{text}") } else { text.to_owned() }
 }

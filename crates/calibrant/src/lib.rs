@@ -36,6 +36,7 @@
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
 //! | from a recording's file to the calibration and its report | [`pipeline::Pipeline`], [`pipeline::Outcome`] |
 //! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
+//! | many calibrations over the years | [`fleet::Aging`], [`fleet::Distribution`], [`io::Record`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # From files
@@ -114,8 +115,8 @@
 pub mod pipeline;
 
 pub use calibrant_core::{
-    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, motion, noise,
-    sensor, simulate,
+    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, fleet, information, motion,
+    noise, sensor, simulate,
 };
 pub use calibrant_design as design;
 pub use calibrant_design::study;

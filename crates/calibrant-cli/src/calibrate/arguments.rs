@@ -1,5 +1,6 @@
 //! The arguments of `calibrant calibrate`.
 
+use super::naming::Naming;
 use crate::diagnostics::Rules;
 use crate::recording_options::RecordingOptions;
 use std::path::PathBuf;
@@ -49,6 +50,11 @@ pub(crate) struct Arguments {
     /// The limits that a result must keep, in place of [accept] of the experiment file. It is a file with this section.
     #[arg(long, value_name = "FILE")]
     pub(super) accept: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) naming: Naming,
+    /// Add each result to these records, an SQLite database that is made where there is none (see `calibrant records`).
+    #[arg(long, value_name = "FILE")]
+    pub(super) records: Option<PathBuf>,
     #[command(flatten)]
     pub(super) rules: Rules,
     /// Write no report.html. This saves time with many sensors.

@@ -1,6 +1,7 @@
 //! What all recordings of a call share.
 
 use super::arguments::Arguments;
+use super::record_keeper::RecordKeeper;
 use super::sources::{check_motion, sources};
 use crate::console;
 use calibrant::acceptance::AcceptanceLimit;
@@ -15,6 +16,8 @@ pub(super) struct Job<'a> {
     pub(super) experiment: &'a Experiment,
     /// The limits that a result must keep.
     pub(super) limits: Vec<AcceptanceLimit>,
+    /// Where the results are recorded.
+    pub(super) records: RecordKeeper,
     pipeline: Pipeline<'a>,
     /// What the results of all recordings depend on.
     key: Option<ResumeKey>,
@@ -29,7 +32,8 @@ impl<'a> Job<'a> {
         let pipeline = Pipeline::from_experiment(experiment, options)?;
         pipeline.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
-        Ok(Self { arguments, sources, experiment, limits, pipeline, key })
+        let records = RecordKeeper::open(arguments.records.as_deref())?;
+        Ok(Self { arguments, sources, experiment, limits, records, pipeline, key })
     }
 
     /// The key of the result of a recording; `None` where a file cannot be read.
@@ -38,7 +42,7 @@ impl<'a> Job<'a> {
         self.key.as_ref()?.with(files.into_iter().flatten().map(PathBuf::as_path))
     }
 
-    /// Calibrates from a recording and writes the results. Adds notes and warnings to `notes`, even if it fails.
+    /// Calibrates from a recording, writes the results and records them. Adds notes and warnings to `notes`, even if it fails.
     pub(super) fn run(
         &self,
         source: &Source,
@@ -47,6 +51,7 @@ impl<'a> Job<'a> {
     ) -> calibrant::Result<Outcome> {
         let outcome = self.pipeline.run_noting(source, notes)?;
         outcome.write(directory)?;
+        self.records.add(|| outcome.json())?;
         Ok(outcome)
     }
 }
@@ -79,6 +84,7 @@ fn options(arguments: &Arguments) -> calibrant::Result<PipelineOptions> {
         folds: arguments.folds,
         accept: arguments.accept.as_deref().map(read_acceptance).transpose()?,
         allowed: arguments.rules.allowed().to_vec(),
+        naming: arguments.naming.options()?,
         report: !arguments.no_report,
     })
 }

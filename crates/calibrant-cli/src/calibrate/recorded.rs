@@ -30,9 +30,11 @@ impl Recorded {
         let key = job.key(source);
         let earlier = key.as_ref().filter(|_| job.arguments.resume);
         if let Some((finished, text)) = earlier.and_then(|key| Finished::read(directory, key)) {
+            // the run that computed it need not have recorded it
+            let recorded = job.records.add(|| text.clone());
             return Self {
                 told: Vec::new(),
-                outcome: Ok(Kept { finished, json: kept_text(text), earlier: true }),
+                outcome: recorded.map(|()| Kept { finished, json: kept_text(text), earlier: true }),
             };
         }
         let mut notes = Vec::new();

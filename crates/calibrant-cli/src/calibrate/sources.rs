@@ -66,6 +66,12 @@ fn check_several(arguments: &Arguments, experiment: &Experiment) -> calibrant::R
             "give one recording with --validate or --folds",
         );
     }
+    if arguments.naming.sensor.is_some() {
+        return refuse(
+            "--sensor names one sensor, and recordings of several are given",
+            "give --sensor-from with a pattern of the file names",
+        );
+    }
     if experiment.imu.is_some() && arguments.sections.is_some() {
         return refuse(
             "--sections is the list of one recording, and several are given",

@@ -38,7 +38,7 @@ fn blocks(text: &str) -> Vec<(&str, Vec<&str>)> {
 /// Runs the commands of a text: the lines of `sh` blocks that begin with `calibrant`. A comment may give another exit
 /// status than 0. The last command must have printed the lines of the `text` block below, in this order; `…`
 /// stands for omitted lines.
-fn follow_text(bench: &Bench, name: &str, text: &str, commands: usize) {
+pub(crate) fn follow_text(bench: &Bench, name: &str, text: &str, commands: usize) {
     let (mut ran, mut printed) = (0, String::new());
     for (language, lines) in blocks(text) {
         if language == "sh" {

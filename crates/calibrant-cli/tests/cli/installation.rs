@@ -30,7 +30,13 @@ fn each_command_has_a_manual_page() {
         let page = bench.read(&format!("pages/calibrant-{command}.1"));
         assert!(page.contains(&format!(".SH NAME\ncalibrant\\-{command}")), "{command}\n{page}");
     }
-    assert_eq!(bench.files().len(), commands.len() + 2, "a directory, calibrant.1 and the commands");
+    let of_records = ["add", "drift", "export", "fleet", "list", "show"];
+    for command in of_records {
+        let page = bench.read(&format!("pages/calibrant-records-{command}.1"));
+        assert!(page.contains(&format!("calibrant\\-records\\-{command}")), "{command}\n{page}");
+    }
+    let pages = commands.len() + of_records.len();
+    assert_eq!(bench.files().len(), pages + 2, "a directory, calibrant.1 and the commands");
     // pages of an earlier version are replaced, others' are not
     bench.run("man pages").done();
     bench.write("pages/calibrant.1", "mine");

@@ -33,6 +33,7 @@ mod noise;
 mod on_machine;
 mod quiet_and_color;
 mod real_recordings;
+mod records;
 mod repaired_recordings;
 mod rest;
 mod resume;

@@ -73,7 +73,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
             false => c_temperature::with_temperature(sensor_kind, at_reference),
         };
         match sensor_kind {
-            SensorKind::Accelerometer => out.push_str(&function(ACCELEROMETER)),
+            SensorKind::Accelerometer => out.push_str(&function(&in_unit(ACCELEROMETER, &unit))),
             SensorKind::Gyroscope => {
                 let _ = writeln!(out, "\n/* What it shows of specific force, ({unit}) per (m/s^2). */");
                 let _ = writeln!(
@@ -81,7 +81,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
                     "static const CALIBRANT_REAL calibrant_gyroscope_g_sensitivity[3][3] = {};",
                     matrix(&correction.g_sensitivity)
                 );
-                out.push_str(&function(GYROSCOPE));
+                out.push_str(&function(&in_unit(GYROSCOPE, &unit)));
             }
         }
     }
@@ -121,6 +121,11 @@ static inline void calibrant_correct_gyroscope(const CALIBRANT_REAL raw[3], cons
                 + calibrant_gyroscope_matrix[i][2] * y[2];
 }
 ";
+
+/// A function whose comment says the unit of the reading that it takes.
+fn in_unit(function: &str, unit: &str) -> String {
+    function.replacen(" of a reading of the", &format!(" of a reading ({unit}) of the"), 1)
+}
 
 /// A unit in ASCII.
 fn ascii(unit: &str) -> String {

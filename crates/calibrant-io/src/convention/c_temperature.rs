@@ -89,7 +89,7 @@ pub(super) fn with_temperature(sensor_kind: SensorKind, function: &str) -> Strin
             1,
         )
         .replacen(result, &format!("{change}{result}"), 1)
-        .replacen(" of a reading of the", " of a reading, at a temperature in degrees Celsius, of the", 1)
+        .replacen(" of the ", ", at a temperature in degrees Celsius, of the ", 1)
 }
 
 /// The temperature model that a header contains.

@@ -33,7 +33,12 @@ pub(crate) struct Heading {
 
 impl Heading {
     pub(crate) fn new() -> Self {
-        Self { schema: 2, kind: KIND, program: crate::atomic_output::program() }
+        Self::of(crate::atomic_output::program())
+    }
+
+    /// That of a calibration by this program.
+    pub(crate) fn of(program: String) -> Self {
+        Self { schema: 2, kind: KIND, program }
     }
 }
 
@@ -114,6 +119,12 @@ pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
     let (imu, _) = header.core(text)?.into_imu()?;
     usable(&imu)?;
     Ok((imu, header.prior.as_deref() == Some("datasheet")))
+}
+
+/// The sensors of a `calibration.json`, also of one that did not converge or cannot be used.
+pub(crate) fn read_any_estimates(text: &str) -> Checked<CalibratedImu> {
+    let header = Header { status: None, ..Header::of(text)? };
+    Ok(header.core(text)?.into_imu()?.0)
 }
 
 impl Header {

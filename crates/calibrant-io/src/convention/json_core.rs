@@ -36,6 +36,7 @@ pub(crate) struct ImuCore {
     covariance: Option<Vec<Vec<Option<f64>>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     covariance_degrees_of_freedom: Option<DegreesCore>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     inputs: Option<Vec<Input>>,
 }
 
@@ -134,6 +135,12 @@ impl ImuCore {
             covariance_degrees_of_freedom: imu.degrees_of_freedom.as_ref().map(DegreesCore::of),
             inputs: Some(inputs.to_vec()),
         }
+    }
+
+    /// The same without recordings.
+    #[cfg(feature = "records")]
+    pub(crate) fn without_inputs(self) -> Self {
+        Self { inputs: None, ..self }
     }
 
     /// The same, with what was known of each parameter beforehand: by the datasheet, and by its prior.

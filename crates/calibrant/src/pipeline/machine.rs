@@ -111,11 +111,11 @@ impl<'e> MachineTask<'e> {
             validations.extend(unless_too_few(outcome, notes)?);
         }
         let Moved { recorded, log_input, .. } = moved;
-        let inputs = recorded.inputs(source);
+        let origin = recorded.origin(source);
         let about = options.report.then(|| {
             let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
             let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
-            about(&format!("{what} on a machine"), facts, &recorded, &inputs, options)
+            about(&format!("{what} on a machine"), facts, &recorded, &origin.inputs, options)
         });
         let outcome = MachineOutcome { calibration, setup, log: log_input, validations };
         Ok(Outcome {
@@ -125,7 +125,7 @@ impl<'e> MachineTask<'e> {
             notes: Vec::new(),
             limits: Vec::new(),
             findings: Vec::new(),
-            inputs,
+            origin,
             recording: recorded.recording,
             about,
             allowed: options.allowed.clone(),

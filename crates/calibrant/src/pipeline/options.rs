@@ -3,7 +3,7 @@
 use super::source::Source;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Code;
-use calibrant_io::ImuReadOptions;
+use calibrant_io::{ImuReadOptions, SensorNaming};
 use std::path::PathBuf;
 
 /// What is said of all recordings of a pipeline beside the experiment.
@@ -25,6 +25,8 @@ pub struct PipelineOptions {
     pub accept: Option<Vec<AcceptanceLimit>>,
     /// Diagnostics that the files mark as allowed. They do not count for the verdict.
     pub allowed: Vec<Code>,
+    /// Which sensor a recording is of, and where it was made.
+    pub naming: SensorNaming,
     /// Is `report.html` written?
     pub report: bool,
 }
@@ -40,6 +42,7 @@ impl Default for PipelineOptions {
             folds: None,
             accept: None,
             allowed: Vec::new(),
+            naming: SensorNaming::default(),
             report: true,
         }
     }

@@ -9,7 +9,7 @@ use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{
-    DiagnosticWords, Input, Summary, calibration_json, machine_calibration_json, write_atomically,
+    DiagnosticWords, Origin, Summary, calibration_json, machine_calibration_json, write_atomically,
     write_calibration, write_machine_calibration,
 };
 use calibrant_report::{About, calibration_report, machine_report, message};
@@ -26,8 +26,8 @@ pub struct Outcome {
     pub noise: Vec<SensorNoise>,
     /// What was noticed, in the order in which people should read it. Warnings of the calibration are in itself.
     pub notes: Vec<Note>,
-    /// The files that were read.
-    pub inputs: Vec<Input>,
+    /// The sensor, and the files that were read.
+    pub origin: Origin,
     /// The limits that were checked.
     pub limits: Vec<CheckedLimit>,
     /// Codes of what the reader noticed in the recording.
@@ -90,10 +90,10 @@ impl Outcome {
     pub fn json(&self) -> String {
         match &self.calibrated {
             Calibrated::Sensors(calibration) => {
-                calibration_json(calibration, &self.validations, &self.inputs, &self.words())
+                calibration_json(calibration, &self.validations, &self.origin, &self.words())
             }
             Calibrated::OnMachine(machine) => {
-                machine_calibration_json(&machine.result(), &self.inputs, &self.words())
+                machine_calibration_json(&machine.result(), &self.origin, &self.words())
             }
         }
     }
@@ -127,10 +127,10 @@ impl Outcome {
         let path = directory.join("calibration.json");
         match &self.calibrated {
             Calibrated::Sensors(calibration) => {
-                write_calibration(&path, calibration, &self.validations, &self.inputs, &self.words())
+                write_calibration(&path, calibration, &self.validations, &self.origin, &self.words())
             }
             Calibrated::OnMachine(machine) => {
-                write_machine_calibration(&path, &machine.result(), &self.inputs, &self.words())
+                write_machine_calibration(&path, &machine.result(), &self.origin, &self.words())
             }
         }
     }

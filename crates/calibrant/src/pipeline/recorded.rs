@@ -5,7 +5,8 @@ use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{
-    FileFormat, Finding, ImuFile, ImuReadOptions, Input, USUAL_RATE_SD_PPM, read_imu_pair, read_imu_recording,
+    FileFormat, Finding, ImuFile, ImuReadOptions, Input, Origin, USUAL_RATE_SD_PPM, UtcTime, read_imu_pair,
+    read_imu_recording,
 };
 use std::path::Path;
 
@@ -92,8 +93,24 @@ impl Recorded {
         Readings { sha256: self.sha256.concat(), recording: self.recording.sensor(sensor_kind) }
     }
 
+    /// The files, and when they were recorded, where their times are those of a clock since 1970.
+    pub(crate) fn origin(&self, source: &Source) -> Origin {
+        /// The year 2000: the times of earlier clocks count from something else.
+        const SINCE_S: i64 = 946_684_800;
+        let first_s = || {
+            let times = SensorKind::ALL.map(|sensor_kind| self.recording.sensor(sensor_kind));
+            times.into_iter().flatten().find_map(|recording| recording.times_s.first().copied())
+        };
+        let seconds = match self.counted_from_ns {
+            Some(counted_from_ns) => i64::try_from(counted_from_ns.div_euclid(1_000_000_000)).ok(),
+            None => first_s().map(|first_s| first_s.floor() as i64),
+        };
+        let recorded = seconds.filter(|seconds| *seconds >= SINCE_S).map(UtcTime::from_seconds);
+        Origin { recorded, ..Origin::of_inputs(self.inputs(source)) }
+    }
+
     /// The files, as `calibration.json` names them.
-    pub(crate) fn inputs(&self, source: &Source) -> Vec<Input> {
+    fn inputs(&self, source: &Source) -> Vec<Input> {
         if !self.joined.is_empty() {
             return self.joined.clone();
         }

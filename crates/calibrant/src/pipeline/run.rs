@@ -9,7 +9,7 @@ use super::source::Source;
 use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::Result;
-use calibrant_io::{Experiment, Plan};
+use calibrant_io::{Experiment, HashedFile, Origin, Plan};
 
 /// From recordings to calibrations. It holds what all recordings share, and can calibrate several at the same time.
 pub struct Pipeline<'e> {
@@ -17,6 +17,8 @@ pub struct Pipeline<'e> {
     options: PipelineOptions,
     limits: Vec<AcceptanceLimit>,
     notes: Vec<Note>,
+    /// What all results come from.
+    origin: Origin,
 }
 
 /// The stages that a kind of experiment needs.
@@ -42,7 +44,12 @@ impl<'e> Pipeline<'e> {
             _ => Work::Sensors(Box::new(Task::new(experiment, &options, &mut notes)?)),
         };
         let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
-        Ok(Self { work, options, limits, notes })
+        let origin = Origin {
+            experiment: HashedFile::of(&options.experiment_file),
+            motion: options.motion.as_deref().and_then(HashedFile::of),
+            ..Origin::default()
+        };
+        Ok(Self { work, options, limits, notes, origin })
     }
 
     /// What was noticed in what all recordings share.
@@ -69,10 +76,18 @@ impl<'e> Pipeline<'e> {
     /// [`Error::Experiment`](crate::Error::Experiment) where it contradicts the experiment, or where the validation is on the data that were calibrated from.
     pub fn run_noting(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
         let before = notes.len();
+        let named = self.options.naming.of(&source.recording)?;
         let mut outcome = match &self.work {
             Work::Sensors(task) => task.run(source, &self.options, notes),
             Work::Machine(task) => task.run(source, &self.options, notes),
         }?;
+        outcome.origin = Origin {
+            sensor: Some(named.sensor),
+            station: named.station,
+            recorded: named.recorded.or(outcome.origin.recorded),
+            inputs: std::mem::take(&mut outcome.origin.inputs),
+            ..self.origin.clone()
+        };
         let names = [source.name(false), source.name(true)];
         let of_recording = |note: &Note| match note {
             Note::Finding { file, finding } if names.contains(file) => Some(finding.code()),

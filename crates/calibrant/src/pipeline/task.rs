@@ -71,7 +71,7 @@ impl<'e> Task<'e> {
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
         setup.set_white_noise(noise.white_noise);
         let validations = self.validations(options, &calibration, (&recorded, &setup), notes)?;
-        let inputs = recorded.inputs(source);
+        let origin = recorded.origin(source);
         let (noise, about) = match options.report {
             false => (Vec::new(), None),
             true => {
@@ -79,7 +79,7 @@ impl<'e> Task<'e> {
                 let prior = calibration.datasheet_prior.then(|| ("Prior", "datasheet".to_owned()));
                 let about = calibrant_report::About {
                     validations: validations.clone(),
-                    ..about(what, prior, &recorded, &inputs, options)
+                    ..about(what, prior, &recorded, &origin.inputs, options)
                 };
                 (noise.physical(&calibration, &recorded.recording)?, Some(about))
             }
@@ -91,7 +91,7 @@ impl<'e> Task<'e> {
             notes: Vec::new(),
             limits: Vec::new(),
             findings: Vec::new(),
-            inputs,
+            origin,
             recording: recorded.recording,
             about,
             allowed: options.allowed.clone(),

@@ -34,6 +34,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("motion", &["error", "sensor"]),
     ("information", &["error", "sensor", "motion", "arrowhead"]),
     ("estimate", &["diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"]),
+    ("fleet", &["estimate", "sensor"]),
     ("noise", &["diagnostic", "error", "sensor", "motion", "root"]),
     ("simulate", &["error", "sensor", "motion", "noise"]),
 ];

@@ -9,7 +9,7 @@ use calibrant::estimate::{
     Uncalibrated, Whiteness,
 };
 use calibrant::io::{
-    Failure, Input, Summary, SummaryRow, calibration_json, read_motion, truth_json, write_atomically,
+    Failure, Input, Origin, Summary, SummaryRow, calibration_json, read_motion, truth_json, write_atomically,
     write_calibration, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
@@ -172,7 +172,7 @@ pub(super) fn uniaxial() -> Calibration {
 
 #[test]
 fn calibration_json_of_a_motion() {
-    let text = calibration_json(&uniaxial(), &[], &[input()], &WORDS);
+    let text = calibration_json(&uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS);
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!((&json["schema"], &json["kind"]), (&json!(2), &json!("calibration")));
     assert_eq!(json["gradient_norm"], Value::Null, "NaN is null");
@@ -201,7 +201,7 @@ fn calibration_json_of_a_motion() {
     assert!(text.contains("\"covariance\": [\n    [0.25, 0.0],\n    [0.0, 0.25]\n  ]"), "{text}");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
-    write_calibration(&path, &uniaxial(), &[], &[input()], &WORDS).expect("written");
+    write_calibration(&path, &uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS).expect("written");
     assert_eq!(std::fs::read_to_string(path).expect("read"), text, "the same bytes each time");
 }
 
@@ -253,7 +253,7 @@ pub(super) fn holds_in_counts() -> Calibration {
 
 #[test]
 fn calibration_json_of_holds_in_counts() {
-    let text = calibration_json(&holds_in_counts(), &[], &[input()], &WORDS);
+    let text = calibration_json(&holds_in_counts(), &[], &Origin::of_inputs([input()]), &WORDS);
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["parameters"].as_array().map(Vec::len), Some(9));
     assert_eq!(json["holds"]["table"][0]["mean_counts"], json!([1.0, 2.0, 3.0]));

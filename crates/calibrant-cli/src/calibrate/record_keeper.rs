@@ -1,0 +1,50 @@
+//! The records to which the results of a call are added.
+
+use calibrant::Result;
+#[cfg(feature = "records")]
+use calibrant::io::{Record, Records};
+use std::path::Path;
+#[cfg(feature = "records")]
+use std::sync::{Mutex, PoisonError};
+
+/// Adds each result to a database, where the user names one.
+pub(super) struct RecordKeeper {
+    #[cfg(feature = "records")]
+    records: Option<Mutex<Records>>,
+}
+
+#[cfg(feature = "records")]
+impl RecordKeeper {
+    /// Opens the database, before the work begins.
+    pub(super) fn open(file: Option<&Path>) -> Result<Self> {
+        Ok(Self { records: file.map(Records::open).transpose()?.map(Mutex::new) })
+    }
+
+    /// Adds a result, by the text of its calibration.json.
+    pub(super) fn add(&self, text: impl FnOnce() -> String) -> Result<()> {
+        let Some(records) = &self.records else { return Ok(()) };
+        let record = Record::parse(&text())?;
+        records.lock().unwrap_or_else(PoisonError::into_inner).insert(&record)?;
+        Ok(())
+    }
+}
+
+#[cfg(not(feature = "records"))]
+impl RecordKeeper {
+    pub(super) fn open(file: Option<&Path>) -> Result<Self> {
+        use calibrant::Error;
+        use calibrant::error::{InputError, Refusal};
+        match file {
+            None => Ok(Self {}),
+            Some(path) => {
+                let help = "leave --records away, or build calibrant with the feature `records`";
+                let error = InputError::new(Refusal::FormatUnsupported, "this build keeps no records", help);
+                Err(Error::experiment(error.in_file(path)))
+            }
+        }
+    }
+
+    pub(super) fn add(&self, _: impl FnOnce() -> String) -> Result<()> {
+        Ok(())
+    }
+}

@@ -1,0 +1,30 @@
+//! `calibrant records add`: calibrations that are there already become records.
+
+use crate::{Exit, console};
+use calibrant::io::{Record, Records};
+use calibrant::report::number_format;
+use std::path::PathBuf;
+
+/// Add calibrations that are there already, such as results/*/calibration.json.
+///
+/// A calibration of a recording, experiment and version that the records have already takes the place of that one. All files are read before the first is added.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The records. They are made where there are none.
+    records: PathBuf,
+    /// The files calibration.json.
+    #[arg(required = true)]
+    calibrations: Vec<PathBuf>,
+}
+
+impl Arguments {
+    pub(super) fn run(&self) -> calibrant::Result<Exit> {
+        let read =
+            self.calibrations.iter().map(|path| Record::read(path)).collect::<calibrant::Result<Vec<_>>>()?;
+        let given = read.len();
+        let new = Records::open(&self.records)?.insert_all(read)?;
+        let new_ones = number_format::counted(new, "new calibration");
+        console::print(&format!("{new_ones}, {} replaced: {}\n", given - new, self.records.display()));
+        Ok(Exit::DONE)
+    }
+}

@@ -1,0 +1,44 @@
+//! `calibrant records export`: the records as a table for other programs.
+
+use super::selection::Selection;
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::{InputError, Refusal};
+use calibrant::io::{ExportFormat, Records, ResultPlaces};
+use calibrant::report::number_format;
+use std::path::PathBuf;
+
+/// Write calibrations as a table: one row for each, with value and standard deviation of each parameter.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The records.
+    records: PathBuf,
+    #[command(flatten)]
+    selection: Selection,
+    /// The table: .csv or .parquet.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+impl Arguments {
+    pub(super) fn places(&self) -> ResultPlaces {
+        ResultPlaces {
+            results: vec![self.output.clone()],
+            inputs: vec![self.records.clone()],
+            ..ResultPlaces::default()
+        }
+    }
+
+    pub(super) fn run(&self) -> calibrant::Result<Exit> {
+        let format = ExportFormat::of(&self.output).ok_or_else(|| {
+            let message = "the ending of this name is neither .csv nor .parquet";
+            let help = "give the table one of these endings";
+            Error::experiment(InputError::new(Refusal::FormatUnknown, message, help).in_file(&self.output))
+        })?;
+        let records = Records::open_existing(&self.records)?;
+        let rows = records.export(&self.output, format, &self.selection.filter())?;
+        let rows = number_format::counted(rows, "calibration");
+        console::print(&format!("{rows}: {}\n", self.output.display()));
+        Ok(Exit::DONE)
+    }
+}

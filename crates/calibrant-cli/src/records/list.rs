@@ -1,0 +1,57 @@
+//! `calibrant records list`: the calibrations, a line for each.
+
+use super::selection::Selection;
+use crate::{Exit, console};
+use calibrant::io::{KeptRecord, Records, records_json};
+use std::path::PathBuf;
+
+/// List calibrations: by sensor, and by date.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The records.
+    records: PathBuf,
+    #[command(flatten)]
+    selection: Selection,
+    /// Print JSON instead of the table.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Arguments {
+    pub(super) fn run(&self) -> calibrant::Result<Exit> {
+        let records = Records::open_existing(&self.records)?.list(&self.selection.filter())?;
+        if self.json {
+            console::print(&records_json(&records));
+            return Ok(Exit::DONE);
+        }
+        let header = [
+            "id",
+            "sensor",
+            "recorded",
+            "station",
+            "verdict",
+            "decided by",
+            "recording",
+            "experiment",
+            "program",
+        ];
+        console::print(&console::table(&header, &records.iter().map(row).collect::<Vec<_>>()));
+        Ok(Exit::DONE)
+    }
+}
+
+fn row(kept: &KeptRecord) -> Vec<String> {
+    let record = &kept.record;
+    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+    vec![
+        kept.id.to_string(),
+        record.sensor.clone(),
+        or_dash(record.recorded.map(|time| time.to_string())),
+        or_dash(record.station.clone()),
+        record.verdict.name().to_owned(),
+        or_dash(Some(record.codes.join(" ")).filter(|codes| !codes.is_empty())),
+        record.recording(),
+        or_dash(record.experiment.as_ref().map(|file| file.file.clone())),
+        record.program.clone(),
+    ]
+}
