@@ -3,6 +3,7 @@
 mod arguments;
 mod batch;
 mod batch_page;
+mod copies;
 mod job;
 mod naming;
 mod one;

@@ -1,6 +1,7 @@
 //! Several recordings in one call. Each is calibrated by itself, and none stops the others.
 
 use super::batch_page::batch_of;
+use super::copies;
 use super::job::Job;
 use super::parallel::in_parallel;
 use super::quality;
@@ -23,9 +24,14 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         }
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
+    let copies = copies::of(&arguments.recordings);
     let recorded = in_parallel(folders.len(), |number| {
         let directory = arguments.output.join(&folders[number]);
-        let recorded = Recorded::of(job, &job.sources[number], &directory);
+        let path = |number: usize| arguments.recordings[number].as_path();
+        let recorded = match copies[number] {
+            Some(other) => Recorded::refused(copies::refusal(path(number), path(other))),
+            None => Recorded::of(job, &job.sources[number], &directory),
+        };
         bar.inc(1);
         recorded
     });

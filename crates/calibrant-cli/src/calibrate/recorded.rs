@@ -3,6 +3,7 @@
 use super::job::Job;
 use super::quality;
 use crate::diagnostics::{told_of, told_of_note};
+use calibrant::Error;
 use calibrant::io::{Finished, Told};
 use calibrant::pipeline::Source;
 use std::path::Path;
@@ -54,6 +55,11 @@ impl Recorded {
             Ok(Kept { finished, json: text, earlier: false })
         });
         Self { told, outcome }
+    }
+
+    /// A recording that is not calibrated.
+    pub(super) fn refused(error: Error) -> Self {
+        Self { told: Vec::new(), outcome: Err(error) }
     }
 
     /// What is told of it.

@@ -3,12 +3,12 @@
 use super::sensors::{Batch, BatchSensor};
 use crate::number_format::{self, UNKNOWN};
 use crate::table::{Cell, Table};
-use calibrant_core::diagnostic::Usability;
+use calibrant_core::diagnostic::{Code, Usability};
 
 /// The most sensors in the table of those that are not ok.
 const MOST_ROWS: usize = 100;
 /// The most sentences on one sensor.
-const MOST_REASONS: usize = 3;
+const MOST_REASONS: usize = 2;
 
 /// Sensors that are not ok, the worst first, with the reasons. `None` where all are ok. The second is the number of those that are left out.
 pub(super) fn not_ok(batch: &Batch) -> Option<(String, usize)> {
@@ -19,18 +19,10 @@ pub(super) fn not_ok(batch: &Batch) -> Option<(String, usize)> {
     }
     sensors
         .sort_by_key(|of| of.usability().map_or(0, |usability| Usability::Bad as u8 - usability as u8 + 1));
-    let with_limits = sensors.iter().any(|of| !of.limits_failed.is_empty());
-    let mut columns = vec!["sensor", "verdict", "decided by"];
-    if with_limits {
-        columns.push("limits broken");
-    }
-    columns.push("what was found");
+    let columns = ["sensor", "verdict", "decided by", "what was found"];
     let mut table = Table::new("", &columns);
     for sensor in sensors.iter().take(MOST_ROWS) {
-        let mut cells = vec![name(sensor), verdict(sensor), Cell::Text(decided_by(sensor))];
-        if with_limits {
-            cells.push(Cell::Text(or_unknown(sensor.limits_failed.join(", "))));
-        }
+        let mut cells = vec![name(sensor), verdict(sensor), Cell::Text(codes_and_limits(sensor))];
         cells.push(Cell::Words(reasons(sensor)));
         table.row(cells);
     }
@@ -70,6 +62,15 @@ fn decided_by(sensor: &BatchSensor) -> String {
     match &sensor.verdict {
         Ok(verdict) => or_unknown(verdict.code_names().join(", ")),
         Err(refusal) => refusal.name().to_owned(),
+    }
+}
+
+/// The codes, and after `limit-broken` the figures that break a limit.
+fn codes_and_limits(sensor: &BatchSensor) -> String {
+    let code = Code::LimitBroken.name();
+    match sensor.limits_failed.as_slice() {
+        [] => decided_by(sensor),
+        broken => decided_by(sensor).replace(code, &format!("{code} ({})", broken.join(", "))),
     }
 }
 
