@@ -153,7 +153,8 @@ fn a_dash_is_standard_input() {
     let calibrate = "calibrate experiment.toml --motion sim/motion.csv";
     bench.run(&format!("{calibrate} sim/recording.csv -o named")).done();
     bench.run_from("sim/recording.csv", &format!("{calibrate} - -o read")).done();
-    let of_file = bench.read("named/calibration.json").replacen("\"recording.csv\"", "\"-\"", 1);
+    let of_file = bench.read("named/calibration.json");
+    let of_file = of_file.replace("\"recording.csv\"", "\"-\"").replace("\"recording\"", "\"-\"");
     assert_eq!(bench.read("read/calibration.json"), of_file);
     let outcome = bench.run_from("sim/recording.csv", "inspect -").done();
     assert!(outcome.stdout.starts_with("-: CSV, "), "{outcome:?}");

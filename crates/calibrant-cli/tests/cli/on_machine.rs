@@ -192,7 +192,9 @@ fn other_commands_read_the_calibration_on_a_machine() {
 #[test]
 fn several_recordings_share_the_log() {
     let bench = two_joint_bench();
-    bench.write("second.csv", bench.read("recording.csv"));
+    let second = |(k, line): (usize, &str)| if k == 0 { format!("{line}\n") } else { format!("{line}1\n") };
+    bench
+        .write("second.csv", bench.read("recording.csv").lines().enumerate().map(second).collect::<String>());
     let outcome = bench.run("calibrate arm.toml recording.csv second.csv --motion joints.csv -o out").done();
     assert!(outcome.stdout.contains("2 calibrated, 0 failed"), "{}", outcome.stdout);
     assert!(bench.read("out/summary.csv").contains("used_share"), "{}", bench.read("out/summary.csv"));

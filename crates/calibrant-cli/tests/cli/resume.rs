@@ -65,7 +65,9 @@ fn what_is_of_other_input_is_computed_again() {
         bench.run(&format!("{CALIBRATE} --resume {options}")).ends_with(5);
         assert_eq!(written_since(&bench, &before), expected, "{options}");
     };
-    bench.write("s2.csv", bench.read("s1.csv"));
+    let longer = bench.read("s1.csv");
+    let shorter: Vec<&str> = longer.lines().collect();
+    bench.write("s2.csv", shorter[..shorter.len() - 1].join("\n"));
     resume("", &[2]);
     // a result that was edited
     let edited = bench.read("results/s6/calibration.json").replace("converged", "stalled");
