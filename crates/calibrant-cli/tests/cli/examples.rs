@@ -132,6 +132,19 @@ fn guide_to_the_design_of_poses() {
     follow_text(&bench, "design-poses.md", &guide, 7);
 }
 
+/// The README's calibration, of a simulated IMU.
+#[test]
+fn calibration_in_the_readme() {
+    let bench = Bench::new();
+    bench.preset("imu", "simulated.toml", &[]);
+    bench.run("simulate simulated.toml -o simulated").done();
+    bench.write("recording.csv", bench.read("simulated/recording.csv"));
+    let readme = include_str!("../../../../README.md");
+    let part =
+        readme.split("\n## ").find(|part| part.starts_with("Calibrate your own IMU\n")).expect("the part");
+    follow_text(&bench, "README.md", part, 5);
+}
+
 /// The README's design, from `init` to a calibration.
 #[test]
 fn design_in_the_readme() {
