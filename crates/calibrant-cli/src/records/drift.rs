@@ -32,7 +32,7 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let records = Records::open_existing(&self.records)?;
-        let text = match &self.sensor {
+        match &self.sensor {
             Some(sensor) => {
                 let history = records.history(sensor)?;
                 if history.calibrations.is_empty() {
@@ -41,14 +41,21 @@ impl Arguments {
                     let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(&self.records);
                     return Err(Error::experiment(error));
                 }
-                if self.json { history_json(&history) } else { of_sensor(&history) }
+                if self.json {
+                    console::print_always(&history_json(&history));
+                } else {
+                    console::print(&of_sensor(&history));
+                }
             }
             None => {
                 let drifts = records.drifts()?;
-                if self.json { drifts_json(&drifts) } else { of_all(&drifts) }
+                if self.json {
+                    console::print_always(&drifts_json(&drifts));
+                } else {
+                    console::print(&of_all(&drifts));
+                }
             }
-        };
-        console::print(&text);
+        }
         Ok(Exit::DONE)
     }
 }

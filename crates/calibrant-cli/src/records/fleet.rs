@@ -21,7 +21,7 @@ impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let parameters = Records::open_existing(&self.records)?.fleet()?;
         if self.json {
-            console::print(&fleet_json(&parameters));
+            console::print_always(&fleet_json(&parameters));
             return Ok(Exit::DONE);
         }
         let header = [

@@ -21,7 +21,7 @@ impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let records = Records::open_existing(&self.records)?.list(&self.selection.filter())?;
         if self.json {
-            console::print(&records_json(&records));
+            console::print_always(&records_json(&records));
             return Ok(Exit::DONE);
         }
         let header = [

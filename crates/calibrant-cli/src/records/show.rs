@@ -29,7 +29,11 @@ impl Arguments {
             let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(&self.records);
             return Err(Error::experiment(error));
         };
-        console::print(&if self.json { record_json(&kept) } else { in_words(&kept) });
+        if self.json {
+            console::print_always(&record_json(&kept));
+        } else {
+            console::print(&in_words(&kept));
+        }
         Ok(Exit::DONE)
     }
 }
