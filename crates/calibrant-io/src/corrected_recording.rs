@@ -1,9 +1,9 @@
 //! Writes a corrected recording as CSV.
 
 use super::atomic_output::write_csv;
+use super::standard_input::open_input;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, CorrectedRecording, CorrectedSensor, SensorKind};
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 
@@ -67,7 +67,7 @@ const LONGEST: u64 = 4096;
 pub fn check_not_corrected(path: &Path) -> Result<()> {
     let mut line = Vec::new();
     let read =
-        File::open(path).and_then(|file| BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line));
+        open_input(path).and_then(|file| BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line));
     let line = String::from_utf8_lossy(&line);
     let by = line.strip_prefix("# calibrant ").and_then(|line| line.split_once(CORRECTED));
     match by.filter(|_| read.is_ok()) {

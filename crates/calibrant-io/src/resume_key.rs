@@ -2,8 +2,8 @@
 
 use super::atomic_output::program;
 use super::recording::checksum::hex;
+use super::standard_input::open_input;
 use sha2::{Digest, Sha256};
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ impl ResumeKey {
 
 /// The SHA-256 of a file, which need not fit into memory.
 pub(super) fn checksum(path: &Path) -> Option<String> {
-    let mut file = File::open(path).ok()?;
+    let mut file = open_input(path).ok()?;
     let (mut hash, mut piece) = (Sha256::new(), vec![0; 1 << 16]);
     loop {
         match file.read(&mut piece) {

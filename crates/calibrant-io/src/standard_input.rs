@@ -1,4 +1,4 @@
-//! Standard input as a file that can be read more than once: a reader looks at the beginning first.
+//! Opens files that are read. `-` is standard input, as a file that can be read more than once: a reader looks at the beginning first.
 
 use std::fs::File;
 use std::io::{Result, Seek, copy, stdin};
@@ -10,13 +10,13 @@ const NAME: &str = "-";
 /// What came from standard input, once it was read.
 static READ: Mutex<Option<File>> = Mutex::new(None);
 
-/// Is this standard input?
-pub(super) fn is_named(path: &Path) -> bool {
-    path.as_os_str() == NAME
+/// Opens a file to be read; `-` is standard input.
+pub(super) fn open_input(path: &Path) -> Result<File> {
+    if path.as_os_str() == NAME { standard_input() } else { File::open(path) }
 }
 
 /// A file with what comes from standard input. Each call gives a file of its own, without a name.
-pub(super) fn open() -> Result<File> {
+fn standard_input() -> Result<File> {
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     let mut all = match read.take() {
         Some(all) => all,

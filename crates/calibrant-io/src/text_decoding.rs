@@ -1,7 +1,7 @@
 //! Decodes the bytes of a file to text: size, encoding and binary content, each with an error that names the
 //! file's real kind.
 
-use super::standard_input;
+use super::standard_input::open_input;
 use calibrant_core::error::{InputError, Refusal};
 use std::fs::File;
 use std::io::Read;
@@ -46,8 +46,7 @@ pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
             "name a file in it",
         )
     } else {
-        let opened = if standard_input::is_named(path) { standard_input::open() } else { File::open(path) };
-        match opened {
+        match open_input(path) {
             Ok(file) => return Ok(file),
             Err(error) => unreadable(what, &error),
         }

@@ -159,4 +159,6 @@ fn a_dash_is_standard_input() {
     let outcome = bench.run_from("sim/recording.csv", "inspect -").done();
     assert!(outcome.stdout.starts_with("-: CSV, "), "{outcome:?}");
     bench.refuses("inspect -", 3, &["-: the file is empty"]);
+    let batch = bench.run_from("sim/recording.csv", &format!("{calibrate} - sim/recording.csv -o batch"));
+    batch.ends_with(3).says("-: this is a copy of sim/recording.csv");
 }
