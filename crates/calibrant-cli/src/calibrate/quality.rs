@@ -14,19 +14,22 @@ pub(super) fn columns(experiment: &Experiment) -> &'static [&'static str] {
     }
 }
 
-/// The cells of these columns.
-pub(super) fn cells(calibrated: &Calibrated) -> Vec<String> {
+/// The cells of these columns. The recording of an IMU may lack a sensor, but its row has the columns of the experiment.
+pub(super) fn cells(experiment: &Experiment, calibrated: &Calibrated) -> Vec<String> {
     match calibrated {
-        Calibrated::Sensors(calibration) => of_sensors(calibration),
+        Calibrated::Sensors(calibration) if experiment.imu.is_some() => of_imu(calibration),
+        Calibrated::Sensors(calibration) => {
+            vec![calibration.fit.p_value.map_or_else(unknown, number_format::probability)]
+        }
         Calibrated::OnMachine(machine) => vec![format!("{:.0} %", 100.0 * machine.calibration.used_share)],
     }
 }
 
-fn of_sensors(calibration: &Calibration) -> Vec<String> {
-    let unknown = || "–".to_owned();
-    if calibration.gyroscope.is_none() {
-        return vec![calibration.fit.p_value.map_or_else(unknown, number_format::probability)];
-    }
+fn unknown() -> String {
+    "–".to_owned()
+}
+
+fn of_imu(calibration: &Calibration) -> Vec<String> {
     let checked = calibration.holds().filter(|holds| holds.degrees_of_freedom > 0);
     vec![
         share(calibration.hold_results().iter().map(|hold| hold.used)),
@@ -44,7 +47,7 @@ fn of_sensors(calibration: &Calibration) -> Vec<String> {
 /// How many of them are used, in words.
 fn share(used: impl ExactSizeIterator<Item = bool>) -> String {
     match used.len() {
-        0 => "–".into(),
+        0 => unknown(),
         all => format!("{} of {all}", used.filter(|used| *used).count()),
     }
 }

@@ -45,7 +45,7 @@ impl Recorded {
             told.extend(outcome.warnings().iter().map(told_of));
             let finished = Finished {
                 summary: outcome.summary(),
-                cells: quality::cells(&outcome.calibrated),
+                cells: quality::cells(job.experiment, &outcome.calibrated),
                 told: std::mem::take(&mut told),
             };
             if let Some(key) = &key {
