@@ -69,8 +69,7 @@ mod tests {
     fn a_wide_table_continues_below_beside_its_first_column() {
         let rows = [vec!["x".to_owned(), "1.5".to_owned(), "m/s²".to_owned()]];
         let header = ["axis", "bias", "unit"];
-        let whole = "  axis   bias   unit\n  ──────────────────\n  x         1.5   m/s²\n"
-            .replace("x         ", "x       ");
+        let whole = "  axis   bias   unit\n  ──────────────────\n  x       1.5   m/s²\n";
         assert_eq!(folded(&header, &rows, 20), whole);
         assert_eq!(
             folded(&header, &rows, 19),
