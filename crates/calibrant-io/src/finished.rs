@@ -3,8 +3,9 @@
 //! It is written after the results, and has their checksums. So a result that another run has replaced is not taken for that of this key.
 
 use super::atomic_output::program;
+use super::hashed_file::checksum;
 use super::json::write_json;
-use super::resume_key::{ResumeKey, checksum};
+use super::resume_key::ResumeKey;
 use super::summary::{Summary, SummaryParameter, unit_of};
 use super::told::{Told, ToldKind};
 use calibrant_core::diagnostic::{Code, Verdict};

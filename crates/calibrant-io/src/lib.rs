@@ -42,6 +42,7 @@ mod experiment_presets;
 mod ferraris_sections;
 mod finished;
 mod gyroscope;
+mod hashed_file;
 mod holds;
 mod input;
 mod inspection;
@@ -99,6 +100,7 @@ pub use experiment::{
 pub use experiment_presets::{PRESETS, Preset, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use finished::Finished;
+pub use hashed_file::HashedFile;
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_preset, missing_limits};
@@ -108,7 +110,7 @@ pub use machine_calibration::{
 pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
-pub use origin::{HashedFile, Origin};
+pub use origin::Origin;
 pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
 pub use poses::{read_poses, write_poses};
 pub use reach::Reached;

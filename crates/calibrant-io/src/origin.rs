@@ -1,10 +1,9 @@
 //! Where a result comes from: the sensor, its station, and the files.
 
-use super::input::{Input, file_name};
-use super::resume_key::checksum;
+use super::hashed_file::HashedFile;
+use super::input::Input;
 use super::utc_time::UtcTime;
 use serde::Serialize;
-use std::path::Path;
 
 /// Where a calibration comes from. There is no time of day in it: the same files give the same origin.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -21,23 +20,6 @@ pub struct Origin {
     pub motion: Option<HashedFile>,
     /// The files of the recording.
     pub inputs: Vec<Input>,
-}
-
-/// A file by its content.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct HashedFile {
-    /// Name of the file, without its directory.
-    pub file: String,
-    /// SHA-256 of the file, hexadecimal.
-    pub sha256: String,
-}
-
-impl HashedFile {
-    /// A file as it is now; `None` where it cannot be read.
-    #[must_use]
-    pub fn of(path: &Path) -> Option<Self> {
-        Some(Self { file: file_name(path), sha256: checksum(path)? })
-    }
 }
 
 impl Origin {

@@ -8,7 +8,8 @@ use super::quality;
 use super::recorded::Recorded;
 use super::worst_first::{Row, table_of};
 use crate::{Exit, console};
-use calibrant::io::{SummaryRow, calibrations_json, write_atomically, write_summary};
+use calibrant::io::{HashedFile, SummaryRow, calibrations_json, write_atomically, write_summary};
+use calibrant::pipeline::Source;
 use calibrant::report::{About, batch_report};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -24,13 +25,14 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         }
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
-    let copies = copies::of(&arguments.recordings);
+    let files = in_parallel(folders.len(), |number| hashed_files(&job.sources[number]));
+    let copies = copies::of(&files);
     let recorded = in_parallel(folders.len(), |number| {
         let directory = arguments.output.join(&folders[number]);
         let path = |number: usize| arguments.recordings[number].as_path();
         let recorded = match copies[number] {
             Some(other) => Recorded::refused(copies::refusal(path(number), path(other))),
-            None => Recorded::of(job, &job.sources[number], &directory),
+            None => Recorded::of(job, &job.sources[number], files[number].as_deref(), &directory),
         };
         bar.inc(1);
         recorded
@@ -72,6 +74,12 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         ));
     }
     Ok(exit)
+}
+
+/// The files of a recording, its own first; `None` where one cannot be read.
+fn hashed_files(source: &Source) -> Option<Vec<HashedFile>> {
+    let files = [Some(&source.recording), source.gyroscope.as_ref(), source.sections.as_ref()];
+    files.into_iter().flatten().map(|path| HashedFile::of(path)).collect()
 }
 
 /// Prints what is told of each recording, then the table. Gives the exit status.

@@ -1,19 +1,20 @@
-//! Recordings of a batch that are copies of each other: nobody knows of which sensor they are.
+//! Copies: recordings of a batch with the same bytes. The program cannot tell which sensor they belong to.
 
-use super::parallel::in_parallel;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::ResumeKey;
-use std::path::{Path, PathBuf};
+use calibrant::io::HashedFile;
+use std::path::Path;
 
 /// For each recording the number of another one with the same bytes, if there is one.
-pub(super) fn of(recordings: &[PathBuf]) -> Vec<Option<usize>> {
-    let contents = in_parallel(recordings.len(), |number| ResumeKey::of("", [recordings[number].as_path()]));
+///
+/// `files`: those of each recording, its own first; `None` where one cannot be read.
+pub(super) fn of(files: &[Option<Vec<HashedFile>>]) -> Vec<Option<usize>> {
+    let content = |number: usize| files[number].as_ref()?.first().map(|own| own.sha256.as_str());
     let other = |number: usize| {
-        let own = contents[number].as_ref()?;
-        (0..contents.len()).find(|&other| other != number && contents[other].as_ref() == Some(own))
+        let own = content(number)?;
+        (0..files.len()).find(|&other| other != number && content(other) == Some(own))
     };
-    (0..recordings.len()).map(other).collect()
+    (0..files.len()).map(other).collect()
 }
 
 /// A recording is not calibrated, because another has the same bytes.

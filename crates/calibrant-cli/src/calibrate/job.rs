@@ -5,7 +5,7 @@ use super::record_keeper::RecordKeeper;
 use super::sources::{check_motion, sources};
 use crate::console;
 use calibrant::acceptance::AcceptanceLimit;
-use calibrant::io::{Experiment, Plan, ResumeKey, UrdfSource, read_acceptance};
+use calibrant::io::{Experiment, HashedFile, Plan, ResumeKey, UrdfSource, read_acceptance};
 use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,8 @@ impl<'a> Job<'a> {
         check_motion(arguments, experiment)?;
         let options = options(arguments)?;
         let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
-        let key = ResumeKey::of(&format!("{options:?}"), shared_files(arguments, experiment));
+        let shared: Option<Vec<_>> = shared_files(arguments, experiment).map(HashedFile::of).collect();
+        let key = shared.map(|shared| ResumeKey::of(&format!("{options:?}"), &shared));
         let pipeline = Pipeline::from_experiment(experiment, options)?;
         pipeline.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
@@ -36,10 +37,9 @@ impl<'a> Job<'a> {
         Ok(Self { arguments, sources, experiment, limits, records, pipeline, key })
     }
 
-    /// The key of the result of a recording; `None` where a file cannot be read.
-    pub(super) fn key(&self, source: &Source) -> Option<ResumeKey> {
-        let files = [Some(&source.recording), source.gyroscope.as_ref(), source.sections.as_ref()];
-        self.key.as_ref()?.with(files.into_iter().flatten().map(PathBuf::as_path))
+    /// The key of the result of a recording with these files; `None` where a file that all recordings share cannot be read.
+    pub(super) fn key(&self, files: &[HashedFile]) -> Option<ResumeKey> {
+        Some(self.key.as_ref()?.with(files))
     }
 
     /// Calibrates from a recording, writes the results and records them. Adds notes and warnings to `notes`, even if it fails.

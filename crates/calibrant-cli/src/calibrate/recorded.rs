@@ -4,7 +4,7 @@ use super::job::Job;
 use super::quality;
 use crate::diagnostics::{told_of, told_of_note};
 use calibrant::Error;
-use calibrant::io::{Finished, Told};
+use calibrant::io::{Finished, HashedFile, Told};
 use calibrant::pipeline::Source;
 use std::path::Path;
 
@@ -26,9 +26,11 @@ pub(super) struct Kept {
 
 impl Recorded {
     /// Calibrates from the recording and writes the results into this directory; or takes over those that are there, where the user asks for it.
-    pub(super) fn of(job: &Job<'_>, source: &Source, directory: &Path) -> Self {
+    ///
+    /// `files`: those of the recording; without them nothing is taken over.
+    pub(super) fn of(job: &Job<'_>, source: &Source, files: Option<&[HashedFile]>, directory: &Path) -> Self {
         let kept_text = |text: String| if job.arguments.json { text } else { String::new() };
-        let key = job.key(source);
+        let key = files.and_then(|files| job.key(files));
         let earlier = key.as_ref().filter(|_| job.arguments.resume);
         if let Some((finished, text)) = earlier.and_then(|key| Finished::read(directory, key)) {
             // the run that computed it need not have recorded it

@@ -1,7 +1,7 @@
 //! Records as columns: one entry for each calibration.
 
 use super::query::KeptRecord;
-use crate::origin::HashedFile;
+use crate::hashed_file::HashedFile;
 use crate::summary::ending;
 use std::collections::HashMap;
 

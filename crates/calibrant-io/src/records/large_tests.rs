@@ -1,7 +1,7 @@
 //! A hundred thousand calibrations in one database: rates, times and sizes, as COMPARE.md has them.
 
 use super::*;
-use crate::origin::HashedFile;
+use crate::hashed_file::HashedFile;
 use crate::utc_time::UtcTime;
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind};

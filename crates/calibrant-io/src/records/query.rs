@@ -4,7 +4,7 @@ use super::database::Records;
 use super::failure::{damaged, failed};
 use super::model::{self, Further};
 use super::record::{Record, usability};
-use crate::origin::HashedFile;
+use crate::hashed_file::HashedFile;
 use crate::utc_time::UtcTime;
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;

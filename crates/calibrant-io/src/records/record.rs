@@ -1,8 +1,8 @@
 //! A record: what is kept of a `calibration.json`.
 
 use crate::convention::read_any_estimates;
+use crate::hashed_file::HashedFile;
 use crate::input::Input;
-use crate::origin::HashedFile;
 use crate::text_decoding::{Checked, as_text, read_bytes};
 use crate::utc_time::UtcTime;
 use calibrant_core::diagnostic::Usability;

@@ -1,7 +1,7 @@
 //! Tests of the database: what it keeps, what it refuses, and what remains of an interrupted writer.
 
 use super::*;
-use crate::origin::HashedFile;
+use crate::hashed_file::HashedFile;
 use crate::utc_time::UtcTime;
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Refusal;

@@ -1,0 +1,40 @@
+//! A file by its content.
+
+use super::input::file_name;
+use super::recording::checksum::hex;
+use super::standard_input::open_input;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::io::Read;
+use std::path::Path;
+
+/// A file by its content.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct HashedFile {
+    /// Name of the file, without its directory.
+    pub file: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+}
+
+impl HashedFile {
+    /// A file as it is now; `None` where it cannot be read.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        Some(Self { file: file_name(path), sha256: checksum(path)? })
+    }
+}
+
+/// The SHA-256 of a file, which need not fit into memory.
+pub(super) fn checksum(path: &Path) -> Option<String> {
+    let mut file = open_input(path).ok()?;
+    let (mut hash, mut piece) = (Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut piece) {
+            Ok(0) => return Some(hex(hash)),
+            Ok(length) => hash.update(&piece[..length]),
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+            Err(_) => return None,
+        }
+    }
+}
