@@ -24,7 +24,7 @@ fn folded(header: &[&str], rows: &[Vec<String>], width: usize) -> String {
     parts(&widths, width).into_iter().map(part).collect::<Vec<_>>().join("\n")
 }
 
-/// The columns of each part beside the first one: as many as fit.
+/// The columns of each part, as many as fit. The first column stands in every part, and is not listed.
 fn parts(widths: &[usize], width: usize) -> Vec<Range<usize>> {
     let first = MARGIN.len() + widths.first().copied().unwrap_or(0);
     let (mut parts, mut from) = (Vec::new(), 1);

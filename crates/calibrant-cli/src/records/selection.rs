@@ -2,6 +2,7 @@
 
 use calibrant::diagnostic::Usability;
 use calibrant::io::RecordFilter;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Which records.
 #[derive(clap::Args)]
@@ -13,18 +14,17 @@ pub(super) struct Selection {
     #[arg(long, value_name = "NAME")]
     station: Option<String>,
     /// Those with this verdict.
-    #[arg(long, value_enum)]
-    verdict: Option<Verdict>,
+    #[arg(long, value_parser = verdicts())]
+    verdict: Option<Usability>,
     /// Only the latest calibration of each recording.
     #[arg(long)]
     latest: bool,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Verdict {
-    Ok,
-    Doubtful,
-    Bad,
+/// The names of the verdicts, as the help lists them.
+fn verdicts() -> impl TypedValueParser<Value = Usability> {
+    let names = PossibleValuesParser::new(Usability::ALL.map(Usability::name));
+    names.try_map(|name| Usability::parse(&name).ok_or("no verdict has this name"))
 }
 
 impl Selection {
@@ -33,11 +33,7 @@ impl Selection {
         RecordFilter {
             sensor: self.sensor.clone(),
             station: self.station.clone(),
-            verdict: self.verdict.map(|verdict| match verdict {
-                Verdict::Ok => Usability::Ok,
-                Verdict::Doubtful => Usability::Doubtful,
-                Verdict::Bad => Usability::Bad,
-            }),
+            verdict: self.verdict,
             latest: self.latest,
         }
     }

@@ -19,7 +19,7 @@ impl Rows {
         Self { head: head.collect(), rows }
     }
 
-    /// Changes every reading; `of` is told the row, the axis and the reading.
+    /// The recording with each reading replaced by `of(row, axis, reading)`.
     fn with(&self, of: impl Fn(usize, usize, f64) -> f64) -> String {
         let changed = |(k, row): (usize, &Vec<f64>)| {
             let cells = row.iter().enumerate();

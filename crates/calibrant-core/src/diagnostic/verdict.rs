@@ -14,6 +14,15 @@ pub enum Usability {
 }
 
 impl Usability {
+    /// All of them, the best first.
+    pub const ALL: [Self; 3] = [Self::Ok, Self::Doubtful, Self::Bad];
+
+    /// The usability of this name.
+    #[must_use]
+    pub fn parse(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
+    }
+
     /// As files state it: `ok`, `doubtful` or `bad`.
     #[must_use]
     pub fn name(self) -> &'static str {

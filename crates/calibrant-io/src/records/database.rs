@@ -13,7 +13,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// So long a writer waits for another.
+/// How long a writer waits for another.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// How an SQLite database begins.
 const MAGIC: &[u8; 16] = b"SQLite format 3\0";

@@ -58,7 +58,7 @@ struct Pending {
 impl Pending {
     /// Does this record begin a sensor, with many records before it?
     fn is_full_before(&self, kept: &KeptRecord) -> bool {
-        /// So many records are in memory at once.
+        /// Largest number of records in memory.
         const MOST: usize = 4096;
         self.records >= MOST && !self.continues(kept)
     }

@@ -21,7 +21,7 @@ pub struct FleetParameter {
     pub farthest: Vec<(String, f64, f64)>,
 }
 
-/// So many sensors are named.
+/// Number of sensors that are named.
 const FARTHEST: usize = 3;
 
 impl Records {

@@ -3,7 +3,7 @@
 use super::database::Records;
 use super::failure::{damaged, failed};
 use super::model::{self, Further};
-use super::record::{Record, usability};
+use super::record::Record;
 use crate::hashed_file::HashedFile;
 use crate::utc_time::UtcTime;
 use calibrant_core::diagnostic::Usability;
@@ -163,7 +163,8 @@ impl<'r> Reader<'r> {
         let (experiment, experiment_sha256): (Option<String>, String) = (row.get(7)?, row.get(8)?);
         let (files, hashes): (String, String) = (row.get(9)?, row.get(10)?);
         let fitting = self.models[&number].as_ref().and_then(|model| further.onto(model, &estimates));
-        let (Some(imu), Some(verdict), Some(inserted)) = (fitting, usability(&verdict), time(inserted))
+        let (Some(imu), Some(verdict), Some(inserted)) =
+            (fitting, Usability::parse(&verdict), time(inserted))
         else {
             return Ok(None);
         };

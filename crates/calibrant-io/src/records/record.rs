@@ -116,7 +116,7 @@ impl Record {
             recordings: (fields.inputs.into_iter())
                 .map(|Input { file, sha256, .. }| HashedFile { file, sha256 })
                 .collect(),
-            verdict: usability(&verdict.usability)
+            verdict: Usability::parse(&verdict.usability)
                 .ok_or_else(|| untraceable(format!("the verdict is {:?}", verdict.usability)))?,
             codes: verdict.codes,
             status: fields.status.ok_or_else(|| missing("status"))?,
@@ -135,11 +135,6 @@ impl Record {
     pub fn recording(&self) -> String {
         self.recordings.iter().map(|file| file.file.as_str()).collect::<Vec<_>>().join(", ")
     }
-}
-
-/// The usability of a name.
-pub(super) fn usability(name: &str) -> Option<Usability> {
-    [Usability::Ok, Usability::Doubtful, Usability::Bad].into_iter().find(|one| one.name() == name)
 }
 
 fn untraceable(message: String) -> Box<InputError> {
