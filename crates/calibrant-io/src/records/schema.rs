@@ -68,10 +68,13 @@ pub(super) const VERSION: i32 = STEPS.len() as i32;
 
 /// Checks that a database is ours, and brings it to this version.
 pub(super) fn prepare(connection: &mut Connection, path: &Path) -> Result<()> {
-    if stated(connection, path)? == Some(VERSION) {
+    let write = |error| failed(path, error);
+    // in one transaction: another process may make the database between two readings
+    let before = connection.transaction().map_err(write)?;
+    if stated(&before, path)? == Some(VERSION) {
         return Ok(());
     }
-    let write = |error| failed(path, error);
+    drop(before);
     // another process may do the same at this moment
     let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate).map_err(write)?;
     let version = stated(&transaction, path)?.unwrap_or(0);
