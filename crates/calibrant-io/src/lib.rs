@@ -52,6 +52,7 @@ mod machine_calibration;
 mod machine_truth;
 mod machine_validation;
 mod motion;
+mod name_pattern;
 mod noise;
 mod origin;
 mod pose_design;
@@ -109,6 +110,7 @@ pub use machine_calibration::{
 };
 pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
+pub use name_pattern::NamePattern;
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use origin::Origin;
 pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
@@ -137,7 +139,7 @@ pub use reference_log::{
 pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
-pub use sensor_naming::{NamePattern, NamedRecording, SensorNaming};
+pub use sensor_naming::{NamedRecording, SensorNaming};
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};

@@ -26,12 +26,11 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
     let files = in_parallel(folders.len(), |number| hashed_files(&job.sources[number]));
-    let copies = copies::of(&files);
+    let copies = copies::of(&job.sources, &files);
     let recorded = in_parallel(folders.len(), |number| {
         let directory = arguments.output.join(&folders[number]);
-        let path = |number: usize| arguments.recordings[number].as_path();
         let recorded = match copies[number] {
-            Some(other) => Recorded::refused(copies::refusal(path(number), path(other))),
+            Some(copy) => Recorded::refused(copies::refusal(copy)),
             None => Recorded::of(job, &job.sources[number], files[number].as_deref(), &directory),
         };
         bar.inc(1);
@@ -76,10 +75,9 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     Ok(exit)
 }
 
-/// The files of a recording, its own first; `None` where one cannot be read.
+/// The files of a recording; `None` where one cannot be read.
 fn hashed_files(source: &Source) -> Option<Vec<HashedFile>> {
-    let files = [Some(&source.recording), source.gyroscope.as_ref(), source.sections.as_ref()];
-    files.into_iter().flatten().map(|path| HashedFile::of(path)).collect()
+    copies::files(source).map(HashedFile::of).collect()
 }
 
 /// Prints what is told of each recording, then the table. Gives the exit status.

@@ -3,22 +3,41 @@
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::HashedFile;
+use calibrant::pipeline::Source;
+use std::collections::HashMap;
 use std::path::Path;
 
-/// For each recording the number of another one with the same bytes, if there is one.
+/// The files of a recording: its own first, then that of the gyroscope and the list of sections.
+pub(super) fn files(source: &Source) -> impl Iterator<Item = &Path> {
+    let further = [source.gyroscope.as_deref(), source.sections.as_deref()];
+    std::iter::once(source.recording.as_path()).chain(further.into_iter().flatten())
+}
+
+/// For each recording a file of it, and a file of another recording with the same bytes, if there is one.
 ///
-/// `files`: those of each recording, its own first; `None` where one cannot be read.
-pub(super) fn of(files: &[Option<Vec<HashedFile>>]) -> Vec<Option<usize>> {
-    let content = |number: usize| files[number].as_ref()?.first().map(|own| own.sha256.as_str());
-    let other = |number: usize| {
-        let own = content(number)?;
-        (0..files.len()).find(|&other| other != number && content(other) == Some(own))
-    };
-    (0..files.len()).map(other).collect()
+/// `hashed`: the [`files`] of each recording; `None` where one cannot be read.
+pub(super) fn of<'s>(
+    sources: &'s [Source],
+    hashed: &[Option<Vec<HashedFile>>],
+) -> Vec<Option<[&'s Path; 2]>> {
+    let mut same: HashMap<&str, Vec<(usize, &Path)>> = HashMap::new();
+    for (number, (source, hashed)) in sources.iter().zip(hashed).enumerate() {
+        for (path, hashed) in files(source).zip(hashed.iter().flatten()) {
+            same.entry(&hashed.sha256).or_default().push((number, path));
+        }
+    }
+    let mut copies = vec![None; sources.len()];
+    for files in same.values() {
+        for &(number, path) in files {
+            let other = files.iter().find(|(other, _)| *other != number);
+            copies[number] = copies[number].or_else(|| Some([path, other?.1]));
+        }
+    }
+    copies
 }
 
 /// A recording is not calibrated, because another has the same bytes.
-pub(super) fn refusal(path: &Path, other: &Path) -> Error {
+pub(super) fn refusal([path, other]: [&Path; 2]) -> Error {
     let message = format!("this is a copy of {}: of which sensor is it?", other.display());
     let help = "record the sensor again, or leave out the copy";
     Error::recording(InputError::new(Refusal::RecordingRepeated, message, help).in_file(path))

@@ -20,6 +20,9 @@ pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibra
     if sources.len() > 1 {
         check_several(arguments, experiment)?;
     }
+    if arguments.records.is_some() {
+        arguments.naming.check_for_records(&arguments.recordings)?;
+    }
     Ok(sources)
 }
 
@@ -66,11 +69,9 @@ fn check_several(arguments: &Arguments, experiment: &Experiment) -> calibrant::R
             "give one recording with --validate or --folds",
         );
     }
-    if arguments.naming.sensor.is_some() {
-        return refuse(
-            "--sensor names one sensor, and recordings of several are given",
-            "give --sensor-from with a pattern of the file names",
-        );
+    arguments.naming.check_several()?;
+    if arguments.recordings.iter().filter(|path| path.as_os_str() == "-").count() > 1 {
+        return refuse("standard input (-) is given twice", "give it once");
     }
     if experiment.imu.is_some() && arguments.sections.is_some() {
         return refuse(

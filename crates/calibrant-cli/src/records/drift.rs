@@ -111,30 +111,37 @@ fn changed(change: &SensorChange) -> Vec<String> {
     ]
 }
 
-fn aged(QuantityAging { invariant, unit, aging }: &QuantityAging) -> Vec<String> {
-    let is_angle = *unit == "rad";
-    let scale = if is_angle { 1f64.to_degrees() } else { 1.0 };
+fn aged(of: &QuantityAging) -> Vec<String> {
+    let aging = &of.aging;
+    let [per_year, unit] = per_year(of);
     vec![
-        invariant.name(),
-        number_format::with_sd(scale * aging.per_year, scale * aging.sd),
+        of.invariant.name(),
+        per_year,
         number_format::signed(aging.per_year / aging.sd, 1),
         number_format::probability(aging.p_value),
         aging.birge_ratio.map_or_else(dash, |ratio| format!("{ratio:.2}")),
-        if is_angle { "°".to_owned() } else { (*unit).to_owned() },
+        unit,
     ]
+}
+
+/// The change per year with its standard deviation, and the unit. Angles are in degrees.
+fn per_year(QuantityAging { unit, aging, .. }: &QuantityAging) -> [String; 2] {
+    let (scale, unit) = if *unit == "rad" { (1f64.to_degrees(), "°") } else { (1.0, *unit) };
+    [number_format::with_sd(scale * aging.per_year, scale * aging.sd), unit.to_owned()]
 }
 
 fn of_all(drifts: &[SensorDrift]) -> String {
     let row = |drift: &SensorDrift| {
         let (change, aging) = (drift.last_change, drift.largest_aging.as_ref());
+        let [per_year, unit] = aging.map_or_else(|| [dash(), dash()], per_year);
         vec![
             drift.sensor.clone(),
             drift.calibrations.to_string(),
             drift.dates.map_or_else(dash, |[first, last]| format!("{first} to {last}")),
             change.map_or_else(dash, |change| number_format::probability(change.p_value)),
             aging.map_or_else(dash, |of| of.invariant.name()),
-            aging.map_or_else(dash, |of| number_format::with_sd(of.aging.per_year, of.aging.sd)),
-            aging.map_or_else(dash, |of| of.unit.to_owned()),
+            per_year,
+            unit,
             drift.aging_p_value.map_or_else(dash, number_format::probability),
         ]
     };

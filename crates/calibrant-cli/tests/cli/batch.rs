@@ -240,6 +240,10 @@ fn gyroscopes_with_files_of_their_own_go_with_their_accelerometers() {
         assert_eq!(split["inputs"][1]["file"], format!("gyro{seed}.csv"));
         assert_eq!(split["parameters"], whole["parameters"]);
     }
+    bench
+        .run(&format!("{command} --gyroscope gyro1.csv -o repeated"))
+        .ends_with(3)
+        .says("gyro1.csv: this is a copy of gyro1.csv");
     bench.refuses(
         &format!("{command} -o out"),
         2,

@@ -402,7 +402,7 @@ fn a_unit_that_the_recording_contradicts_is_named_by_its_key() {
     bench.refuses(
         "calibrate gyroscope.toml sim/recording.csv --gyroscope-unit deg/s -o out",
         3,
-        &["leave --gyroscope-unit away"],
+        &["leave --gyroscope-unit (or --unit) away"],
     );
     bench.refuses("calibrate gyroscope.toml none.csv -o out", 3, &["none.csv"]);
 }
@@ -423,6 +423,14 @@ fn without_a_gyroscope_the_accelerometer_is_calibrated_and_the_result_says_so() 
         |of: &Value| of["name"].as_str().is_some_and(|name| name.starts_with("accelerometer."));
     truth["parameters"].as_array_mut().expect("a list").retain(of_accelerometer);
     assert_close_to_truth(&calibration, &truth);
+    // it is tried on its like, and on a recording of both sensors
+    bench.run("simulate imu.toml --seed 7 -o other").done();
+    bench.write("other.csv", bench.read("other/recording.csv").lines().map(alone).collect::<String>());
+    for other in ["other.csv", "other/recording.csv"] {
+        let outcome =
+            bench.run(&format!("calibrate imu.toml alone.csv --validate {other} -o validated")).done();
+        assert!(outcome.stdout.contains("validation"), "{outcome:?}");
+    }
     // in a batch it stands among the others
     let outcome = bench.run("calibrate imu.toml alone.csv sim/recording.csv --no-report -o batch").done();
     assert!(outcome.stdout.starts_with("verdicts: 0 failed, 0 bad, 1 doubtful, 1 ok"), "{outcome:?}");

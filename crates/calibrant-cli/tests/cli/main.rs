@@ -39,6 +39,7 @@ mod repaired_recordings;
 mod rest;
 mod resume;
 mod sensor_change;
+mod sensor_names;
 mod simulate;
 mod simulate_machine;
 mod temperature;

@@ -154,7 +154,7 @@ fn a_dash_is_standard_input() {
     bench.run(&format!("{calibrate} sim/recording.csv -o named")).done();
     bench.run_from("sim/recording.csv", &format!("{calibrate} - -o read")).done();
     let of_file = bench.read("named/calibration.json");
-    let of_file = of_file.replace("\"recording.csv\"", "\"-\"").replace("\"recording\"", "\"-\"");
+    let of_file = of_file.replace("\"recording.csv\"", "\"-\"").replace("\"recording\"", "\"stdin\"");
     assert_eq!(bench.read("read/calibration.json"), of_file);
     let outcome = bench.run_from("sim/recording.csv", "inspect -").done();
     assert!(outcome.stdout.starts_with("-: CSV, "), "{outcome:?}");

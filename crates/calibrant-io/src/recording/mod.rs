@@ -31,6 +31,7 @@ pub(crate) mod mcap_container;
 mod mcap_footer;
 #[cfg(feature = "mcap")]
 mod mcap_records;
+pub(crate) mod named_sensor;
 pub(crate) mod reader_finding;
 pub(crate) mod recording_quality;
 mod recording_writer;

@@ -170,13 +170,14 @@ impl<'e> MachineTask<'e> {
     ) -> Result<Moved> {
         let log = options.validate_motion.as_deref();
         let log = log.map(|path| LogFile::read(path, &self.log_options, notes)).transpose()?;
-        let read = self.reader.read_other(other)?;
+        let calibrated: Vec<_> = (SensorKind::ALL.into_iter())
+            .filter(|sensor_kind| moved.recorded.recording.sensor(*sensor_kind).is_some())
+            .collect();
+        let read = self.reader.read_other(other, &calibrated)?;
         let second = self.moved(other, read, (log.as_ref(), "--validate-motion"), notes)?;
-        for sensor_kind in SensorKind::ALL {
-            if moved.recorded.recording.sensor(sensor_kind).is_some() {
-                let [one, two] = [moved, &second].map(|of| of.recorded.readings(sensor_kind));
-                refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
-            }
+        for sensor_kind in calibrated {
+            let [one, two] = [moved, &second].map(|of| of.recorded.readings(sensor_kind));
+            refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
         }
         Ok(second)
     }

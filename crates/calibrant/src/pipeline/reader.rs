@@ -5,7 +5,7 @@ use super::read_imu::ImuReader;
 use super::recorded::Recorded;
 use super::source::Source;
 use calibrant_core::error::Result;
-use calibrant_core::sensor::ReadingUnit;
+use calibrant_core::sensor::{ReadingUnit, SensorKind};
 use calibrant_io::{Experiment, ImuReadOptions};
 
 /// How the recordings are read.
@@ -40,11 +40,11 @@ impl<'e> Reader<'e> {
         }
     }
 
-    /// Reads the recording that a calibration is tried on.
-    pub(crate) fn read_other(&self, source: &Source) -> Result<Recorded> {
+    /// Reads the recording that a calibration of these sensors is tried on.
+    pub(crate) fn read_other(&self, source: &Source, sensor_kinds: &[SensorKind]) -> Result<Recorded> {
         match self {
-            Self::Accelerometer(..) => self.read(source),
-            Self::Imu(reader) => reader.read_other(source),
+            Self::Imu(reader) if sensor_kinds.contains(&SensorKind::Gyroscope) => reader.read_other(source),
+            _ => self.read(source),
         }
     }
 }

@@ -140,7 +140,7 @@ impl<'e> Task<'e> {
     ) -> Result<Validation> {
         let path = source.recording.as_path();
         let warning = |words: String| Note::Warning(format!("{}: {words}", file_name(path)));
-        let mut other = self.reader.read_other(source)?;
+        let mut other = self.reader.read_other(source, calibration.sensor_kinds())?;
         notes.extend(Note::of_findings(&other.findings, source));
         let mut setup = setup.of_other();
         let outliers = setup.prepare(self.accelerometer, &mut other.recording);

@@ -65,9 +65,12 @@ pub(super) fn stated_unit(
                 stated.symbol(),
                 given.symbol()
             );
-            let of = if options.accelerometer_only.is_some() { "" } else { &format!("{sensor_kind}-") };
+            let option = match options.accelerometer_only {
+                Some(_) => "--unit".to_owned(),
+                None => format!("--{sensor_kind}-unit (or --unit)"),
+            };
             let help = format!(
-                "leave --{of}unit away: the file decides (name the columns in [columns] to overrule it)"
+                "leave {option} away: the file decides (name the columns in [columns] to overrule it)"
             );
             Err(contradiction(draft, message, help))
         }
