@@ -94,7 +94,8 @@ fn goal(
         let hint = near.map_or(String::new(), |near| format!("did you mean {near}? "));
         return reject(message, format!("{hint}its parameters are {}", names.join(", ")));
     };
-    let is_bias = request.name.starts_with("bias.");
+    let quantity = list.quantities()[parameter];
+    let is_bias = matches!(quantity, Quantity::Bias(_));
     let fits = match request.dimension {
         Dimension::Own => true,
         Dimension::Share => !is_bias,
@@ -108,7 +109,7 @@ fn goal(
     let (Quantity::Bias(axis)
     | Quantity::Scale(axis)
     | Quantity::CrossAxis(axis, _)
-    | Quantity::Symmetric(axis, _)) = list.quantities()[parameter];
+    | Quantity::Symmetric(axis, _)) = quantity;
     let gain = at.matrix.row(axis.index()).norm();
     let is_counted = unit == ReadingUnit::Counts && request.dimension != Dimension::Own;
     Ok(Goal { parameter, sd: request.value * if is_counted { gain } else { 1.0 } })
@@ -138,6 +139,9 @@ mod tests {
             (of("bias.x=1mg", ReadingUnit::Counts).expect("a goal").1 - 400.0 * 9.80665e-3).abs() < 1e-12
         );
         assert!((of("bias.x=0.01", ReadingUnit::Counts).expect("a goal").1 - 0.01).abs() < 1e-15);
+        // names as calibrations have them
+        assert_eq!(of("accelerometer.scale.y=50ppm", mps2).expect("a goal"), (parameter, sd));
+        assert!(of("accelerometer.bias.x=1mg", mps2).is_ok());
         assert!(of("scale.x=1mg", mps2).is_err() && of("scale.q=1ppm", mps2).is_err());
         for wrong in ["scale.x", "scale.x=-1", "scale.x=much", "scale.x=5furlong"] {
             assert!(parse(wrong).is_err(), "{wrong}");

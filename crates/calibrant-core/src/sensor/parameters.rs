@@ -170,9 +170,10 @@ impl ParameterList {
         self.quantities.iter().map(|quantity| quantity.name()).collect()
     }
 
-    /// Position of the parameter of this name.
+    /// Position of the parameter of this name: `bias.x`, or `accelerometer.bias.x` as calibrations have it.
     #[must_use]
     pub fn position(&self, name: &str) -> Option<usize> {
+        let name = name.strip_prefix("accelerometer.").unwrap_or(name);
         self.quantities.iter().position(|quantity| quantity.name() == name)
     }
 }
