@@ -9,7 +9,7 @@ use calibrant::report::message;
 /// The diagnostics that the user denies and allows.
 #[derive(clap::Args)]
 pub(crate) struct Rules {
-    /// Exit with status 1 if this diagnostic occurs; `warnings` stands for all. `doubtful`: exit with status 5 where a result is doubtful. The results are written nevertheless. Repeatable. docs/diagnostics.md lists the codes.
+    /// Exit with status 1 if this diagnostic occurs; `warnings` stands for all. `doubtful`: exit with status 5 where a result is doubtful. The results are written nevertheless. Repeatable. `calibrant explain` lists the codes.
     #[arg(long, value_name = "CODE", value_parser = denied)]
     deny: Vec<Denied>,
     /// Do not print this diagnostic, do not deny it, and do not count it for the verdict. JSON keeps it with the severity `allowed`. Repeatable.
@@ -109,8 +109,14 @@ fn denied(text: &str) -> Result<Denied, String> {
 }
 
 fn code(text: &str) -> Result<Code, String> {
-    Code::parse(text).ok_or_else(|| match nearest(text, Code::ALL.iter().map(|code| code.name())) {
+    code_named(text, std::iter::empty())
+}
+
+/// The diagnostic of this name. `others`: the names that are meant beside those of diagnostics.
+pub(crate) fn code_named<'n>(text: &str, others: impl Iterator<Item = &'n str>) -> Result<Code, String> {
+    let names = || Code::ALL.iter().map(|code| code.name());
+    Code::parse(text).ok_or_else(|| match nearest(text, names().chain(others)) {
         Some(name) => format!("there is no such code; did you mean `{name}`?"),
-        None => "there is no such code; docs/diagnostics.md lists them".into(),
+        None => "there is no such code; `calibrant explain` lists them".into(),
     })
 }

@@ -5,7 +5,7 @@ mod next_steps;
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, PRESETS, ResultPlaces, preset, write_atomically};
+use calibrant::io::{Experiment, PRESETS, ResultPlaces, nearest, preset, write_atomically};
 use next_steps::NextSteps;
 use std::path::PathBuf;
 
@@ -41,10 +41,12 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let reject = |code, message, help| Err(Error::Experiment(Box::new(InputError::new(code, message, help))));
     let Some(text) = preset(&arguments.preset) else {
         let names: Vec<_> = PRESETS.iter().map(|preset| preset.name).collect();
+        let near = nearest(&arguments.preset, names.iter().copied());
+        let hint = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
         return reject(
             Refusal::KeyUnknown,
             format!("there is no preset `{}`", arguments.preset),
-            format!("choose one of {}", names.join(", ")),
+            format!("{hint}choose one of {}", names.join(", ")),
         );
     };
     match &arguments.output {

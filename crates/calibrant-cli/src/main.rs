@@ -11,6 +11,7 @@ mod convert;
 mod design;
 mod diagnostics;
 mod exit;
+mod explain;
 mod init;
 mod inspect;
 mod interruption;
@@ -68,6 +69,7 @@ enum Command {
     Compare(compare::Arguments),
     #[cfg(feature = "records")]
     Records(records::Arguments),
+    Explain(explain::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -104,6 +106,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => arguments,
         #[cfg(feature = "records")]
         Command::Records(arguments) => arguments,
+        Command::Explain(arguments) => arguments,
         Command::Completions(arguments) => arguments,
         Command::Man(arguments) => arguments,
     };

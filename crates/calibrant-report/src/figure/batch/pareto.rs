@@ -74,6 +74,6 @@ pub(crate) fn code_bars(batch: &Batch) -> Option<String> {
         .collect();
     Some(format!(
         "<figure><h3>Sensors with each code</h3><ul class=\"legend\">{legend}</ul><table class=\"budget\"><tbody>\n{bars}</tbody></table>\
-         <figcaption>The number of sensors with this code, and their share of the batch. A sensor may have several codes. docs/diagnostics.md says what each means, and what to do.</figcaption></figure>"
+         <figcaption>The number of sensors with this code, and their share of the batch. A sensor may have several codes. <code>calibrant explain CODE</code> says what each means, and what to do.</figcaption></figure>"
     ))
 }
