@@ -132,6 +132,33 @@ fn guide_to_the_design_of_poses() {
     follow_text(&bench, "design-poses.md", &guide, 7);
 }
 
+/// The guide to the production line, with three simulated IMUs and a broken file.
+#[test]
+fn guide_to_the_production_line() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    for (seed, name) in ["a", "b", "c"].into_iter().enumerate() {
+        bench.run(&format!("simulate imu.toml --seed {} -o made", seed + 1)).done();
+        bench.write(&format!("line/{name}.csv"), bench.read("made/recording.csv"));
+    }
+    let text = bench.read("line/b.csv");
+    let row = text.lines().nth(57).expect("line 58");
+    let reading = row.split(',').nth(1).expect("a field");
+    bench.write("broken.csv", text.replace(row, &row.replacen(reading, "overrun", 1)));
+    std::fs::remove_file(bench.path("imu.toml")).expect("there");
+    let guide = include_str!("../../../../docs/production-line.md");
+    let guide =
+        guide.replace("line/*.csv", "line/a.csv line/b.csv line/c.csv").replace(" > results.json", "");
+    let limits = blocks(&guide).into_iter().find(|(language, _)| *language == "toml").expect("limits").1;
+    bench.write("limits.toml", limits.join("\n"));
+    // the shell shows the columns of summary.csv
+    let (before, rest) = guide.split_once("## summary.csv").expect("a part");
+    let (shown, after) = rest.split_once("Then follow value").expect("its end");
+    follow_text(&bench, "production-line.md", &format!("{before}{after}"), 9);
+    let columns = blocks(shown).pop().expect("the columns").1.join(",");
+    assert!(bench.read("results/summary.csv").lines().any(|line| line.starts_with(&columns)), "{columns}");
+}
+
 /// The README's calibration, of a simulated IMU.
 #[test]
 fn calibration_in_the_readme() {
