@@ -96,13 +96,10 @@ impl Table {
 impl Cell {
     fn html(&self) -> String {
         match self {
-            Self::Name(text) => format!("<th scope=\"row\">{}</th>", escape(text)),
+            Self::Name(text) => format!("<th scope=\"row\"{}>{}</th>", long(text), escape(text)),
             Self::Link { text, address } => {
-                format!(
-                    "<th scope=\"row\"><a href=\"{}\">{}</a></th>",
-                    escape(&encoded(address)),
-                    escape(text)
-                )
+                let (address, name) = (escape(&encoded(address)), escape(text));
+                format!("<th scope=\"row\"{}><a href=\"{address}\">{name}</a></th>", long(text))
             }
             Self::Number(text) => format!("<td class=\"n\">{}</td>", escape(text)),
             Self::Text(text) => format!("<td>{}</td>", escape(text)),
@@ -111,6 +108,14 @@ impl Cell {
             Self::Flag(text) => format!("<td class=\"flag\">{}</td>", escape(text)),
         }
     }
+}
+
+/// A name with more letters than this is broken into lines.
+const LONG_NAME: usize = 36;
+
+/// The class of a name that would push the other columns off the page.
+fn long(name: &str) -> &'static str {
+    if name.chars().count() > LONG_NAME { " class=\"long\"" } else { "" }
 }
 
 /// A relative path as an address: signs that have a meaning in addresses are encoded.

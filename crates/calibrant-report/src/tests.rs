@@ -163,6 +163,21 @@ fn large_inputs_give_small_files() {
 }
 
 #[test]
+fn residuals_are_seen_beside_a_noise_that_is_far_too_small() {
+    let case = fakes::motion_case(3, 4, 2.0, 1);
+    let page = |calibration: &Calibration| {
+        calibration_report(calibration, &case.recording.clone().into(), &[], &about())
+    };
+    let cut = "The top of the curve is beyond the axis";
+    assert!(!page(&case.calibration).contains(cut));
+    let mut contradicted = case.calibration.clone();
+    residuals_of(&mut contradicted).iter_mut().for_each(|residual| *residual *= 500.0);
+    let html = page(&contradicted);
+    assert_sound(&html);
+    assert!(html.contains(cut));
+}
+
+#[test]
 fn degenerate_results_are_reported_without_panic() {
     let case = fakes::motion_case(3, 4, 2.0, 1);
     let empty = Recording { times_s: Vec::new(), readings: Vec::new(), ..case.recording.clone() };

@@ -19,7 +19,7 @@ pub(crate) fn allan_figure(noise: &SensorNoise) -> Figure {
     let extremes: Vec<f64> =
         panels.iter().filter_map(Panel::axes).flat_map(|[_, y]| [y.range.0, y.range.1]).collect();
     panels.iter_mut().for_each(|panel| panel.y_includes.clone_from(&extremes));
-    let caption = "Markers: overlapping Allan deviation. Band: its 95 % bounds, wide for cluster times with few clusters. Black: the fit. \
+    let caption = "Markers: overlapping Allan deviation. Band: its 95 % bounds, wide for cluster times with few clusters. Solid: the fit. \
                    Dashed: its parts, each with its slope: −1 quantisation, −½ white noise (N is its value at 1 s), 0 bias instability (0.664 B), \
                    +½ rate random walk (K √(τ/3)). A part that is drawn, but not determined in the table, is too uncertain for a value.";
     let mut caption = caption.to_string();

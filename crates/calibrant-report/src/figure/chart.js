@@ -90,8 +90,8 @@
       for (const [label, points] of series) {
         const point = nearest(points, at);
         if (Math.abs(point.at - at) > 0.02 * part) continue;
-        const [low, high] = [point.low, point.high].map((of) => tidy(of, y.span(of, 1)));
-        lines.push(`${label}: ${low === high ? low : `${low} to ${high}`} ${unit}`);
+        const [low, high] = [point.low, point.high].map((of) => tidy(of, y.span(of, 1))), to = low === high ? low : `${low} to ${high}`;
+        lines.push(label.startsWith("outside") ? label : `${label}: ${to} ${unit}`); // a mark at the edge of the axis is not at its value
       }
       cursor.setAttribute("d", `M${place(at)} ${top}V${bottom}`);
       return { at, lines, across: place(at) };

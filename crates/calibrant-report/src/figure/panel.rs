@@ -102,6 +102,8 @@ pub(super) struct Panel {
     pub(super) shades: Vec<Shade>,
     /// Values that the y axis must show.
     pub(super) y_includes: Vec<f64>,
+    /// What the y axis shows, where that is not all values: what lies beyond it is cut.
+    pub(super) y_shown: Option<(f64, f64)>,
     /// Distance between ticks of the x axis, where it is not left to the plotting library.
     pub(super) x_step: Option<f64>,
     /// The same of the y axis.
@@ -175,6 +177,9 @@ impl Panel {
             return None;
         }
         self.y_includes.iter().for_each(|&value| y.include(value));
+        if let Some((low, high)) = self.y_shown {
+            (y.low, y.high) = (low, high);
+        }
         if self.square {
             let both = Range { low: x.low.min(y.low), high: x.high.max(y.high), log: false }.padded(0.05);
             return Some([AxisRange { range: both, step: None }; 2]);
@@ -268,6 +273,14 @@ fn round_above(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_axis_may_show_less_than_all_values() {
+        let bars = Series::new("", "#000000", Mark::ErrorBars, vec![(0.0, 1.0), (1.0, 2.0)]);
+        let panel = Panel { y_shown: Some((0.0, 3.0)), ..Panel::new("", "", "") };
+        let [_, y] = panel.with(bars.with_spread(vec![0.5, 1e6])).axes().expect("bars");
+        assert!(y.range.0 > -1.0 && y.range.1 < 4.0, "{y:?}");
+    }
 
     #[test]
     fn ranges_hold_all_points_and_are_never_empty_or_infinite() {

@@ -65,6 +65,11 @@ pub(crate) fn histograms(
                 (4.0 * sd).max(bins.low.abs()).max((bins.low + bins.width * bins.counts.len() as f64).abs());
             let reach = reach.min(6.0 * sd);
             let area = values.len() as f64 * bins.width;
+            // the bars stay visible below the curve of a noise that is far too small
+            let highest = HIGHEST_CURVE * bins.counts.iter().copied().max().unwrap_or(1) as f64;
+            if area / (sd * std::f64::consts::TAU.sqrt()) > highest {
+                panel.y_shown = Some((0.0, highest));
+            }
             let curve = (0..=120)
                 .map(|i| reach * (f64::from(i) / 60.0 - 1.0))
                 .map(|x| (x, area * (-0.5 * (x / sd).powi(2)).exp() / (sd * std::f64::consts::TAU.sqrt())))
@@ -77,8 +82,14 @@ pub(crate) fn histograms(
         }
         panel
     });
-    let caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed. Wider bars mean that it \
-                   is larger, or that the model has an error. Long tails are outliers.";
+    let mut caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed. Wider bars mean that it \
+                       is larger, or that the model has an error. Long tails are outliers."
+        .to_owned();
+    if panels.iter().any(|panel| panel.y_shown.is_some()) {
+        caption.push_str(
+            " The top of the curve is beyond the axis: the residuals are far larger than the noise.",
+        );
+    }
     Figure::new("Distribution of the residuals", panels, caption)
 }
 
@@ -145,6 +156,9 @@ fn noise(calibration: &Calibration, axis: Axis, unit: DisplayUnit) -> Option<f64
 fn noise_word(calibration: &Calibration) -> &'static str {
     if calibration.fit.assumed_noise.is_some() { "assumed" } else { "estimated" }
 }
+
+/// How many times higher than the bars the curve of the noise is drawn.
+const HIGHEST_CURVE: f64 = 4.0;
 
 /// Bars of equal width.
 #[derive(Debug)]

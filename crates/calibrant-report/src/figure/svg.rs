@@ -139,12 +139,16 @@ fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {
     }
 }
 
+/// Width of the thinnest line in a legend: a single hairline is hardly seen.
+const LEAST_KEY_WIDTH: f64 = 1.5;
+
 /// The series' sign in a legend.
 pub(super) fn key(series: &Series) -> String {
     let colour = series.colour;
     let drawing = match series.mark {
         Mark::Line { width, dashes } => format!(
-            "<path d=\"M1 7H33\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\"/>"
+            "<path d=\"M1 7H33\" stroke=\"{colour}\" stroke-width=\"{}\" stroke-dasharray=\"{dashes}\"/>",
+            width.max(LEAST_KEY_WIDTH)
         ),
         Mark::Dots { shape, .. } => match shape {
             Shape::Circle => format!("<circle cx=\"17\" cy=\"7\" r=\"3.5\" fill=\"{colour}\"/>"),

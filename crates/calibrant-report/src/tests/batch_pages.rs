@@ -29,6 +29,18 @@ fn the_page_shows_yield_failures_causes_and_every_parameter() {
 }
 
 #[test]
+fn a_long_name_is_broken_so_that_the_verdict_stays_in_view() {
+    let mut batch = drifting_batch(6);
+    let long = "recording_".repeat(12);
+    batch.sensors[1].name.clone_from(&long);
+    let html = batch_report(&batch, &about());
+    assert_sound(&html);
+    assert!(html.contains("<th scope=\"row\"><a href=\"sensor-1/report.html\">sensor-1</a></th>"));
+    let broken = format!("<th scope=\"row\" class=\"long\"><a href=\"sensor-2/report.html\">{long}</a></th>");
+    assert!(html.contains(&broken));
+}
+
+#[test]
 fn a_batch_without_results_has_a_page() {
     assert_sound(&batch_report(&Batch::default(), &about()));
     let mut batch = drifting_batch(6);

@@ -8,7 +8,7 @@ use super::super::point_thinning::every;
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour};
 use super::groups::groups;
-use super::reach::{Reach, least_width};
+use super::reach::{Reach, least_width, median};
 use super::steps::whole_step;
 use crate::batch::Batch;
 use crate::number_format;
@@ -22,6 +22,8 @@ const FEWEST: usize = 5;
 const RELIABLE: usize = 20;
 /// The share of a normal distribution beyond three standard deviations.
 const BEYOND_BY_CHANCE: f64 = 0.0027;
+/// Half the length of an error bar, in standard deviations.
+const BAR_SD: f64 = 2.0;
 /// The most sensors that are drawn with error bars, and one by one.
 const MOST_BARS: usize = 150;
 const MOST_POINTS: usize = 600;
@@ -72,7 +74,7 @@ pub(crate) fn drifts(batch: &Batch) -> Drifts {
     let mut drifts = Drifts { figures: Vec::new(), findings: Vec::new() };
     let (mut beyond, mut checked, mut fewest) = (Vec::new(), 0, usize::MAX);
     for group in groups(batch) {
-        let mut panels = Vec::new();
+        let (mut panels, mut seen) = (Vec::new(), Seen::default());
         for &place in &group.members {
             let points = points(batch, place);
             if points.len() < 2 {
@@ -89,10 +91,10 @@ pub(crate) fn drifts(batch: &Batch) -> Drifts {
                 };
                 beyond.extend(points.iter().filter(far).map(|of| (place, of.number)));
             }
-            panels.push(panel(batch, place, &points, control));
+            panels.push(panel(batch, place, &points, control, &mut seen));
         }
         if !panels.is_empty() {
-            drifts.figures.push(Figure::new(group.name, panels, caption(batch)).with_columns(3));
+            drifts.figures.push(Figure::new(group.name, panels, caption(batch, &seen)).with_columns(3));
         }
     }
     if checked > 0 {
@@ -101,17 +103,37 @@ pub(crate) fn drifts(batch: &Batch) -> Drifts {
     drifts
 }
 
-fn caption(batch: &Batch) -> String {
-    let mut caption = "Control limits are the mean ± 2.66 times the mean difference of neighbours, of the sensors that are not bad (individuals chart, \
-                       ISO 7870-2). Good: no pattern, and hardly a sensor beyond them. Sensors outside the axis are crosses at its edge."
-        .to_owned();
+/// What the caption of a figure explains: what its panels draw, and what is beyond their axes.
+#[derive(Debug, Default)]
+struct Seen {
+    control: bool,
+    outside: bool,
+    /// Limits beyond an axis, with their parameter and values.
+    far: Vec<String>,
+}
+
+fn caption(batch: &Batch, seen: &Seen) -> String {
+    let mut sentences = vec!["Good: no pattern.".to_owned()];
+    if seen.control {
+        sentences = vec![
+            "Control limits are the mean ± 2.66 times the mean difference of neighbours, of the sensors that are not bad (individuals chart, \
+             ISO 7870-2). Good: no pattern, and hardly a sensor beyond them."
+                .to_owned(),
+        ];
+    }
+    if !seen.far.is_empty() {
+        sentences.push(format!("Too far away to be drawn: {}.", seen.far.join("; ")));
+    }
+    if seen.outside {
+        sentences.push("Sensors outside the axis are crosses at its edge.".to_owned());
+    }
     if batch.sensors.len() > MOST_POINTS {
-        caption.push_str(&format!(
-            " Of {} sensors, {MOST_POINTS} spread evenly over the list are drawn.",
+        sentences.push(format!(
+            "Of {} sensors, {MOST_POINTS} spread evenly over the list are drawn.",
             number_format::count(batch.sensors.len())
         ));
     }
-    caption
+    sentences.join(" ")
 }
 
 fn points(batch: &Batch, place: usize) -> Vec<Point> {
@@ -122,18 +144,28 @@ fn points(batch: &Batch, place: usize) -> Vec<Point> {
     batch.sensors.iter().enumerate().filter_map(point).collect()
 }
 
-fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>) -> Panel {
+fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>, seen: &mut Seen) -> Panel {
     let parameter = &batch.parameters[place];
     let name = parameter.name.as_str();
     let of = |f: fn(&Point) -> f64| points.iter().map(f).collect::<Vec<f64>>();
     let (values, sds) = (of(|of| of.value), of(|of| of.sd));
     let bulk = Reach::of(&values, least_width(&values, &sds)).unwrap_or(Reach { low: -1.0, high: 1.0 });
-    let control = control.filter(|control| bulk.with(&control.ends()).is_some());
-    let reach = control.and_then(|control| bulk.with(&control.ends())).unwrap_or(bulk);
-    let limits = parameter.accepted.filter(|(low, high)| bulk.with(&[*low, *high]).is_some());
-    let reach = limits.and_then(|(low, high)| reach.with(&[low, high])).unwrap_or(reach);
+    let has_bars = points.len() <= MOST_BARS;
+    // the bars of most sensors are whole
+    let bulk = bulk.widened(if has_bars { BAR_SD * median(&sds).unwrap_or(0.0) } else { 0.0 });
+    let near = |ends: &[f64; 2]| bulk.with(ends).is_some();
+    let (control, limits) = (control.map(Control::ends), parameter.accepted.map(|(low, high)| [low, high]));
+    let [drawn_control, drawn_limits] = [control, limits].map(|ends| ends.filter(near));
+    let reach = [drawn_control, drawn_limits].into_iter().flatten().flatten().fold(bulk, Reach::including);
     let unit = DisplayUnit::suited_to(parameter.unit, [reach.low, reach.high]);
     let factor = unit.factor;
+    seen.control |= control.is_some();
+    for (kind, ends) in [("control limits", control), ("acceptance limits", limits)] {
+        if let Some(ends) = ends.filter(|ends| !near(ends)) {
+            let [low, high] = ends.map(|end| number_format::significant(end * factor, 3));
+            seen.far.push(format!("the {kind} of {name}, {} {}", low + " to " + &high, unit.symbol));
+        }
+    }
     let last = batch.sensors.len() as f64;
     let level = |label: &str, colour, width, dashes, y: f64| {
         let ends = vec![(1.0, y * factor), (last.max(2.0), y * factor)];
@@ -142,23 +174,22 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
 
     let mut panel = Panel::new(name, "order of the recordings", unit.label("estimate"));
     let drawn: Vec<&Point> = every(points.len(), MOST_POINTS).iter().map(|&k| &points[k]).collect();
+    panel.y_shown = Some((reach.low * factor, reach.high * factor));
     let inside = || drawn.iter().filter(|of| reach.contains(of.value));
-    if points.len() <= MOST_BARS {
-        let bar = |of: &&&Point| {
-            let ends =
-                [-2.0, 2.0].map(|side| (of.value + side * of.sd).clamp(reach.low, reach.high) * factor);
-            (((of.number + 1) as f64, 0.5 * (ends[0] + ends[1])), 0.5 * (ends[1] - ends[0]))
-        };
-        let (centres, spread) = inside().filter(|of| of.sd.is_finite()).map(|of| bar(&of)).unzip();
+    if has_bars {
+        // those of sensors outside the axis are cut away, but their values are seen under the pointer
+        let bars = drawn.iter().filter(|of| of.sd.is_finite());
+        let bar = |of: &&Point| (((of.number + 1) as f64, of.value * factor), BAR_SD * of.sd * factor);
+        let (centres, spread) = bars.map(bar).unzip();
         panel = panel.with(Series::new("±2 sd", colour::SKY, Mark::ErrorBars, centres).with_spread(spread));
     }
-    if let Some(control) = control {
-        panel = panel.with(level("mean", colour::GREY, 1.0, "", control.mean));
-        for (label, y) in ["control limits", ""].into_iter().zip(control.ends()) {
+    if let Some([low, high]) = drawn_control {
+        panel = panel.with(level("mean", colour::GREY, 1.0, "", 0.5 * (low + high)));
+        for (label, y) in [("control limits", low), ("", high)] {
             panel = panel.with(level(label, colour::GREY, 1.4, "3 3", y));
         }
     }
-    if let Some((low, high)) = limits {
+    if let Some([low, high]) = drawn_limits {
         for (label, y) in [("acceptance limits", low), ("", high)] {
             panel = panel.with(level(label, colour::BLACK, 1.6, "7 4", y));
         }
@@ -184,6 +215,7 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
         .map(|of| ((of.number + 1) as f64, of.value.clamp(reach.low, reach.high) * factor))
         .collect();
     if !outside.is_empty() {
+        seen.outside = true;
         let mark = Mark::Dots { shape: Shape::Cross, radius: 4.0 };
         panel = panel.with(Series::new("outside the axis", colour::VERMILLION, mark, outside));
     }
@@ -224,6 +256,73 @@ fn in_words(batch: &Batch, beyond: &[(usize, usize)], checked: usize, fewest: us
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::batch::{BatchParameter, BatchSensor};
+    use calibrant_core::diagnostic::Verdict;
+
+    /// Sensors with one parameter, a bias, of these values and standard deviations.
+    fn batch(estimates: impl IntoIterator<Item = (f64, f64)>) -> Batch {
+        let sensor = |(number, estimate): (usize, (f64, f64))| BatchSensor {
+            name: format!("s{number}"),
+            link: None,
+            verdict: Ok(Verdict::on([], &[])),
+            codes: Vec::new(),
+            limits_failed: Vec::new(),
+            reasons: Vec::new(),
+            estimates: vec![estimate],
+        };
+        let parameter = BatchParameter {
+            name: "accelerometer.bias.x".into(),
+            unit: "m/s²",
+            nominal: None,
+            spread: None,
+            accepted: None,
+        };
+        let sensors = estimates.into_iter().enumerate().map(sensor).collect();
+        Batch { parameters: vec![parameter], sensors }
+    }
+
+    fn only_panel(batch: &Batch) -> (Panel, Seen) {
+        let (points, mut seen) = (points(batch, 0), Seen::default());
+        let values: Vec<f64> = points.iter().map(|of| of.value).collect();
+        let panel = panel(batch, 0, &points, Control::of(&values), &mut seen);
+        (panel, seen)
+    }
+
+    #[test]
+    fn bars_that_the_axis_cuts_keep_their_ends() {
+        let mut estimates: Vec<(f64, f64)> = (0..20).map(|k| (f64::from(k % 4), 0.1)).collect();
+        estimates[7].1 = 50.0;
+        let (panel, _) = only_panel(&batch(estimates));
+        let bars = panel.series.iter().find(|of| of.mark == Mark::ErrorBars).expect("bars");
+        assert_eq!((bars.points[7].1, bars.spread[7]), (3.0, 100.0));
+        let [_, y] = panel.axes().expect("sensors").map(|axis| axis.range);
+        assert!(y.1 - y.0 < 20.0, "{y:?}");
+    }
+
+    #[test]
+    fn limits_that_are_not_drawn_are_stated() {
+        let near = batch((0..20).map(|k| (f64::from(k % 4), 0.1)));
+        let (panel, seen) = only_panel(&near);
+        assert!(panel.series.iter().any(|of| of.label == "control limits") && seen.far.is_empty());
+
+        // a fault of one sensor widens the limits, but not the axis
+        let mut far = near.clone();
+        far.sensors[7].estimates[0].0 = 1000.0;
+        let (panel, seen) = only_panel(&far);
+        assert!(panel.series.iter().all(|of| of.label != "control limits"));
+        let caption = caption(&far, &seen);
+        let stated =
+            "Too far away to be drawn: the control limits of accelerometer.bias.x, −232 to 334 m/s².";
+        assert!(caption.contains(stated) && caption.contains("crosses at its edge"), "{caption}");
+    }
+
+    #[test]
+    fn a_caption_explains_what_is_drawn() {
+        let few = batch((0..4).map(|k| (f64::from(k), 0.1)));
+        let (_, seen) = only_panel(&few);
+        let caption = caption(&few, &seen);
+        assert!(!caption.contains("ontrol limits") && !caption.contains("crosses"), "{caption}");
+    }
 
     #[test]
     fn control_limits_are_those_of_the_individuals_chart() {

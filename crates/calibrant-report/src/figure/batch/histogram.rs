@@ -13,19 +13,41 @@ use calibrant_core::diagnostic::Usability;
 /// A figure for each sensor of an IMU, a panel for each of its parameters.
 pub(crate) fn parameter_histograms(batch: &Batch) -> Vec<Figure> {
     let of_group = |group: super::groups::Group<'_>| {
-        let panels: Vec<Panel> = group
-            .members
-            .iter()
-            .filter_map(|&place| panel(batch, place, &batch.parameters[place].name))
-            .collect();
-        Figure::new(group.name, panels, CAPTION).with_columns(3)
+        let mut seen = Seen::default();
+        let panels = group.members.iter().filter_map(|&place| panel(batch, place, &mut seen)).collect();
+        Figure::new(group.name, panels, caption(&seen)).with_columns(3)
     };
     groups(batch).into_iter().map(of_group).collect()
 }
 
-const CAPTION: &str = "The height is the number of sensors. The axis is made for the bulk of them: its label counts those that lie outside, and names \
-                       limits and spreads that are too far away to be drawn. Good: one heap, well inside the limits, about as wide as the datasheet's band. \
-                       Two heaps are two lots, or two stations.";
+/// What the panels of a figure show, beside the bars.
+#[derive(Debug, Default)]
+struct Seen {
+    limits: bool,
+    datasheet: bool,
+    outside: bool,
+    far: bool,
+}
+
+fn caption(seen: &Seen) -> String {
+    let mut caption = "The height is the number of sensors.".to_owned();
+    if seen.outside {
+        caption.push_str(
+            " The axis leaves out a few sensors that are far from all others: its label counts them as outside.",
+        );
+    }
+    if seen.far {
+        caption.push_str(" It names limits and spreads that are too far away to be drawn.");
+    }
+    caption.push_str(" Good: one heap");
+    if seen.limits {
+        caption.push_str(", well inside the limits");
+    }
+    if seen.datasheet {
+        caption.push_str(", about as wide as the datasheet's band");
+    }
+    caption + ". Two heaps are two lots, or two stations."
+}
 
 /// What is drawn beside the bars.
 #[derive(Default)]
@@ -51,7 +73,7 @@ impl Marks {
     }
 }
 
-fn panel(batch: &Batch, place: usize, name: &str) -> Option<Panel> {
+fn panel(batch: &Batch, place: usize, seen: &mut Seen) -> Option<Panel> {
     let parameter = &batch.parameters[place];
     let found: Vec<(f64, f64, bool)> = batch
         .sensors
@@ -64,16 +86,17 @@ fn panel(batch: &Batch, place: usize, name: &str) -> Option<Panel> {
     let bulk = Reach::of(&values, least_width(&values, &sds))?;
     let marks = Marks::of(parameter, bulk);
     let drawn = [marks.limits, marks.datasheet].into_iter().flatten().flat_map(|(low, high)| [low, high]);
-    let unit = DisplayUnit::suited_to(parameter.unit, drawn.chain([bulk.low, bulk.high]));
+    let reach = drawn.fold(bulk, Reach::including);
+    let unit = DisplayUnit::suited_to(parameter.unit, [reach.low, reach.high]);
     let factor = unit.factor;
 
     let inside = |only_bad: bool| -> Vec<f64> {
-        let inside = found.iter().filter(|(value, _, bad)| bulk.contains(*value) && (*bad || !only_bad));
+        let inside = found.iter().filter(|(value, _, bad)| reach.contains(*value) && (*bad || !only_bad));
         inside.map(|(value, ..)| value * factor).collect()
     };
-    let bars = |values: &[f64]| {
-        Histogram::within(values, bulk.low * factor, bulk.high * factor, bin_count(found.len()))
-    };
+    // the bars are as wide as the bulk deserves
+    let bins = (bin_count(found.len()) as f64 * reach.width() / bulk.width()).round() as usize;
+    let bars = |values: &[f64]| Histogram::within(values, reach.low * factor, reach.high * factor, bins);
     let all = bars(&inside(false));
     let most = all.counts.iter().copied().max().unwrap_or(1).max(1);
     let top = 1.06 * most as f64;
@@ -86,7 +109,11 @@ fn panel(batch: &Batch, place: usize, name: &str) -> Option<Panel> {
     if !marks.far.is_empty() {
         label.push_str(&format!(", {} far outside", marks.far.join(" and ")));
     }
-    let mut panel = Panel::new(name, label, "sensors");
+    seen.limits |= marks.limits.is_some();
+    seen.datasheet |= marks.datasheet.is_some();
+    seen.outside |= outside > 0;
+    seen.far |= !marks.far.is_empty();
+    let mut panel = Panel::new(parameter.name.as_str(), label, "sensors");
     panel.y_step = Some(whole_step(most));
     if let Some((low, high)) = marks.datasheet {
         let ends = vec![(low * factor, 0.5 * top), (high * factor, 0.5 * top)];
