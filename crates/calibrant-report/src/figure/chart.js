@@ -40,7 +40,7 @@
     const add = (label, at, low, high) => (series.get(label) || series.set(label, []).get(label)).push({ at: share(at), low: value(low), high: value(high) });
     const stretch = (node, from, to) => { node.setAttribute("x", from); node.setAttribute("width", to - from); };
     // how each part of the drawing moves; what values it has
-    const moves = [...group.querySelectorAll("path, circle, rect")].map((node) => {
+    const moves = [...group.querySelectorAll("path, circle, rect, line")].map((node) => {
       const box = node.getBBox(), label = names[look(node)], path = node.getAttribute("d");
       const middle = box.x + box.width / 2, centre = box.y + box.height / 2;
       if (path && box.width > 14) {

@@ -29,9 +29,10 @@ pub(crate) fn correlation_map_of(names: &[&str], covariance: &DMatrix<f64>) -> S
         }
         rows.push_str("</tr>\n");
     }
+    let shared = shared_sensor(names).len();
     let column = |(i, name): (usize, &&str)| match numbered {
         true => format!("<th scope=\"col\" title=\"{}\">{}</th>", escape(name), i + 1),
-        false => format!("<th scope=\"col\">{}</th>", escape(name).replacen('.', ".<br>", 1)),
+        false => format!("<th scope=\"col\">{}</th>", escape(&name[shared..]).replacen('.', ".<br>", 1)),
     };
     let head: String = names.iter().enumerate().map(column).collect();
     let class = if numbered { "heat narrow" } else { "heat" };
@@ -57,6 +58,12 @@ pub(crate) fn correlation_map_of(names: &[&str], covariance: &DMatrix<f64>) -> S
     )
 }
 
+/// The name of the sensor that all parameters begin with, with its point: columns without it stay narrow.
+fn shared_sensor<'a>(names: &[&'a str]) -> &'a str {
+    let first = names.first().and_then(|name| name.split_inclusive('.').next()).unwrap_or("");
+    if names.iter().all(|name| name.starts_with(first) && name.len() > first.len()) { first } else { "" }
+}
+
 fn cell(r: f64, diagonal: bool, short: bool) -> String {
     if !r.is_finite() {
         return format!("<td>{}</td>", number_format::UNKNOWN);
@@ -79,4 +86,19 @@ fn colour(r: f64) -> String {
     let share = r.abs().min(1.0);
     let [red, green, blue] = end.map(|channel| (255.0 + (channel - 255.0) * share).round());
     format!("rgb({red},{green},{blue})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_leave_out_the_sensor_that_all_rows_name() {
+        let map = correlation_map_of(&["gyroscope.bias.x", "gyroscope.scale.x"], &DMatrix::identity(2, 2));
+        assert!(map.contains("<th scope=\"col\">bias.<br>x</th><th scope=\"col\">scale.<br>x</th>"), "{map}");
+        assert!(map.contains("<th scope=\"row\">gyroscope.bias.x</th>"));
+        let map = correlation_map_of(&["bias.x", "scale.x"], &DMatrix::identity(2, 2));
+        assert!(map.contains("<th scope=\"col\">bias.<br>x</th>"), "{map}");
+        assert_eq!(shared_sensor(&["g"]), "");
+    }
 }

@@ -163,7 +163,8 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
     for (kind, ends) in [("control limits", control), ("acceptance limits", limits)] {
         if let Some(ends) = ends.filter(|ends| !near(ends)) {
             let [low, high] = ends.map(|end| number_format::significant(end * factor, 3));
-            seen.far.push(format!("the {kind} of {name}, {} {}", low + " to " + &high, unit.symbol));
+            seen.far
+                .push(format!("the {kind} of {name}, {low} to {high} {}", unit.symbol).trim_end().to_owned());
         }
     }
     let last = batch.sensors.len() as f64;

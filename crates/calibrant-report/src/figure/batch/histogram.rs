@@ -37,7 +37,7 @@ fn caption(seen: &Seen) -> String {
         );
     }
     if seen.far {
-        caption.push_str(" It names limits and spreads that are too far away to be drawn.");
+        caption.push_str(" The label of an axis names limits and spreads that are too far away to be drawn.");
     }
     caption.push_str(" Good: one heap");
     if seen.limits {
