@@ -44,9 +44,14 @@ pub fn aging_of(calibrations: &[DatedCalibration<'_>]) -> Vec<QuantityAging> {
     let of_quantity = |invariant: Invariant| {
         let unit = invariant.unit(last);
         let same_unit = found.iter().filter(|(.., imu)| invariant.unit(imu) == unit);
-        let values = same_unit.filter_map(|(time_years, values, _)| {
+        let values = same_unit.filter_map(|(time_years, values, imu)| {
             let value = values.iter().find(|value| value.invariant == invariant)?;
-            Some(Dated { time_years: *time_years, value: value.value, sd: value.sd? })
+            Some(Dated {
+                time_years: *time_years,
+                value: value.value,
+                sd: value.sd?,
+                degrees_of_freedom: imu.degrees_behind(invariant.covariance_part()),
+            })
         });
         let aging = Aging::of(&values.collect::<Vec<_>>())?;
         Some(QuantityAging { invariant, unit, aging })
@@ -57,7 +62,8 @@ pub fn aging_of(calibrations: &[DatedCalibration<'_>]) -> Vec<QuantityAging> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sensor::{Gauge, ImuParameters, ImuQuantity, ReadingUnit};
+    use crate::estimate::Comparison;
+    use crate::sensor::{CovarianceDegrees, Gauge, ImuParameters, ImuQuantity, ReadingUnit};
     use nalgebra::DMatrix;
 
     #[test]
@@ -158,5 +164,28 @@ mod tests {
         for (three, two) in three.iter().zip(&two) {
             assert!((three.aging.per_year - two.aging.per_year).abs() < 1e-12, "{three:?} {two:?}");
         }
+    }
+
+    #[test]
+    fn the_aging_of_two_calibrations_is_as_significant_as_their_difference() {
+        let known = f64::INFINITY;
+        let degrees = |accelerometer| CovarianceDegrees {
+            accelerometer,
+            gyroscope_at_rest: known,
+            gyroscope_matrix: known,
+        };
+        let before = CalibratedImu { degrees_of_freedom: Some(degrees(4.0)), ..warm() };
+        let mut after = CalibratedImu { degrees_of_freedom: Some(degrees(9.0)), ..warm() };
+        after.parameters.accelerometer.bias.x += 3e-4;
+        let dated = [(0.0, &before), (0.7, &after)];
+        let agings = aging_of(&dated.map(|(time_years, imu)| DatedCalibration { time_years, imu }));
+        let compared = Comparison::of(&before, &after).quantities;
+        let (of, compared) = (agings[0].aging, &compared[0]);
+        assert!((of.degrees_behind / compared.degrees_of_freedom - 1.0).abs() < 1e-9, "{of:?} {compared:?}");
+        assert!(
+            (of.p_value / compared.p_value.expect("a covariance") - 1.0).abs() < 1e-9,
+            "{of:?} {compared:?}"
+        );
+        assert!(of.p_value > 0.05, "of known variances it would be 0.034: {of:?}");
     }
 }

@@ -119,6 +119,8 @@ struct AgingFields {
     chi2: f64,
     degrees_of_freedom: usize,
     fit_p_value: Option<f64>,
+    /// JSON has `null` where it is infinite.
+    degrees_behind: f64,
     p_value: f64,
 }
 
@@ -159,6 +161,7 @@ impl From<&QuantityAging> for AgingFields {
             chi2: aging.chi2,
             degrees_of_freedom: aging.degrees_of_freedom,
             fit_p_value: aging.fit_p_value,
+            degrees_behind: aging.degrees_behind,
             p_value: aging.p_value,
         }
     }
