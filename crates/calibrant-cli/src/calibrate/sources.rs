@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, Plan};
+use calibrant::io::{Experiment, HashedFile, Plan};
 use calibrant::pipeline::Source;
 use calibrant::report::number_format;
 use std::path::Path;
@@ -35,6 +35,12 @@ fn together(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result
     }
     let [first, further @ ..] = arguments.recordings.as_slice() else { return Ok(Vec::new()) };
     Ok(vec![Source { further: further.to_vec(), ..Source::from_file(first) }])
+}
+
+/// The files of a recording's readings, its own first; `None` where one cannot be read.
+pub(super) fn hashed_readings(source: &Source) -> Option<Vec<HashedFile>> {
+    let files = std::iter::once(&source.recording).chain(&source.gyroscope).chain(&source.further);
+    files.map(|path| HashedFile::of(path)).collect()
 }
 
 fn with_gyroscopes(arguments: &Arguments) -> calibrant::Result<Vec<Source>> {

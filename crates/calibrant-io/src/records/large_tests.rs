@@ -44,6 +44,7 @@ fn record(k: usize, with_gyroscope: bool) -> Record {
         program: "calibrant 1.0.0".into(),
         plan: "holds".into(),
         experiment: Some(HashedFile { file: "imu.toml".into(), sha256: "e5".repeat(32) }),
+        motion_file: None,
         recordings: vec![HashedFile {
             file: format!("SN{sensor:06}_{}.csv", 2016 + year),
             sha256: recording,
