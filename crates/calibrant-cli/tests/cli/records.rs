@@ -171,6 +171,11 @@ fn a_line_is_recorded_listed_shown_compared_and_exported() {
         "{fleet}"
     );
 
+    let fleet = bench.run("records fleet r.db --json").done().stdout;
+    let fleet: serde_json::Value = serde_json::from_str(&fleet).expect("JSON");
+    assert_eq!(fleet["parameters"][0]["sensors"], 5);
+    assert_eq!(fleet["left_out"], serde_json::json!([]));
+
     bench.run("records export r.db -o t.csv --latest").done();
     let csv = bench.read("t.csv");
     let header = csv.lines().next().expect("a header");

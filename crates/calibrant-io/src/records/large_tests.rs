@@ -103,7 +103,10 @@ fn measure(with_gyroscope: bool) {
     });
     assert_eq!(count, CALIBRATIONS);
     assert_eq!(timed("drift of all sensors", || records.drifts().expect("read")).len(), CALIBRATIONS / 10);
-    assert_eq!(timed("fleet", || records.fleet().expect("read"))[0].values.count, CALIBRATIONS / 10);
+    assert_eq!(
+        timed("fleet", || records.fleet().expect("read")).parameters[0].values.count,
+        CALIBRATIONS / 10
+    );
     for (name, format) in [("t.csv", ExportFormat::Csv), ("t.parquet", ExportFormat::Parquet)] {
         let table = directory.path().join(name);
         timed(name, || records.export(&table, format, &RecordFilter::default()).expect("written"));

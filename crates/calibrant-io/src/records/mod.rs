@@ -40,6 +40,8 @@ mod failure;
 #[cfg(feature = "records")]
 mod fleet;
 #[cfg(feature = "records")]
+mod fleet_frame;
+#[cfg(feature = "records")]
 mod history;
 #[cfg(feature = "records")]
 mod json;
@@ -62,7 +64,7 @@ pub use drift::SensorDrift;
 #[cfg(feature = "records")]
 pub use export::ExportFormat;
 #[cfg(feature = "records")]
-pub use fleet::FleetParameter;
+pub use fleet::{Fleet, FleetParameter, LeftOut};
 #[cfg(feature = "records")]
 pub use history::{SensorChange, SensorHistory};
 #[cfg(feature = "records")]
@@ -70,6 +72,8 @@ pub use json::{drifts_json, fleet_json, history_json, record_json, records_json}
 #[cfg(feature = "records")]
 pub use query::{KeptRecord, RecordFilter};
 pub use record::Record;
+#[cfg(all(test, feature = "records"))]
+mod fleet_tests;
 #[cfg(all(test, feature = "records"))]
 mod large_tests;
 #[cfg(all(test, feature = "records"))]

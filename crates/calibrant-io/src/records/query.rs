@@ -81,6 +81,18 @@ impl Records {
         self.query(&format!("SELECT {COLUMNS} FROM {table} {restriction} {order}"), &given, take)
     }
 
+    /// The newest calibration of each sensor that is not bad, by their numbers.
+    pub(super) fn newest(&self) -> Result<Vec<KeptRecord>> {
+        // of several bare columns beside one max(), SQLite takes those of that row
+        let newest = "SELECT id FROM (
+            SELECT id, max((recorded IS NOT NULL) || coalesce(recorded, '') || printf(' %020d', id))
+            FROM latest WHERE verdict <> 'bad' GROUP BY sensor)";
+        let mut records = Vec::new();
+        let query = format!("SELECT {COLUMNS} FROM calibrations WHERE id IN ({newest}) ORDER BY id");
+        self.query(&query, &[], |record| records.push(record))?;
+        Ok(records)
+    }
+
     /// The record of this number.
     ///
     /// # Errors
