@@ -84,6 +84,6 @@ fn row(parameter: &FleetParameter) -> Vec<String> {
             || "–".to_owned(),
             |(sensor, _, distance)| format!("{sensor} ({} sd)", signed(*distance, 1)),
         ),
-        parameter.unit.clone(),
+        parameter.unit.to_owned(),
     ]
 }
