@@ -5,6 +5,7 @@ mod drift;
 mod export;
 mod fleet;
 mod list;
+mod remove;
 mod selection;
 mod show;
 
@@ -29,6 +30,7 @@ enum Command {
     Fleet(fleet::Arguments),
     Export(export::Arguments),
     Add(add::Arguments),
+    Remove(remove::Arguments),
 }
 
 impl crate::run::Run for Arguments {
@@ -47,6 +49,7 @@ impl crate::run::Run for Arguments {
             Command::Fleet(arguments) => arguments.run(),
             Command::Export(arguments) => arguments.run(),
             Command::Add(arguments) => arguments.run(),
+            Command::Remove(arguments) => arguments.run(),
         }
     }
 }

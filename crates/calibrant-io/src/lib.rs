@@ -125,8 +125,8 @@ pub use recording::{
 pub use records::Record;
 #[cfg(feature = "records")]
 pub use records::{
-    ExportFormat, FleetParameter, Inserted, KeptRecord, RecordFilter, Records, SensorChange, SensorDrift,
-    SensorHistory, drifts_json, fleet_json, history_json, record_json, records_json,
+    ExportFormat, Fleet, FleetParameter, Inserted, KeptRecord, LeftOut, RecordFilter, Records, SensorChange,
+    SensorDrift, SensorHistory, drifts_json, fleet_json, history_json, record_json, records_json,
 };
 pub use reference_inspection::{
     JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,

@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
     pub(super) accept: Option<PathBuf>,
     #[command(flatten)]
     pub(super) naming: Naming,
-    /// Add each result to these records, an SQLite database that is made where there is none (see `calibrant records`).
+    /// Add each result to these records, an SQLite database that is made where there is none (see `calibrant records`). A recording that they have of another sensor is refused.
     #[arg(long, value_name = "FILE")]
     pub(super) records: Option<PathBuf>,
     #[command(flatten)]

@@ -6,10 +6,10 @@ use super::job::Job;
 use super::parallel::in_parallel;
 use super::quality;
 use super::recorded::Recorded;
+use super::sources::hashed_readings;
 use super::worst_first::{Row, table_of};
 use crate::{Exit, console};
-use calibrant::io::{HashedFile, SummaryRow, calibrations_json, write_atomically, write_summary};
-use calibrant::pipeline::Source;
+use calibrant::io::{SummaryRow, calibrations_json, write_atomically, write_summary};
 use calibrant::report::{About, batch_report};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -25,13 +25,18 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         }
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
-    let files = in_parallel(folders.len(), |number| hashed_files(&job.sources[number]));
+    let files = in_parallel(folders.len(), |number| hashed_readings(&job.sources[number]));
     let copies = copies::of(&job.sources, &files);
     let recorded = in_parallel(folders.len(), |number| {
         let directory = arguments.output.join(&folders[number]);
-        let recorded = match copies[number] {
-            Some(copy) => Recorded::refused(copies::refusal(copy)),
-            None => Recorded::of(job, &job.sources[number], files[number].as_deref(), &directory),
+        let source = &job.sources[number];
+        let checked = match copies[number] {
+            Some(copy) => Err(copies::refusal(copy)),
+            None => job.check_records(source, || files[number].clone()),
+        };
+        let recorded = match checked {
+            Ok(()) => Recorded::of(job, source, files[number].as_deref(), &directory),
+            Err(error) => Recorded::refused(error),
         };
         bar.inc(1);
         recorded
@@ -73,11 +78,6 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         ));
     }
     Ok(exit)
-}
-
-/// The files of a recording; `None` where one cannot be read.
-fn hashed_files(source: &Source) -> Option<Vec<HashedFile>> {
-    copies::files(source).map(HashedFile::of).collect()
 }
 
 /// Prints what is told of each recording, then the table. Gives the exit status.

@@ -1,5 +1,6 @@
 //! Copies: recordings of a batch with the same bytes. The program cannot tell which sensor they belong to.
 
+use super::sources::readings;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::HashedFile;
@@ -7,22 +8,16 @@ use calibrant::pipeline::Source;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The files of a recording: its own first, then that of the gyroscope and the list of sections.
-pub(super) fn files(source: &Source) -> impl Iterator<Item = &Path> {
-    let further = [source.gyroscope.as_deref(), source.sections.as_deref()];
-    std::iter::once(source.recording.as_path()).chain(further.into_iter().flatten())
-}
-
 /// For each recording a file of it, and a file of another recording with the same bytes, if there is one.
 ///
-/// `hashed`: the [`files`] of each recording; `None` where one cannot be read.
+/// `hashed`: the [`readings`] of each recording; `None` where one cannot be read.
 pub(super) fn of<'s>(
     sources: &'s [Source],
     hashed: &[Option<Vec<HashedFile>>],
 ) -> Vec<Option<[&'s Path; 2]>> {
     let mut same: HashMap<&str, Vec<(usize, &Path)>> = HashMap::new();
     for (number, (source, hashed)) in sources.iter().zip(hashed).enumerate() {
-        for (path, hashed) in files(source).zip(hashed.iter().flatten()) {
+        for (path, hashed) in readings(source).zip(hashed.iter().flatten()) {
             same.entry(&hashed.sha256).or_default().push((number, path));
         }
     }

@@ -5,7 +5,7 @@ use super::record_keeper::RecordKeeper;
 use super::sources::{check_motion, sources};
 use crate::console;
 use calibrant::acceptance::AcceptanceLimit;
-use calibrant::io::{Experiment, HashedFile, Plan, ResumeKey, UrdfSource, read_acceptance};
+use calibrant::io::{Experiment, HashedFile, Plan, ResumeKey, SensorNaming, UrdfSource, read_acceptance};
 use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,7 @@ pub(super) struct Job<'a> {
     pub(super) limits: Vec<AcceptanceLimit>,
     /// Where the results are recorded.
     pub(super) records: RecordKeeper,
+    naming: SensorNaming,
     pipeline: Pipeline<'a>,
     /// What the results of all recordings depend on.
     key: Option<ResumeKey>,
@@ -28,18 +29,30 @@ impl<'a> Job<'a> {
         check_motion(arguments, experiment)?;
         let options = options(arguments)?;
         let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
+        let naming = options.naming.clone();
         let shared: Option<Vec<_>> = shared_files(arguments, experiment).map(HashedFile::of).collect();
         let key = shared.map(|shared| ResumeKey::of(&format!("{options:?}"), &shared));
         let pipeline = Pipeline::from_experiment(experiment, options)?;
         pipeline.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
         let records = RecordKeeper::open(arguments.records.as_deref())?;
-        Ok(Self { arguments, sources, experiment, limits, records, pipeline, key })
+        Ok(Self { arguments, sources, experiment, limits, records, naming, pipeline, key })
     }
 
     /// The key of the result of a recording with these files; `None` where a file that all recordings share cannot be read.
     pub(super) fn key(&self, files: &[HashedFile]) -> Option<ResumeKey> {
         Some(self.key.as_ref()?.with(files))
+    }
+
+    /// Refuses a recording that the records have as one of another sensor. `files`: those of its readings; `None` where one cannot be read.
+    pub(super) fn check_records(
+        &self,
+        source: &Source,
+        files: impl FnOnce() -> Option<Vec<HashedFile>>,
+    ) -> calibrant::Result<()> {
+        // a name that is not of the pattern is refused where the recording is calibrated
+        let sensor = || Some(self.naming.of(&source.recording).ok()?.sensor);
+        self.records.check(sensor, files)
     }
 
     /// Calibrates from a recording, writes the results and records them. Adds notes and warnings to `notes`, even if it fails.

@@ -1,6 +1,7 @@
 //! `calibrant calibrate` with one recording: calibrates, writes the results, prints diagnostics and tables, and returns the exit status.
 
 use super::job::Job;
+use super::sources::hashed_readings;
 use crate::diagnostics::{told_of, told_of_note};
 use crate::{Exit, console};
 use calibrant::pipeline::{Outcome, Source};
@@ -9,7 +10,9 @@ use calibrant::pipeline::{Outcome, Source};
 pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let directory = &job.arguments.output;
     let mut notes = Vec::new();
-    let outcome = job.run(source, directory, &mut notes);
+    let outcome = job
+        .check_records(source, || hashed_readings(source))
+        .and_then(|()| job.run(source, directory, &mut notes));
     let denied = job.arguments.rules.show(&notes.iter().map(told_of_note).collect::<Vec<_>>(), None);
     match outcome {
         Ok(outcome) => show(job, &outcome).max(denied).max(job.arguments.rules.exit_of(&outcome.verdict())),

@@ -1,6 +1,7 @@
 //! The records to which the results of a call are added.
 
 use calibrant::Result;
+use calibrant::io::HashedFile;
 #[cfg(feature = "records")]
 use calibrant::io::{Record, Records};
 use std::path::Path;
@@ -18,6 +19,18 @@ impl RecordKeeper {
     /// Opens the database, before the work begins.
     pub(super) fn open(file: Option<&Path>) -> Result<Self> {
         Ok(Self { records: file.map(Records::open).transpose()?.map(Mutex::new) })
+    }
+
+    /// Refuses a recording that the records have as one of another sensor, before it is calibrated. `sensor` and `files` are asked only where there are records; without one of
+    /// them nothing is refused.
+    pub(super) fn check(
+        &self,
+        sensor: impl FnOnce() -> Option<String>,
+        files: impl FnOnce() -> Option<Vec<HashedFile>>,
+    ) -> Result<()> {
+        let Some(records) = &self.records else { return Ok(()) };
+        let (Some(sensor), Some(files)) = (sensor(), files()) else { return Ok(()) };
+        records.lock().unwrap_or_else(PoisonError::into_inner).refuse_repeated(&sensor, &files)
     }
 
     /// Adds a result, by the text of its calibration.json.
@@ -42,6 +55,14 @@ impl RecordKeeper {
                 Err(Error::experiment(error.in_file(path)))
             }
         }
+    }
+
+    pub(super) fn check(
+        &self,
+        _: impl FnOnce() -> Option<String>,
+        _: impl FnOnce() -> Option<Vec<HashedFile>>,
+    ) -> Result<()> {
+        Ok(())
     }
 
     pub(super) fn add(&self, _: impl FnOnce() -> String) -> Result<()> {

@@ -3,10 +3,10 @@
 use super::arguments::Arguments;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, Plan};
+use calibrant::io::{Experiment, HashedFile, Plan};
 use calibrant::pipeline::Source;
 use calibrant::report::number_format;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The recordings, with the gyroscope's file where there is one.
 pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
@@ -38,6 +38,17 @@ fn together(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result
     }
     let [first, further @ ..] = arguments.recordings.as_slice() else { return Ok(Vec::new()) };
     Ok(vec![Source { further: further.to_vec(), ..Source::from_file(first) }])
+}
+
+/// The files of a recording's readings, its own first.
+pub(super) fn readings(source: &Source) -> impl Iterator<Item = &Path> {
+    let files = std::iter::once(&source.recording).chain(&source.gyroscope).chain(&source.further);
+    files.map(PathBuf::as_path)
+}
+
+/// The [`readings`] by their content; `None` where one cannot be read.
+pub(super) fn hashed_readings(source: &Source) -> Option<Vec<HashedFile>> {
+    readings(source).map(HashedFile::of).collect()
 }
 
 fn with_gyroscopes(arguments: &Arguments) -> calibrant::Result<Vec<Source>> {

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 /// Add calibrations that are there already, such as results/*/calibration.json.
 ///
-/// A calibration of a recording, experiment and version that the records have already takes the place of that one. All files are read before the first is added.
+/// A calibration of a recording, experiment, motion and version that the records have already takes the place of that one. A recording that they have of another sensor is refused.
+/// All files are read before the first is added.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The records. They are made where there are none.

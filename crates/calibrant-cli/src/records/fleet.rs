@@ -1,13 +1,16 @@
 //! `calibrant records fleet`: how the parameters differ from sensor to sensor.
 
 use crate::{Exit, console};
-use calibrant::io::{FleetParameter, Records, fleet_json};
-use calibrant::report::number_format::{rounded_to, short, signed, significant};
+use calibrant::io::{Fleet, FleetParameter, Records, fleet_json};
+use calibrant::report::number_format::{counted, rounded_to, short, signed, significant};
 use std::path::PathBuf;
+
+/// The most sensors that are named as left out. JSON has all.
+const MOST_LEFT_OUT: usize = 10;
 
 /// Show the distribution of each parameter over all sensors, and the sensors that are farthest off.
 ///
-/// The latest calibration of each sensor counts, unless it is bad.
+/// The latest calibration of each sensor counts, unless it is bad. All are brought to the gauge and the reference temperature of the first.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The records.
@@ -19,9 +22,9 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
-        let parameters = Records::open_existing(&self.records)?.fleet()?;
+        let fleet = Records::open_existing(&self.records)?.fleet()?;
         if self.json {
-            console::print_always(&fleet_json(&parameters));
+            console::print_always(&fleet_json(&fleet));
             return Ok(Exit::DONE);
         }
         let header = [
@@ -36,9 +39,31 @@ impl Arguments {
             "farthest",
             "unit",
         ];
-        console::print(&console::table(&header, &parameters.iter().map(row).collect::<Vec<_>>()));
+        console::print(&console::table(&header, &fleet.parameters.iter().map(row).collect::<Vec<_>>()));
+        console::print(&about(&fleet));
         Ok(Exit::DONE)
     }
+}
+
+/// The frame and the temperature of the parameters, and the sensors that are not among them.
+fn about(fleet: &Fleet) -> String {
+    let facts = [
+        fleet.gauge.map(|gauge| format!("{} gauge", gauge.name())),
+        fleet.reference_c.map(|reference_c| format!("at {} °C", short(reference_c))),
+    ];
+    let facts: Vec<String> = facts.into_iter().flatten().collect();
+    let mut text = if facts.is_empty() { String::new() } else { format!("\n{}\n", facts.join(", ")) };
+    if !fleet.left_out.is_empty() {
+        text.push_str(&format!("\n{} left out:\n", counted(fleet.left_out.len(), "sensor")));
+    }
+    for out in fleet.left_out.iter().take(MOST_LEFT_OUT) {
+        text.push_str(&format!("  {} (calibration {}): {}\n", out.sensor, out.id, out.reason));
+    }
+    let further = fleet.left_out.len().saturating_sub(MOST_LEFT_OUT);
+    if further > 0 {
+        text.push_str(&format!("  and {further} more\n"));
+    }
+    text
 }
 
 fn row(parameter: &FleetParameter) -> Vec<String> {
@@ -59,6 +84,6 @@ fn row(parameter: &FleetParameter) -> Vec<String> {
             || "–".to_owned(),
             |(sensor, _, distance)| format!("{sensor} ({} sd)", signed(*distance, 1)),
         ),
-        parameter.unit.clone(),
+        parameter.unit.to_owned(),
     ]
 }

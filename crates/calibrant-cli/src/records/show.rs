@@ -54,6 +54,7 @@ fn in_words(kept: &KeptRecord) -> String {
             record.program, record.plan, record.status, kept.inserted
         )),
         record.experiment.as_ref().and_then(|of| file("experiment", &of.file, &of.sha256)),
+        record.motion_file.as_ref().and_then(|of| file("motion", &of.file, &of.sha256)),
     ];
     facts.extend(record.recordings.iter().map(|of| file("recording", &of.file, &of.sha256)));
     facts.iter().flatten().for_each(|fact| text.push_str(&format!("  {fact}\n")));

@@ -171,6 +171,11 @@ fn a_line_is_recorded_listed_shown_compared_and_exported() {
         "{fleet}"
     );
 
+    let fleet = bench.run("records fleet r.db --json").done().stdout;
+    let fleet: serde_json::Value = serde_json::from_str(&fleet).expect("JSON");
+    assert_eq!(fleet["parameters"][0]["sensors"], 5);
+    assert_eq!(fleet["left_out"], serde_json::json!([]));
+
     bench.run("records export r.db -o t.csv --latest").done();
     let csv = bench.read("t.csv");
     let header = csv.lines().next().expect("a header");
@@ -210,6 +215,9 @@ fn what_is_no_record_is_refused() {
         2,
         &["s1.csv: this file is there already, and is no database of records"],
     );
+    bench.write("empty.db", "");
+    bench.refuses("records list empty.db", 2, &["empty.db: this file is empty"]);
+    assert_eq!(bench.read("empty.db"), "");
     // before the work, and before anything is written
     bench.refuses(
         &format!("{CALIBRATE} s1.csv --records motion.csv -o a"),
@@ -224,13 +232,69 @@ fn what_is_no_record_is_refused() {
     bytes[60..64].copy_from_slice(&9_u32.to_be_bytes());
     bench.write("newer.db", bytes);
     let says =
-        "newer.db: these records have version 9 of the schema, and this calibrant reads versions 1 to 1";
+        "newer.db: these records have version 9 of the schema, and this calibrant reads versions 1 to 2";
     bench.refuses("records list newer.db", 2, &[says, "use the calibrant that wrote them"]);
     bench.refuses(
         &of_date("2026-05-01").replace("r.db", "newer.db").replace("-o 2026-05-01", "-o a"),
         2,
         &[says],
     );
+}
+
+#[test]
+fn a_copy_under_the_name_of_another_sensor_is_refused_and_the_wrong_name_removed() {
+    let bench = dated(&["2026-05-01"]);
+    bench.run(&of_date("2026-05-01")).ends_with(5);
+    bench.write("line/s7_2026-05-01.csv", bench.read("line/s1_2026-05-01.csv"));
+    bench.write("line/s8_2026-05-01.csv", bench.read("s2.csv").replacen("\n0.1,", "\n0.10001,", 1));
+    let says = ["r.db has this recording as calibration", "of sensor \"s1\"", "recording-repeated"];
+    let of = |recordings: &str, directory: &str| {
+        format!("{CALIBRATE} --sensor-from {{sensor}}_{{date}} --records r.db -o {directory} {recordings}")
+    };
+    // alone, nothing is calibrated
+    bench.refuses(&of("line/s7_2026-05-01.csv", "alone"), 3, &says);
+    // in a batch, it is a row that failed, and the other is recorded
+    let batch = bench.run(&of("line/s7_2026-05-01.csv line/s8_2026-05-01.csv", "batch")).ends_with(3);
+    says.iter().for_each(|text| batch.says(text));
+    let summary = bench.read("batch/summary.csv");
+    let row = |name: &str| summary.lines().find(|line| line.starts_with(name)).expect("a row").to_owned();
+    assert!(row("s7_").contains("recording-repeated") && row("s8_").contains(",converged,"), "{summary}");
+    assert!(!bench.path("batch/s7_2026-05-01").exists());
+    let list = || bench.run("records list r.db").done().stdout;
+    assert!(list().contains(" s8 ") && !list().contains(" s7 "), "{}", list());
+    // results that are there are refused, too
+    bench.run(&of("line/s7_2026-05-01.csv", "later").replace(" --records r.db", "")).done();
+    bench.refuses("records add r.db later/calibration.json", 3, &says);
+
+    // the first name was wrong
+    let of_s1 = bench.run("records list r.db --sensor s1 --json").done().stdout;
+    let of_s1: serde_json::Value = serde_json::from_str(&of_s1).expect("JSON");
+    let id = of_s1[0]["id"].as_i64().expect("a number");
+    bench.refuses(&format!("records remove r.db {id} 99"), 2, &["r.db: there is no calibration 99"]);
+    assert!(list().contains(" s1 "));
+    assert_eq!(
+        bench.run(&format!("records remove r.db {id}")).done().stdout,
+        "1 calibration removed: r.db\n"
+    );
+    bench.run("records add r.db later/calibration.json").done();
+    assert!(list().contains(" s7 ") && !list().contains(" s1 "), "{}", list());
+}
+
+#[test]
+fn another_motion_is_another_calibration_of_the_recording() {
+    let bench = dated(&["2026-05-01"]);
+    let of = |motion: &str| {
+        format!("calibrate experiment.toml --motion {motion} --no-report s1.csv --records r.db -o a")
+    };
+    bench.run(&of("motion.csv")).done();
+    bench.write("other.csv", bench.read("motion.csv") + "\n");
+    bench.run(&of("other.csv")).done();
+    bench.run(&of("other.csv")).done();
+    let list = bench.run("records list r.db --json").done().stdout;
+    let list: serde_json::Value = serde_json::from_str(&list).expect("JSON");
+    let motions: Vec<_> =
+        list.as_array().expect("rows").iter().map(|row| &row["motion_file"]["file"]).collect();
+    assert_eq!(motions, ["motion.csv", "other.csv"]);
 }
 
 #[test]

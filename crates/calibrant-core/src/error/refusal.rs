@@ -164,7 +164,7 @@ refusals! {
         "The files do not belong together: their clocks or their lengths differ."
         "Give the files of one recording.";
     RecordingRepeated "recording-repeated"
-        "A recording is used twice where two different ones are needed, or two files of a batch are the same."
+        "A recording is used twice where two different ones are needed, two files of a batch are the same, or the records have it of another sensor."
         "Give another recording.";
     RecordingCorrected "recording-corrected"
         "A recording has been corrected with a calibration already."

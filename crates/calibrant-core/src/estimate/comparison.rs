@@ -5,11 +5,12 @@
 //! It assumes different recordings. For the same recording, `χ²` is too small.
 //!
 //! A covariance that comes from a scatter of few residuals is itself uncertain ([`CovarianceDegrees`](crate::sensor::CovarianceDegrees)). A difference then follows Student's t, and χ²/n
-//! Fisher's F. Shares `w` of a variance with ν degrees of freedom have `1/Σ (w²/(ν + 2)) − 2` together (Welch and Satterthwaite, `gum`, for estimated shares).
+//! Fisher's F. The degrees of freedom of a sum of variances are those of Welch and Satterthwaite (`gum`).
 //! The parts of an IMU have scatters of their own, and each adds the χ² of its own probability.
 //!
 //! If both have temperature terms, B is first converted to the reference temperature of A. If only one has, it is taken at its own reference.
 
+use super::effective_degrees;
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
 use crate::sensor::{
     CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
@@ -218,17 +219,11 @@ fn about_degrees(name: &str, imu: &CalibratedImu) -> Option<String> {
 
 /// Degrees of freedom behind sums of two variances of one part, by the mean share of each.
 fn together(variances: &[[f64; 2]], of: [&CalibratedImu; 2], part: CovariancePart) -> f64 {
-    let degrees = of.map(|imu| {
-        let degrees = imu.degrees_of_freedom.map(|degrees| degrees.of_part(part));
-        degrees.filter(|degrees| *degrees > 0.0).unwrap_or(f64::INFINITY)
-    });
-    // a variance of ν residuals is probably larger, by the mean of the inverse χ²: ν/(ν − 2), limited for few
-    let factor = degrees.map(|v| if v.is_finite() { v / (v - 2.0).max(0.25 * v) } else { 1.0 });
-    let share = |[a, b]: &[f64; 2]| a * factor[0] / (a * factor[0] + b * factor[1]);
+    let degrees = of.map(|imu| imu.degrees_behind(part));
+    let share =
+        |[a, b]: &[f64; 2]| effective_degrees::probable_shares(&[(*a, degrees[0]), (*b, degrees[1])])[0];
     let of_a = variances.iter().map(share).sum::<f64>() / variances.len() as f64;
-    let [in_a, in_b] =
-        [(of_a, degrees[0]), (1.0 - of_a, degrees[1])].map(|(share, v)| share * share / (v + 2.0));
-    1.0 / (in_a + in_b) - 2.0
+    effective_degrees::of_shares([(of_a, degrees[0]), (1.0 - of_a, degrees[1])])
 }
 
 /// Does the covariance of an IMU determine an invariant?

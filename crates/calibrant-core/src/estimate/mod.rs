@@ -21,6 +21,7 @@ mod change;
 mod comparison;
 mod datasheet;
 mod earth;
+pub(crate) mod effective_degrees;
 mod gravity_error;
 mod gravity_off_earth;
 mod hold_result;

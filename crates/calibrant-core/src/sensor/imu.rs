@@ -283,6 +283,12 @@ impl CalibratedImu {
         }
     }
 
+    /// Degrees of freedom behind a part of its covariance; infinite where the variances count as known.
+    pub(crate) fn degrees_behind(&self, part: CovariancePart) -> f64 {
+        let degrees = self.degrees_of_freedom.map(|degrees| degrees.of_part(part));
+        degrees.filter(|degrees| *degrees > 0.0).unwrap_or(f64::INFINITY)
+    }
+
     /// Are the biases of a sensor known? Kalibr's files have no covariance and list no biases: zeros stand in
     /// their place.
     #[must_use]

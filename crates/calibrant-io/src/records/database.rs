@@ -1,14 +1,17 @@
 //! The database of records: opened, and written.
 
-use super::failure::{failed, not_a_database};
+use super::failure::{Failure, empty, failed, not_a_database, unknown};
 use super::model::{self, Further};
 use super::record::Record;
-use super::schema;
+use super::writable::check_writable;
+use super::{repeated_recording, schema};
+use crate::hashed_file::HashedFile;
 use crate::text_decoding::open;
 use crate::utc_time::UtcTime;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::CalibratedImu;
 use rusqlite::{Connection, OpenFlags, OptionalExtension, Transaction, TransactionBehavior, params};
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -51,7 +54,7 @@ pub struct Records {
 pub struct Inserted {
     /// Its number in the database.
     pub id: i64,
-    /// Has it replaced an earlier calibration of the same recording, by the same experiment and program?
+    /// Has it replaced an earlier calibration of the same recording, by the same experiment, motion and program?
     pub replaced: bool,
 }
 
@@ -65,15 +68,20 @@ impl Records {
             let output = |source| Error::Output { path: path.to_path_buf(), source };
             std::fs::create_dir_all(parent).map_err(output)?;
         }
-        Self::with(path, OpenFlags::SQLITE_OPEN_CREATE)
+        let mut records = Self::with(path, OpenFlags::SQLITE_OPEN_CREATE)?;
+        check_writable(&mut records.connection, path)?;
+        Ok(records)
     }
 
     /// Opens records that are there. The database is not made; but what an interrupted writer left in its journal is taken back.
     ///
     /// # Errors
-    /// As [`open`](Self::open), and [`Error::Experiment`] where the file is missing.
+    /// [`Error::Experiment`] where the file is missing, empty or no database of records, or where it is one of a newer schema.
     pub fn open_existing(path: &Path) -> Result<Self> {
-        open(path, "records").map_err(Error::Experiment)?;
+        let file = open(path, "records").map_err(Error::Experiment)?;
+        if file.metadata().is_ok_and(|metadata| metadata.len() == 0) {
+            return Err(empty(path));
+        }
         Self::with(path, OpenFlags::empty())
     }
 
@@ -92,7 +100,6 @@ impl Records {
             connection.busy_timeout(PATIENCE)?;
             // for a new database; covariances of 20 parameters leave half of a page of 4 KiB empty
             connection.pragma_update(None, "page_size", 16_384)?;
-            connection.pragma_update(None, "foreign_keys", true)?;
             Ok(connection)
         });
         let mut connection = opened.map_err(|error| failed(path, error))?;
@@ -100,12 +107,12 @@ impl Records {
         Ok(Self { connection, path: path.to_path_buf() })
     }
 
-    /// Inserts a calibration, in one transaction. One of the same recording, experiment and program is replaced and keeps its number.
+    /// Inserts a calibration, in one transaction. One of the same recording, experiment, motion and program is replaced and keeps its number.
     ///
     /// # Errors
-    /// [`Error::Output`] where it cannot be written. The records are then as they were.
+    /// [`Error::Output`] where it cannot be written. [`Error::Recording`] where the records have its recording as one of another sensor. The records are then as they were.
     pub fn insert(&mut self, record: &Record) -> Result<Inserted> {
-        self.in_transaction(|transaction| insert(transaction, record))
+        self.in_transaction(|transaction, path| insert(transaction, path, record))
     }
 
     /// Inserts many calibrations, a thousand in one transaction. Gives how many are new.
@@ -116,10 +123,10 @@ impl Records {
         let (mut records, mut new) = (records.into_iter().peekable(), 0);
         while records.peek().is_some() {
             let piece = records.by_ref().take(PIECE);
-            new += self.in_transaction(|transaction| {
+            new += self.in_transaction(|transaction, path| {
                 let mut new = 0;
                 for record in piece {
-                    new += usize::from(!insert(transaction, &record)?.replaced);
+                    new += usize::from(!insert(transaction, path, &record)?.replaced);
                 }
                 Ok(new)
             })?;
@@ -127,25 +134,62 @@ impl Records {
         Ok(new)
     }
 
-    fn in_transaction<T>(&mut self, work: impl FnOnce(&Transaction<'_>) -> rusqlite::Result<T>) -> Result<T> {
-        let behaviour = TransactionBehavior::Immediate;
-        let done = self.connection.transaction_with_behavior(behaviour).and_then(|transaction| {
-            let done = work(&transaction)?;
+    /// Refuses a recording that the records have as one of another sensor. [`insert`](Self::insert) does so, too; this is for before the work.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] names the calibration of the other sensor.
+    pub fn refuse_repeated(&self, sensor: &str, recordings: &[HashedFile]) -> Result<()> {
+        repeated_recording::refuse(&self.connection, &self.path, sensor, recordings)
+            .map_err(|failure| failure.of(&self.path))
+    }
+
+    /// Removes calibrations by their numbers, in one transaction.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where there is no calibration of a number, and [`Error::Output`] where they cannot be written. The records are then as they were.
+    pub fn remove(&mut self, ids: &[i64]) -> Result<()> {
+        self.in_transaction(|transaction, path| {
+            // one that is named twice is removed once
+            for id in BTreeSet::from_iter(ids) {
+                // its parameters go with it
+                if transaction.execute("DELETE FROM calibrations WHERE id = ?", [id])? == 0 {
+                    return Err(Failure::Refused(unknown(path, *id)));
+                }
+            }
+            Ok(())
+        })
+    }
+
+    fn in_transaction<T>(
+        &mut self,
+        work: impl FnOnce(&Transaction<'_>, &Path) -> std::result::Result<T, Failure>,
+    ) -> Result<T> {
+        let Self { connection, path } = self;
+        let attempt = || {
+            let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+            let done = work(&transaction, path)?;
             transaction.commit()?;
             Ok(done)
-        });
-        done.map_err(|error| failed(&self.path, error))
+        };
+        attempt().map_err(|failure: Failure| failure.of(path))
     }
 }
 
-fn insert(transaction: &Transaction<'_>, record: &Record) -> rusqlite::Result<Inserted> {
+fn insert(
+    transaction: &Transaction<'_>,
+    path: &Path,
+    record: &Record,
+) -> std::result::Result<Inserted, Failure> {
+    repeated_recording::refuse(transaction, path, &record.sensor, &record.recordings)?;
     let recording_sha256 = record.recording_sha256();
-    let experiment_sha256 = record.experiment.as_ref().map_or("", |file| file.sha256.as_str());
+    let sha256 = |file: &Option<HashedFile>| file.as_ref().map_or(String::new(), |file| file.sha256.clone());
+    let (experiment_sha256, motion_sha256) = (sha256(&record.experiment), sha256(&record.motion_file));
     let earlier: Option<i64> = transaction
         .prepare_cached(
-            "SELECT id FROM calibrations WHERE recording_sha256 = ? AND experiment_sha256 = ? AND program = ?",
+            "SELECT id FROM calibrations
+             WHERE recording_sha256 = ? AND experiment_sha256 = ? AND motion_sha256 = ? AND program = ?",
         )?
-        .query_row(params![recording_sha256, experiment_sha256, record.program], |row| row.get(0))
+        .query_row([&recording_sha256, &experiment_sha256, &motion_sha256, &record.program], |row| row.get(0))
         .optional()?;
     // its parameters go with it
     transaction.prepare_cached("DELETE FROM calibrations WHERE id = ?")?.execute([earlier])?;
@@ -154,9 +198,9 @@ fn insert(transaction: &Transaction<'_>, record: &Record) -> rusqlite::Result<In
     let files: Vec<&str> = record.recordings.iter().map(|file| file.file.as_str()).collect();
     transaction
         .prepare_cached(
-            "INSERT INTO calibrations (id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256,
+            "INSERT INTO calibrations (id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, motion, motion_sha256,
                 recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance)
-             VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+             VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         )?
         .execute(params![
             earlier,
@@ -168,6 +212,8 @@ fn insert(transaction: &Transaction<'_>, record: &Record) -> rusqlite::Result<In
             record.plan,
             record.experiment.as_ref().map(|file| &file.file),
             experiment_sha256,
+            record.motion_file.as_ref().map(|file| &file.file),
+            motion_sha256,
             files.join("/"),
             recording_sha256,
             record.verdict.name(),

@@ -23,7 +23,8 @@ impl Table {
         let (record, before) = (&kept.record, self.ids.len());
         self.ids.push(kept.id);
         let text = |text: &str| Some(text.to_owned());
-        let file = |of: fn(&HashedFile) -> &String| record.experiment.as_ref().map(|file| of(file).clone());
+        let name = |file: &Option<HashedFile>| file.as_ref().map(|file| file.file.clone());
+        let sha256 = |file: &Option<HashedFile>| file.as_ref().map(|file| file.sha256.clone());
         let texts = [
             ("sensor", text(&record.sensor)),
             ("recorded", record.recorded.map(|time| time.to_string())),
@@ -33,8 +34,10 @@ impl Table {
             ("status", text(&record.status)),
             ("plan", text(&record.plan)),
             ("program", text(&record.program)),
-            ("experiment", file(|file| &file.file)),
-            ("experiment_sha256", file(|file| &file.sha256)),
+            ("experiment", name(&record.experiment)),
+            ("experiment_sha256", sha256(&record.experiment)),
+            ("motion", name(&record.motion_file)),
+            ("motion_sha256", sha256(&record.motion_file)),
             ("recording", text(&record.recording())),
             ("recording_sha256", text(&record.recording_sha256())),
             ("inserted", text(&kept.inserted.to_string())),

@@ -5,6 +5,30 @@ use rusqlite::ErrorCode;
 use std::io;
 use std::path::Path;
 
+/// Why a transaction is taken back.
+pub(super) enum Failure {
+    /// SQLite cannot do it.
+    Sqlite(rusqlite::Error),
+    /// The records refuse it.
+    Refused(Error),
+}
+
+impl Failure {
+    /// The error of these records.
+    pub(super) fn of(self, path: &Path) -> Error {
+        match self {
+            Self::Sqlite(error) => failed(path, error),
+            Self::Refused(error) => error,
+        }
+    }
+}
+
+impl From<rusqlite::Error> for Failure {
+    fn from(error: rusqlite::Error) -> Self {
+        Self::Sqlite(error)
+    }
+}
+
 /// The error for a failure of SQLite with this database.
 pub(super) fn failed(path: &Path, error: rusqlite::Error) -> Error {
     let input = |refusal, message: &str, help: &str| {
@@ -37,6 +61,22 @@ pub(super) fn not_a_database(path: &Path) -> Error {
     Error::experiment(
         InputError::new(Refusal::FormatUnknown, message, "give another file for the records").in_file(path),
     )
+}
+
+/// The error for a file without contents, where records should be.
+pub(super) fn empty(path: &Path) -> Error {
+    let help = "give the file of the records; `calibrate --records` and `calibrant records add` make it";
+    Error::experiment(
+        InputError::new(Refusal::FormatUnknown, "this file is empty: there are no records in it", help)
+            .in_file(path),
+    )
+}
+
+/// The error for a calibration that is not there.
+pub(super) fn unknown(path: &Path, id: i64) -> Error {
+    let help = "`calibrant records list` shows the numbers";
+    let message = format!("there is no calibration {id}");
+    Error::experiment(InputError::new(Refusal::ValueInvalid, message, help).in_file(path))
 }
 
 /// The error for records that cannot be as they are.

@@ -1,10 +1,37 @@
 //! The fleet: how each parameter differs from sensor to sensor.
 
 use super::database::Records;
-use super::failure::failed;
+use super::fleet_frame::FleetFrame;
+use super::query::KeptRecord;
 use calibrant_core::error::Result;
 use calibrant_core::fleet::Distribution;
-use std::collections::BTreeMap;
+use calibrant_core::sensor::{CalibratedImu, Gauge};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// The parameters of all sensors, in one true frame and at one reference temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fleet {
+    /// The gauge of all; `None` where all have one frame of another kind, or where their matrices are diagonal.
+    pub gauge: Option<Gauge>,
+    /// The reference temperature of those that follow temperature, °C.
+    pub reference_c: Option<f64>,
+    /// The parameters, in the order in which the sensors have them.
+    pub parameters: Vec<FleetParameter>,
+    /// Sensors that could not be brought into this frame or to this temperature.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// A sensor that is not compared with the others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The sensor.
+    pub sensor: String,
+    /// The number of its calibration.
+    pub id: i64,
+    /// Why.
+    pub reason: String,
+}
 
 /// A parameter over all sensors.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,7 +39,7 @@ pub struct FleetParameter {
     /// Its name.
     pub name: String,
     /// Its unit.
-    pub unit: String,
+    pub unit: &'static str,
     /// The values of the sensors.
     pub values: Distribution,
     /// Root mean square of the standard deviations of the calibrations; `None` where they have none.
@@ -25,54 +52,68 @@ pub struct FleetParameter {
 const FARTHEST: usize = 3;
 
 impl Records {
-    /// The parameters over all sensors, in the order of their first model. The latest calibration of each sensor counts, unless it is bad.
+    /// The parameters over all sensors. The latest calibration of each sensor counts, unless it is bad.
+    ///
+    /// All are brought to the gauge and to the reference temperature of the first that has one. Where there is no gauge, and frames of several kinds, it is the lower gauge.
+    /// Where all have one frame of another kind, they stay in it.
     ///
     /// # Errors
     /// [`Error::Experiment`](calibrant_core::Error::Experiment) where the records are damaged.
-    pub fn fleet(&self) -> Result<Vec<FleetParameter>> {
-        let sql = |error| failed(&self.path, error);
-        // of several bare columns beside one max(), SQLite takes those of that row
-        let query = "
-            WITH newest AS (
-                SELECT id, sensor, model, max((recorded IS NOT NULL) || coalesce(recorded, '') || printf(' %020d', id))
-                FROM latest WHERE verdict <> 'bad' GROUP BY sensor
-            )
-            SELECT newest.sensor, names.name, names.unit, parameters.value, parameters.sd, names.model, names.place
-            FROM newest JOIN parameters ON parameters.calibration = newest.id
-            JOIN names ON names.model = newest.model AND names.place = parameters.place";
-        let mut statement = self.connection.prepare_cached(query).map_err(sql)?;
-        let mut rows = statement.query([]).map_err(sql)?;
-        let mut found: BTreeMap<(String, String), Found> = BTreeMap::new();
-        while let Some(row) = rows.next().map_err(sql)? {
-            let column = |k: usize| row.get::<_, String>(k).map_err(sql);
-            let place = (row.get(5).map_err(sql)?, row.get(6).map_err(sql)?);
-            let parameter = found.entry((column(1)?, column(2)?)).or_insert_with(|| Found::at(place));
-            parameter.place = parameter.place.min(place);
-            parameter.sensors.push((column(0)?, row.get(3).map_err(sql)?));
-            parameter.sds.extend(row.get::<_, Option<f64>>(4).map_err(sql)?);
+    pub fn fleet(&self) -> Result<Fleet> {
+        let newest = self.newest()?;
+        let frame = FleetFrame::of(newest.iter().map(|kept| &kept.record.imu));
+        let bring = |KeptRecord { id, record, .. }: KeptRecord| match frame.bring(record.imu) {
+            Ok(imu) => Ok((record.sensor, imu)),
+            Err(error) => Err(LeftOut { sensor: record.sensor, id, reason: error.to_string() }),
+        };
+        let brought: Vec<_> = newest.into_par_iter().map(bring).collect();
+        let (mut found, mut left_out) = (Parameters::default(), Vec::new());
+        for brought in brought {
+            match brought {
+                Ok((sensor, imu)) => found.add(&sensor, &imu),
+                Err(reason) => left_out.push(reason),
+            }
         }
-        let mut found: Vec<_> = found.into_iter().collect();
-        found.sort_by_key(|(_, parameter)| parameter.place);
-        Ok(found
-            .into_iter()
-            .filter_map(|((name, unit), parameter)| parameter.over_sensors(name, unit))
-            .collect())
+        let parameters = found.list.into_iter().filter_map(Found::over_sensors).collect();
+        Ok(Fleet { gauge: frame.gauge, reference_c: frame.reference_c, parameters, left_out })
     }
+}
+
+/// The parameters of the sensors so far.
+#[derive(Default)]
+struct Parameters {
+    list: Vec<Found>,
+    /// The place of a parameter, by its name and unit.
+    places: HashMap<(String, &'static str), usize>,
 }
 
 struct Found {
-    /// The first model that has it, and its place there.
-    place: (i64, i64),
+    name: String,
+    unit: &'static str,
     sensors: Vec<(String, f64)>,
-    sds: Vec<f64>,
+    variances: Vec<f64>,
+}
+
+impl Parameters {
+    fn add(&mut self, sensor: &str, imu: &CalibratedImu) {
+        for (k, quantity) in imu.quantities.iter().enumerate() {
+            let readings = imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit());
+            let (name, unit) = (quantity.name(), quantity.unit(readings));
+            let list = &mut self.list;
+            let place = *self.places.entry((name, unit)).or_insert_with_key(|(name, unit)| {
+                list.push(Found { name: name.clone(), unit, sensors: Vec::new(), variances: Vec::new() });
+                list.len() - 1
+            });
+            let found = &mut list[place];
+            found.sensors.push((sensor.to_owned(), quantity.value(&imu.parameters)));
+            let variance = imu.covariance.as_ref().map(|sigma| sigma[(k, k)]);
+            found.variances.extend(variance.filter(|variance| *variance > 0.0));
+        }
+    }
 }
 
 impl Found {
-    fn at(place: (i64, i64)) -> Self {
-        Self { place, sensors: Vec::new(), sds: Vec::new() }
-    }
-
-    fn over_sensors(self, name: String, unit: String) -> Option<FleetParameter> {
+    fn over_sensors(self) -> Option<FleetParameter> {
         let values = Distribution::of(self.sensors.iter().map(|(_, value)| *value))?;
         let mut farthest: Vec<(String, f64, f64)> = (self.sensors.into_iter())
             .filter_map(|(sensor, value)| Some((sensor, value, values.distance(value)?)))
@@ -80,8 +121,8 @@ impl Found {
         farthest
             .sort_by(|one, other| other.2.abs().total_cmp(&one.2.abs()).then_with(|| one.0.cmp(&other.0)));
         farthest.truncate(FARTHEST);
-        let squares: f64 = self.sds.iter().map(|sd| sd * sd).sum();
-        let calibration_sd = (!self.sds.is_empty()).then(|| (squares / self.sds.len() as f64).sqrt());
-        Some(FleetParameter { name, unit, values, calibration_sd, farthest })
+        let count = self.variances.len() as f64;
+        let calibration_sd = (count > 0.0).then(|| (self.variances.iter().sum::<f64>() / count).sqrt());
+        Some(FleetParameter { name: self.name, unit: self.unit, values, calibration_sd, farthest })
     }
 }

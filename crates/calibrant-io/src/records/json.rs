@@ -1,7 +1,7 @@
 //! Records, histories and the fleet as JSON.
 
 use super::drift::SensorDrift;
-use super::fleet::FleetParameter;
+use super::fleet::{Fleet, FleetParameter, LeftOut};
 use super::history::{SensorChange, SensorHistory};
 use super::query::KeptRecord;
 use crate::convention::{Heading, ImuCore};
@@ -10,6 +10,7 @@ use crate::json::to_json;
 use crate::utc_time::UtcTime;
 use calibrant_core::estimate::OverallDifference;
 use calibrant_core::fleet::QuantityAging;
+use calibrant_core::sensor::Gauge;
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -21,6 +22,7 @@ struct RecordFields<'a> {
     inserted: UtcTime,
     plan: &'a str,
     experiment: Option<&'a HashedFile>,
+    motion_file: Option<&'a HashedFile>,
     recordings: &'a [HashedFile],
     verdict: VerdictFields<'a>,
     status: &'a str,
@@ -43,6 +45,7 @@ impl<'a> RecordFields<'a> {
             inserted: kept.inserted,
             plan: &record.plan,
             experiment: record.experiment.as_ref(),
+            motion_file: record.motion_file.as_ref(),
             recordings: &record.recordings,
             verdict: VerdictFields { usability: record.verdict.name(), codes: &record.codes },
             status: &record.status,
@@ -119,6 +122,8 @@ struct AgingFields {
     chi2: f64,
     degrees_of_freedom: usize,
     fit_p_value: Option<f64>,
+    /// JSON has `null` where it is infinite.
+    degrees_behind: f64,
     p_value: f64,
 }
 
@@ -159,6 +164,7 @@ impl From<&QuantityAging> for AgingFields {
             chi2: aging.chi2,
             degrees_of_freedom: aging.degrees_of_freedom,
             fit_p_value: aging.fit_p_value,
+            degrees_behind: aging.degrees_behind,
             p_value: aging.p_value,
         }
     }
@@ -221,6 +227,22 @@ impl<'a> From<&'a SensorDrift> for DriftFields<'a> {
 
 #[derive(Serialize)]
 struct FleetFields<'a> {
+    schema: u32,
+    gauge: Option<&'static str>,
+    reference_c: Option<f64>,
+    parameters: Vec<FleetParameterFields<'a>>,
+    left_out: Vec<LeftOutFields<'a>>,
+}
+
+#[derive(Serialize)]
+struct LeftOutFields<'a> {
+    sensor: &'a str,
+    id: i64,
+    reason: &'a str,
+}
+
+#[derive(Serialize)]
+struct FleetParameterFields<'a> {
     name: &'a str,
     unit: &'a str,
     sensors: usize,
@@ -242,13 +264,19 @@ struct FarthestFields<'a> {
     in_robust_sd: f64,
 }
 
-/// The parameters over all sensors as a JSON array.
+/// The parameters over all sensors as JSON, and the sensors that were left out.
 #[must_use]
-pub fn fleet_json(parameters: &[FleetParameter]) -> String {
-    to_json(&parameters.iter().map(FleetFields::from).collect::<Vec<_>>())
+pub fn fleet_json(fleet: &Fleet) -> String {
+    to_json(&FleetFields {
+        schema: 1,
+        gauge: fleet.gauge.map(Gauge::name),
+        reference_c: fleet.reference_c,
+        parameters: fleet.parameters.iter().map(FleetParameterFields::from).collect(),
+        left_out: fleet.left_out.iter().map(LeftOutFields::from).collect(),
+    })
 }
 
-impl<'a> From<&'a FleetParameter> for FleetFields<'a> {
+impl<'a> From<&'a FleetParameter> for FleetParameterFields<'a> {
     fn from(parameter: &'a FleetParameter) -> Self {
         let FleetParameter { name, unit, values, calibration_sd, farthest } = parameter;
         let [least, quantile_05, median, quantile_95, greatest] = values.quantiles;
@@ -271,5 +299,11 @@ impl<'a> From<&'a FleetParameter> for FleetFields<'a> {
             calibration_sd: *calibration_sd,
             farthest: farthest.collect(),
         }
+    }
+}
+
+impl<'a> From<&'a LeftOut> for LeftOutFields<'a> {
+    fn from(LeftOut { sensor, id, reason }: &'a LeftOut) -> Self {
+        Self { sensor, id: *id, reason }
     }
 }

@@ -44,6 +44,7 @@ fn record(k: usize, with_gyroscope: bool) -> Record {
         program: "calibrant 1.0.0".into(),
         plan: "holds".into(),
         experiment: Some(HashedFile { file: "imu.toml".into(), sha256: "e5".repeat(32) }),
+        motion_file: None,
         recordings: vec![HashedFile {
             file: format!("SN{sensor:06}_{}.csv", 2016 + year),
             sha256: recording,
@@ -102,7 +103,10 @@ fn measure(with_gyroscope: bool) {
     });
     assert_eq!(count, CALIBRATIONS);
     assert_eq!(timed("drift of all sensors", || records.drifts().expect("read")).len(), CALIBRATIONS / 10);
-    assert_eq!(timed("fleet", || records.fleet().expect("read"))[0].values.count, CALIBRATIONS / 10);
+    assert_eq!(
+        timed("fleet", || records.fleet().expect("read")).parameters[0].values.count,
+        CALIBRATIONS / 10
+    );
     for (name, format) in [("t.csv", ExportFormat::Csv), ("t.parquet", ExportFormat::Parquet)] {
         let table = directory.path().join(name);
         timed(name, || records.export(&table, format, &RecordFilter::default()).expect("written"));

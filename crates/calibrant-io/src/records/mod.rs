@@ -14,6 +14,9 @@
 //!
 //! Values stand in rows, so that SQL finds them. A covariance is only of use as a whole, and takes half of the space as one blob.
 //!
+//! Recording, experiment, motion and program tell a calibration from others: the same again takes its place. A recording is of one sensor: a copy under the name of another is
+//! refused.
+//!
 //! # Several writers
 //! Each calibration is one transaction, and a writer waits up to a minute for another. The journal is SQLite's rollback journal, not its write-ahead log: the
 //! database is then one file, and it may lie on a network drive whose locks work. A process that is killed leaves the calibrations that it finished.
@@ -37,6 +40,8 @@ mod failure;
 #[cfg(feature = "records")]
 mod fleet;
 #[cfg(feature = "records")]
+mod fleet_frame;
+#[cfg(feature = "records")]
 mod history;
 #[cfg(feature = "records")]
 mod json;
@@ -46,7 +51,11 @@ mod model;
 mod query;
 mod record;
 #[cfg(feature = "records")]
+mod repeated_recording;
+#[cfg(feature = "records")]
 mod schema;
+#[cfg(feature = "records")]
+mod writable;
 
 #[cfg(feature = "records")]
 pub use database::{Inserted, Records};
@@ -55,7 +64,7 @@ pub use drift::SensorDrift;
 #[cfg(feature = "records")]
 pub use export::ExportFormat;
 #[cfg(feature = "records")]
-pub use fleet::FleetParameter;
+pub use fleet::{Fleet, FleetParameter, LeftOut};
 #[cfg(feature = "records")]
 pub use history::{SensorChange, SensorHistory};
 #[cfg(feature = "records")]
@@ -64,6 +73,12 @@ pub use json::{drifts_json, fleet_json, history_json, record_json, records_json}
 pub use query::{KeptRecord, RecordFilter};
 pub use record::Record;
 #[cfg(all(test, feature = "records"))]
+mod fleet_tests;
+#[cfg(all(test, feature = "records"))]
 mod large_tests;
 #[cfg(all(test, feature = "records"))]
+mod refusal_tests;
+#[cfg(all(test, feature = "records"))]
 mod tests;
+#[cfg(all(test, feature = "records"))]
+mod version_tests;

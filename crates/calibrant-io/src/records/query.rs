@@ -39,8 +39,8 @@ pub struct KeptRecord {
 
 /// The columns that a row is read from, in their order.
 const COLUMNS: &str =
-    "id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, recording,
-    recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance";
+    "id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, motion,
+    motion_sha256, recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance";
 
 impl Records {
     /// The records of a filter. Those of one sensor stand together, in the order of their dates; those without a date are last.
@@ -79,6 +79,18 @@ impl Records {
         let table = if filter.latest { "latest" } else { "calibrations" };
         let order = "ORDER BY sensor, recorded IS NULL, recorded, id";
         self.query(&format!("SELECT {COLUMNS} FROM {table} {restriction} {order}"), &given, take)
+    }
+
+    /// The newest calibration of each sensor that is not bad, by their numbers.
+    pub(super) fn newest(&self) -> Result<Vec<KeptRecord>> {
+        // of several bare columns beside one max(), SQLite takes those of that row
+        let newest = "SELECT id FROM (
+            SELECT id, max((recorded IS NOT NULL) || coalesce(recorded, '') || printf(' %020d', id))
+            FROM latest WHERE verdict <> 'bad' GROUP BY sensor)";
+        let mut records = Vec::new();
+        let query = format!("SELECT {COLUMNS} FROM calibrations WHERE id IN ({newest}) ORDER BY id");
+        self.query(&query, &[], |record| records.push(record))?;
+        Ok(records)
     }
 
     /// The record of this number.
@@ -143,25 +155,28 @@ impl<'r> Reader<'r> {
         let id: i64 = row.get(0)?;
         let estimates =
             self.estimates.query_map([id], |row| row.get(0))?.collect::<rusqlite::Result<Vec<f64>>>()?;
-        let number: i64 = row.get(14)?;
+        let number: i64 = row.get(16)?;
         if !self.models.contains_key(&number) {
             let text: String = self.model.query_row([number], |row| row.get(0))?;
             self.models.insert(number, model::read(&text));
         }
         let further = Further {
-            reference_c: row.get(15)?,
+            reference_c: row.get(17)?,
             range_c: row
-                .get::<_, Option<f64>>(16)?
-                .zip(row.get(17)?)
+                .get::<_, Option<f64>>(18)?
+                .zip(row.get(19)?)
                 .map(|(least, greatest)| [least, greatest]),
-            degrees: row.get(18)?,
-            covariance: row.get(19)?,
+            degrees: row.get(20)?,
+            covariance: row.get(21)?,
         };
         let time = |text: String| UtcTime::parse(&text);
         let (recorded, inserted): (Option<String>, String) = (row.get(2)?, row.get(3)?);
-        let (verdict, codes): (String, String) = (row.get(11)?, row.get(12)?);
-        let (experiment, experiment_sha256): (Option<String>, String) = (row.get(7)?, row.get(8)?);
-        let (files, hashes): (String, String) = (row.get(9)?, row.get(10)?);
+        let (verdict, codes): (String, String) = (row.get(13)?, row.get(14)?);
+        let (files, hashes): (String, String) = (row.get(11)?, row.get(12)?);
+        let optional = |place: usize| -> rusqlite::Result<Option<HashedFile>> {
+            let (file, sha256): (Option<String>, String) = (row.get(place)?, row.get(place + 1)?);
+            Ok(file.map(|file| HashedFile { file, sha256 }))
+        };
         let fitting = self.models[&number].as_ref().and_then(|model| further.onto(model, &estimates));
         let (Some(imu), Some(verdict), Some(inserted)) =
             (fitting, Usability::parse(&verdict), time(inserted))
@@ -175,11 +190,12 @@ impl<'r> Reader<'r> {
             station: row.get(4)?,
             program: row.get(5)?,
             plan: row.get(6)?,
-            experiment: experiment.map(|name| HashedFile { file: name, sha256: experiment_sha256 }),
+            experiment: optional(7)?,
+            motion_file: optional(9)?,
             recordings: files.split('/').zip(hashes.split(' ')).map(file).collect(),
             verdict,
             codes: codes.split_whitespace().map(str::to_owned).collect(),
-            status: row.get(13)?,
+            status: row.get(15)?,
             imu,
         };
         Ok(Some(KeptRecord { id, inserted, record }))

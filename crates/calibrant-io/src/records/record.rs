@@ -26,6 +26,8 @@ pub struct Record {
     pub plan: String,
     /// The experiment file.
     pub experiment: Option<HashedFile>,
+    /// The commanded motion, or the log of a machine, where it is a file of its own.
+    pub motion_file: Option<HashedFile>,
     /// The files of the recording; there is at least one.
     pub recordings: Vec<HashedFile>,
     /// May it be used?
@@ -45,6 +47,7 @@ struct Fields {
     recorded: Option<String>,
     station: Option<String>,
     experiment: Option<FileFields>,
+    motion_file: Option<FileFields>,
     verdict: Option<VerdictFields>,
     status: Option<String>,
     #[serde(default)]
@@ -57,6 +60,12 @@ struct Fields {
 struct FileFields {
     file: String,
     sha256: String,
+}
+
+impl From<FileFields> for HashedFile {
+    fn from(FileFields { file, sha256 }: FileFields) -> Self {
+        Self { file, sha256 }
+    }
 }
 
 #[derive(Deserialize)]
@@ -112,7 +121,8 @@ impl Record {
             station: fields.station,
             program: fields.program.ok_or_else(|| missing("program"))?,
             plan: plan.to_owned(),
-            experiment: fields.experiment.map(|FileFields { file, sha256 }| HashedFile { file, sha256 }),
+            experiment: fields.experiment.map(HashedFile::from),
+            motion_file: fields.motion_file.map(HashedFile::from),
             recordings: (fields.inputs.into_iter())
                 .map(|Input { file, sha256, .. }| HashedFile { file, sha256 })
                 .collect(),
@@ -127,7 +137,7 @@ impl Record {
     /// The hashes of its recordings, with blanks between them: what tells it from other recordings.
     #[must_use]
     pub fn recording_sha256(&self) -> String {
-        self.recordings.iter().map(|file| file.sha256.as_str()).collect::<Vec<_>>().join(" ")
+        together(&self.recordings)
     }
 
     /// The names of its recordings, with commas between them.
@@ -135,6 +145,11 @@ impl Record {
     pub fn recording(&self) -> String {
         self.recordings.iter().map(|file| file.file.as_str()).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// The hashes of the files of a recording, with blanks between them.
+pub(super) fn together(recordings: &[HashedFile]) -> String {
+    recordings.iter().map(|file| file.sha256.as_str()).collect::<Vec<_>>().join(" ")
 }
 
 fn untraceable(message: String) -> Box<InputError> {

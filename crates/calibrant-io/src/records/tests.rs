@@ -13,7 +13,7 @@ use rusqlite::Connection;
 use std::path::{Path, PathBuf};
 
 /// A calibration of an IMU: each number has its own bits.
-fn imu(k: usize) -> CalibratedImu {
+pub(super) fn imu(k: usize) -> CalibratedImu {
     let mut parameters = ImuParameters::identity();
     let quantities = ImuQuantity::full_list(true, true, true);
     for (i, quantity) in quantities.iter().enumerate() {
@@ -35,7 +35,7 @@ fn imu(k: usize) -> CalibratedImu {
     }
 }
 
-fn record(sensor: &str, k: usize) -> Record {
+pub(super) fn record(sensor: &str, k: usize) -> Record {
     Record {
         sensor: sensor.into(),
         recorded: UtcTime::parse(&format!("2026-05-{:02}", 1 + k % 28)),
@@ -43,6 +43,7 @@ fn record(sensor: &str, k: usize) -> Record {
         program: "calibrant 1.0.0".into(),
         plan: "holds".into(),
         experiment: Some(HashedFile { file: "imu.toml".into(), sha256: "e".into() }),
+        motion_file: Some(HashedFile { file: "log.csv".into(), sha256: "m".into() }),
         recordings: ["a", "g"]
             .map(|name| HashedFile { file: format!("{name}, {k}.csv"), sha256: format!("{sensor}{name}{k}") })
             .into(),
@@ -53,7 +54,7 @@ fn record(sensor: &str, k: usize) -> Record {
     }
 }
 
-fn place() -> (tempfile::TempDir, PathBuf) {
+pub(super) fn place() -> (tempfile::TempDir, PathBuf) {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("new/records.db");
     (directory, path)
@@ -87,6 +88,7 @@ fn a_record_comes_back_to_the_last_bit() {
         recorded: None,
         station: None,
         experiment: None,
+        motion_file: None,
         codes: Vec::new(),
         imu: CalibratedImu { covariance: None, degrees_of_freedom: None, ..imu(5) },
         ..record("U", 5)
@@ -104,22 +106,29 @@ fn a_record_comes_back_to_the_last_bit() {
 }
 
 #[test]
-fn one_recording_by_one_experiment_and_program_is_there_once() {
+fn one_recording_by_one_experiment_motion_and_program_is_there_once() {
     let (_directory, path) = place();
     let mut records = Records::open(&path).expect("made");
     records.insert_all((0..2500).map(|k| record("A", k))).expect("inserted");
-    let again = Record { sensor: "B".into(), verdict: Usability::Ok, imu: imu(9), ..record("A", 7) };
+    let again = Record { station: None, verdict: Usability::Ok, imu: imu(9), ..record("A", 7) };
     let replaced = records.insert(&again).expect("inserted");
     assert_eq!(replaced, Inserted { id: 8, replaced: true });
     assert_eq!(records.count().expect("read"), 2500);
     assert_eq!(records.get(8).expect("read").expect("there").record, again);
     let newer = Record { program: "calibrant 1.1.0".into(), ..again.clone() };
     assert_eq!(records.insert(&newer).expect("inserted"), Inserted { id: 2501, replaced: false });
-    let of_b =
-        |latest| records.list(&RecordFilter { sensor: Some("B".into()), latest, ..Default::default() });
-    assert_eq!(of_b(false).expect("read").len(), 2);
-    let latest = of_b(true).expect("read");
-    assert_eq!(latest.iter().map(|kept| kept.id).collect::<Vec<_>>(), [2501], "both are of one recording");
+    let motion_file = Some(HashedFile { file: "log.csv".into(), sha256: "n".into() });
+    let by_another_motion = Record { motion_file, ..again.clone() };
+    let inserted = records.insert(&by_another_motion).expect("inserted");
+    assert_eq!(inserted, Inserted { id: 2502, replaced: false });
+    assert_eq!(records.get(8).expect("read").expect("there").record, again);
+    let all = |latest| {
+        let list = records.list(&RecordFilter { latest, ..Default::default() }).expect("read");
+        list.into_iter().map(|kept| kept.id).collect::<Vec<_>>()
+    };
+    assert_eq!(all(false).len(), 2502);
+    let latest = all(true);
+    assert!(latest.len() == 2500 && latest.contains(&2502), "the three are of one recording");
     assert_eq!(records.insert_all((0..2500).map(|k| record("A", k))).expect("inserted"), 0);
 }
 
@@ -172,7 +181,7 @@ fn a_newer_schema_is_refused_and_says_so() {
     let (code, message) = refused(&path);
     assert_eq!(code, Refusal::FormatUnsupported);
     assert!(
-        message.contains("version 7 of the schema, and this calibrant reads versions 1 to 1"),
+        message.contains("version 7 of the schema, and this calibrant reads versions 1 to 2"),
         "{message}"
     );
     // version 0 of our own file was never written
