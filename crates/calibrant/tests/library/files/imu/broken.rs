@@ -281,7 +281,7 @@ const CASES: &[Case] = &[
     (
         "t_s,ax_g,ay_g,az_g\n0,0,0,1\n1,0,1,0\n",
         || units(ImuUnit::MetrePerSecondSquared, ImuUnit::Counts),
-        "line 1: the accelerometer's columns are in g, but the unit was given as m/s² (leave --accelerometer-unit away: the file decides (name the columns in [columns] to overrule it))",
+        "line 1: the accelerometer's columns are in g, but the unit was given as m/s² (leave --accelerometer-unit (or --unit) away: the file decides (name the columns in [columns] to overrule it))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,0,1\n1,0,1,0\n",
