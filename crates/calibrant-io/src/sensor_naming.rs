@@ -11,7 +11,7 @@ use std::path::Path;
 pub struct SensorNaming {
     /// The sensor, where all recordings are of one.
     pub sensor: Option<String>,
-    /// What names the sensor in the text of a recording: a line `# NAME: value` above the header, or a column. Its first row counts.
+    /// What names the sensor in the text of a recording: a line `# NAME: value` above the header, or a column.
     pub key: Option<String>,
     /// What the path of a recording's file says.
     pub pattern: Option<NamePattern>,
@@ -34,24 +34,23 @@ impl SensorNaming {
     /// What is named of a recording. Where nothing names its sensor, it has the name of the file without its ending, and `stdin` where it comes from standard input.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where the path is not of the pattern, or a name is empty or has line ends or tabs. [`Error::Recording`] where the recording
+    /// [`Error::Experiment`] where the path is not of the pattern, or a name has no letter or digit, or has blanks at its ends, line ends or tabs. [`Error::Recording`] where the recording
     /// is no text that names its sensor by [`key`](Self::key).
     pub fn of(&self, recording: &Path) -> Result<NamedRecording> {
         let found = match &self.pattern {
             Some(pattern) => pattern.find(recording)?,
             None => FoundNames::default(),
         };
-        let sensor = match (&self.sensor, &self.key) {
-            (Some(sensor), _) => sensor.clone(),
-            (None, Some(key)) => sensor_named_in(recording, key)?,
-            (None, None) => found.sensor.unwrap_or_else(|| default_name(recording)),
+        let named = match (&self.sensor, &self.key) {
+            (Some(sensor), _) => Some(sensor.clone()),
+            (None, Some(key)) => Some(sensor_named_in(recording, key)?),
+            (None, None) => found.sensor,
         };
-        check_name(&sensor, recording)?;
-        Ok(NamedRecording {
-            sensor,
-            station: self.station.clone().or(found.station),
-            recorded: found.recorded,
-        })
+        let station = self.station.clone().or(found.station);
+        named.iter().try_for_each(|sensor| check_name(sensor, "sensor", recording))?;
+        station.iter().try_for_each(|station| check_name(station, "station", recording))?;
+        let sensor = named.unwrap_or_else(|| default_name(recording));
+        Ok(NamedRecording { sensor, station, recorded: found.recorded })
     }
 
     /// Does the user name the sensors?
@@ -64,18 +63,19 @@ impl SensorNaming {
 
 fn default_name(recording: &Path) -> String {
     match recording.file_stem() {
-        Some(stem) if stem != "-" => stem.to_string_lossy().into_owned(),
+        Some(stem) if stem != "-" => stem.to_string_lossy().replace(char::is_control, "_"),
         _ => "stdin".to_owned(),
     }
 }
 
 /// Names stand in tables, with one line for each sensor.
-fn check_name(sensor: &str, recording: &Path) -> Result<()> {
-    if !sensor.trim().is_empty() && !sensor.contains(char::is_control) {
+fn check_name(name: &str, of: &str, recording: &Path) -> Result<()> {
+    if name.contains(char::is_alphanumeric) && name.trim() == name && !name.contains(char::is_control) {
         return Ok(());
     }
-    let message = format!("{sensor:?} is no name of a sensor");
-    let help = "a name has at least one letter or digit, and neither line ends nor tabs";
+    let message = format!("{name:?} is no name of a {of}");
+    let help =
+        "a name has at least one letter or digit, no blanks at its ends, and neither line ends nor tabs";
     Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help).in_file(recording)))
 }
 
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_name_is_one_line() {
-        for name in ["", " ", "A\n1", "A\t1"] {
+        for name in ["", " ", "A\n1", "A\t1", "..", "-", " A1"] {
             let naming = SensorNaming { sensor: Some(name.into()), ..SensorNaming::default() };
             assert!(naming.of("A.csv".as_ref()).is_err(), "{name:?}");
         }
@@ -122,8 +122,12 @@ mod tests {
             (of("device").expect("a line"), of("serial").expect("a column")),
             ("SN 18".into(), "SN 17".into())
         );
+        assert_eq!(of("Device").expect("a line"), "SN 18");
         let error = of("station").expect_err("not there").to_string();
         assert!(error.contains("\"station\""), "{error}");
+        std::fs::write(&path, format!("# serial: SN 18\n{rows}")).expect("written");
+        let error = of("serial").expect_err("two names").to_string();
+        assert!(error.contains("names two sensors by \"serial\": \"SN 18\" and \"SN 17\""), "{error}");
         std::fs::write(&path, [0_u8; 9]).expect("written");
         of("serial").expect_err("no text");
     }

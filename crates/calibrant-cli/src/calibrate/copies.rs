@@ -21,19 +21,23 @@ pub(super) fn of<'s>(
             same.entry(&hashed.sha256).or_default().push((number, path));
         }
     }
-    let mut copies = vec![None; sources.len()];
-    for files in same.values() {
-        for &(number, path) in files {
-            let other = files.iter().find(|(other, _)| *other != number);
-            copies[number] = copies[number].or_else(|| Some([path, other?.1]));
-        }
-    }
-    copies
+    let copy_of = |number: usize| {
+        readings(&sources[number]).zip(hashed[number].iter().flatten()).find_map(|(path, hashed)| {
+            let (_, other) = same[hashed.sha256.as_str()].iter().find(|(other, _)| *other != number)?;
+            Some([path, other])
+        })
+    };
+    (0..sources.len()).map(copy_of).collect()
 }
 
 /// A recording is not calibrated, because another has the same bytes.
 pub(super) fn refusal([path, other]: [&Path; 2]) -> Error {
-    let message = format!("this is a copy of {}: of which sensor is it?", other.display());
-    let help = "record the sensor again, or leave out the copy";
+    let (message, help) = match path == other {
+        true => ("this file is given twice".to_owned(), "give it once"),
+        false => (
+            format!("this is a copy of {}: of which sensor is it?", other.display()),
+            "record the sensor again, or leave out the copy",
+        ),
+    };
     Error::recording(InputError::new(Refusal::RecordingRepeated, message, help).in_file(path))
 }

@@ -52,7 +52,7 @@ impl<'a> Job<'a> {
     ) -> calibrant::Result<()> {
         // a name that is not of the pattern is refused where the recording is calibrated
         let sensor = || Some(self.naming.of(&source.recording).ok()?.sensor);
-        self.records.check(sensor, files)
+        self.records.check(sensor, files).map_err(|error| error.in_recording(&source.recording))
     }
 
     /// Calibrates from a recording, writes the results and records them. Adds notes and warnings to `notes`, even if it fails.

@@ -16,7 +16,7 @@ pub(super) struct Naming {
     #[arg(long, value_name = "PATTERN")]
     sensor_from: Option<String>,
     /// The recordings name their sensor: by a line '# NAME: …' above the header, or in a column NAME.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     sensor_key: Option<String>,
     /// The station that made the recordings.
     #[arg(long, value_name = "NAME")]
@@ -57,20 +57,44 @@ impl Naming {
         }
     }
 
+    /// Refuses recordings that are calibrated together and name different sensors.
+    pub(super) fn check_together(&self, recordings: &[PathBuf]) -> calibrant::Result<()> {
+        let naming = self.options()?;
+        if !naming.names_sensors() {
+            return Ok(());
+        }
+        let mut names = recordings.iter().map(|recording| Ok(naming.of(recording)?.sensor));
+        let first: Option<String> = names.next().transpose()?;
+        for name in names {
+            let name = name?;
+            if first.as_ref().is_some_and(|first| *first != name) {
+                return refuse(
+                    &format!(
+                        "--together is for one sensor, and the recordings name {:?} and {name:?}",
+                        first.unwrap_or_default()
+                    ),
+                    "name the sensor with --sensor, or calibrate the recordings one by one",
+                );
+            }
+        }
+        Ok(())
+    }
+
     /// Refuses recordings whose sensors nobody has named and whose files have the same name: records would take them for one sensor.
     pub(super) fn check_for_records(&self, recordings: &[PathBuf]) -> calibrant::Result<()> {
         let naming = self.options()?;
+        let is_stdin = |recording: &PathBuf| recording.as_os_str() == "-";
+        if self.sensor.is_none() && self.sensor_key.is_none() && recordings.iter().any(is_stdin) {
+            return refuse(
+                "records need the sensor of what comes from standard input",
+                "name it with --sensor",
+            );
+        }
         if naming.names_sensors() {
             return Ok(());
         }
         let mut first: HashMap<String, &Path> = HashMap::new();
         for recording in recordings {
-            if recording.as_os_str() == "-" {
-                return refuse(
-                    "records need the sensor of what comes from standard input",
-                    "name it with --sensor",
-                );
-            }
             let sensor = naming.of(recording)?.sensor;
             if let Some(other) = first.insert(sensor.clone(), recording) {
                 return refuse(

@@ -36,6 +36,7 @@ fn together(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result
         }
         _ => return refuse("--together is for an accelerometer and [holds]", help),
     }
+    arguments.naming.check_together(&arguments.recordings)?;
     let [first, further @ ..] = arguments.recordings.as_slice() else { return Ok(Vec::new()) };
     Ok(vec![Source { further: further.to_vec(), ..Source::from_file(first) }])
 }

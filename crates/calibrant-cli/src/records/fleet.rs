@@ -50,6 +50,12 @@ fn about(fleet: &Fleet) -> String {
     let facts = [
         fleet.gauge.map(|gauge| format!("{} gauge", gauge.name())),
         fleet.reference_c.map(|reference_c| format!("at {} °C", short(reference_c))),
+        (fleet.without_temperature > 0).then(|| {
+            format!(
+                "{} without temperature terms at the temperature of its recording",
+                counted(fleet.without_temperature, "sensor")
+            )
+        }),
     ];
     let facts: Vec<String> = facts.into_iter().flatten().collect();
     let mut text = if facts.is_empty() { String::new() } else { format!("\n{}\n", facts.join(", ")) };

@@ -243,7 +243,7 @@ fn gyroscopes_with_files_of_their_own_go_with_their_accelerometers() {
     bench
         .run(&format!("{command} --gyroscope gyro1.csv -o repeated"))
         .ends_with(3)
-        .says("gyro1.csv: this is a copy of gyro1.csv");
+        .says("gyro1.csv: this file is given twice");
     bench.refuses(
         &format!("{command} -o out"),
         2,

@@ -247,7 +247,7 @@ fn a_copy_under_the_name_of_another_sensor_is_refused_and_the_wrong_name_removed
     bench.run(&of_date("2026-05-01")).ends_with(5);
     bench.write("line/s7_2026-05-01.csv", bench.read("line/s1_2026-05-01.csv"));
     bench.write("line/s8_2026-05-01.csv", bench.read("s2.csv").replacen("\n0.1,", "\n0.10001,", 1));
-    let says = ["r.db has this recording as calibration", "of sensor \"s1\"", "recording-repeated"];
+    let says = ["r.db has ", " as calibration", "of sensor \"s1\"", "recording-repeated"];
     let of = |recordings: &str, directory: &str| {
         format!("{CALIBRATE} --sensor-from {{sensor}}_{{date}} --records r.db -o {directory} {recordings}")
     };

@@ -27,6 +27,11 @@ fn parts_of_a_session_give_together_what_the_whole_gives() {
     let files: Vec<_> =
         joined["inputs"].as_array().expect("files").iter().map(|input| &input["file"]).collect();
     assert_eq!(files, ["a.csv", "b.csv", "c.csv"]);
+    bench.refuses(
+        "calibrate poses.toml a.csv b.csv c.csv --together --sensor-from {sensor} -o named",
+        2,
+        &["--together is for one sensor, and the recordings name \"a\" and \"b\""],
+    );
     for (one, other) in whole["parameters"]
         .as_array()
         .expect("nine")

@@ -18,6 +18,8 @@ pub struct Fleet {
     pub reference_c: Option<f64>,
     /// The parameters, in the order in which the sensors have them.
     pub parameters: Vec<FleetParameter>,
+    /// Number of sensors that do not follow temperature, where others do. They are as they were recorded.
+    pub without_temperature: usize,
     /// Sensors that could not be brought into this frame or to this temperature.
     pub left_out: Vec<LeftOut>,
 }
@@ -54,7 +56,7 @@ const FARTHEST: usize = 3;
 impl Records {
     /// The parameters over all sensors. The latest calibration of each sensor counts, unless it is bad.
     ///
-    /// All are brought to the gauge and to the reference temperature of the first that has one. Where there is no gauge, and frames of several kinds, it is the lower gauge.
+    /// All are brought to the gauge and to the reference temperature of the first that has one; those that do not follow temperature stay as they were recorded. Where there is no gauge, and frames of several kinds, it is the lower gauge.
     /// Where all have one frame of another kind, they stay in it.
     ///
     /// # Errors
@@ -67,15 +69,20 @@ impl Records {
             Err(error) => Err(LeftOut { sensor: record.sensor, id, reason: error.to_string() }),
         };
         let brought: Vec<_> = newest.into_par_iter().map(bring).collect();
-        let (mut found, mut left_out) = (Parameters::default(), Vec::new());
+        let (mut found, mut left_out, mut without_temperature) = (Parameters::default(), Vec::new(), 0);
         for brought in brought {
             match brought {
-                Ok((sensor, imu)) => found.add(&sensor, &imu),
+                Ok((sensor, imu)) => {
+                    without_temperature +=
+                        usize::from(frame.reference_c.is_some() && !imu.follows_temperature());
+                    found.add(&sensor, &imu);
+                }
                 Err(reason) => left_out.push(reason),
             }
         }
         let parameters = found.list.into_iter().filter_map(Found::over_sensors).collect();
-        Ok(Fleet { gauge: frame.gauge, reference_c: frame.reference_c, parameters, left_out })
+        let FleetFrame { gauge, reference_c, .. } = frame;
+        Ok(Fleet { gauge, reference_c, parameters, without_temperature, left_out })
     }
 }
 

@@ -230,6 +230,7 @@ struct FleetFields<'a> {
     schema: u32,
     gauge: Option<&'static str>,
     reference_c: Option<f64>,
+    without_temperature: usize,
     parameters: Vec<FleetParameterFields<'a>>,
     left_out: Vec<LeftOutFields<'a>>,
 }
@@ -271,6 +272,7 @@ pub fn fleet_json(fleet: &Fleet) -> String {
         schema: 1,
         gauge: fleet.gauge.map(Gauge::name),
         reference_c: fleet.reference_c,
+        without_temperature: fleet.without_temperature,
         parameters: fleet.parameters.iter().map(FleetParameterFields::from).collect(),
         left_out: fleet.left_out.iter().map(LeftOutFields::from).collect(),
     })

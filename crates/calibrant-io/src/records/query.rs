@@ -43,7 +43,7 @@ const COLUMNS: &str =
     motion_sha256, recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance";
 
 impl Records {
-    /// The records of a filter. Those of one sensor stand together, in the order of their dates; those without a date are last.
+    /// The records of a filter. Those of one sensor stand together, in the order of their dates; those without a date are first, since the newest one with a date counts as the latest.
     ///
     /// # Errors
     /// [`Error::Experiment`](calibrant_core::Error::Experiment) where the records are damaged.
@@ -77,7 +77,7 @@ impl Records {
             some => format!("WHERE {}", some.join(" AND ")),
         };
         let table = if filter.latest { "latest" } else { "calibrations" };
-        let order = "ORDER BY sensor, recorded IS NULL, recorded, id";
+        let order = "ORDER BY sensor, recorded IS NOT NULL, recorded, id";
         self.query(&format!("SELECT {COLUMNS} FROM {table} {restriction} {order}"), &given, take)
     }
 

@@ -17,7 +17,7 @@ fn a_recording_of_one_sensor_is_not_that_of_another() {
     for repeated in [&copy, &by_others] {
         let refused = records.insert(repeated).expect_err("refused");
         assert!(refused.code() == Refusal::RecordingRepeated && refused.is_invalid_recording(), "{refused}");
-        let says = "has this recording as calibration 2 of sensor \"A\": is it of that sensor or of \"B\"?";
+        let says = " as calibration 2 of sensor \"A\": is it of that sensor or of \"B\"?";
         assert!(refused.to_string().contains(says), "{refused}");
         assert!(refused.to_string().contains("remove calibration 2 with `calibrant records remove`"));
         let before = records.refuse_repeated("B", &repeated.recordings).expect_err("refused");
@@ -54,6 +54,8 @@ fn calibrations_are_removed_together_or_not_at_all() {
         .query_row("SELECT count(DISTINCT calibration) FROM parameters", [], |row| row.get(0))
         .expect("read");
     assert_eq!(parameters, 3, "their parameters went with them");
+    records.remove(&[5]).expect("removed");
+    assert_eq!(records.insert(&record("A", 9)).expect("inserted").id, 6, "a number is not given again");
 }
 
 #[test]

@@ -21,14 +21,14 @@ pub(super) fn refuse(
         .query_row([&together(recordings), sensor], |row| Ok((row.get(0)?, row.get(1)?)))
         .optional()?;
     let Some((id, other)): Option<(i64, String)> = other else { return Ok(()) };
+    let file = recordings.first().map_or("this recording", |file| file.file.as_str());
     let message = format!(
-        "{} has this recording as calibration {id} of sensor {other:?}: is it of that sensor or of {sensor:?}?",
+        "{} has {file} as calibration {id} of sensor {other:?}: is it of that sensor or of {sensor:?}?",
         path.display()
     );
     let help = format!(
         "record the sensor again, or, if {other:?} was wrong, remove calibration {id} with `calibrant records remove`"
     );
     let error = InputError::new(Refusal::RecordingRepeated, message, help);
-    let file = recordings.first().map_or("", |file| file.file.as_str());
-    Err(Failure::Refused(Error::recording(error.in_file(Path::new(file)))))
+    Err(Failure::Refused(Error::recording(error)))
 }

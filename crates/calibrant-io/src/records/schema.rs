@@ -70,7 +70,7 @@ const WITH_MOTION: &str = "
     DROP VIEW latest;
     DROP VIEW estimates;
     CREATE TABLE with_motion (
-        id INTEGER PRIMARY KEY,
+        id INTEGER PRIMARY KEY AUTOINCREMENT, -- the number of a calibration that was removed is not given again
         sensor TEXT NOT NULL,
         recorded TEXT, -- UTC: 2026-05-01, or 2026-05-01T08:30:00Z
         inserted TEXT NOT NULL, -- UTC

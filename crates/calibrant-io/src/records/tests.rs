@@ -142,8 +142,8 @@ fn records_are_found_by_sensor_station_and_verdict_in_order_of_their_dates() {
     let ids = |filter: RecordFilter| -> Vec<i64> {
         records.list(&filter).expect("read").iter().map(|kept| kept.id).collect()
     };
-    assert_eq!(ids(RecordFilter::default()), [3, 1, 2, 4]);
-    assert_eq!(ids(RecordFilter { sensor: Some("A".into()), latest: true, ..Default::default() }), [3, 1, 2]);
+    assert_eq!(ids(RecordFilter::default()), [2, 3, 1, 4]);
+    assert_eq!(ids(RecordFilter { sensor: Some("A".into()), latest: true, ..Default::default() }), [2, 3, 1]);
     assert_eq!(ids(RecordFilter { verdict: Some(Usability::Bad), ..Default::default() }), [4]);
     assert_eq!(ids(RecordFilter { station: Some("L1' OR 1".into()), ..Default::default() }), [0; 0]);
     assert_eq!(
