@@ -131,6 +131,9 @@ fn per_year(QuantityAging { unit, aging, .. }: &QuantityAging) -> [String; 2] {
 }
 
 fn of_all(drifts: &[SensorDrift]) -> String {
+    if drifts.is_empty() {
+        return "no sensor has two calibrations to compare\n".to_owned();
+    }
     let row = |drift: &SensorDrift| {
         let (change, aging) = (drift.last_change, drift.largest_aging.as_ref());
         let [per_year, unit] = aging.map_or_else(|| [dash(), dash()], per_year);

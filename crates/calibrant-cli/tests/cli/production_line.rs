@@ -84,7 +84,9 @@ fn each_of_ten_faults_is_named_and_an_interrupted_batch_ends_the_same() {
     let (bench, wrong) = line();
     let all: Vec<String> = (1..=SENSORS).map(|sensor| format!("s{sensor:02}.csv")).collect();
     let command = format!("calibrate line.toml --motion motion.csv {}", all.join(" "));
-    bench.run(&format!("{command} -o results")).ends_with(5);
+    let outcome = bench.run(&format!("{command} -o results")).ends_with(5);
+    outcome.says("s04: the gain of the accelerometer's axis x is 0.10");
+    outcome.says("Readings in g have a gain of 0.102.");
     let (summary, page) = (bench.read("results/summary.csv"), bench.read("results/batch.html"));
     let list = page.split("Sensors that are not ok").nth(2).and_then(|of| of.split("</table>").next());
     let list = list.expect("a table");

@@ -287,6 +287,8 @@ fn another_motion_is_another_calibration_of_the_recording() {
         format!("calibrate experiment.toml --motion {motion} --no-report s1.csv --records r.db -o a")
     };
     bench.run(&of("motion.csv")).done();
+    let drift = bench.run("records drift r.db").done().stdout;
+    assert_eq!(drift, "no sensor has two calibrations to compare\n");
     bench.write("other.csv", bench.read("motion.csv") + "\n");
     bench.run(&of("other.csv")).done();
     bench.run(&of("other.csv")).done();

@@ -1,6 +1,10 @@
 //! Sentences about a whole IMU: clocks, axes, rotations, turns, given values.
 
 use calibrant_core::diagnostic::{Diagnostic, UnitMistake, late, repair};
+use calibrant_core::sensor::ReadingUnit;
+
+/// The gain of an accelerometer whose readings in g are taken for m/s².
+const GAIN_IN_G: f64 = 0.102;
 
 pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
@@ -50,9 +54,14 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             if *is_mirrored { ". Its axes point the opposite way" } else { "" }
         ),
         Diagnostic::GainImplausible { sensor_kind, axis, gain, unit } => format!(
-            "the gain of the {sensor_kind}'s axis {axis} is {gain:.3}. For readings in {} it should be near 1. Check unit, sample rate, order and \
+            "the gain of the {sensor_kind}'s axis {axis} is {gain:.3}. For readings in {} it should be near 1.{} Check unit, sample rate, order and \
              direction of the axes, and the given turns and faces.",
-            unit.symbol()
+            unit.symbol(),
+            if *unit == ReadingUnit::MetrePerSecondSquared && (gain.abs() / GAIN_IN_G - 1.0).abs() < 0.1 {
+                " Readings in g have a gain of 0.102."
+            } else {
+                ""
+            }
         ),
         _ => return of_rotations(diagnostic).or_else(|| of_given(diagnostic)),
     })
