@@ -5,7 +5,7 @@
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
 //! [`noise`] examines a sensor at rest. [`estimate`] calibrates. [`fleet`] looks at many calibrations.
 //! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
-//! recordings. [`budget`] says what work takes.
+//! recordings. [`budget`] says what work takes. [`number_format`] writes numbers for people.
 //!
 //! The crate `calibrant` re-exports all of it. Depend on that crate unless the build time matters.
 
@@ -19,6 +19,7 @@ pub mod fleet;
 pub mod information;
 pub mod motion;
 pub mod noise;
+pub mod number_format;
 mod root;
 pub mod sensor;
 pub mod simulate;

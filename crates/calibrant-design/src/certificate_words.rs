@@ -2,6 +2,7 @@
 
 use super::{AT_BEST, Certificate, Design, DesignStatus};
 use calibrant_core::information::Criterion;
+use calibrant_core::number_format::{self, significant};
 
 impl Design {
     /// How good the motion is, and how that was found, in one or two sentences.
@@ -37,9 +38,9 @@ impl Design {
     pub fn gap_statement(&self) -> Option<String> {
         let goal = self.gap_goal?;
         let shown = |gap: f64| match self.criterion {
-            Criterion::D(_) => format!("{} nats", short(gap.max(0.0))),
+            Criterion::D(_) => format!("{} nats", significant(gap.max(0.0), 4)),
             _ if gap < 1.0 => percent(gap),
-            _ => format!("{} %", short(100.0 * gap)),
+            _ => format!("{} %", significant(100.0 * gap, 4)),
         };
         let starts = format!("{} of {} starts", self.starts.len(), goal.most_starts);
         Some(match (&self.certificate, self.gap_is_reached()) {
@@ -63,7 +64,7 @@ impl Design {
     fn tilt(&self) -> String {
         let name = |k: usize| {
             let parameter = &self.parameters[k];
-            format!("{} {}{}", parameter.name, short(self.floor_sd[k]), unit(parameter.unit))
+            format!("{} {}{}", parameter.name, significant(self.floor_sd[k], 4), unit(parameter.unit))
         };
         let named: Vec<String> =
             (0..self.floor_sd.len()).filter(|&k| self.floor_sd[k] > 0.0).map(name).collect();
@@ -81,11 +82,12 @@ impl Design {
         let criterion = if let Criterion::D(_) = self.criterion {
             // a typical sd is exp(Φ_D / 2p)
             let sd = (certificate.gap / (2.0 * self.parameters.len() as f64)).exp_m1();
-            let typical = if sd < 1.0 { percent(sd) } else { format!("a factor of {}", short(1.0 + sd)) };
+            let typical =
+                if sd < 1.0 { percent(sd) } else { format!("a factor of {}", significant(1.0 + sd, 4)) };
             format!(
                 "No admissible motion can bring criterion D below {}; this motion is within {} nats of the bound, {typical} in a typical standard deviation",
-                short(certificate.lower_bound),
-                short(certificate.gap.max(0.0)),
+                significant(certificate.lower_bound, 4),
+                significant(certificate.gap.max(0.0), 4),
             )
         } else {
             let gap = certificate.gap;
@@ -94,8 +96,8 @@ impl Design {
             let above = if self.floor > 0.0 { ", above the share of the tilt," } else { "" };
             format!(
                 "No admissible motion can bring criterion {letter}{above} below {}; this motion has {}, {near}",
-                short(certificate.lower_bound - self.floor),
-                short(value),
+                significant(certificate.lower_bound - self.floor, 4),
+                significant(value, 4),
             )
         };
         format!("{criterion}. {}", self.certified_sd(certificate)).trim_end().to_owned()
@@ -109,7 +111,7 @@ impl Design {
             .filter(|&k| k < certificate.sd_lower_bound.len() && excess(k).is_finite())
             .max_by(|&one, &other| excess(one).total_cmp(&excess(other)));
         let Some(k) = worst else { return String::new() };
-        let (name, least) = (&self.parameters[k].name, short(certificate.sd_lower_bound[k]));
+        let (name, least) = (&self.parameters[k].name, significant(certificate.sd_lower_bound[k], 4));
         let bound = format!(
             "No admissible motion can give {name} an sd below {least}{}",
             unit(self.parameters[k].unit)
@@ -121,7 +123,7 @@ impl Design {
         }
         let others = if sd.len() > 1 { ". All other parameters are closer to their bounds" } else { "" };
         let more = if excess(k) < 1.0 { percent(excess(k)) + " more" } else { times(1.0 + excess(k)) };
-        format!("{bound}; this motion gives {}, {more}{others}.", short(sd[k]))
+        format!("{bound}; this motion gives {}, {more}{others}.", significant(sd[k], 4))
     }
 
     fn uncertified(&self) -> String {
@@ -140,50 +142,20 @@ impl Design {
     }
 }
 
-/// Four significant digits, with powers of ten for small and large numbers.
-fn short(value: f64) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
-    if !value.is_finite() {
-        return "–".into();
-    }
-    let exponent = value.abs().log10().floor() as i32;
-    if (-3..5).contains(&exponent) {
-        return format!("{value:.*}", (3 - exponent).max(0) as usize).replace('-', "−");
-    }
-    let power: String = exponent.to_string().chars().map(superscript).collect();
-    format!("{:.3} × 10{power}", value / 10f64.powi(exponent)).replace('-', "−")
-}
-
-fn superscript(digit: char) -> char {
-    match digit {
-        '-' => '⁻',
-        digit => digit
-            .to_digit(10)
-            .map_or(digit, |d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize]),
-    }
-}
-
 /// A multiple: `3.4 times the bound`.
 fn times(factor: f64) -> String {
     let number = match factor {
         f if f < 9.95 => format!("{f:.1}"),
         f if f < 999.5 => format!("{f:.0}"),
-        f => short(f),
+        f => significant(f, 4),
     };
     format!("{number} times the bound")
 }
 
-/// A relative difference below one, at least 0.01 %: `0.32 %`.
+/// A relative difference below one, with two decimals at most: at least 0.01 %.
 fn percent(relative: f64) -> String {
-    let percent = 100.0 * relative.max(0.0);
-    match percent {
-        p if p < 0.01 => "0.01 %".into(),
-        p if p < 1.0 => format!("{p:.2} %"),
-        p if p < 10.0 => format!("{p:.1} %"),
-        p => format!("{p:.0} %"),
-    }
+    let is_small = relative < 1e-3;
+    if is_small { format!("{:.2} %", 100.0 * relative.max(1e-4)) } else { number_format::percent(relative) }
 }
 
 /// A unit behind a number; a pure number has none.
@@ -197,9 +169,6 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!(short(7.1188e-7), "7.119 × 10⁻⁷");
-        assert_eq!(short(-12.3456), "−12.35");
-        assert_eq!((short(0.012_345_6), short(1_234.56)), ("0.01235".into(), "1235".into()));
         assert_eq!(
             (percent(0.0), percent(0.0032), percent(0.25)),
             ("0.01 %".into(), "0.32 %".into(), "25 %".into())
@@ -207,7 +176,7 @@ mod tests {
         // a loose bound is a matter of factors: a reader cannot use 51489740 %
         assert_eq!(
             (times(2.04), times(14.2), times(514_898.4)),
-            ("2.0 times the bound".into(), "14 times the bound".into(), "5.149 × 10⁵ times the bound".into())
+            ("2.0 times the bound".into(), "14 times the bound".into(), "514898 times the bound".into())
         );
     }
 }

@@ -14,7 +14,6 @@ mod html;
 mod limits;
 mod machine;
 mod noise;
-pub mod number_format;
 mod poses;
 mod report_context;
 mod study;
@@ -22,6 +21,8 @@ mod sweep;
 mod table;
 mod validation;
 mod words;
+
+pub use calibrant_core::number_format;
 
 #[cfg(test)]
 mod tests;

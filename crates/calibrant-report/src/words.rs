@@ -7,7 +7,6 @@ mod machine;
 mod motion;
 mod noise;
 mod spikes;
-mod time;
 mod verdict;
 
 pub use accelerometer::coarse_axis;

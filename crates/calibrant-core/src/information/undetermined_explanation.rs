@@ -2,6 +2,7 @@
 
 use super::Undetermined;
 use crate::error::UndeterminedGroup;
+use crate::number_format::plain;
 use crate::sensor::{Axis, ParameterList, Quantity, SensorModel};
 use nalgebra::Vector3;
 
@@ -85,7 +86,7 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
         return (
             format!(
                 "axis {axis} has the same acceleration, {} m/s², at both ends, and with trust unknown only the ends speak of the sensor",
-                short(nodes[0][axis.index()])
+                plain(nodes[0][axis.index()], 4)
             ),
             format!("let axis {axis} end at another acceleration than it starts with"),
         );
@@ -102,7 +103,7 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
         [axis] if still(*axis) => (
             format!(
                 "axis {axis} does not move, its acceleration is {} m/s² throughout",
-                short(nodes[0][axis.index()])
+                plain(nodes[0][axis.index()], 4)
             ),
             format!("move the sensor along axis {axis}"),
         ),
@@ -124,11 +125,6 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
             "move the axes independently of each other".into(),
         ),
     }
-}
-
-/// A number to four decimals, without trailing zeros.
-fn short(value: f64) -> f64 {
-    (value * 1e4).round() / 1e4
 }
 
 /// The axes as words: `x, y and z`.

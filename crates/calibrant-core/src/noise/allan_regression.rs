@@ -311,7 +311,7 @@ impl<'a> Regression<'a> {
 
     fn reason(&self, process: PowerLaw, interval_s: f64) -> String {
         let scales = self.moments.scales();
-        let tau = |m: usize| crate::noise::words::short_time(m as f64 * interval_s);
+        let tau = |m: usize| crate::number_format::short_time(m as f64 * interval_s);
         let longest = tau(scales[scales.len() - 1]);
         let short = if self.filtered { "a filter" } else { "quantisation" };
         let name = |a: usize| [short, "white noise", "bias instability", "rate random walk"][a];

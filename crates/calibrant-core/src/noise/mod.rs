@@ -80,7 +80,6 @@ mod unit_conversion;
 mod variance_interval;
 mod vibration;
 mod whitening;
-mod words;
 
 pub use allan::{AllanDeviation, AllanPoint};
 pub use allan_moments::Moments;

@@ -2,10 +2,10 @@
 
 use super::heavy_tails::Tails;
 use super::outliers::{self, Outliers};
-use super::words::three_digits;
 use super::{AllanDeviation, Moments, NoiseFit, Segment};
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::number_format::plain;
 use crate::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -299,7 +299,7 @@ impl AxisNoise {
             return Some(format!("a few spikes make most of the noise of axis {}", self.axis));
         }
         if let Some(line) = self.fit.vibration.as_ref().filter(|line| !line.left_out) {
-            let hertz = three_digits(line.frequency_hz);
+            let hertz = plain(line.frequency_hz, 3);
             return Some(format!(
                 "axis {} has a line at {hertz} Hz: a vibration, or the hum of the mains?",
                 self.axis

@@ -1,11 +1,11 @@
 //! Times in seconds of a column of times, whatever their unit and their epoch.
 
-use super::finding_words::short;
 use super::line_map::LineMap;
 use super::reader_finding::{Finding, Noticed};
 use super::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::plain;
 
 /// Times beyond this, s, count from another epoch than the recording's. They then count from the first.
 pub(crate) const EPOCH_S: f64 = 1e8;
@@ -65,7 +65,7 @@ impl ClockColumn<'_> {
         if let Some(row) = ticks.iter().position(|t| t.abs() > LARGEST_S) {
             let input_error = InputError::new(
                 Refusal::ValueOutOfRange,
-                format!("the time {} s in `{name}` is out of range", short(ticks[row])),
+                format!("the time {} s in `{name}` is out of range", plain(ticks[row], 6)),
                 "is the unit of the time right?",
             );
             return Err(lines.at(input_error, row).into());
@@ -112,8 +112,8 @@ fn which_unit(name: &str, ticks: &[f64]) -> InputError {
         };
         let units = [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
         match units.iter().filter(|unit| plausible(unit)).collect::<Vec<_>>().as_slice() {
-            [one] => format!(": steps of {} suggest {}", short(*step), one.symbol()),
-            _ => format!(": steps of {} may be anything", short(*step)),
+            [one] => format!(": steps of {} suggest {}", plain(*step, 6), one.symbol()),
+            _ => format!(": steps of {} may be anything", plain(*step, 6)),
         }
     };
     let is_number = name.parse::<usize>().is_ok();

@@ -1,6 +1,7 @@
 //! The sentences of the findings of a reader, and numbers as messages show them.
 
 use super::reader_finding::{Finding, Noticed};
+use calibrant_core::number_format::{counted, plain};
 use calibrant_core::sensor::{SensorKind, Temperatures};
 use std::fmt;
 
@@ -66,17 +67,17 @@ impl Noticed {
                 stated.symbol(),
                 expected.symbol()
             ),
-            Self::TimesMissing(n) => format!("{} without a time dropped", count(*n, "row")),
-            Self::ReadingsMissing(n) => format!("{} without a reading{of_the}", count(*n, "row")),
+            Self::TimesMissing(n) => format!("{} without a time dropped", counted(*n, "row")),
+            Self::ReadingsMissing(n) => format!("{} without a reading{of_the}", counted(*n, "row")),
             Self::ValuesMissing(n) => {
-                format!("{}{of_the} with a missing or NaN value dropped", count(*n, "sample"))
+                format!("{}{of_the} with a missing or NaN value dropped", counted(*n, "sample"))
             }
-            Self::RowsRepeated(n) => format!("{} equal to the one before dropped", count(*n, "row")),
+            Self::RowsRepeated(n) => format!("{} equal to the one before dropped", counted(*n, "row")),
             Self::TimesRepeated(n) => {
-                format!("{} with the time of the one before but another reading dropped", count(*n, "row"))
+                format!("{} with the time of the one before but another reading dropped", counted(*n, "row"))
             }
             Self::SampleTimesRepeated(n) => {
-                format!("{}{of_the} with the time of the one before dropped", count(*n, "sample"))
+                format!("{}{of_the} with the time of the one before dropped", counted(*n, "sample"))
             }
             Self::LineTruncated => "truncated last line dropped".into(),
             Self::FileUnfinished { cut, is_after_data, messages, duration_s } => {
@@ -86,19 +87,19 @@ impl Noticed {
                 };
                 format!(
                     "{cut}: {} were read, the last one {} s after the first; {lost}; `mcap recover` makes a whole file of it",
-                    count(*messages, "message"),
-                    short(*duration_s)
+                    counted(*messages, "message"),
+                    plain(*duration_s, 6)
                 )
             }
             Self::Gap { length_s, after_s, samples } => format!(
                 "gap of {} s after t = {} s: about {samples:.0} samples are missing",
-                short(*length_s),
+                plain(*length_s, 6),
                 moment(*after_s)
             ),
             Self::MoreGaps { gaps, longest_s, after_s } => format!(
                 "and {}; the longest is {} s after t = {} s",
-                count(*gaps, "more gap"),
-                short(*longest_s),
+                counted(*gaps, "more gap"),
+                plain(*longest_s, 6),
                 moment(*after_s)
             ),
             Self::SamplingIrregular { least_s, most_s, rate_hz, missing } => {
@@ -108,18 +109,18 @@ impl Noticed {
                 };
                 format!(
                     "sampling is irregular: time steps from {} to {} ms, usually {} ms ({} Hz){missing}",
-                    short(least_s * 1e3),
-                    short(most_s * 1e3),
-                    short(1.0 / rate_hz * 1e3),
-                    short(*rate_hz)
+                    plain(least_s * 1e3, 6),
+                    plain(most_s * 1e3, 6),
+                    plain(1.0 / rate_hz * 1e3, 6),
+                    plain(*rate_hz, 6)
                 )
             }
             Self::AxisConstant { axis, value, times_s: None } => {
-                format!("{its}axis {axis} never changes: {} throughout; is it connected?", short(*value))
+                format!("{its}axis {axis} never changes: {} throughout; is it connected?", plain(*value, 6))
             }
             Self::AxisConstant { axis, value, times_s: Some((from_s, to_s)) } => format!(
                 "{its}axis {axis} stays at {} from {} to {} s while the others move: is it connected?",
-                short(*value),
+                plain(*value, 6),
                 moment(*from_s),
                 moment(*to_s)
             ),
@@ -136,14 +137,14 @@ impl Noticed {
             Self::Saturation { axis, samples, is_largest, value, unit } => format!(
                 "{its}axis {axis} may be saturated: {samples} samples in a row at its {} value {} {}",
                 if *is_largest { "largest" } else { "smallest" },
-                short(*value),
+                plain(*value, 6),
                 unit.symbol()
             ),
             Self::TimesDerived { is_empty, counter, rate_hz, stated_by } => {
                 let empty =
                     if *is_empty { "its sample times are missing" } else { "the file has no sample times" };
                 let source = stated_by.map_or_else(|| "as given".into(), |key| format!("its `{key}`"));
-                let rate = short(*rate_hz);
+                let rate = plain(*rate_hz, 6);
                 match counter {
                     Some(name) => format!(
                         "{empty}: they are computed from the counter `{name}` and {rate} Hz ({source}); rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
@@ -155,28 +156,28 @@ impl Noticed {
             }
             Self::PacketTimesReplaced(rate_hz) => format!(
                 "its times are those of packets, not of samples: each row is taken as one sample at {} Hz (as given), so lost samples do not show; rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given",
-                short(*rate_hz)
+                plain(*rate_hz, 6)
             ),
             Self::TimesEven { rate_hz, tick_s } => {
                 let steps = tick_s.map_or_else(String::new, |tick_s| {
-                    format!("the times are steps of {} ms of a clock: ", short(tick_s * 1e3))
+                    format!("the times are steps of {} ms of a clock: ", plain(tick_s * 1e3, 6))
                 });
                 format!(
                     "{steps}the samples are taken as even, at {} Hz; --times as-logged, or times = \"as-logged\" in [columns], keeps the logged times",
-                    short(*rate_hz)
+                    plain(*rate_hz, 6)
                 )
             }
             Self::RateUnused => "the rate that was given is not used: the file has sample times".into(),
             Self::ClockWrapped(name, wraps) => {
-                format!("`{name}` begins anew {}: counted on", count(*wraps, "time"))
+                format!("`{name}` begins anew {}: counted on", counted(*wraps, "time"))
             }
             Self::TimesFromFirst { column, first, unit } => {
                 format!("times are counted from the first sample, where `{column}` is {first} {unit}")
             }
             Self::ClockDoubtful { step_s, unit, rate_hz } => format!(
                 "the samples are {} s apart: are the times in {unit}? at {} Hz the name of their column ends in _{}",
-                short(*step_s),
-                short(*rate_hz),
+                plain(*step_s, 6),
+                plain(*rate_hz, 6),
                 unit.replace('µ', "u")
             ),
             Self::FilesApart { shorter, shorter_s, longer_s, common_s } => {
@@ -184,7 +185,7 @@ impl Noticed {
                 let span =
                     |(start, end): &(f64, f64)| format!("from {} to {} s", moment(*start), moment(*end));
                 let shared = match *common_s > 0.0 {
-                    true => format!("{} s of both", short(*common_s)),
+                    true => format!("{} s of both", plain(*common_s, 6)),
                     false => {
                         "no time of both; are they of one recording, and their times of one clock?".into()
                     }
@@ -197,11 +198,11 @@ impl Noticed {
             }
             Self::TemperatureMissing { missing, rows, longest_s } => format!(
                 "the temperature is missing in {missing} of {}, for up to {} s: it is interpolated between those that have it, and kept constant before the first and after the last",
-                count(*rows, "row"),
-                short(*longest_s)
+                counted(*rows, "row"),
+                plain(*longest_s, 6)
             ),
             Self::TemperatureImplausible(value_c) => {
-                format!("the temperature is {}: {}", short(*value_c), Temperatures::question(*value_c))
+                format!("the temperature is {}: {}", plain(*value_c, 6), Temperatures::question(*value_c))
             }
         }
     }
@@ -219,23 +220,8 @@ pub(crate) fn list(names: &[String], most: usize) -> String {
     shown.join(", ") + &more
 }
 
-/// `1 sample`, `2 samples`.
-pub(crate) fn count(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-}
-
 /// A time as it stands in the file. It serves where six digits do not distinguish it from its neighbours, as
 /// in seconds since 1970.
 fn moment(time_s: f64) -> String {
-    if time_s.abs() < 1e5 { short(time_s) } else { time_s.to_string() }
-}
-
-/// A number in six significant digits, without trailing zeros.
-pub(crate) fn short(number: f64) -> String {
-    let rounded = format!("{number:.5e}").parse().unwrap_or(number);
-    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
+    if time_s.abs() < 1e5 { plain(time_s, 6) } else { time_s.to_string() }
 }

@@ -1,11 +1,12 @@
 //! Reads the messages of ROS 2 bags in MCAP containers, of the types that a reader asks for, in CDR.
 
 use super::cdr::Unreadable;
-use super::finding_words::{count, list};
+use super::finding_words::list;
 use super::mcap_footer::Cut;
 use super::mcap_records::chunk_lengths_add_up;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::counted;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{MAGIC, McapError};
@@ -185,7 +186,7 @@ impl<M> Topics<M> {
             let each = self
                 .messages
                 .iter()
-                .map(|(topic, messages)| format!("{topic} ({})", count(messages.len(), "message")));
+                .map(|(topic, messages)| format!("{topic} ({})", counted(messages.len(), "message")));
             let message = format!("there is more than one {what}: {}", each.collect::<Vec<_>>().join(", "));
             return Err(InputError::new(
                 Refusal::TopicUnknown,

@@ -10,14 +10,6 @@ use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSe
 /// From here on, correlated residuals are worth a mark.
 const WIDENED: f64 = 1.05;
 
-/// Estimate and sd with the same decimals.
-fn with_sd(value: f64, sd: f64) -> String {
-    match sd > 0.0 && sd.is_finite() && value.is_finite() {
-        true => format!("{} ± {}", number_format::rounded_to(value, sd), number_format::uncertainty(sd)),
-        false => number_format::with_sd(value, sd),
-    }
-}
-
 /// Did correlated residuals widen any sd?
 pub(super) fn is_widened(calibration: &MachineCalibration) -> bool {
     calibration.inflation.iter().any(|factor| *factor > WIDENED)
@@ -45,7 +37,7 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
         let (factor, unit) = machine_unit(calibration, *quantity);
         let mut cells = vec![
             Cell::Name(of.name()),
-            Cell::Number(with_sd(factor * calibration.values[k], factor * sds[k])),
+            Cell::Number(number_format::with_sd(factor * calibration.values[k], factor * sds[k])),
             Cell::Text(if unit == "1" { "–" } else { unit }.to_string()),
         ];
         cells.extend(is_widened(calibration).then(|| widened(calibration.inflation[k])));
@@ -91,7 +83,7 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
         };
         let mut cells = vec![
             name,
-            Cell::Number(with_sd(value, sd)),
+            Cell::Number(number_format::with_sd(value, sd)),
             Cell::Number(beforehand),
             Cell::Text(unit.into()),
             Cell::Number(share),

@@ -1,6 +1,7 @@
 //! Sentences about a sensor that changes within a recording.
 
 use calibrant_core::diagnostic::{Change, Changed, Course};
+use calibrant_core::number_format::fixed;
 use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
@@ -98,7 +99,7 @@ fn rounded(amount: &Vector3<f64>, sd: &Vector3<f64>, axes: &[Axis], scale: f64) 
     let one = |axis: &Axis| {
         let (amount, sd) = (scale * amount[axis.index()], scale * sd[axis.index()]);
         let decimals = (-sd.log10().floor()).clamp(0.0, 9.0) as usize;
-        format!("{amount:.decimals$}").replace('-', "−")
+        fixed(amount, decimals)
     };
     axes.iter().map(one).collect::<Vec<_>>().join(", ")
 }

@@ -1,7 +1,7 @@
 //! Sentences about the noise of a sensor at rest.
 
-use super::time::{short_time, three_digits, two_digits};
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::number_format::{plain, short_time};
 
 pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
@@ -67,13 +67,13 @@ fn of_processes(diagnostic: &Diagnostic) -> Option<String> {
         Diagnostic::NoiseDrifts { sensor_kind, axis, unit, drift_per_s, deviations } => format!(
             "{sensor_kind} {axis} drifts by {} {} per hour, {deviations:.1} standard deviations of the drift that its noise explains. Is it warming up? The drift is \
              subtracted, since it is not a random walk.",
-            three_digits(3600.0 * drift_per_s),
+            plain(3600.0 * drift_per_s, 3),
             unit.symbol()
         ),
         Diagnostic::NoiseUnexplained { sensor_kind, axis, chi2, degrees_of_freedom } => format!(
             "{sensor_kind} {axis}: no combination of the noise processes explains the Allan deviation (χ² {} with {degrees_of_freedom} degrees of freedom). Did the sensor vibrate, or was it \
              touched? Do not trust the intervals.",
-            three_digits(*chi2)
+            plain(*chi2, 3)
         ),
         Diagnostic::NoiseFiltered { sensor_kind, axis, correlated_s } => format!(
             "{sensor_kind} {axis}: samples less than {} apart are correlated, as behind a filter in the sensor. The stated noise is that before the filter. It holds for means of many \
@@ -87,8 +87,8 @@ fn of_processes(diagnostic: &Diagnostic) -> Option<String> {
         Diagnostic::NoiseVibration { sensor_kind, axis, frequency_hz, share, of_white } => format!(
             "{sensor_kind} {axis}: a line at {} Hz has {} % of the samples' variance. Is it a vibration, or mains hum? The stated noise excludes it. With it, N would be \
              {:.1} % larger.",
-            three_digits(*frequency_hz),
-            two_digits(100.0 * share),
+            plain(*frequency_hz, 3),
+            plain(100.0 * share, 2),
             50.0 * of_white.max(0.0)
         ),
         Diagnostic::NoiseBeyondWhite { sensor_kind, axis, unit, sample_sd, white_noise } => {
@@ -96,13 +96,13 @@ fn of_processes(diagnostic: &Diagnostic) -> Option<String> {
             format!(
                 "{sensor_kind} {axis}: the samples' standard deviation, {} {unit}, exceeds the white noise, {} {unit}. Part of the noise does not average out like \
                  independent samples.",
-                three_digits(*sample_sd),
-                three_digits(*white_noise)
+                plain(*sample_sd, 3),
+                plain(*white_noise, 3)
             )
         }
         Diagnostic::ResolutionCoarse { sensor_kind, axis, unit, step } => format!(
             "{sensor_kind} {axis}: the resolution, {} {}, is coarser than the noise. The stated noise is partly rounding.",
-            three_digits(*step),
+            plain(*step, 3),
             unit.symbol()
         ),
         _ => return None,
@@ -112,6 +112,6 @@ fn of_processes(diagnostic: &Diagnostic) -> Option<String> {
 fn farthest(reading: f64, unit: &str, time_s: f64, deviations: f64) -> String {
     format!(
         "the farthest is {} {unit} at {time_s:.3} s, {deviations:.0} times the usual difference of two samples from its neighbours",
-        three_digits(reading)
+        plain(reading, 3)
     )
 }

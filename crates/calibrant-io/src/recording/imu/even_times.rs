@@ -3,8 +3,8 @@
 //! A sensor often samples evenly, and a host logs its samples with the steps of a coarse clock: 5, 10 and 15 ms in turn. A rate that is
 //! integrated over such steps turns too far, then too little. Even times are those of the line through all logged ones.
 
-use crate::recording::finding_words::short;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::plain;
 
 /// Which times the samples have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,8 +76,8 @@ impl EvenTimes {
         match gap {
             Some([one, next]) => Err(refused(format!(
                 "the samples are not even: there is none from {} to {} s",
-                short(*one),
-                short(*next)
+                plain(*one, 6),
+                plain(*next, 6)
             ))),
             None => Ok(Self { tick_s: tick(times), ..line }),
         }

@@ -6,8 +6,8 @@
 //! times.
 
 use super::column_values::Samples;
-use crate::recording::finding_words::{count, short};
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::{counted, plain};
 use calibrant_core::sensor::SensorKind;
 
 /// Fewer samples are not judged.
@@ -65,14 +65,14 @@ impl Packets {
             true => format!(
                 "{} of {} have the time of the one before: the steps of the clock are coarser than those of the samples, or these come in packets",
                 self.same,
-                count(self.samples, "sample")
+                counted(self.samples, "sample")
             ),
             false => "the samples come in packets: most follow each other in less than a third of the mean step, and then there is none for long".to_owned(),
         };
         let help = format!(
             "if the sensor samples evenly, say its rate, --rate-hz, or rate_hz in [columns] (about {} Hz by the times): the rows are then taken at equal steps, and lost samples do not \
              show; otherwise give a file with the time of each sample",
-            short(self.rate_hz)
+            plain(self.rate_hz, 6)
         );
         InputError::new(Refusal::RateUnknown, format!("{sensor_kind}: {what}"), help)
     }

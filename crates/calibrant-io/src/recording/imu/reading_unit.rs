@@ -5,9 +5,9 @@ use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
-use crate::recording::finding_words::short;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::plain;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
 
 /// A gyroscope that reads faster rates than this is most likely not in rad/s.
@@ -105,8 +105,8 @@ pub(super) fn question(sensor_kind: SensorKind, recording: &Recording) -> String
         SensorKind::Accelerometer => "do not tell",
     };
     let of = match sensor_kind {
-        SensorKind::Accelerometer => format!("magnitudes around {}", short(round(median))),
-        SensorKind::Gyroscope => format!("magnitudes up to {}", short(round(largest))),
+        SensorKind::Accelerometer => format!("magnitudes around {}", plain(round(median), 6)),
+        SensorKind::Gyroscope => format!("magnitudes up to {}", plain(round(largest), 6)),
     };
     format!("the {sensor_kind}'s columns have no unit: {of} {hint}")
 }
@@ -130,7 +130,7 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
     }
     let factor = stated.reading().1;
     let median = median_magnitude(recording);
-    let (shown, unit) = (short(round(median / factor)), stated.symbol());
+    let (shown, unit) = (plain(round(median / factor), 6), stated.symbol());
     if stated == ImuUnit::MetrePerSecondSquared && (median - 1.0).abs() <= ONE {
         let near = |y: &nalgebra::Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
         let share = recording.readings.iter().filter(|y| near(y)).count() as f64 / recording.len() as f64;

@@ -9,7 +9,6 @@ use super::reading_unit::{check_gravity, question, stated_unit};
 use super::sample_clock;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::clock_column::backwards;
-use crate::recording::finding_words::count;
 use crate::recording::line_map::LineMap;
 use crate::recording::lost_sign;
 use crate::recording::reader_finding::{Finding, Noticed, Tally};
@@ -17,6 +16,7 @@ use crate::recording::recording_quality;
 use crate::text_decoding::Checked;
 use calibrant_core::diagnostic::Code;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::counted;
 use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, SensorKind, WORKING_C, interpolated};
 use nalgebra::Vector3;
 use std::iter::once;
@@ -262,8 +262,8 @@ fn readings(
     if recording.len() < 2 {
         let message = format!(
             "only {} of the {sensor_kind} in {}",
-            count(recording.len(), "usable sample"),
-            count(samples.rows, "row")
+            counted(recording.len(), "usable sample"),
+            counted(samples.rows, "row")
         );
         let mut help = vec![TWO.to_owned()];
         let dropped = findings.iter().filter(|finding| finding.code() != Code::ClockSource);

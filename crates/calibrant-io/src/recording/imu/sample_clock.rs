@@ -6,10 +6,10 @@ use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use crate::recording::clock_column::{ClockColumn, unwrap};
-use crate::recording::finding_words::short;
 use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::number_format::plain;
 
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
@@ -93,8 +93,8 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<
         (Some(given), Some((stated, key))) if (given / stated - 1.0).abs() > SAME_RATE => {
             let message = format!(
                 "the file says `{key}` {} Hz, but the rate was given as {} Hz",
-                short(stated),
-                short(given)
+                plain(stated, 6),
+                plain(given, 6)
             );
             Err(InputError::new(Refusal::RateContradicted, message, "leave --rate-hz away").into())
         }

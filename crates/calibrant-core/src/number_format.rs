@@ -1,4 +1,7 @@
-//! Numbers for people: a value has the digits that its uncertainty leaves it.
+//! Numbers for people, in tables and in sentences: a value has the digits that its uncertainty leaves it.
+//!
+//! Tables and pages have a typeset minus and powers of ten: `−1.2 × 10⁻⁵`. Messages, which stand in files too, have the characters of a
+//! keyboard ([`plain`]): `-1.2e-5`.
 
 /// The minus sign of typeset numbers.
 const MINUS: char = '−';
@@ -6,6 +9,7 @@ const MINUS: char = '−';
 /// `value ± sd`, both rounded to two significant digits of `sd`: `0.08312 ± 0.00021`.
 ///
 /// A common power of ten is factored out where both are small: `(1.2 ± 0.3) × 10⁻⁵`.
+#[must_use]
 pub fn with_sd(value: f64, sd: f64) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_string();
@@ -32,24 +36,28 @@ pub fn with_sd(value: f64, sd: f64) -> String {
 }
 
 /// As [`with_sd`]; a value without uncertainty stands alone.
+#[must_use]
 pub fn with_sd_or_exact(value: f64, sd: f64) -> String {
     if sd > 0.0 { with_sd(value, sd) } else { without_trailing_zeros(&significant(value, 8)) }
 }
 
 /// The value rounded to two significant digits of its standard deviation, without it.
+#[must_use]
 pub fn rounded_to(value: f64, sd: f64) -> String {
     if sd.is_finite() && sd > 0.0 { fixed(value, decimals_for(sd, 2)) } else { significant(value, 6) }
 }
 
 /// A standard deviation: two significant digits, as a power of ten where it is small.
-pub(super) fn uncertainty(sd: f64) -> String {
+#[must_use]
+pub fn uncertainty(sd: f64) -> String {
     if sd > 0.0 && sd < 1e-5 { significant(sd, 2) } else { fixed(sd, decimals_for(sd, 2)) }
 }
 
 /// The text for a number that is not known or not finite.
-pub(super) const UNKNOWN: &str = "–";
+pub const UNKNOWN: &str = "–";
 
 /// A number to this many significant digits; powers of ten for the very small and the very large.
+#[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_string();
@@ -66,17 +74,47 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// A count with its noun: `1 interval`, `10 intervals`.
+#[must_use]
 pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A number from a file, such as a nominal value: at most six significant digits, no trailing zeros.
+#[must_use]
 pub fn short(value: f64) -> String {
     if value == 0.0 { "0".to_string() } else { without_trailing_zeros(&significant(value, 6)) }
 }
 
+/// A number in the characters of a keyboard: at most this many significant digits, no trailing zeros.
+///
+/// # Examples
+/// ```
+/// use calibrant_core::number_format::plain;
+/// assert_eq!([0.100_04, -1234.5, 1.2345e-5].map(|value| plain(value, 3)), ["0.1", "-1230", "1.23e-5"]);
+/// ```
+#[must_use]
+pub fn plain(value: f64, digits: usize) -> String {
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);
+    if rounded == 0.0 || (1e-3..1e9).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// A time in a handy unit, with two digits: `0.32 s`, `17 s`, `4.2 min`, `1.5 h`.
+#[must_use]
+pub fn short_time(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{} s", plain(s, 2)),
+        s if s < 7200.0 => format!("{} min", plain(s / 60.0, 2)),
+        s => format!("{} h", plain(s / 3600.0, 2)),
+    }
+}
+
 /// A number as an axis shows it: at most six significant digits, no trailing zeros.
-pub(super) fn tick(value: f64) -> String {
+#[must_use]
+pub fn tick(value: f64) -> String {
     if value.abs() < 1e-12 {
         return "0".to_string();
     }
@@ -84,6 +122,7 @@ pub(super) fn tick(value: f64) -> String {
 }
 
 /// A number with its sign, + or −, and this number of decimals. A number that rounds to zero has no sign.
+#[must_use]
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = format!("{value:+.decimals$}");
     if text.chars().any(|digit| ('1'..='9').contains(&digit)) {
@@ -94,6 +133,7 @@ pub fn signed(value: f64, decimals: usize) -> String {
 }
 
 /// A probability: two digits, never `0`.
+#[must_use]
 pub fn probability(p: f64) -> String {
     if !p.is_finite() {
         UNKNOWN.to_string()
@@ -109,7 +149,8 @@ pub fn probability(p: f64) -> String {
 }
 
 /// A fraction as per cent, two significant digits below 10 %.
-pub(super) fn percent(fraction: f64) -> String {
+#[must_use]
+pub fn percent(fraction: f64) -> String {
     if !fraction.is_finite() {
         return UNKNOWN.to_string();
     }
@@ -119,7 +160,8 @@ pub(super) fn percent(fraction: f64) -> String {
 }
 
 /// An error angle in degrees to two digits; beyond half a revolution a larger one means nothing more.
-pub(super) fn missed_angle(angle_rad: f64) -> String {
+#[must_use]
+pub fn missed_angle(angle_rad: f64) -> String {
     if angle_rad > std::f64::consts::PI {
         return "more than 180°".into();
     }
@@ -127,6 +169,7 @@ pub(super) fn missed_angle(angle_rad: f64) -> String {
 }
 
 /// A whole number with thin spaces between thousands.
+#[must_use]
 pub fn count(n: usize) -> String {
     let digits = n.to_string();
     if digits.len() <= 4 {
@@ -143,7 +186,8 @@ pub fn count(n: usize) -> String {
 }
 
 /// A number with this many decimals and a typeset minus; never a negative zero.
-pub(super) fn fixed(value: f64, decimals: usize) -> String {
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_string();
     }
@@ -175,7 +219,8 @@ fn trimmed(text: &str) -> &str {
 }
 
 /// An exponent: `⁻⁷`.
-pub(super) fn superscript(exponent: i32) -> String {
+#[must_use]
+pub fn superscript(exponent: i32) -> String {
     exponent
         .to_string()
         .chars()
