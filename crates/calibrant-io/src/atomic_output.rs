@@ -1,17 +1,16 @@
 //! Atomic output: it writes a result beside its place and then renames it. So a result is whole or absent.
 
+use super::manifest;
+pub(super) use super::program::program;
+use super::recording::checksum::hex;
 use calibrant_core::error::{Error, Result};
+use sha2::{Digest, Sha256};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// The temporary files that are being written.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-/// The program's name and version, by which every result says who wrote it.
-pub(super) fn program() -> String {
-    format!("calibrant {}", env!("CARGO_PKG_VERSION"))
-}
 
 /// Removes the temporary files of results that are being written: for a program that is about to end.
 pub fn remove_unfinished() {
@@ -26,7 +25,7 @@ fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
 /// Writes a file through `fill`: into a temporary file in the same directory, which then takes the name.
 ///
 /// Creates missing directories. Follows a link. Writes directly to what is no regular file (`/dev/stdout`, a
-/// pipe).
+/// pipe). Enters the file into the manifest of its folder, `.calibrant.jsonl`.
 ///
 /// # Errors
 /// [`Error::Output`] with the path and the system's message. An earlier file of that name is then untouched.
@@ -40,22 +39,41 @@ fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    write(path, fill).map_err(|source| Error::Output { path: path.to_path_buf(), source })
+    write_entered(path, None, fill)
 }
 
-/// The same for a CSV, whose first line is a comment with the program's name and what else is to be said.
-pub(super) fn write_csv(
+/// The same for a recording that was corrected, with the name of the calibration.
+pub(super) fn write_entered(
     path: &Path,
-    about: &str,
+    corrected_with: Option<&str>,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<()> {
-    write_atomically(path, |out| {
-        writeln!(out, "# {}{about}", program())?;
-        fill(out)
-    })
+    write(path, corrected_with, fill).map_err(|source| Error::Output { path: path.to_path_buf(), source })
 }
 
-fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+/// A writer that takes the checksum of what it writes.
+struct Hashed<W> {
+    out: W,
+    hash: Sha256,
+}
+
+impl<W: Write> Write for Hashed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let length = self.out.write(bytes)?;
+        self.hash.update(&bytes[..length]);
+        Ok(length)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+fn write(
+    path: &Path,
+    corrected_with: Option<&str>,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     // a link's target, where there is one
     let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if let Ok(found) = target.metadata() {
@@ -89,10 +107,13 @@ fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io
     let file = builder.tempfile_in(directory)?;
     let temporary = file.path().to_path_buf();
     unfinished().push(temporary.clone());
-    let mut out = BufWriter::with_capacity(1 << 16, file);
+    let mut out = BufWriter::with_capacity(1 << 16, Hashed { out: file, hash: Sha256::new() });
     let written = fill(&mut out).and_then(|()| {
-        let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(&target).map(drop).map_err(|error| error.error)
+        let Hashed { out: file, hash } = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.persist(&target).map_err(|error| error.error)?;
+        // best effort: the result is there, and another run asks before it replaces it
+        drop(manifest::enter(&target, hex(hash), corrected_with));
+        Ok(())
     });
     unfinished().retain(|path| *path != temporary);
     written

@@ -1,6 +1,7 @@
 //! Writes a corrected recording as CSV.
 
-use super::atomic_output::write_csv;
+use super::atomic_output::write_entered;
+use super::manifest;
 use super::standard_input::open_input;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, CorrectedRecording, CorrectedSensor, SensorKind};
@@ -13,7 +14,7 @@ use std::path::Path;
 /// uncertainty of the correction. It is the same error in every sample and does not average out. It does not
 /// contain the noise of the sample. Where the sensors' times differ by more than a thousandth of the sample
 /// interval, every time has a row. The fields of a sensor without a sample there are empty. Numbers have the
-/// fewest digits that read back to the same bits. The first line is a comment that names the calibration.
+/// fewest digits that read back to the same bits. The manifest of the folder names the calibration.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -30,8 +31,7 @@ pub fn write_corrected_recording(
     .filter_map(|(sensor_kind, corrected)| Some((sensor_kind, corrected.as_ref()?)))
     .collect();
     let same_s = SAME * sensor_kinds.iter().map(|(_, of)| step(of.times_s)).fold(f64::INFINITY, f64::min);
-    let about = format!("{CORRECTED}{}", calibration.escape_debug());
-    write_csv(path, &about, |out| {
+    write_entered(path, Some(calibration), |out| {
         write!(out, "t_s")?;
         for (sensor_kind, corrected) in &sensor_kinds {
             header(out, *sensor_kind, corrected)?;
@@ -55,29 +55,33 @@ pub fn write_corrected_recording(
     })
 }
 
-/// The words before the name of the calibration, after the program's.
-const CORRECTED: &str = ": corrected with ";
-/// Longest first line that is looked at, bytes.
+/// Longest header that is looked at, bytes.
 const LONGEST: u64 = 4096;
 
 /// Refuses a recording that [`write_corrected_recording`] wrote: to correct it again would spoil it.
 ///
+/// It is known by the manifest of its folder, or by its columns of standard uncertainties.
+///
 /// # Errors
-/// [`Error::Recording`] with the name of the calibration. A file that cannot be read is no error here.
+/// [`Error::Recording`] with the name of the calibration where it is known. A file that cannot be read is no error here.
 pub fn check_not_corrected(path: &Path) -> Result<()> {
+    let with = match manifest::entry(path).map(|entry| entry.corrected_with) {
+        Some(Some(calibration)) => format!(", with {}", calibration.escape_debug()),
+        _ if has_uncertainties(path).unwrap_or(false) => String::new(),
+        _ => return Ok(()),
+    };
+    let message = format!("this recording has been corrected already{with}");
+    let help = "give the recording that the sensor made";
+    Err(Error::recording(InputError::new(Refusal::RecordingCorrected, message, help).in_file(path)))
+}
+
+/// Has a CSV a column as [`header`] names those of uncertainties?
+fn has_uncertainties(path: &Path) -> io::Result<bool> {
     let mut line = Vec::new();
-    let read =
-        open_input(path).and_then(|file| BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line));
+    BufReader::new(open_input(path)?.take(LONGEST)).read_until(b'\n', &mut line)?;
     let line = String::from_utf8_lossy(&line);
-    let by = line.strip_prefix("# calibrant ").and_then(|line| line.split_once(CORRECTED));
-    match by.filter(|_| read.is_ok()) {
-        Some((_, by)) => {
-            let message = format!("this recording has been corrected already, with {}", by.trim_end());
-            let help = "give the recording that the sensor made";
-            Err(Error::recording(InputError::new(Refusal::RecordingCorrected, message, help).in_file(path)))
-        }
-        None => Ok(()),
-    }
+    let mut columns = line.trim_end().split(',');
+    Ok(columns.any(|name| ["ax_sd_mps2", "gx_sd_radps"].contains(&name)))
 }
 
 /// Times closer than this share of the sample interval count as one: those of two files may differ in the

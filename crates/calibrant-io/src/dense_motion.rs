@@ -1,6 +1,6 @@
 //! Writes `motion_dense.csv`: a motion at a constant rate, for the arm's controller.
 
-use super::atomic_output::write_csv;
+use super::atomic_output::write_atomically;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::{JerkControlledMotion, sample_times};
 use nalgebra::Vector3;
@@ -29,7 +29,7 @@ pub fn write_dense_motion(
     }
     let letters = &["x", "y", "z"][..axes.clamp(1, 3)];
     let times = sample_times(motion, rate_hz);
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         write!(out, "t_s")?;
         for letter in letters {
             write!(out, ",p{letter}_m,v{letter}_mps,a{letter}_mps2,j{letter}_mps3")?;

@@ -1,6 +1,6 @@
 //! Reads and writes `motion.csv`: the nodes of a commanded motion.
 
-use super::atomic_output::write_csv;
+use super::atomic_output::write_atomically;
 use super::delimited_text::{Delimiter, Line, Lines};
 use super::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -51,7 +51,7 @@ pub fn parse_motion(bytes: &[u8], axes: usize) -> Result<JerkControlledMotion> {
 /// [`Error::Output`] where it cannot be written.
 pub fn write_motion(path: &Path, motion: &JerkControlledMotion, axes: usize) -> Result<()> {
     let axes = axes.clamp(1, 3);
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         writeln!(out, "{}", NAMES[..=axes].join(","))?;
         for (t, node) in motion.times_s().iter().zip(motion.acceleration_mps2()) {
             write!(out, "{t:?}")?;

@@ -1,6 +1,6 @@
 //! Reads and writes `poses.csv`: the direction that is up in each pose, in the sensor's axes.
 
-use super::atomic_output::write_csv;
+use super::atomic_output::write_atomically;
 use super::delimited_text::{Delimiter, Line, Lines};
 use super::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -34,7 +34,7 @@ pub fn read_poses(path: &Path) -> Result<Vec<Vector3<f64>>> {
 /// # Errors
 /// [`Error::Output`] where it cannot be written.
 pub fn write_poses(path: &Path, directions: &[Vector3<f64>], words: &[String]) -> Result<()> {
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         writeln!(out, "pose,up_x,up_y,up_z,words")?;
         for (k, (u, words)) in directions.iter().zip(words).enumerate() {
             writeln!(out, "{},{:?},{:?},{:?},\"{words}\"", k + 1, u.x, u.y, u.z)?;

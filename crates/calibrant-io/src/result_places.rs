@@ -1,15 +1,12 @@
 //! The places of a command's results: decided, tried and held before the work begins.
 
+use super::manifest;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use rayon::prelude::*;
 use std::fs::{File, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
-
-/// A file that this program wrote says so in its first or last bytes, this many.
-const SIGNED_WITHIN: u64 = 4096;
-/// What it says, before the number of the version.
-const SIGNATURE: &[u8] = b"calibrant ";
 
 /// What a command reads and writes.
 #[derive(Debug, Default)]
@@ -36,11 +33,11 @@ pub struct ClaimedPlaces {
 impl ResultPlaces {
     /// Checks the places, tries the directory for writing, and takes it.
     ///
-    /// Paths are compared after links are resolved. With `replace`, files of others are replaced; inputs never
-    /// are.
+    /// Paths are compared after links are resolved. With `replace`, files of others, and results that were edited,
+    /// are replaced; inputs never are.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where a result would replace an input or a file that this program did not write,
+    /// [`Error::Experiment`] where a result would replace an input, or a file that this program did not write as it is,
     /// or where another run writes into the directory. [`Error::Output`] where the directory cannot be written.
     pub fn claim(self, replace: bool) -> Result<ClaimedPlaces> {
         let refuse = |file: &Path, what: &str, help: &str| {
@@ -55,8 +52,9 @@ impl ResultPlaces {
             let what = "this file is read, and would be replaced by the result";
             return refuse(result, what, "give another name for the result");
         }
-        if let Some((result, _)) = there.iter().find(|(_, resolved)| !replace && !is_ours(resolved)) {
-            let what = "this file is there already, and calibrant did not write it";
+        let is_of_others = |(_, resolved): &&(PathBuf, PathBuf)| !replace && !is_ours(resolved);
+        if let Some((result, _)) = there.par_iter().find_first(is_of_others) {
+            let what = "this file is there already, and calibrant did not write it as it is";
             return refuse(result, what, "choose another place, or add --force");
         }
         let earlier = there.into_iter().map(|(result, _)| (result.clone(), version(&result))).collect();
@@ -114,24 +112,7 @@ fn version(path: &Path) -> Option<(SystemTime, u64)> {
     Some((found.modified().ok()?, number))
 }
 
-/// Did this program write the file? It says so near its beginning or its end.
+/// Did this program write the file as it is? An empty one may be replaced, too.
 fn is_ours(path: &Path) -> bool {
-    let signed = |bytes: &[u8]| {
-        let digit_after = |found: &[u8]| {
-            found.starts_with(SIGNATURE) && found[SIGNATURE.len()..].first().is_some_and(u8::is_ascii_digit)
-        };
-        (0..bytes.len()).any(|start| digit_after(&bytes[start..]))
-    };
-    let ends = || -> io::Result<[Vec<u8>; 2]> {
-        let mut file = File::open(path)?;
-        let length = file.metadata()?.len();
-        let mut read_at = |start| -> io::Result<Vec<u8>> {
-            let mut bytes = Vec::new();
-            file.seek(SeekFrom::Start(start))?;
-            file.by_ref().take(SIGNED_WITHIN).read_to_end(&mut bytes)?;
-            Ok(bytes)
-        };
-        Ok([read_at(0)?, read_at(length.saturating_sub(SIGNED_WITHIN))?])
-    };
-    ends().is_ok_and(|ends| ends.iter().any(|bytes| bytes.is_empty() || signed(bytes)))
+    path.metadata().is_ok_and(|found| found.len() == 0) || manifest::entry(path).is_some()
 }

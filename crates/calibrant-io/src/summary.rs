@@ -1,6 +1,6 @@
 //! Writes `summary.csv`: one row for each of several recordings.
 
-use super::atomic_output::write_csv;
+use super::atomic_output::write_atomically;
 use super::json::to_json;
 use super::machine_calibration::MachineResult;
 use calibrant_core::acceptance::{CheckedLimit, Decision};
@@ -231,7 +231,7 @@ fn worst_sd(parameters: &[SummaryParameter]) -> [(&'static str, String); 3] {
 pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
     // recordings of one experiment have the same parameters; the first calibration names them
     let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         let mut out = csv::Writer::from_writer(out);
         let first = ["file", "recording", "verdict", "codes", "status", "error", "code", "limits_failed"];
         let mut header = first.map(String::from).to_vec();

@@ -1,6 +1,6 @@
 //! Writes `sweep.json` and `sweep.csv`: the best designs over the values of one variable.
 
-use super::atomic_output::write_csv;
+use super::atomic_output::write_atomically;
 use super::design::{CertificateFields, EvaluationFields, SettingFields};
 use super::json;
 use super::summary::ending;
@@ -33,7 +33,7 @@ pub fn sweep_json(sweep: &Sweep, problem: &DesignProblem<'_>, settings: &DesignS
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
 pub fn write_sweep_csv(path: &Path, sweep: &Sweep) -> Result<()> {
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         let mut csv = csv::Writer::from_writer(out);
         let key = sweep.variable.key().trim_start_matches("limits.");
         let mut header = vec![

@@ -26,13 +26,9 @@ impl Bench {
         std::fs::write(path, content).expect("written");
     }
 
-    /// The text of a file, without the first line of a CSV that says who wrote it.
+    /// The text of a file.
     pub(crate) fn read(&self, name: &str) -> String {
-        let text = std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        match text.split_once('\n') {
-            Some((first, rest)) if first.starts_with("# calibrant ") => rest.to_owned(),
-            _ => text,
-        }
+        std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
     pub(crate) fn json(&self, name: &str) -> Value {

@@ -36,7 +36,7 @@ fn each_command_has_a_manual_page() {
         assert!(page.contains(&format!("calibrant\\-records\\-{command}")), "{command}\n{page}");
     }
     let pages = commands.len() + of_records.len();
-    assert_eq!(bench.files().len(), pages + 2, "a directory, calibrant.1 and the commands");
+    assert_eq!(bench.files().len(), pages + 3, "a directory, its manifest, calibrant.1 and the commands");
     // pages of an earlier version are replaced, others' are not
     bench.run("man pages").done();
     bench.write("pages/calibrant.1", "mine");

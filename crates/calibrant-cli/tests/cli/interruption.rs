@@ -68,5 +68,5 @@ fn a_second_interruption_ends_at_once() {
     );
     let design = "design motion.toml --force -o result";
     interrupted(&bench, design, &[SOON, Duration::from_millis(20)]).ends_with(130);
-    assert!(!bench.files().iter().any(|name| name.starts_with("result/.")), "{:?}", bench.files());
+    assert!(!bench.files().iter().any(|name| name.starts_with("result/.calibrant-")), "{:?}", bench.files());
 }

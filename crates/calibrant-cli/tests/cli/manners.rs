@@ -51,6 +51,36 @@ fn what_others_wrote_is_replaced_on_demand_only() {
 }
 
 #[test]
+fn a_result_that_was_edited_is_kept() {
+    let bench = bench();
+    for (file, command) in [
+        ("result/calibration.json", "calibrate poses.toml made/recording.csv -o result"),
+        ("result/report.html", "calibrate poses.toml made/recording.csv -o result"),
+        ("made/recording.csv", "simulate poses.toml -o made"),
+    ] {
+        let written = bench.read(file);
+        bench.write(file, format!("{written}\n"));
+        bench.refuses(command, 2, &[&format!("{file}: this file is there already"), "[file-taken]", "--force"]);
+        bench.write(file, written);
+        bench.run(command).done();
+    }
+    // a folder may be moved with its results
+    std::fs::rename(bench.path("result"), bench.path("moved")).expect("renamed");
+    bench.run("calibrate poses.toml made/recording.csv -o moved").done();
+}
+
+#[test]
+fn tables_begin_with_their_header() {
+    let bench = bench();
+    assert!(bench.read("made/recording.csv").starts_with("t_s,ax_mps2,"));
+    bench.write("again.csv", bench.read("made/recording.csv"));
+    bench.run("calibrate poses.toml made/recording.csv again.csv -o both").done();
+    assert!(bench.read("both/summary.csv").starts_with("file,recording,verdict,"));
+    bench.run("apply result/calibration.json made/recording.csv -o true.csv").done();
+    assert!(bench.read("true.csv").starts_with("t_s,ax_mps2,"));
+}
+
+#[test]
 fn results_of_an_earlier_run_are_told() {
     let bench = bench();
     let outcome = bench.run("calibrate poses.toml absent.csv -o result").ends_with(3);
@@ -76,6 +106,10 @@ fn a_corrected_recording_is_not_corrected_again() {
     bench.run("apply result/calibration.json made/recording.csv -o true.csv").done();
     let says = ["this recording has been corrected already, with calibration.json", "[recording-corrected]"];
     bench.refuses("apply result/calibration.json true.csv -o twice.csv", 3, &says);
+    // a copy is known by its columns
+    bench.write("elsewhere/copy.csv", bench.read("true.csv"));
+    let says = ["this recording has been corrected already", "[recording-corrected]"];
+    bench.refuses("apply result/calibration.json elsewhere/copy.csv -o twice.csv", 3, &says);
 }
 
 #[test]

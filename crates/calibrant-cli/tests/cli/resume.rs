@@ -72,13 +72,15 @@ fn what_is_of_other_input_is_computed_again() {
     // a result that was edited
     let edited = bench.read("results/s6/calibration.json").replace("converged", "stalled");
     bench.write("results/s6/calibration.json", edited);
+    let says = ["results/s6/calibration.json: this file is there already", "--force"];
+    bench.refuses(&format!("{CALIBRATE} --resume"), 2, &says);
     // a page that is missing
     std::fs::remove_file(bench.path("results/s1/report.html")).expect("removed");
-    resume("", &[1, 6]);
+    resume("--force", &[1, 6]);
     // a key file that is cut short
     let cut = bench.read("results/s3/resume.json")[..200].to_owned();
     bench.write("results/s3/resume.json", cut);
-    resume("", &[3]);
+    resume("--force", &[3]);
     resume("--allow spikes", &[1, 2, 3, 4, 5, 6]);
     resume("--allow spikes", &[]);
     bench.write("experiment.toml", bench.read("experiment.toml") + "# another\n");

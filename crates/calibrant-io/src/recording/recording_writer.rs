@@ -1,6 +1,6 @@
 //! Writes `recording.csv`.
 
-use crate::atomic_output::write_csv;
+use crate::atomic_output::write_atomically;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, ImuRecording, Recording, SensorKind};
 use std::path::Path;
@@ -12,7 +12,7 @@ use std::path::Path;
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
 pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         write!(out, "t_s")?;
         for axis in recording.active_axes() {
             write!(out, ",a{axis}_{}", recording.unit.suffix())?;
@@ -54,7 +54,7 @@ pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> 
         );
         return Err(Error::recording(input_error));
     }
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         write!(out, "t_s")?;
         for (sensor_kind, readings) in
             [(SensorKind::Accelerometer, accelerometer), (SensorKind::Gyroscope, gyroscope)]

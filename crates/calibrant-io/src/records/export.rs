@@ -3,7 +3,7 @@
 use super::database::Records;
 use super::export_table::Table;
 use super::query::RecordFilter;
-use crate::atomic_output::write_csv;
+use crate::atomic_output::write_atomically;
 use crate::summary::as_text;
 use calibrant_core::error::Result;
 use std::io;
@@ -60,7 +60,7 @@ fn write_parquet(path: &Path, _: &Table) -> Result<()> {
 }
 
 fn write_as_csv(path: &Path, table: &Table) -> Result<()> {
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         let mut out = csv::Writer::from_writer(out);
         let names = table
             .texts

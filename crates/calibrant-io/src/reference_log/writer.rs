@@ -1,6 +1,6 @@
 //! Writes `joints.csv` and `poses.csv`.
 
-use crate::atomic_output::write_csv;
+use crate::atomic_output::write_atomically;
 use calibrant_core::error::Result;
 use calibrant_machine::log::{JointLog, PoseLog};
 use std::path::Path;
@@ -26,7 +26,7 @@ use std::path::Path;
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn write_joint_log(path: &Path, log: &JointLog, units: &[&str]) -> Result<()> {
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         write!(out, "t_s")?;
         log.names.iter().zip(units).try_for_each(|(name, unit)| write!(out, ",{name}_{unit}"))?;
         writeln!(out)?;
@@ -44,7 +44,7 @@ pub fn write_joint_log(path: &Path, log: &JointLog, units: &[&str]) -> Result<()
 /// # Errors
 /// As [`write_joint_log`].
 pub fn write_pose_log(path: &Path, log: &PoseLog) -> Result<()> {
-    write_csv(path, "", |out| {
+    write_atomically(path, |out| {
         writeln!(out, "t_s,px_m,py_m,pz_m,qw,qx,qy,qz")?;
         for (k, time_s) in log.times_s.iter().enumerate() {
             let position = log.positions_m[k].map_or([f64::NAN; 3], |p| [p.x, p.y, p.z]);

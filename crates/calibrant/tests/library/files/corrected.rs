@@ -73,12 +73,12 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
     let path = directory.path().join("corrected.csv");
     write_corrected_recording(&path, &corrected, "imu.json").expect("written");
     let text = std::fs::read_to_string(&path).expect("readable");
-    let (first, text) = text.split_once('\n').expect("lines");
-    assert!(first.starts_with("# calibrant ") && first.ends_with(": corrected with imu.json"), "{first}");
+    let refused = calibrant::io::check_not_corrected(&path).expect_err("corrected").to_string();
+    assert!(refused.ends_with("corrected already, with imu.json"), "{refused}");
     assert!(text.starts_with(
         "t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,ay_sd_mps2,az_sd_mps2,gx_radps,gy_radps,gz_radps,gx_sd_radps,gy_sd_radps,gz_sd_radps\n"
     ));
-    let rows = rows(text);
+    let rows = rows(&text);
     let at: Vec<f64> = rows.iter().map(|row| row["t_s"]).collect();
     assert_eq!(at, [0.0, 0.01, 0.013, 0.02]);
     assert!(!rows[1].contains_key("gx_radps") && !rows[2].contains_key("az_sd_mps2"), "no sample, no number");

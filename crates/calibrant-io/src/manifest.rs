@@ -1,0 +1,49 @@
+//! The manifest of a folder: which files in it this program wrote, by their checksums. So a file that somebody
+//! edited is not taken for a result, and a CSV begins with its header.
+//!
+//! It has a line of JSON for each file that was written; the last line of a name counts. Lines are only ever
+//! appended, so several runs may write into one folder.
+
+use super::hashed_file::checksum;
+use super::program::program;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Its name.
+const NAME: &str = ".calibrant.jsonl";
+
+/// A file that was written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct WrittenFile {
+    file: String,
+    sha256: String,
+    program: String,
+    /// The calibration with which a recording was corrected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) corrected_with: Option<String>,
+}
+
+/// Enters a file into the manifest of its folder.
+pub(super) fn enter(path: &Path, sha256: String, corrected_with: Option<&str>) -> io::Result<()> {
+    let Some((manifest, file)) = place(path) else { return Ok(()) };
+    let entry = WrittenFile { file, sha256, program: program(), corrected_with: corrected_with.map(str::to_owned) };
+    let mut line = serde_json::to_vec(&entry)?;
+    line.push(b'\n');
+    // in one piece: so lines of several runs do not mix
+    std::fs::OpenOptions::new().append(true).create(true).open(manifest)?.write_all(&line)
+}
+
+/// The entry of a file that is as it was written; `None` for a file of others, or one that was edited.
+pub(super) fn entry(path: &Path) -> Option<WrittenFile> {
+    let (manifest, file) = place(path)?;
+    let text = std::fs::read_to_string(manifest).ok()?;
+    let entries = text.lines().rev().filter_map(|line| serde_json::from_str::<WrittenFile>(line).ok());
+    let last = entries.into_iter().find(|entry| entry.file == file)?;
+    (checksum(path)? == last.sha256).then_some(last)
+}
+
+/// The manifest of a file's folder, and the file's name in it.
+fn place(path: &Path) -> Option<(std::path::PathBuf, String)> {
+    Some((path.with_file_name(NAME), path.file_name()?.to_string_lossy().into_owned()))
+}
