@@ -16,6 +16,7 @@ pub mod diagnostic;
 pub mod error;
 pub mod estimate;
 pub mod fleet;
+pub mod form;
 pub mod information;
 pub mod motion;
 pub mod noise;

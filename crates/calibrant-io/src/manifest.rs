@@ -27,7 +27,8 @@ pub(super) struct WrittenFile {
 /// Enters a file into the manifest of its folder.
 pub(super) fn enter(path: &Path, sha256: String, corrected_with: Option<&str>) -> io::Result<()> {
     let Some((manifest, file)) = place(path) else { return Ok(()) };
-    let entry = WrittenFile { file, sha256, program: program(), corrected_with: corrected_with.map(str::to_owned) };
+    let entry =
+        WrittenFile { file, sha256, program: program(), corrected_with: corrected_with.map(str::to_owned) };
     let mut line = serde_json::to_vec(&entry)?;
     line.push(b'\n');
     // in one piece: so lines of several runs do not mix

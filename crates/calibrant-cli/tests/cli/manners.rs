@@ -60,7 +60,11 @@ fn a_result_that_was_edited_is_kept() {
     ] {
         let written = bench.read(file);
         bench.write(file, format!("{written}\n"));
-        bench.refuses(command, 2, &[&format!("{file}: this file is there already"), "[file-taken]", "--force"]);
+        bench.refuses(
+            command,
+            2,
+            &[&format!("{file}: this file is there already"), "[file-taken]", "--force"],
+        );
         bench.write(file, written);
         bench.run(command).done();
     }
