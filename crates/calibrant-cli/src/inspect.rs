@@ -100,7 +100,7 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
         text.push_str(&format!("  temperature from {} to {} °C\n", short(least), short(most)));
     }
     let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
-        let unit = file.recording.sensor(*sensor_kind)?.unit;
+        let unit = file.recording.sensor(*sensor_kind)?.unit();
         Some(spikes_taken_out(spikes, *sensor_kind, unit))
     };
     let spikes = inspection.spikes.iter().filter_map(of_sensor);

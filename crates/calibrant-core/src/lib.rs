@@ -5,7 +5,8 @@
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
 //! [`noise`] examines a sensor at rest. [`estimate`] calibrates. [`fleet`] looks at many calibrations.
 //! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
-//! recordings. [`budget`] says what work takes. [`number_format`] writes numbers for people.
+//! recordings. [`budget`] says what work takes, [`progress`] how far it is, and [`interruption`] ends it early. [`number_format`] writes
+//! numbers for people.
 //!
 //! The crate `calibrant` re-exports all of it. Depend on that crate unless the build time matters.
 
@@ -18,9 +19,11 @@ pub mod estimate;
 pub mod fleet;
 pub mod form;
 pub mod information;
+pub mod interruption;
 pub mod motion;
 pub mod noise;
 pub mod number_format;
+pub mod progress;
 mod root;
 pub mod sensor;
 pub mod simulate;

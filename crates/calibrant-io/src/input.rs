@@ -27,7 +27,7 @@ impl Input {
             sha256: sha256.to_owned(),
             samples: readings.map_or(0, Recording::len),
             rate_hz: readings
-                .map_or(0.0, |of| stated_rate_hz(of.rate_hz(), of.times_s.last().copied().unwrap_or(0.0))),
+                .map_or(0.0, |of| stated_rate_hz(of.rate_hz(), of.times_s().last().copied().unwrap_or(0.0))),
         }
     }
 }

@@ -101,12 +101,12 @@ pub fn inspect(file: &ImuFile) -> Inspection {
 
 impl SensorInspection {
     fn of(sensor_kind: SensorKind, recording: &Recording) -> Self {
-        let readings = &recording.readings;
+        let readings = recording.readings();
         let [least, most] = recording.extremes();
         Self {
             sensor_kind,
-            unit: recording.unit,
-            sampling: Sampling::of(&recording.times_s),
+            unit: recording.unit(),
+            sampling: Sampling::of(recording.times_s()),
             least,
             mean: readings.iter().sum::<Vector3<f64>>() / readings.len() as f64,
             most,
@@ -124,12 +124,12 @@ impl HoldsInspection {
             .filter(|(_, end)| end.is_none())
             .map(|(hold, _)| hold.clone())
             .collect();
-        let expected = expected_calibration(&sound, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
+        let expected = expected_calibration(&sound, accelerometer.unit(), GRAVITY_MPS2, Gauge::Upper)
             .map_err(|error| error.to_string());
         let offset = match &expected {
             Ok(expected) => Some(expected.like.bias),
             // readings in counts have an offset that is unknown without the calibration
-            Err(_) => (accelerometer.unit != ReadingUnit::Counts).then(Vector3::zeros),
+            Err(_) => (accelerometer.unit() != ReadingUnit::Counts).then(Vector3::zeros),
         };
         let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
         Ok(Self {

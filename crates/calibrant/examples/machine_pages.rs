@@ -36,11 +36,10 @@ fn numbers(path: &Path) -> Result<Vec<Vec<f64>>, Failure> {
 }
 
 fn recording(rows: &[Vec<f64>], accelerometer: usize, gyroscope: usize) -> ImuRecording {
-    let of = |first: usize, unit| Recording {
-        times_s: rows.iter().map(|row| row[0]).collect(),
-        readings: rows.iter().map(|row| Vector3::new(row[first], row[first + 1], row[first + 2])).collect(),
-        axes: 3,
-        unit,
+    let of = |first: usize, unit| {
+        let times_s = rows.iter().map(|row| row[0]).collect();
+        let reading = |row: &Vec<f64>| Vector3::new(row[first], row[first + 1], row[first + 2]);
+        Recording::new(times_s, rows.iter().map(reading).collect(), 3, unit).expect("samples in order")
     };
     ImuRecording {
         accelerometer: Some(of(accelerometer, ReadingUnit::MetrePerSecondSquared)),

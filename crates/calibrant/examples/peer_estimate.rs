@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let gravity = MotionGravity::of_force(Vector3::new(3.0, -4.0, 8.4));
         let tilted = gravity.force_mps2 + Vector3::new(0.05, 0.06, 0.01);
         let constant = case.truth.matrix * tilted;
-        case.recording.readings.iter_mut().for_each(|y| *y += constant);
+        case.recording.readings_mut().iter_mut().for_each(|y| *y += constant);
         case.command.gravity = Some(gravity);
         let model_name = if model == SensorModel::Full { "full" } else { "scale-bias" };
         cases.push(record(&format!("{}, gravity", trust.name()), model_name, 1, &case)?);
@@ -117,8 +117,8 @@ fn record(trust: &str, model: &str, seed: u64, case: &Case) -> Result<Value, Box
         "seed": seed,
         "start_known": true,
         "end_known": case.command.known_ends == KnownEnds::Both,
-        "sample_times_s": case.recording.times_s,
-        "readings_mps2": rows(&case.recording.readings),
+        "sample_times_s": case.recording.times_s(),
+        "readings_mps2": rows(case.recording.readings()),
         "node_times_s": motion.times_s(),
         "commanded_mps2": rows(motion.acceleration_mps2()),
         "gravity": case.command.gravity.map(|gravity| json!({

@@ -88,7 +88,9 @@ fn calibrated(
     };
     let calibration = calibrate_on_machine(&problem, &MachineSettings::default())?;
     if let Some(folds) = std::env::var("FOLDS").ok().and_then(|folds| folds.parse().ok()) {
-        for of in cross_validate_on_machine(&problem, &calibration, folds)?.shifts {
+        for of in
+            cross_validate_on_machine(&problem, &calibration, &MachineSettings::default(), folds)?.shifts
+        {
             let (low, high) = of.factor_interval;
             println!("folds: {} {:.2} ({low:.2} to {high:.2}) {}", of.sensor, of.factor, of.verdict.name());
         }

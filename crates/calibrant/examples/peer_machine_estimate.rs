@@ -157,7 +157,7 @@ fn recording(of: &Value) -> Result<ImuRecording, Box<dyn Error>> {
     let sensor = |key: &str, unit: ReadingUnit| -> Result<Option<Recording>, Box<dyn Error>> {
         let rows = of[key].as_array().ok_or("no readings")?;
         let readings = rows.iter().map(vector).collect::<Result<_, _>>()?;
-        Ok(Some(Recording { times_s: numbers(&of["times"])?, readings, axes: Axis::ALL.len(), unit }))
+        Ok(Some(Recording::new(numbers(&of["times"])?, readings, Axis::ALL.len(), unit)?))
     };
     Ok(ImuRecording {
         accelerometer: sensor("accelerometer", ReadingUnit::MetrePerSecondSquared)?,

@@ -79,7 +79,7 @@ fn measure(trust: &str, length_s: u32, rate_hz: u32) -> Result<(), Failure> {
                 vibration: 0.0,
             }
         });
-    let recording = record_sensors(&motion, &truth, &setup, &sampling, &sensors, rng);
+    let recording = record_sensors(&motion, &truth, &setup, &sampling, &sensors, rng).expect("a rate");
     let errors = LogErrors { rate_hz: 500.0, noise: vec![2e-5; joints], resolution: 0.0 };
     let log = record_log(&motion, &errors, rng);
     drop(motion);

@@ -40,7 +40,7 @@ pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
 
 /// The examined part of the recording, in words. `None` if it is nearly all of it.
 pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording) -> Option<String> {
-    let (first, last) = recording.times_s.first().zip(recording.times_s.last())?;
+    let (first, last) = recording.times_s().first().zip(recording.times_s().last())?;
     let (used_s, recorded_s) = (segment.duration_s(), last - first);
     (used_s < MOST * recorded_s).then(|| {
         let hold = match holds.len() {

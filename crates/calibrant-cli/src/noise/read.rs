@@ -34,7 +34,7 @@ pub(super) fn read(
     open(&in_counts).map_err(|error| {
         let stated = open(&options).ok();
         let other = counted().find_map(|sensor_kind| {
-            let unit = stated.as_ref()?.recording.sensor(sensor_kind)?.unit;
+            let unit = stated.as_ref()?.recording.sensor(sensor_kind)?.unit();
             (unit != ReadingUnit::Counts).then_some((sensor_kind, unit))
         });
         match other {

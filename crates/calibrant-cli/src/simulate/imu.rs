@@ -161,7 +161,7 @@ pub(super) fn accelerometer_on_table(
         face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
         ..ImuSimulation::default()
     };
-    let nothing = Recording { times_s: Vec::new(), readings: Vec::new(), axes: 3, unit: sensor.unit };
+    let nothing = Recording::new(Vec::new(), Vec::new(), 3, sensor.unit)?;
     let imu = ImuParameters { accelerometer: *truth, ..ImuParameters::identity() };
     Ok(simulate_table(&imu, steps, &setup, rng).accelerometer.unwrap_or(nothing))
 }

@@ -70,7 +70,7 @@ pub(super) fn run(
     let drawn = of_experiment.drawn(&mut rng)?;
     let machine = draw_machine(&setup, drawn, &kinds, joints, &mut rng);
     let mut rng = random.happening(rng);
-    let recording = record_sensors(&motion, &machine.parameters, &setup, &sampling, &sensors, &mut rng);
+    let recording = record_sensors(&motion, &machine.parameters, &setup, &sampling, &sensors, &mut rng)?;
     let log = record_log(&motion, &log_errors, &mut rng);
 
     let output = &arguments.output;

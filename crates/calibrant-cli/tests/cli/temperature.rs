@@ -31,8 +31,8 @@ fn csv(recording: &ImuRecording, with_temperature: bool) -> String {
     let mut text = String::from("t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps");
     text.push_str(if with_temperature { ",temp_c\n" } else { "\n" });
     for (k, celsius) in temperature.iter().enumerate() {
-        let (f, w) = (a.readings[k], g.readings[k]);
-        let _ = write!(text, "{},{},{},{},{},{},{}", a.times_s[k], f.x, f.y, f.z, w.x, w.y, w.z);
+        let (f, w) = (a.readings()[k], g.readings()[k]);
+        let _ = write!(text, "{},{},{},{},{},{},{}", a.times_s()[k], f.x, f.y, f.z, w.x, w.y, w.z);
         let _ = if with_temperature { writeln!(text, ",{celsius}") } else { writeln!(text) };
     }
     text
@@ -68,7 +68,7 @@ fn the_temperature_goes_from_the_recording_to_the_corrected_readings() {
 
     bench.run("apply out/calibration.json recording.csv -o corrected.csv").done();
     let warm = rows(&bench, "corrected.csv");
-    let times = &recording.accelerometer.as_ref().expect("there").times_s;
+    let times = recording.accelerometer.as_ref().expect("there").times_s();
     let celsius = recording.temperature_c.as_ref().expect("simulated");
     assert_eq!(warm.len(), times.len());
     // without the temperature, and with one for all samples

@@ -91,6 +91,9 @@ refusals! {
     WorkTooLarge "work-too-large"
         "The work would take more memory or time than it is worth."
         "Ask for less, as the message says, or add --force.";
+    Interrupted "interrupted"
+        "The work was ended before it had a result."
+        "Begin it again.";
     ExperimentUnsuited "experiment-unsuited"
         "The command needs another kind of experiment, or more of it."
         "Take one of the presets of `calibrant init`.";

@@ -33,12 +33,8 @@ use std::borrow::Cow;
 /// let nodes = vec![Vector3::new(-9.0, 0.0, 0.0), Vector3::new(9.0, 0.0, 0.0)];
 /// let motion = JerkControlledMotion::uniform(1.0, nodes)?;
 /// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
-/// let recording = Recording {
-///     times_s: vec![0.0, 0.5, 1.0],
-///     readings: [-8.91, 0.09, 9.09].map(|y| Vector3::new(y, 0.0, 0.0)).to_vec(),
-///     axes: 1,
-///     unit: ReadingUnit::MetrePerSecondSquared,
-/// };
+/// let readings = [-8.91, 0.09, 9.09].map(|y| Vector3::new(y, 0.0, 0.0)).to_vec();
+/// let recording = Recording::new(vec![0.0, 0.5, 1.0], readings, 1, ReadingUnit::MetrePerSecondSquared)?;
 /// let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
 /// let calibration = calibrate(&problem, &CalibrationSettings::default())?;
 /// assert!((calibration.values[0] - 0.09).abs() < 1e-12, "bias.x");

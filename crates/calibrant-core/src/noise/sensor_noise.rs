@@ -5,6 +5,7 @@ use super::outliers::{self, Outliers};
 use super::{AllanDeviation, Moments, NoiseFit, Segment};
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::interruption::Interruption;
 use crate::number_format::plain;
 use crate::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -66,12 +67,9 @@ impl SensorNoise {
     ///
     /// let mut rng = stream(1, Purpose::Sensor, 0);
     /// let axis: Vec<_> = (0..3).map(|_| simulate_noise(PowerLaw::White, 1e-3, 0.01, 6000, &mut rng)).collect();
-    /// let recording = Recording {
-    ///     times_s: (0..6000).map(|k| f64::from(k) * 0.01).collect(),
-    ///     readings: (0..6000).map(|k| Vector3::new(axis[0][k], axis[1][k], 9.8 + axis[2][k])).collect(),
-    ///     axes: 3,
-    ///     unit: ReadingUnit::MetrePerSecondSquared,
-    /// };
+    /// let times_s = (0..6000).map(|k| f64::from(k) * 0.01).collect();
+    /// let readings = (0..6000).map(|k| Vector3::new(axis[0][k], axis[1][k], 9.8 + axis[2][k])).collect();
+    /// let recording = Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared)?;
     /// let noise = SensorNoise::of(SensorKind::Accelerometer, &recording, Segment::between(&recording, 0.0, 60.0)?)?;
     /// let sigma = noise.white_noise_per_sample().expect("determined");
     /// assert!((sigma - Vector3::repeat(0.01)).amax() < 5e-4);
@@ -95,8 +93,26 @@ impl SensorNoise {
         segment: Segment,
         moments: &Moments,
     ) -> Result<Self> {
+        Self::until(&Interruption::default(), sensor_kind, recording, segment, moments)
+    }
+
+    /// The same, unless it is interrupted.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of), and [`Refusal::Interrupted`].
+    ///
+    /// # Panics
+    /// As [`with_moments`](Self::with_moments).
+    pub fn until(
+        interruption: &Interruption,
+        sensor_kind: SensorKind,
+        recording: &Recording,
+        segment: Segment,
+        moments: &Moments,
+    ) -> Result<Self> {
         let readings = &recording.readings[segment.first..segment.end];
         let axis = |&axis: &Axis| {
+            interruption.check()?;
             let recorded: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
             let fit = |values: &[f64]| NoiseFit::of(values, segment.interval_s, moments);
             let (values, outliers) = match outliers::find(&recorded) {
@@ -114,6 +130,7 @@ impl SensorNoise {
                     (found.without.unwrap_or(recorded), Some(outliers))
                 }
             };
+            interruption.check()?;
             let n = values.len() as f64;
             let mean = values.iter().sum::<f64>() / n;
             let squares: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();

@@ -3,20 +3,17 @@
 use super::extremes::{greater, lesser};
 use super::sample_rate::rate_hz;
 use super::{Axis, ReadingUnit};
+use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
 
 /// A recording: times in seconds, strictly increasing, and a reading for each. A uniaxial sensor uses x; the
 /// other components are zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
-    /// Sample times, s.
-    pub times_s: Vec<f64>,
-    /// Readings, in [`unit`](Recording::unit).
-    pub readings: Vec<Vector3<f64>>,
-    /// Number of axes, 1 or 3.
-    pub axes: usize,
-    /// Unit of the readings.
-    pub unit: ReadingUnit,
+    pub(crate) times_s: Vec<f64>,
+    pub(crate) readings: Vec<Vector3<f64>>,
+    pub(crate) axes: usize,
+    pub(crate) unit: ReadingUnit,
 }
 
 /// A step of this number of usual steps is a gap.
@@ -25,6 +22,137 @@ const GAP: f64 = 5.0;
 const MOVED_S: f64 = 0.05;
 
 impl Recording {
+    /// Readings of `axes` axes (1 or 3) at their times. A reading may be NaN; it counts as invalid. The readings of a uniaxial sensor are
+    /// along x, and zero along the others.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] where there are not as many times as readings, where the times do not increase or are not finite, or where there are
+    /// neither one nor three axes.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant_core::sensor::{ReadingUnit, Recording};
+    /// use nalgebra::Vector3;
+    ///
+    /// let (up, unit) = (Vector3::new(0.0, 0.0, 9.81), ReadingUnit::MetrePerSecondSquared);
+    /// assert_eq!(Recording::new(vec![0.0, 0.01], vec![up; 2], 3, unit)?.rate_hz(), 100.0);
+    /// assert!(Recording::new(vec![0.0, 0.01], vec![up; 3], 3, unit).is_err(), "a time for each reading");
+    /// assert!(Recording::new(vec![0.0, 0.0], vec![up; 2], 3, unit).is_err(), "the times increase");
+    /// # Ok::<(), calibrant_core::Error>(())
+    /// ```
+    pub fn new(
+        times_s: Vec<f64>,
+        readings: Vec<Vector3<f64>>,
+        axes: usize,
+        unit: ReadingUnit,
+    ) -> Result<Self> {
+        let refused =
+            |code, message: String, help: &str| Err(Error::recording(InputError::new(code, message, help)));
+        if times_s.len() != readings.len() {
+            let message = format!("{} times for {} readings", times_s.len(), readings.len());
+            return refused(Refusal::RecordingsUnlike, message, "give a time for each reading");
+        }
+        if let Some(k) = times_s.iter().position(|time| !time.is_finite()) {
+            let message = format!("the time of sample {k} is {}", times_s[k]);
+            return refused(Refusal::NumberMalformed, message, "leave samples without a time away");
+        }
+        if let Some(k) = times_s.windows(2).position(|pair| pair[1] <= pair[0]) {
+            let message = format!("sample {} is at {} s, after {} s", k + 1, times_s[k + 1], times_s[k]);
+            return refused(Refusal::TimesNotIncreasing, message, "sort the samples by time, each once");
+        }
+        if ![1, 3].contains(&axes) {
+            let message = format!("a sensor has one axis or three, not {axes}");
+            return refused(Refusal::ValueInvalid, message, "give those of the sensor");
+        }
+        Ok(Self { times_s, readings, axes, unit })
+    }
+
+    /// Sample times, s, increasing.
+    #[must_use]
+    pub fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    /// The reading at each time, in [`unit`](Recording::unit).
+    #[must_use]
+    pub fn readings(&self) -> &[Vector3<f64>] {
+        &self.readings
+    }
+
+    /// The same, to be changed.
+    #[must_use]
+    pub fn readings_mut(&mut self) -> &mut [Vector3<f64>] {
+        &mut self.readings
+    }
+
+    /// The samples: each time, and its reading to be changed.
+    pub fn samples_mut(&mut self) -> impl Iterator<Item = (&f64, &mut Vector3<f64>)> {
+        self.times_s.iter().zip(&mut self.readings)
+    }
+
+    /// Number of axes, 1 or 3.
+    #[must_use]
+    pub fn axes(&self) -> usize {
+        self.axes
+    }
+
+    /// Unit of the readings.
+    #[must_use]
+    pub fn unit(&self) -> ReadingUnit {
+        self.unit
+    }
+
+    /// The first axis alone, or the first three: the readings of the others are zero.
+    #[must_use]
+    pub fn with_axes(mut self, axes: usize) -> Self {
+        self.axes = if axes == 1 { 1 } else { Axis::ALL.len() };
+        for axis in &Axis::ALL[self.axes..] {
+            self.readings.iter_mut().for_each(|reading| reading[axis.index()] = 0.0);
+        }
+        self
+    }
+
+    /// The same samples at later times.
+    #[must_use]
+    pub fn later_by(mut self, seconds: f64) -> Self {
+        self.times_s.iter_mut().for_each(|time| *time += seconds);
+        self
+    }
+
+    /// The same times with other readings, in this unit.
+    #[must_use]
+    pub fn mapped(&self, unit: ReadingUnit, reading: impl FnMut(&Vector3<f64>) -> Vector3<f64>) -> Self {
+        let readings = self.readings.iter().map(reading).collect();
+        Self { times_s: self.times_s.clone(), readings, unit, ..*self }
+    }
+
+    /// The samples of these numbers, from 0.
+    #[must_use]
+    pub fn only(&self, keep: impl Fn(usize) -> bool) -> Self {
+        let places = || (0..self.len()).filter(|&sample| keep(sample));
+        Self {
+            times_s: places().map(|sample| self.times_s[sample]).collect(),
+            readings: places().map(|sample| self.readings[sample]).collect(),
+            ..*self
+        }
+    }
+
+    /// Adds a sample.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] where its time is not after that of the sample before.
+    pub fn push(&mut self, time_s: f64, reading: Vector3<f64>) -> Result<()> {
+        let after = self.times_s.last().is_none_or(|last| time_s > *last);
+        if !after || !time_s.is_finite() {
+            let message = format!("the time of a further sample is {time_s} s, not after the one before");
+            let help = "give the samples in the order of their times, each once";
+            return Err(Error::recording(InputError::new(Refusal::TimesNotIncreasing, message, help)));
+        }
+        self.times_s.push(time_s);
+        self.readings.push(reading);
+        Ok(())
+    }
+
     /// Adds another recording of the sensor, which begins `pause_s` after the end of this one.
     pub fn append(&mut self, other: &Self, pause_s: f64) {
         let end_s = self.times_s.last().copied().unwrap_or_default();

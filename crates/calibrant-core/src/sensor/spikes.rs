@@ -111,11 +111,12 @@ impl Recording {
     /// let times_s: Vec<f64> = (0..500).map(|k| f64::from(k) * 0.01).collect();
     /// let mut readings: Vec<Vector3<f64>> = times_s.iter().map(|t| Vector3::new((700.0 * t).sin(), (900.0 * t).cos(), 9.8)).collect();
     /// readings[123].y = -2_147_483_648.0;
-    /// let recording = Recording { times_s, readings, axes: 3, unit: ReadingUnit::Counts };
+    /// let recording = Recording::new(times_s, readings, 3, ReadingUnit::Counts)?;
     /// let (clean, spikes) = recording.without_spikes(SensorKind::Accelerometer);
     /// let spikes = spikes.expect("one");
     /// assert_eq!((spikes.samples.as_slice(), spikes.reading), (&[123][..], -2_147_483_648.0));
-    /// assert!(clean.readings[123].y.abs() < 1.0 && clean.readings[123].x == recording.readings[123].x);
+    /// assert!(clean.readings()[123].y.abs() < 1.0 && clean.readings()[123].x == recording.readings()[123].x);
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     #[must_use]
     pub fn without_spikes(&self, sensor_kind: SensorKind) -> (Cow<'_, Self>, Option<Spikes>) {

@@ -17,7 +17,7 @@ const MOVES: f64 = 0.1;
 
 /// What there is of a recording of three axes, each with its first sample.
 pub(super) fn glued_axes(recording: &Recording) -> Vec<(Noticed, usize)> {
-    let Recording { readings, times_s, .. } = recording;
+    let (readings, times_s) = (recording.readings(), recording.times_s());
     let [low, high] = recording.extremes();
     let moves = |axis: Axis, part: &Range<usize>| {
         let k = axis.index();
@@ -29,7 +29,7 @@ pub(super) fn glued_axes(recording: &Recording) -> Vec<(Noticed, usize)> {
     let times = |part: &Range<usize>| (times_s[part.start], times_s[part.end - 1]);
     let is_long = |part: &Range<usize>| part.len() >= LONG_SAMPLES && times(part).1 - times(part).0 >= LONG_S;
     let mut found = Vec::new();
-    if recording.axes != 3 || readings.is_empty() {
+    if recording.axes() != 3 || readings.is_empty() {
         return found;
     }
     for axis in Axis::ALL.into_iter().filter(|axis| recording.constant(*axis).is_none()) {

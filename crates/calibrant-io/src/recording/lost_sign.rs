@@ -17,7 +17,7 @@ const ON_A_SIDE: f64 = 0.01;
 /// Refuses counts that jump from 0 to the largest number of this many bits. `of` goes before the word axis,
 /// as in `gyroscope axis x`.
 pub(super) fn check(recording: &Recording, of: &str) -> Checked<()> {
-    if recording.unit != ReadingUnit::Counts {
+    if recording.unit() != ReadingUnit::Counts {
         return Ok(());
     }
     let [least, most] = recording.extremes();
@@ -39,7 +39,7 @@ pub(super) fn check(recording: &Recording, of: &str) -> Checked<()> {
 
 /// Are the readings of an axis, whole numbers, at both ends of the range and not between?
 fn is_split(recording: &Recording, axis: Axis, range: f64) -> bool {
-    let readings = || recording.readings.iter().map(|reading| reading[axis.index()]);
+    let readings = || recording.readings().iter().map(|reading| reading[axis.index()]);
     let share =
         |is: &dyn Fn(f64) -> bool| readings().filter(|y| is(*y)).count() as f64 / recording.len() as f64;
     readings().all(|y| y.fract() == 0.0)
@@ -57,12 +57,9 @@ mod tests {
     /// of a range that begins at 0.
     fn recording(of: impl Fn(f64) -> f64) -> Recording {
         let at = |k: usize| (k as f64 * 1e-3).sin() * 17_000.0;
-        Recording {
-            times_s: (0..20_000).map(|k| k as f64 * 0.01).collect(),
-            readings: (0..20_000).map(|k| Vector3::new(of(at(k)), 5.0, 20.0)).collect(),
-            axes: 3,
-            unit: ReadingUnit::Counts,
-        }
+        let times_s = (0..20_000).map(|k| k as f64 * 0.01).collect();
+        let readings = (0..20_000).map(|k| Vector3::new(of(at(k)), 5.0, 20.0)).collect();
+        Recording::new(times_s, readings, 3, ReadingUnit::Counts).expect("samples in order")
     }
 
     #[test]
@@ -77,7 +74,7 @@ mod tests {
         assert!(check(&recording(|y| (y + 32_768.0).round()), "").is_ok(), "zero in the middle");
         // from one end of the range to the other, as a saturated sensor
         assert!(check(&recording(|y| (2.0 * y + 32_768.0).round().clamp(0.0, 65_535.0)), "").is_ok());
-        let in_si = Recording { unit: ReadingUnit::MetrePerSecondSquared, ..wrapped };
+        let in_si = wrapped.mapped(ReadingUnit::MetrePerSecondSquared, |reading| *reading);
         assert!(check(&in_si, "").is_ok());
     }
 }

@@ -39,7 +39,7 @@ pub(crate) fn readings(
             samples: found.samples,
             is_largest: found.is_largest,
             value: found.value,
-            unit: recording.unit,
+            unit: recording.unit(),
         };
         findings.push(Finding::new(noticed).about(sensor_kind).at(lines.line(found.first)));
     }

@@ -15,12 +15,12 @@ pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
     write_atomically(path, |out| {
         write!(out, "t_s")?;
         for axis in recording.active_axes() {
-            write!(out, ",a{axis}_{}", recording.unit.suffix())?;
+            write!(out, ",a{axis}_{}", recording.unit().suffix())?;
         }
         writeln!(out)?;
-        for (t, reading) in recording.times_s.iter().zip(&recording.readings) {
+        for (t, reading) in recording.times_s().iter().zip(recording.readings()) {
             write!(out, "{t:?}")?;
-            for value in &reading.as_slice()[..recording.axes] {
+            for value in &reading.as_slice()[..recording.axes()] {
                 write!(out, ",{value:?}")?;
             }
             writeln!(out)?;
@@ -46,7 +46,7 @@ pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> 
         );
         return Err(Error::recording(input_error));
     };
-    if accelerometer.times_s != gyroscope.times_s {
+    if accelerometer.times_s() != gyroscope.times_s() {
         let input_error = InputError::new(
             Refusal::RecordingsUnlike,
             "the sensors have different sample times",
@@ -60,13 +60,13 @@ pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> 
             [(SensorKind::Accelerometer, accelerometer), (SensorKind::Gyroscope, gyroscope)]
         {
             for axis in Axis::ALL {
-                write!(out, ",{}{axis}_{}", &sensor_kind.name()[..1], readings.unit.suffix())?;
+                write!(out, ",{}{axis}_{}", &sensor_kind.name()[..1], readings.unit().suffix())?;
             }
         }
         let temperature = recording.temperature_c.as_deref();
         writeln!(out, "{}", if temperature.is_some() { ",temp_c" } else { "" })?;
-        let readings = accelerometer.readings.iter().zip(&gyroscope.readings);
-        for (k, (t, (a, g))) in accelerometer.times_s.iter().zip(readings).enumerate() {
+        let readings = accelerometer.readings().iter().zip(gyroscope.readings());
+        for (k, (t, (a, g))) in accelerometer.times_s().iter().zip(readings).enumerate() {
             write!(out, "{t:?}")?;
             let celsius = temperature.and_then(|values| values.get(k));
             a.iter().chain(g).chain(celsius).try_for_each(|value| write!(out, ",{value:?}"))?;

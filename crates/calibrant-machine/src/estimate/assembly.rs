@@ -63,7 +63,7 @@ pub(super) fn assembled(
         inflation,
         parameters: state.parameters.clone(),
         nominal: layout.nominal.clone(),
-        units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit)),
+        units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit())),
         fit: fit(problem, minimum, posterior, layout.len(), used),
         noise,
         reference_noise: reference_noise(problem, model, growths.log, &outliers),

@@ -35,7 +35,7 @@ const INTERVALS: usize = 3000;
 /// # Errors
 /// - [`Error::Recording`](calibrant_core::Error::Recording): recording and log do not overlap, or cannot be used.
 /// - [`Error::NotIdentifiable`](calibrant_core::Error::NotIdentifiable) names what the motion does not determine, and the motion that would.
-/// - [`Error::Experiment`](calibrant_core::Error::Experiment): a log of joints without a chain, or of other joints.
+/// - [`Error::Experiment`](calibrant_core::Error::Experiment): a log of joints without a chain, or of other joints; or the work was interrupted.
 pub fn calibrate_on_machine(
     problem: &MachineProblem<'_>,
     settings: &MachineSettings,
@@ -52,8 +52,7 @@ pub fn calibrate_on_machine(
         }
     }
     let growths = noise_search(&mut model, &mut state, problem, settings)?;
-    let minimum =
-        minimise(&model, state, settings.max_iterations, settings.tolerance).ok_or_else(unsolved)?;
+    let minimum = minimise(&model, state, settings)?.ok_or_else(unsolved)?;
     let posterior =
         Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);

@@ -33,11 +33,12 @@ const SHORTEST_S: f64 = 1.0;
 /// Leaves out each of `folds` blocks of time in turn, and compares how far the parameters move with what the covariance predicts.
 ///
 /// # Errors
-/// - [`Error::Experiment`](calibrant_core::Error::Experiment): fewer than two blocks, or blocks shorter than 1 s.
+/// - [`Error::Experiment`](calibrant_core::Error::Experiment): fewer than two blocks, or blocks shorter than 1 s; or the work was interrupted.
 /// - [`Error::Recording`](calibrant_core::Error::Recording): no block can be left out.
 pub fn cross_validate_on_machine(
     problem: &MachineProblem<'_>,
     calibration: &MachineCalibration,
+    settings: &MachineSettings,
     folds: usize,
 ) -> Result<MachineValidation> {
     let sensors = calibration.sensors();
@@ -45,13 +46,15 @@ pub fn cross_validate_on_machine(
         return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
     };
     check_folds(problem, folds)?;
-    let (first, last) = (main.times_s[0], main.times_s[main.len() - 1]);
+    let (first, last) = (main.times_s()[0], main.times_s()[main.len() - 1]);
     let length_s = (last - first) / folds as f64;
     let (mut movements, mut failed) = (Vec::new(), Vec::new());
     for fold in 0..folds {
         let start_s = first + length_s * fold as f64;
         let end_s = if fold + 1 == folds { f64::INFINITY } else { start_s + length_s };
-        match without(problem, calibration, (start_s, end_s)) {
+        settings.progress.tell("folds", fold as u64, folds as u64);
+        match without(problem, calibration, settings, (start_s, end_s)) {
+            Err(error) if error.code() == Refusal::Interrupted => return Err(error),
             Ok(movement) => movements.push(movement),
             Err(error) => {
                 failed.push(FailedBlock { start_s, end_s: end_s.min(last), reason: error.to_string() });
@@ -74,7 +77,7 @@ pub fn cross_validate_on_machine(
 /// # Errors
 /// [`Error::Experiment`](calibrant_core::Error::Experiment): fewer than two blocks, or blocks shorter than 1 s.
 pub fn check_folds(problem: &MachineProblem<'_>, folds: usize) -> Result<()> {
-    let ends = |of: &Recording| Some((*of.times_s.first()?, *of.times_s.last()?));
+    let ends = |of: &Recording| Some((*of.times_s().first()?, *of.times_s().last()?));
     let main = SensorKind::ALL.into_iter().rev().find_map(|kind| problem.recording.sensor(kind));
     let duration_s = main.and_then(ends).map_or(0.0, |(first, last)| last - first);
     let most = (duration_s / SHORTEST_S) as usize;
@@ -93,17 +96,12 @@ pub fn check_folds(problem: &MachineProblem<'_>, folds: usize) -> Result<()> {
 fn without(
     problem: &MachineProblem<'_>,
     calibration: &MachineCalibration,
+    settings: &MachineSettings,
     (start_s, end_s): (f64, f64),
 ) -> Result<Movement> {
     let kept = |kind: SensorKind| -> Option<Recording> {
         let whole = problem.recording.sensor(kind)?;
-        let keep = |k: &usize| !(start_s..end_s).contains(&whole.times_s[*k]);
-        let places: Vec<usize> = (0..whole.len()).filter(keep).collect();
-        Some(Recording {
-            times_s: places.iter().map(|k| whole.times_s[*k]).collect(),
-            readings: places.iter().map(|k| whole.readings[*k]).collect(),
-            ..*whole
-        })
+        Some(whole.only(|k| !(start_s..end_s).contains(&whole.times_s()[k])))
     };
     let recording = ImuRecording {
         accelerometer: kept(SensorKind::Accelerometer),
@@ -113,8 +111,7 @@ fn without(
     let state = State { motion: calibration.motion.clone(), parameters: calibration.parameters.clone() };
     let model = model(problem, calibration, &recording, &state);
     undetermined::check(&model, &state)?;
-    let MachineSettings { max_iterations, tolerance, .. } = MachineSettings::default();
-    let minimum = minimise(&model, state, max_iterations, tolerance).ok_or_else(unsolved)?;
+    let minimum = minimise(&model, state, settings)?.ok_or_else(unsolved)?;
     let covariance = Scaled::new(&minimum.solved.information).ok_or_else(unsolved)?.inverse();
     let parameters = &minimum.state.parameters;
     let shift = (calibration.quantities.iter().zip(&calibration.values))

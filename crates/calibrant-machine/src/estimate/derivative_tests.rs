@@ -60,11 +60,10 @@ fn check(make: fn(&mut Numbers) -> Motion, seed: u64) {
         parameters.add(*quantity, numbers.next(size));
     }
     let times_s: Vec<f64> = (0..6).map(|k| 0.1 + 0.1 * f64::from(k)).collect();
-    let mut recordings = SensorKind::ALL.map(|_| Recording {
-        readings: vec![Vector3::zeros(); times_s.len()],
-        times_s: times_s.clone(),
-        axes: 3,
-        unit: ReadingUnit::MetrePerSecondSquared,
+    let mut recordings = SensorKind::ALL.map(|_| {
+        let readings = vec![Vector3::zeros(); times_s.len()];
+        Recording::new(times_s.clone(), readings, 3, ReadingUnit::MetrePerSecondSquared)
+            .expect("samples in order")
     });
     let log = ReferenceLog::Poses(PoseLog { times_s: vec![], positions_m: vec![], world_from_body: vec![] });
     let state = State { motion, parameters };
@@ -81,7 +80,7 @@ fn check(make: fn(&mut Numbers) -> Motion, seed: u64) {
         })
     };
     for (recording, predicted) in recordings.iter_mut().zip(predicted) {
-        recording.readings = predicted;
+        recording.readings_mut().copy_from_slice(&predicted);
     }
     let model = model(&recordings, &log, &layout, &setup);
     let unknowns = state.motion.unknowns();
@@ -178,11 +177,8 @@ fn a_sample_on_a_knot_is_in_the_interval_of_its_weights() {
     let setup = MachineSetup::default();
     let parameters = MachineParameters::nominal(&setup, ImuParameters::identity(), 1);
     let layout = Layout::new(&setup, &SensorKind::ALL, &[], parameters.clone());
-    let none = SensorKind::ALL.map(|_| Recording {
-        readings: Vec::new(),
-        times_s: Vec::new(),
-        axes: 3,
-        unit: ReadingUnit::MetrePerSecondSquared,
+    let none = SensorKind::ALL.map(|_| {
+        Recording::new(Vec::new(), Vec::new(), 3, ReadingUnit::MetrePerSecondSquared).expect("no samples")
     });
     let places = model(&none, &log, &layout, &setup).places(&State { motion, parameters });
     let mut seen = 0;

@@ -151,9 +151,9 @@ impl Model<'_> {
                 state.motion.feel(&weights, &carrier, columns, &mut felt);
                 let sample = Sample {
                     sensor: stream.sensor,
-                    reading: &stream.recording.readings[k],
+                    reading: &stream.recording.readings()[k],
                     sd: stream.sd_of(k),
-                    after_middle_s: stream.recording.times_s[k] - self.middle_s,
+                    after_middle_s: stream.recording.times_s()[k] - self.middle_s,
                 };
                 let place = rows.values.len();
                 rows.values.resize(place + 3 * length, 0.0);

@@ -4,6 +4,8 @@ use super::equations::Equations;
 use super::front::Solved;
 use super::model::{Model, State};
 use super::pass::Pass;
+use super::problem::MachineSettings;
+use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
 use nalgebra::DVector;
 
@@ -44,25 +46,29 @@ pub(super) fn stepped(model: &Model<'_>, from: &Minimum, share: f64) -> State {
     state
 }
 
-/// Minimises the cost from a state. `None` where the equations determine nothing.
+/// Minimises the cost from a state. `None` where the equations determine nothing; an error where it is interrupted.
 pub(super) fn minimise(
     model: &Model<'_>,
     start: State,
-    max_iterations: usize,
-    tolerance: f64,
-) -> Option<Minimum> {
+    settings: &MachineSettings,
+) -> Result<Option<Minimum>> {
+    let MachineSettings { max_iterations, tolerance, interruption, progress, .. } = settings;
     let pass = Pass::all(model.trust);
-    let mut here = equations_at(model, start, pass)?;
-    for iteration in 1..=max_iterations {
+    let Some(mut here) = equations_at(model, start, pass) else { return Ok(None) };
+    for iteration in 1..=*max_iterations {
+        interruption.check()?;
+        progress.tell("steps", iteration as u64, *max_iterations as u64);
         here.iterations = iteration;
-        if here.last_step < tolerance {
+        if here.last_step < *tolerance {
             here.status = CalibrationStatus::Converged;
-            return Some(here);
+            return Ok(Some(here));
         }
         let mut share = 1.0;
         let mut found = None;
         for _ in 0..HALVINGS {
-            let tried = equations_at(model, stepped(model, &here, share), pass)?;
+            let Some(tried) = equations_at(model, stepped(model, &here, share), pass) else {
+                return Ok(None);
+            };
             // near the end samples that cross a knot, and outliers, change the cost by more than the step does
             if tried.cost <= here.cost * (1.0 + 1e-6) || here.last_step < NEAR {
                 found = Some(tried);
@@ -71,12 +77,12 @@ pub(super) fn minimise(
             share *= 0.5;
         }
         let Some(tried) = found else {
-            return Some(Minimum { status: CalibrationStatus::Stalled, ..here });
+            return Ok(Some(Minimum { status: CalibrationStatus::Stalled, ..here }));
         };
         here = Minimum { iterations: iteration, ..tried };
     }
-    if here.last_step < tolerance {
+    if here.last_step < *tolerance {
         here.status = CalibrationStatus::Converged;
     }
-    Some(here)
+    Ok(Some(here))
 }

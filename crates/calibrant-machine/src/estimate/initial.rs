@@ -70,7 +70,7 @@ impl<'a> Initial<'a> {
 
 /// Middle of a recording, s.
 pub(super) fn middle_s(recording: &Recording) -> f64 {
-    0.5 * (recording.times_s[0] + recording.times_s[recording.len() - 1])
+    0.5 * (recording.times_s()[0] + recording.times_s()[recording.len() - 1])
 }
 
 /// The log has the joints of the chain, and samples.

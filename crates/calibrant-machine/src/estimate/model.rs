@@ -45,7 +45,7 @@ impl Model<'_> {
     /// Time of the motion at which sample `k` of stream `s` was taken, s.
     pub(super) fn motion_time(&self, s: usize, k: usize, state: &State) -> f64 {
         let stream = &self.streams[s];
-        state.parameters.motion_time(stream.sensor, stream.recording.times_s[k], self.middle_s)
+        state.parameters.motion_time(stream.sensor, stream.recording.times_s()[k], self.middle_s)
     }
 
     /// What carries the sensor in a state.
@@ -64,7 +64,7 @@ impl Model<'_> {
             used.then(|| {
                 let at = state.motion.sensor(&weights, &carrier, joints);
                 let predicted = predicted(stream.sensor, &at.specific_force, &at.rate, &state.parameters);
-                Residual { sample, time_s, value: stream.recording.readings[sample] - predicted }
+                Residual { sample, time_s, value: stream.recording.readings()[sample] - predicted }
             })
         };
         let samples = (0..length).into_par_iter().step_by(pass.stride(length));

@@ -60,7 +60,9 @@ pub(super) fn noise_search(
     };
     let mut growths = Growths { streams: vec![None; model.streams.len()], log: None };
     let mut searched = false;
-    for _ in 0..settings.max_noise_rounds {
+    for round in 1..=settings.max_noise_rounds {
+        settings.interruption.check()?;
+        settings.progress.tell("noise", round as u64, settings.max_noise_rounds as u64);
         let here = equations_at(model, state.clone(), pass).ok_or_else(unsolved)?;
         let posterior = Posterior::at(model, &here, pass, INTERVALS).ok_or_else(unsolved)?;
         *state = stepped(model, &here, 1.0);

@@ -45,8 +45,7 @@ impl<'a> Placement<'a> {
         let recording = self.problem.recording.sensor(self.sensor)?;
         let nominal = self.problem.nominal.sensor(self.sensor);
         let inverse = nominal.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
-        let readings = recording.readings.iter().map(|y| inverse * (y - nominal.bias)).collect();
-        Some(Recording { readings, ..recording.clone() })
+        Some(recording.mapped(recording.unit(), |y| inverse * (y - nominal.bias)))
     }
 
     /// What a sensor in the axes of the tip would feel; `None` where the log says nothing.
@@ -74,7 +73,7 @@ impl<'a> Placement<'a> {
             let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
             let message = format!(
                 "the recording ({}) and the log ({}) hardly overlap",
-                ends(&recording.times_s),
+                ends(recording.times_s()),
                 ends(self.problem.log.times_s())
             );
             return Err(refused(
@@ -103,7 +102,7 @@ impl<'a> Placement<'a> {
 
     /// Root mean square of the gyroscope's readings over that of the motion's rate; 1 for an accelerometer, which feels gravity above all.
     fn rate_ratio(&self, recording: &Recording, delay_s: f64) -> f64 {
-        let samples = recording.times_s.iter().zip(&recording.readings);
+        let samples = recording.times_s().iter().zip(recording.readings());
         let squares = samples.filter_map(|(time_s, reading)| {
             Some((reading.norm_squared(), self.at(time_s + delay_s)?.norm_squared()))
         });
@@ -118,7 +117,7 @@ impl<'a> Placement<'a> {
     pub(super) fn mounting(&self, parameters: &MachineParameters) -> UnitQuaternion<f64> {
         let delay_s = parameters.delays_s[place(self.sensor)];
         let recording = self.recording();
-        let samples = recording.iter().flat_map(|of| of.times_s.iter().zip(&of.readings));
+        let samples = recording.iter().flat_map(|of| of.times_s().iter().zip(of.readings()));
         let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
             samples.filter_map(|(time, reading)| Some((*reading, self.at(time + delay_s)?))).collect();
         start::rotation(&pairs).unwrap_or(parameters.mount.tip_from_sensor)

@@ -3,6 +3,8 @@
 use super::MachineSetup;
 use crate::chain::KinematicChain;
 use crate::log::ReferenceLog;
+use calibrant_core::interruption::Interruption;
+use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, ImuRecording};
 
 /// A recording of an IMU on a machine, and the log of the machine's motion.
@@ -31,10 +33,20 @@ pub struct MachineSettings {
     pub tolerance: f64,
     /// Rounds of the search for the noise at most.
     pub max_noise_rounds: usize,
+    /// Ends the calibration without a result.
+    pub interruption: Interruption,
+    /// Is told of each round and each step.
+    pub progress: Progress,
 }
 
 impl Default for MachineSettings {
     fn default() -> Self {
-        Self { max_iterations: 30, tolerance: 1e-2, max_noise_rounds: 25 }
+        Self {
+            max_iterations: 30,
+            tolerance: 1e-2,
+            max_noise_rounds: 25,
+            interruption: Interruption::default(),
+            progress: Progress::default(),
+        }
     }
 }

@@ -55,7 +55,7 @@ fn with_reference(
     sensor: SensorKind,
     parameters: &MachineParameters,
 ) -> Vec<Sample> {
-    let times = &recording.times_s;
+    let times = recording.times_s();
     let (Some(first), Some(last)) = (times.first(), times.last()) else { return Vec::new() };
     let middle_s = 0.5 * (first + last);
     let distance = |k: usize, time: f64| (parameters.motion_time(sensor, times[k], middle_s) - time).abs();
@@ -64,7 +64,7 @@ fn with_reference(
         while place + 1 < times.len() && distance(place + 1, time) <= distance(place, time) {
             place += 1;
         }
-        (time, residual, recording.readings[place] - residual)
+        (time, residual, recording.readings()[place] - residual)
     };
     residuals.iter().map(sample).collect()
 }

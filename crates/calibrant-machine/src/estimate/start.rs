@@ -19,11 +19,11 @@ pub(super) fn delay(
     around_s: f64,
     range_s: f64,
 ) -> Option<(f64, f64)> {
-    let (first, last) = (*recording.times_s.first()?, *recording.times_s.last()?);
+    let (first, last) = (*recording.times_s().first()?, *recording.times_s().last()?);
     let count = ((last - first) / STEP_S) as usize + 1;
     // the mean magnitude of the readings in each step
     let mut sums = vec![(0.0, 0_usize); count];
-    for (time, reading) in recording.times_s.iter().zip(&recording.readings) {
+    for (time, reading) in recording.times_s().iter().zip(recording.readings()) {
         let place = (((time - first) / STEP_S).round() as usize).min(count - 1);
         sums[place].0 += reading.norm();
         sums[place].1 += 1;
@@ -96,17 +96,14 @@ mod tests {
         let times_s: Vec<f64> = (0..2000).map(|k| 0.005 * k as f64).collect();
         let readings =
             times_s.iter().map(|t| turn.inverse() * motion(t + 0.1234) + Vector3::new(0.01, 0.0, -0.02));
-        let recording = Recording {
-            readings: readings.collect(),
-            times_s: times_s.clone(),
-            axes: 3,
-            unit: ReadingUnit::RadianPerSecond,
-        };
+        let unit = ReadingUnit::RadianPerSecond;
+        let recording =
+            Recording::new(times_s.clone(), readings.collect(), 3, unit).expect("samples in order");
         let (found, score) = delay(&recording, &|t| Some(motion(t)), 0.0, 1.0).expect("it moves");
         // half a sample: the coarse delay is where the iteration begins
         assert!((found - 0.1234).abs() < 4e-3 && score > 0.99, "{found} {score}");
         let pairs: Vec<_> =
-            times_s.iter().zip(&recording.readings).map(|(t, y)| (*y, motion(t + 0.1234))).collect();
+            times_s.iter().zip(recording.readings()).map(|(t, y)| (*y, motion(t + 0.1234))).collect();
         assert!(rotation(&pairs).expect("it turns").angle_to(&turn) < 1e-3);
     }
 }

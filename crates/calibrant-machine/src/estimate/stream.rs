@@ -28,7 +28,7 @@ pub(super) fn white_noise(recording: &Recording) -> Vector3<f64> {
     Vector3::from_fn(|axis, _| {
         let second =
             |window: &[Vector3<f64>]| (window[0][axis] - 2.0 * window[1][axis] + window[2][axis]).abs();
-        let mut differences: Vec<f64> = recording.readings.windows(3).map(second).collect();
+        let mut differences: Vec<f64> = recording.readings().windows(3).map(second).collect();
         if differences.is_empty() {
             return 1.0;
         }

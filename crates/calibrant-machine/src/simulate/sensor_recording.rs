@@ -2,6 +2,7 @@
 
 use crate::estimate::{MachineParameters, MachineSetup, TiltedGravity};
 use crate::reference::Motion;
+use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, SensorKind};
 use calibrant_core::simulate::Rng;
 use nalgebra::Vector3;
@@ -32,7 +33,9 @@ pub struct SensorErrors {
 }
 
 /// The recording of these sensors in this motion. A sample at `t` shows the motion at `t + ε (t − middle) + δ`, with a delay `δ` for each sensor.
-#[must_use]
+///
+/// # Errors
+/// As [`Recording::new`]: the sample rate is above 0.
 pub fn record_sensors(
     motion: &Motion,
     truth: &MachineParameters,
@@ -40,7 +43,7 @@ pub fn record_sensors(
     sampling: &SensorSampling,
     sensors: &[SensorErrors],
     rng: &mut Rng,
-) -> ImuRecording {
+) -> Result<ImuRecording> {
     let times_s: Vec<f64> =
         (0..sampling.samples).map(|k| sampling.start_s + k as f64 / sampling.rate_hz).collect();
     let middle_s = 0.5 * (times_s.first().unwrap_or(&0.0) + times_s.last().unwrap_or(&0.0));
@@ -67,13 +70,13 @@ pub fn record_sensors(
             clean + Vector3::from_fn(|axis, _| normal(rng) * grown * of.noise[axis])
         });
         let readings = readings.collect();
-        let samples = Recording { times_s: times_s.clone(), readings, axes: 3, unit: of.unit };
+        let samples = Recording::new(times_s.clone(), readings, 3, of.unit)?;
         *match of.sensor {
             SensorKind::Accelerometer => &mut recording.accelerometer,
             SensorKind::Gyroscope => &mut recording.gyroscope,
         } = Some(samples);
     }
-    recording
+    Ok(recording)
 }
 
 fn normal(rng: &mut Rng) -> f64 {
@@ -136,6 +139,7 @@ mod tests {
     fn record(motion: &Motion, truth: &MachineParameters, sensors: &[SensorErrors]) -> ImuRecording {
         let sampling = SensorSampling { start_s: 1.0, samples: 4000, rate_hz: 500.0 };
         record_sensors(motion, truth, &setup(), &sampling, sensors, &mut stream(1, Purpose::Sensor, 0))
+            .expect("a rate")
     }
 
     fn gantry() -> Vec<Joint> {
@@ -156,7 +160,7 @@ mod tests {
         let expected = force + Vector3::new(0.1 + 0.01 * force.z, 0.2, 0.3);
         let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
         assert!(recording.gyroscope.is_none());
-        for reading in recording.accelerometer.expect("there").readings {
+        for reading in recording.accelerometer.expect("there").readings() {
             assert!((reading - expected).norm() < 1e-9, "{reading}");
         }
     }
@@ -176,10 +180,10 @@ mod tests {
         let kinds = SensorKind::ALL.map(|sensor| of(sensor, 0.0, 0.0));
         let recording = record(&motion, &truth, &kinds);
         let force = Vector3::new(GRAVITY, -radius * rate * rate, 0.0);
-        for reading in recording.accelerometer.expect("there").readings {
+        for reading in recording.accelerometer.expect("there").readings() {
             assert!((reading - force).norm() < 1e-9, "{reading}");
         }
-        for reading in recording.gyroscope.expect("there").readings {
+        for reading in recording.gyroscope.expect("there").readings() {
             let expected = Vector3::new(rate + 0.01, 0.0, -0.02 + 1e-3 * GRAVITY);
             assert!((reading - expected).norm() < 1e-9, "{reading}");
         }
@@ -195,11 +199,11 @@ mod tests {
         let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
         let recording = recording.accelerometer.expect("there");
         let last = recording.len() - 1;
-        let middle = 0.5 * (recording.times_s[0] + recording.times_s[last]);
+        let middle = 0.5 * (recording.times_s()[0] + recording.times_s()[last]);
         for k in [0, 100, last] {
-            let t = recording.times_s[k];
+            let t = recording.times_s()[k];
             let expected = t + 0.25 + 0.01 * (t - middle);
-            assert!((recording.readings[k].x - expected).abs() < 1e-9, "{k}");
+            assert!((recording.readings()[k].x - expected).abs() < 1e-9, "{k}");
         }
     }
 
@@ -210,7 +214,8 @@ mod tests {
         let truth = MachineParameters::nominal(&setup(), ImuParameters::identity(), 3);
         let clean = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
         let noisy = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.01, 2.0)]);
-        let [clean, noisy] = [clean, noisy].map(|recording| recording.accelerometer.expect("there").readings);
+        let [clean, noisy] =
+            [clean, noisy].map(|recording| recording.accelerometer.expect("there").readings().to_vec());
         let errors: Vec<Vector3<f64>> = noisy.iter().zip(&clean).map(|(a, b)| a - b).collect();
         let sd = |errors: &[Vector3<f64>]| {
             (errors.iter().map(Vector3::norm_squared).sum::<f64>() / (3 * errors.len()) as f64).sqrt()

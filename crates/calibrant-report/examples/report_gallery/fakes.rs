@@ -59,7 +59,8 @@ pub(crate) fn motion_case(axes: usize, intervals: usize, rate_hz: f64, seed: u64
             (truth.reading(&true_motion.acceleration_at(t)) + dice.vector(NOISE)).component_mul(&active)
         })
         .collect();
-    let recording = Recording { times_s, readings, axes, unit: ReadingUnit::MetrePerSecondSquared };
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let recording = Recording::new(times_s, readings, axes, unit).expect("samples in order");
     let calibration = calibrated(&datasheet, &truth, &true_motion, &recording, &mut dice);
     SingleCase { truth, true_motion, recording, calibration }
 }
@@ -71,7 +72,7 @@ fn calibrated(
     recording: &Recording,
     dice: &mut Dice,
 ) -> Calibration {
-    let axes = recording.axes;
+    let axes = recording.axes();
     let list = datasheet.parameter_list();
     let p = list.len();
     let (sd_bias, sd_scale, rho) = (7e-5, 6e-5, -0.35);
@@ -98,9 +99,9 @@ fn calibrated(
     let sd = |k: usize| if k == 0 || k == last { 0.0 } else { 1.1e-4 };
     let acceleration_sd_mps2 = (0..=last).map(|k| Vector3::repeat(sd(k))).collect();
     let residuals: Vec<Vector3<f64>> = recording
-        .times_s
+        .times_s()
         .iter()
-        .zip(&recording.readings)
+        .zip(recording.readings())
         .map(|(&t, y)| y - estimate.reading(&motion.acceleration_at(t)))
         .collect();
     let rms = Vector3::from_fn(|i, _| {
@@ -118,7 +119,7 @@ fn calibrated(
         prior_share: Vec::new(),
         datasheet_prior: false,
         imu: ImuParameters { accelerometer: estimate, ..ImuParameters::identity() },
-        accelerometer_unit: recording.unit,
+        accelerometer_unit: recording.unit(),
         fit: FitStatistics {
             chi2: degrees_of_freedom as f64 * 1.013,
             degrees_of_freedom,
@@ -157,8 +158,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
             .matrix,
     };
     let (rate, between) = (100.0, samples_per_hold / 3);
-    let mut recording =
-        Recording { times_s: Vec::new(), readings: Vec::new(), axes: 3, unit: ReadingUnit::Counts };
+    let mut recording = Recording::new(Vec::new(), Vec::new(), 3, ReadingUnit::Counts).expect("no samples");
     let mut holds = Vec::new();
     let mut previous = Vector3::new(0.0, 0.0, 9.81);
     for number in 0..count {
@@ -175,7 +175,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
             push(&mut recording, noisy, rate);
         }
         let end = recording.len();
-        let time = |k: usize| recording.times_s[k];
+        let time = |k: usize| recording.times_s()[k];
         let residual = if number == 17 { 0.021 } else { dice.normal(0.001) };
         holds.push(HoldResult {
             hold: Hold {
@@ -250,8 +250,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
 }
 
 fn push(recording: &mut Recording, reading: Vector3<f64>, rate: f64) {
-    recording.times_s.push(recording.len() as f64 / rate);
-    recording.readings.push(reading.map(f64::round));
+    recording.push(recording.len() as f64 / rate, reading.map(f64::round)).expect("samples in order");
 }
 
 /// A study of this many sensors.

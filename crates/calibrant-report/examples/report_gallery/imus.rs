@@ -111,8 +111,7 @@ struct Hand<'a> {
 
 impl<'a> Hand<'a> {
     fn new(truth: &'a ImuParameters, seed: u64) -> Self {
-        let empty =
-            Recording { times_s: Vec::new(), readings: Vec::new(), axes: 3, unit: ReadingUnit::Counts };
+        let empty = Recording::new(Vec::new(), Vec::new(), 3, ReadingUnit::Counts).expect("no samples");
         Self {
             truth,
             rng: ChaCha8Rng::seed_from_u64(seed),
@@ -159,8 +158,7 @@ impl<'a> Hand<'a> {
                 (&mut self.recording.gyroscope, gyroscope),
             ] {
                 if let Some(recording) = recording {
-                    recording.times_s.push(time_s);
-                    recording.readings.push(reading);
+                    recording.push(time_s, reading).expect("samples in order");
                 }
             }
         }

@@ -93,7 +93,7 @@ pub(crate) fn machine_case(poses: bool, duration_s: f64, seed: u64) -> MachineCa
         rates.push(felt.rate * 1.002 + Vector3::repeat(3e-3) + noise(1e-3));
     }
     let times_s: Vec<f64> = (10..count - 10).map(time).collect();
-    let of = |readings, unit| Recording { times_s: times_s.clone(), readings, axes: 3, unit };
+    let of = |readings, unit| Recording::new(times_s.clone(), readings, 3, unit).expect("samples in order");
     let recording = ImuRecording {
         accelerometer: Some(of(forces, ReadingUnit::MetrePerSecondSquared)),
         gyroscope: Some(of(rates, ReadingUnit::RadianPerSecond)),

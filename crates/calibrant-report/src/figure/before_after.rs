@@ -102,14 +102,14 @@ fn force_panels(
 ) -> Option<Vec<Panel>> {
     let before = Correction::of(&holds.before.sensor)?;
     let gravity = holds.gravity.magnitude_mps2;
-    let before: Vec<f64> = recording.readings.iter().map(|reading| before.apply(reading).norm()).collect();
+    let before: Vec<f64> = recording.readings().iter().map(|reading| before.apply(reading).norm()).collect();
     let after: Vec<f64> = after.iter().map(Vector3::norm).collect();
-    let before = |k: usize| (recording.times_s[k], before[k]);
-    let after = |k: usize| (recording.times_s[k], after[k]);
+    let before = |k: usize| (recording.times_s()[k], before[k]);
+    let after = |k: usize| (recording.times_s()[k], after[k]);
     let all = || 0..recording.len();
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
-    let (first, last) = (*recording.times_s.first()?, *recording.times_s.last()?);
+    let (first, last) = (*recording.times_s().first()?, *recording.times_s().last()?);
     let at_gravity = Series::new(
         "g",
         colour::BLACK,
@@ -149,7 +149,7 @@ fn ranges(
 /// The rate after the correction, and the change by it. `after` are the corrected readings.
 fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Recording) -> Option<Vec<Panel>> {
     let before = Correction::of(&before.sensor)?;
-    let after = || recording.times_s.iter().copied().zip(after);
+    let after = || recording.times_s().iter().copied().zip(after);
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let magnitude = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
     let rate = Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
@@ -162,7 +162,7 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
     let looks = [(colour::VERMILLION, ""), (colour::GREEN, "6 3"), (colour::BLUE, "2 2")];
     for (axis, (colour, dashes)) in Axis::ALL.into_iter().zip(looks) {
         let row = before.matrix.row(axis.index()).transpose();
-        let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
+        let difference = thinned(after().zip(recording.readings()).map(|((t, after), reading)| {
             (t, (after[axis.index()] - row.dot(&(reading - before.bias))).to_degrees())
         }));
         change = change.with(Series::new(

@@ -25,13 +25,13 @@ pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording)
         })
         .filter(|shade| shade.from.is_finite() && shade.to.is_finite())
         .collect();
-    let label = format!("reading ({})", recording.unit.symbol());
+    let label = format!("reading ({})", recording.unit().symbol());
     let panels = recording
         .active_axes()
         .iter()
         .map(|&axis| {
-            let values = recording.readings.iter().map(|reading| reading[axis.index()]);
-            let points = thinned(recording.times_s.iter().copied().zip(values));
+            let values = recording.readings().iter().map(|reading| reading[axis.index()]);
+            let points = thinned(recording.times_s().iter().copied().zip(values));
             let line = Series::new("reading", colour::BLUE, Mark::Line { width: 0.9, dashes: "" }, points);
             Panel {
                 shades: shades.clone(),

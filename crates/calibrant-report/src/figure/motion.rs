@@ -40,9 +40,9 @@ pub(crate) fn acceleration_figure(
         } else {
             (first..end)
                 .map(|k| {
-                    let reading = &recording.readings[k];
+                    let reading = &recording.readings()[k];
                     let value = correction.as_ref().map_or(*reading, |c| c.apply(reading)) - gravity;
-                    (recording.times_s[k], value[axis.index()])
+                    (recording.times_s()[k], value[axis.index()])
                 })
                 .collect()
         };
@@ -151,7 +151,7 @@ pub(crate) fn state_and_jerk_figure(
     };
     let mut panels = quantity("state xᵢ (m/s²)", JerkControlledMotion::intercept_mps2);
     panels.extend(quantity("input uᵢ (m/s³)", JerkControlledMotion::jerk_mps3));
-    let columns = if recording.axes == 1 { 2 } else { 3 };
+    let columns = if recording.axes() == 1 { 2 } else { 3 };
     let good = if truth.is_some() { " Good: the dashed steps cover the solid ones." } else { "" };
     let caption = format!(
         "Acceleration in interval i is α(t) = xᵢ + uᵢ t. uᵢ is the jerk, and xᵢ the line's intercept at t = 0. The intercept grows with \

@@ -15,7 +15,7 @@ pub(crate) fn residuals_over_time(
     recording: &Recording,
 ) -> Figure {
     let unit = unit_of(calibration);
-    let times = recording.times_s.get(motion.first_sample..).unwrap_or_default();
+    let times = recording.times_s().get(motion.first_sample..).unwrap_or_default();
     let panels = panels(motion, recording, "time (s)", &unit.label("residual"), |axis, panel| {
         let values = residuals(motion, axis, unit);
         let points: Vec<_> = times.iter().copied().zip(values).collect();

@@ -67,7 +67,7 @@ fn the_magnitude_before_is_that_of_plain_readings() {
     let case = imus::imu_case(14, 1);
     let holds = case.calibration.holds().expect("held");
     let imu = &case.calibration.imu.accelerometer;
-    let readings = &case.recording.accelerometer.as_ref().expect("recorded").readings;
+    let readings = case.recording.accelerometer.as_ref().expect("recorded").readings();
     let bias = (imu.bias.x + imu.bias.y + imu.bias.z) / 3.0;
     let gain = imu.matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
     let mut squares = 0.0;

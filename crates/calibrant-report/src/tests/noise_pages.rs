@@ -21,14 +21,10 @@ fn noise(sensor_kind: SensorKind, unit: ReadingUnit, drift: f64) -> SensorNoise 
 
 fn of_axes(sensor_kind: SensorKind, unit: ReadingUnit, axes: &[Vec<f64>; 3], drift: f64) -> SensorNoise {
     let (n, interval) = (axes[0].len(), 0.01);
-    let recording = Recording {
-        times_s: (0..n).map(|k| k as f64 * interval).collect(),
-        readings: (0..n)
-            .map(|k| Vector3::new(axes[0][k], axes[1][k], axes[2][k] + drift * k as f64))
-            .collect(),
-        axes: 3,
-        unit,
-    };
+    let times_s = (0..n).map(|k| k as f64 * interval).collect();
+    let reading = |k: usize| Vector3::new(axes[0][k], axes[1][k], axes[2][k] + drift * k as f64);
+    let readings = (0..n).map(reading).collect();
+    let recording = Recording::new(times_s, readings, 3, unit).expect("samples in order");
     let segment = Segment::between(&recording, 0.0, 1e3).expect("long enough");
     SensorNoise::of(sensor_kind, &recording, segment).expect("noisy")
 }

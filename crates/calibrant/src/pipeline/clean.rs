@@ -28,7 +28,7 @@ pub(crate) fn take_out_outliers_in_motion(recording: &mut ImuRecording) -> Vec<D
 
 fn diagnostics(recording: &ImuRecording, outliers: &[(SensorKind, Spikes)]) -> Vec<Diagnostic> {
     let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
-        let unit = recording.sensor(*sensor_kind)?.unit;
+        let unit = recording.sensor(*sensor_kind)?.unit();
         Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
     };
     outliers.iter().filter_map(of_sensor).collect()

@@ -66,7 +66,7 @@ fn hashes(recording: &Recording) -> Vec<u64> {
         reading.iter().for_each(|value| value.to_bits().hash(&mut hasher));
         hasher.finish()
     };
-    recording.readings.iter().map(hash).collect()
+    recording.readings().iter().map(hash).collect()
 }
 
 #[cfg(test)]
@@ -96,7 +96,7 @@ mod tests {
     fn repeated(step: f64, seed: u64) -> Recording {
         let mut recording = recorded(0.0, 7);
         let noise = recorded(SD, seed);
-        for (y, n) in recording.readings.iter_mut().zip(&noise.readings) {
+        for (y, n) in recording.readings_mut().iter_mut().zip(noise.readings()) {
             // the noise of a recording, whatever its poses
             *y = (*y + n.map(|n| (n * 1e3).fract() * 2.0 * SD)).map(|y| (y / step).round() * step);
         }
@@ -115,11 +115,7 @@ mod tests {
         for step in [1e-7, 0.05] {
             let whole = repeated(step, 8);
             let n = whole.len();
-            let part = |range: std::ops::Range<usize>| Recording {
-                times_s: whole.times_s[range.clone()].iter().map(|t| t + 1e3).collect(),
-                readings: whole.readings[range].to_vec(),
-                ..whole.clone()
-            };
+            let part = |range: std::ops::Range<usize>| whole.only(|k| range.contains(&k)).later_by(1e3);
             for (one, other) in
                 [(0..n, 0..n), (0..n, n / 3..n / 2), (0..2 * n / 3, n / 4..n), (n / 2 + 3..n, 0..n)]
             {

@@ -107,7 +107,8 @@ impl<'e> MachineTask<'e> {
                 .push(MachineValidation { source, ..compare_on_machine(&calibration, &second, &setup) });
         }
         if let Some(folds) = options.folds {
-            let outcome = cross_validate_on_machine(&problem, &calibration, folds);
+            let outcome =
+                cross_validate_on_machine(&problem, &calibration, &MachineSettings::default(), folds);
             validations.extend(unless_too_few(outcome, notes)?);
         }
         let Moved { recorded, log_input, .. } = moved;

@@ -77,7 +77,7 @@ impl Recorded {
         let added = other.accelerometer().map_err(|error| error.in_recording(path))?;
         self.joined.push(Input::of(path, &other.sha256.concat(), Some(added)));
         if let Some(recording) = &mut self.recording.accelerometer {
-            if (recording.unit, recording.axes) != (added.unit, added.axes) {
+            if (recording.unit(), recording.axes()) != (added.unit(), added.axes()) {
                 let message = "its unit or number of axes is not that of the first recording";
                 let help = "record one sensor in one unit, or calibrate the recordings one by one";
                 return refused(Refusal::RecordingsUnlike, message, help);
@@ -99,7 +99,7 @@ impl Recorded {
         const SINCE_S: i64 = 946_684_800;
         let first_s = || {
             let times = SensorKind::ALL.map(|sensor_kind| self.recording.sensor(sensor_kind));
-            times.into_iter().flatten().find_map(|recording| recording.times_s.first().copied())
+            times.into_iter().flatten().find_map(|recording| recording.times_s().first().copied())
         };
         let seconds = match self.counted_from_ns {
             Some(counted_from_ns) => i64::try_from(counted_from_ns.div_euclid(1_000_000_000)).ok(),

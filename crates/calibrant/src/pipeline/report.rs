@@ -35,7 +35,7 @@ pub(crate) fn about(
 
 /// From when to when the accelerometer was recorded.
 fn times(recorded: &Recorded) -> String {
-    let times = recorded.recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);
+    let times = recorded.recording.accelerometer.as_ref().map_or(&[][..], |recording| recording.times_s());
     let ends = times.first().zip(times.last());
     ends.map_or_else(String::new, |(first, last)| {
         format!(", {} to {} s", significant(*first, 6), significant(*last, 6))

@@ -17,7 +17,7 @@ pub(crate) fn setup_of(
 ) -> Result<ImuSetup> {
     let mut setup = plan.setup(holds);
     if let Some(path) = &source.sections {
-        let times = recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);
+        let times = recording.accelerometer.as_ref().map_or(&[][..], |recording| recording.times_s());
         let sections = read_sections(path)?;
         if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
             let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());

@@ -70,9 +70,9 @@ fn design(knowledge: DirectionKnowledge, poses: usize) -> (PoseProblem, PoseDesi
 /// The recording with a drift of each bias from the middle of the first hold to that of the last.
 fn drifting(mut recording: Recording, rng: &mut Rng) -> Recording {
     let drift = Vector3::from_fn(|_, _| DRIFT * normal(rng));
-    let last = recording.times_s.last().copied().unwrap_or(0.0);
+    let last = recording.times_s().last().copied().unwrap_or(0.0);
     let (first, last) = (0.5 * HOLD_S, last - 0.5 * HOLD_S);
-    for (t, reading) in recording.times_s.iter().zip(&mut recording.readings) {
+    for (t, reading) in recording.samples_mut() {
         *reading += drift * ((t - first) / (last - first) - 0.5);
     }
     recording

@@ -48,7 +48,7 @@ fn record(
     };
     let readings = forces.iter().enumerate().map(&mut reading).collect();
     let times_s = (0..forces.len()).map(|k| k as f64 / RATE_HZ).collect();
-    Recording { times_s, readings, axes: 3, unit: ReadingUnit::MetrePerSecondSquared }
+    Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared).expect("samples in order")
 }
 
 /// z of each parameter, and the calibration.
@@ -137,7 +137,7 @@ fn the_parameters_of_an_imu_are_within_their_uncertainty_with_a_drift() {
             let mut recording = ByHand::default().record(&imu, &mut rng);
             let accelerometer = recording.accelerometer.as_mut().expect("there");
             let count = accelerometer.len() as f64;
-            for (k, reading) in accelerometer.readings.iter_mut().enumerate() {
+            for (k, reading) in accelerometer.readings_mut().iter_mut().enumerate() {
                 *reading += Vector3::new(0.3, -0.5, 0.8) * (drift_mps2 * (k as f64 / count - 0.5));
             }
             let holds = HoldsSetup { bias_drift_sd_mps2: allowed, ..HoldsSetup::default() };

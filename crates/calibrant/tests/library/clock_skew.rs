@@ -3,7 +3,7 @@
 
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
-use crate::common::messages;
+use crate::common::{messages, retimed};
 use calibrant::Error;
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuProblem,
@@ -28,12 +28,7 @@ fn run(recording: &ImuRecording) -> calibrant::Result<Calibration> {
 
 /// Every `step`-th sample, from one on.
 fn every(recording: &Recording, step: usize, from: usize) -> Recording {
-    let thinned = |values: &[Vector3<f64>]| values.iter().skip(from).step_by(step).copied().collect();
-    Recording {
-        times_s: recording.times_s.iter().skip(from).step_by(step).copied().collect(),
-        readings: thinned(&recording.readings),
-        ..*recording
-    }
+    recording.only(|k| k >= from && (k - from) % step == 0)
 }
 
 /// A recording at 400 Hz without some of the samples in each hold, so that these last from 2 to 4 s.
@@ -44,9 +39,9 @@ fn of_uneven_holds(recording: &Recording, number: u64) -> Recording {
         !(400..400 + (number as usize + hold) * 7919 % 800).contains(&place)
     };
     let readings: Vec<Vector3<f64>> =
-        (0..recording.len()).filter(kept).map(|k| recording.readings[k]).collect();
+        (0..recording.len()).filter(kept).map(|k| recording.readings()[k]).collect();
     let times_s = (0..readings.len()).map(|k| k as f64 / 400.0).collect();
-    Recording { times_s, readings, ..*recording }
+    Recording::new(times_s, readings, 3, recording.unit()).expect("samples in order")
 }
 
 /// An IMU, and its recording at 400 Hz when it is turned on an arm whose components have this standard
@@ -57,10 +52,10 @@ fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameter
     let mut both = simulate_imu(&imu, setup, &mut rng);
     let arm = Vector3::from_fn(|_, _| arm_sd_m * crate::common::normal(&mut rng));
     let (Some(forces), Some(rates)) = (&mut both.accelerometer, &both.gyroscope) else { unreachable!() };
-    let rate = |k: usize| rates.readings[k] - imu.gyroscope.bias;
+    let rate = |k: usize| rates.readings()[k] - imu.gyroscope.bias;
     for k in 4..rates.len() - 4 {
         let change = (rate(k + 4) - rate(k - 4)) * (400.0 / 8.0);
-        forces.readings[k] += change.cross(&arm) + rate(k).cross(&rate(k).cross(&arm));
+        forces.readings_mut()[k] += change.cross(&arm) + rate(k).cross(&rate(k).cross(&arm));
     }
     (imu, both)
 }
@@ -69,8 +64,8 @@ fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameter
 fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuRecording {
     let (Some(forces), Some(rates)) = (&both.accelerometer, &both.gyroscope) else { unreachable!() };
     let steps = [[4, 1], [2, 5], [8, 2], [4, 4], [3, 3]][number as usize % 5];
-    let (accelerometer, mut gyroscope) = (every(forces, steps[0], 1), every(rates, steps[1], 2));
-    gyroscope.times_s.iter_mut().for_each(|t| *t = clock(*t));
+    let (accelerometer, gyroscope) = (every(forces, steps[0], 1), every(rates, steps[1], 2));
+    let gyroscope = retimed(&gyroscope, clock);
     ImuRecording { accelerometer: Some(accelerometer), gyroscope: Some(gyroscope), temperature_c: None }
 }
 
@@ -184,7 +179,8 @@ fn the_xsens_pair_is_not_accused() {
     assert_eq!(message(&calibrate(&recording)), None);
     // and it is so with a wrong clock
     let mut other = recording;
-    other.gyroscope.as_mut().expect("there").times_s.iter_mut().for_each(|t| *t = 3.0 + (*t - 3.0) * 1.0002);
+    let gyroscope = other.gyroscope.as_mut().expect("there");
+    *gyroscope = retimed(gyroscope, |t| 3.0 + (t - 3.0) * 1.0002);
     let calibration = calibrate(&other);
     let warning = message(&calibration).expect("told");
     let (growth, sd) = (number(&warning, "at different rates, by "), number(&warning, " ± "));
@@ -217,9 +213,9 @@ fn a_clock_that_goes_faster_is_told_with_its_rate_and_the_advice_repairs_the_gai
             (_, true) => number(&warning, "and add "),
             _ => 0.0,
         };
-        let times = &mut recording.gyroscope.as_mut().expect("there").times_s;
-        let first = times[0];
-        times.iter_mut().for_each(|t| *t = first + (*t - first) * factor + shift);
+        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        let first = gyroscope.times_s()[0];
+        *gyroscope = retimed(gyroscope, |t| first + (t - first) * factor + shift);
         let repaired = run(&recording).expect("determined");
         assert_eq!(message(&repaired), None, "{rate}");
         assert!(

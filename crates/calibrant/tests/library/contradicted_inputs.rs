@@ -55,7 +55,7 @@ fn a_given_hold_in_which_the_sensor_turns_about_the_vertical_is_named_and_tells_
         let gyroscope = recording.gyroscope.as_mut().expect("there");
         // in the second hold, with -x up, from 14 to 19 s
         let (start_s, end_s) = if rate < 0.1 { (13.0, 20.0) } else { (during.start, during.end) };
-        for (t, y) in gyroscope.times_s.iter().zip(&mut gyroscope.readings) {
+        for (t, y) in gyroscope.samples_mut() {
             if (start_s..end_s).contains(t) {
                 *y += truth.gyroscope.matrix.column(0) * rate;
             }

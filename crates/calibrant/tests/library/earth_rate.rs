@@ -237,9 +237,7 @@ fn where_a_rotation_cannot_be_followed_another_heading_begins() {
     let gyroscope = recording.gyroscope.as_mut().expect("a gyroscope");
     // the gyroscope pauses in the third, the fourth and the tenth rotation, so that a hold is alone
     let paused = |t: f64| [3, 4, 10].iter().any(|&k| (t - 4.5 * f64::from(k) + 1.0).abs() < 0.4);
-    let kept: Vec<usize> = (0..gyroscope.len()).filter(|&k| !paused(gyroscope.times_s[k])).collect();
-    gyroscope.times_s = kept.iter().map(|&k| gyroscope.times_s[k]).collect();
-    gyroscope.readings = kept.iter().map(|&k| gyroscope.readings[k]).collect();
+    *gyroscope = gyroscope.only(|k| !paused(gyroscope.times_s()[k]));
     let calibration = Bench::new(true, Some(34.0)).calibrate(&recording);
     assert_eq!(calibration.rotations().iter().filter(|rotation| !rotation.used).count(), 3);
     let off = (calibration.imu.g_sensitivity - truth.g_sensitivity).amax();

@@ -20,7 +20,7 @@ fn in_sd(one: &[f64], other: &[f64], sd: &[f64]) -> f64 {
 /// Design matrix of the hat functions: sample k on nodes 0..=N.
 fn hats(motion: &JerkControlledMotion, recording: &Recording) -> DMatrix<f64> {
     let mut hats = DMatrix::zeros(recording.len(), motion.intervals() + 1);
-    for (k, &t) in recording.times_s.iter().enumerate() {
+    for (k, &t) in recording.times_s().iter().enumerate() {
         let (i, lambda) = motion.locate(t);
         hats[(k, i)] = 1.0 - lambda;
         hats[(k, i + 1)] = lambda;
@@ -37,13 +37,13 @@ fn known_motion_equals_ordinary_least_squares() {
             let columns: &[usize] = if model == SensorModel::Full { &[0, 1, 2] } else { &[axis] };
             let m = case.recording.len();
             let mut x = DMatrix::from_element(m, 1 + columns.len(), 1.0);
-            for (k, &t) in case.recording.times_s.iter().enumerate() {
+            for (k, &t) in case.recording.times_s().iter().enumerate() {
                 let a = case.command.motion.acceleration_at(t);
                 for (c, &column) in columns.iter().enumerate() {
                     x[(k, 1 + c)] = a[column];
                 }
             }
-            let y = DVector::from_iterator(m, case.recording.readings.iter().map(|y| y[axis]));
+            let y = DVector::from_iterator(m, case.recording.readings().iter().map(|y| y[axis]));
             let normal = x.tr_mul(&x).try_inverse().expect("regular");
             let ols = x.clone().svd(true, true).solve(&y, 0.0).expect("solved");
             let sigma = 2e-4;
@@ -72,7 +72,7 @@ fn unknown_motion_equals_the_closed_form() {
         let last = a.len() - 1;
         let Recovered::Motion(recovered) = &calibration.recovered else { panic!("a motion") };
         for axis in 0..3 {
-            let y = DVector::from_iterator(x.nrows(), case.recording.readings.iter().map(|y| y[axis]));
+            let y = DVector::from_iterator(x.nrows(), case.recording.readings().iter().map(|y| y[axis]));
             let z = x.clone().svd(true, true).solve(&y, 0.0).expect("solved");
             let k = (z[last] - z[0]) / (a[last][axis] - a[0][axis]);
             let b = z[0] - k * a[0][axis];
@@ -239,10 +239,7 @@ fn counts_and_si_give_the_same_sensor() {
         counts.sensor.gain = known_gain.then(|| Vector3::repeat(gain));
         counts.sensor.offset = known_gain.then(|| Vector3::repeat(offset));
         counts.sensor.noise_counts = Some(Vector3::repeat(2e-4 * gain));
-        counts.recording.unit = counts.sensor.unit;
-        for y in &mut counts.recording.readings {
-            *y = y.map(|y| gain * y + offset);
-        }
+        counts.recording = case.recording.mapped(counts.sensor.unit, |y| y.map(|y| gain * y + offset));
         let raw = counts.calibrate().expect("identifiable");
         for axis in 0..3 {
             assert!(((raw.values[axis] - offset) / gain - si.values[axis]).abs() < 1e-6 * si.sd()[axis]);
@@ -255,10 +252,7 @@ fn counts_and_si_give_the_same_sensor() {
 #[test]
 fn gaps_are_named_where_nothing_is_known_of_the_motion() {
     let mut case = Case::new(SensorModel::ScaleBias, Trust::Unknown, 14, 5.0, 2.0, 11);
-    let keep: Vec<usize> =
-        (0..case.recording.len()).filter(|&k| !(18.0..33.0).contains(&case.recording.times_s[k])).collect();
-    case.recording.times_s = keep.iter().map(|&k| case.recording.times_s[k]).collect();
-    case.recording.readings = keep.iter().map(|&k| case.recording.readings[k]).collect();
+    case.recording = case.recording.only(|k| !(18.0..33.0).contains(&case.recording.times_s()[k]));
     let error = case.calibrate().expect_err("the motion from 20 to 30 s is free");
     assert!(error.is_not_identifiable());
     assert!(error.to_string().contains("the motion itself is not determined"), "{error}");
@@ -280,7 +274,7 @@ fn limits_and_population_are_reproducible() {
 fn a_reversed_axis_is_estimated_and_pointed_out() {
     for trust in [Trust::Known, Trust::Unknown, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 })] {
         let mut case = Case::new(SensorModel::ScaleBias, trust, 14, 5.0, 2.0, 11);
-        case.recording.readings.iter_mut().for_each(|y| y.y = -y.y);
+        case.recording.readings_mut().iter_mut().for_each(|y| y.y = -y.y);
         let calibration = case.calibrate().expect("identifiable");
         assert_eq!(calibration.status, CalibrationStatus::Converged, "{trust:?}");
         assert!(
@@ -295,7 +289,7 @@ fn a_reversed_axis_is_estimated_and_pointed_out() {
 fn a_dead_sensor_is_not_calibrated() {
     for trust in [Trust::Known, Trust::Unknown, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 })] {
         let mut case = Case::new(SensorModel::ScaleBias, trust, 14, 5.0, 2.0, 11);
-        case.recording.readings.iter_mut().for_each(|y| y.x = 0.0);
+        case.recording.readings_mut().iter_mut().for_each(|y| y.x = 0.0);
         let error = case.calibrate().expect_err("axis x is dead");
         assert!(error.is_not_identifiable(), "{trust:?}: {error}");
     }

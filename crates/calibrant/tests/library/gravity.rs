@@ -31,7 +31,7 @@ fn slanted() -> MotionGravity {
 fn with_force(case: &Case, force: Vector3<f64>, gravity: Option<MotionGravity>) -> Case {
     let mut case = case.clone();
     let constant = case.truth.matrix * force;
-    case.recording.readings.iter_mut().for_each(|y| *y += constant);
+    case.recording.readings_mut().iter_mut().for_each(|y| *y += constant);
     case.command.gravity = gravity;
     case
 }
@@ -53,7 +53,7 @@ fn dense(
     let mut information = DMatrix::zeros(p + 3, p + 3);
     let mut right = DVector::zeros(p + 3);
     for k in 0..m {
-        let force = case.command.motion.acceleration_at(case.recording.times_s[k]) + gravity.force_mps2;
+        let force = case.command.motion.acceleration_at(case.recording.times_s()[k]) + gravity.force_mps2;
         let mut rows = DMatrix::zeros(3, p + 3);
         for (place, quantity) in list.quantities().iter().enumerate() {
             rows.column_mut(place).copy_from(&quantity.derivative(&force));
@@ -61,7 +61,7 @@ fn dense(
         rows.columns_mut(p, 3).copy_from(matrix);
         rows /= 2e-4;
         information += rows.transpose() * &rows;
-        right += rows.transpose() * case.recording.readings[k] / 2e-4;
+        right += rows.transpose() * case.recording.readings()[k] / 2e-4;
     }
     let mut own = information.view_mut((p, p), (3, 3));
     own += gravity.offset_covariance().try_inverse().expect("regular");

@@ -144,7 +144,7 @@ fn bad_holds_are_found_and_left_out_with_a_word() {
         for &hold in &bad {
             // a sensor that bumped against the table, was magnetised, or leaned on a hand: the magnitude is
             // wrong
-            for reading in &mut recording.readings
+            for reading in &mut recording.readings_mut()
                 [spans[hold].0.saturating_sub(30)..(spans[hold].1 + 30).min(clean.len())]
             {
                 let along = (*reading - truth.bias).normalize();
@@ -195,7 +195,7 @@ fn holds_that_do_not_spread_are_named() {
 
     // no holds
     let (_, mut recording) = simulate(12, 4);
-    for (k, reading) in recording.readings.iter_mut().enumerate() {
+    for (k, reading) in recording.readings_mut().iter_mut().enumerate() {
         *reading = Rotation3::from_euler_angles(0.013 * k as f64, 0.007 * k as f64, 0.02 * k as f64)
             * Vector3::new(0.0, 0.0, 9.81)
             * (1.0 + 0.1 * (0.1 * k as f64).sin());
@@ -205,21 +205,22 @@ fn holds_that_do_not_spread_are_named() {
     assert!(error.is_not_identifiable(), "{error}");
 
     // many holds on one circle: gravity never leaves the x-y plane
-    let mut flat =
-        Recording { times_s: vec![], readings: vec![], axes: 3, unit: ReadingUnit::MetrePerSecondSquared };
+    let (mut times_s, mut readings) = (vec![], vec![]);
     for k in 0..12 * 400 {
         let angle = (k / 400) as f64 * 0.5 + if k % 400 < 300 { 0.0 } else { (k % 400 - 300) as f64 * 0.005 };
         let wiggle = 0.01 * ((k * 7919 % 1000) as f64 / 500.0 - 1.0);
-        flat.times_s.push(k as f64 * 0.01);
-        flat.readings.push(Vector3::new(9.81 * angle.cos() + wiggle, 9.81 * angle.sin() - wiggle, 0.0));
+        times_s.push(k as f64 * 0.01);
+        readings.push(Vector3::new(9.81 * angle.cos() + wiggle, 9.81 * angle.sin() - wiggle, 0.0));
     }
+    let mut flat =
+        Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared).expect("samples in order");
     let error = run(&sensor(SensorModel::Full), &flat, &HoldsSetup::default()).expect_err("one circle");
     assert!(error.is_not_identifiable(), "{error}");
     let text = error.to_string();
     assert!(text.contains("do not spread enough") && text.contains("scale.z"), "{text}");
     assert!(text.contains("on one circle, turned about the sensor's axis z only"), "{text}");
     // always the same orientation, turned about the vertical
-    flat.readings
+    flat.readings_mut()
         .iter_mut()
         .for_each(|reading| *reading = Vector3::new(reading.z, reading.z, 9.81) + *reading * 1e-4);
     let error = run(&sensor(SensorModel::ScaleBias), &flat, &HoldsSetup::default()).expect_err("one point");
@@ -357,17 +358,18 @@ fn holds_are_found_whatever_became_of_the_times() {
         let (even, _) = simulate_holds(&identity, &Vector3::repeat(0.01), unit, &simulation, &mut rng);
         let arrival = |t: f64, share: f64| if late { t - 0.003 * share.ln() } else { t };
         let tick = |t: f64| if coarse { (1e3 * t).round() / 1e3 } else { t };
-        let mut times_s: Vec<f64> =
-            even.times_s.iter().map(|t| tick(arrival(*t, rng.random_range(1e-6..1.0)))).collect();
-        times_s.sort_by(f64::total_cmp);
-        let mut recording = Recording { times_s: Vec::new(), readings: Vec::new(), ..even };
-        for (t, reading) in times_s.into_iter().zip(even.readings) {
-            let is_new = recording.times_s.last().is_none_or(|last| t > *last);
+        let mut arrived: Vec<f64> =
+            even.times_s().iter().map(|t| tick(arrival(*t, rng.random_range(1e-6..1.0)))).collect();
+        arrived.sort_by(f64::total_cmp);
+        let (mut times_s, mut readings) = (Vec::new(), Vec::new());
+        for (t, reading) in arrived.into_iter().zip(even.readings()) {
+            let is_new = times_s.last().is_none_or(|last| t > *last);
             if is_new && !(lost && rng.random_bool(0.3)) {
-                recording.times_s.push(t);
-                recording.readings.push(reading);
+                times_s.push(t);
+                readings.push(*reading);
             }
         }
+        let recording = Recording::new(times_s, readings, 3, unit).expect("samples in order");
         let found = find_holds(&recording, 1.0).expect("fast enough");
         let rate = recording.rate_hz();
         assert_eq!(found.len(), 14, "{coarse} {late} {lost}: {rate} Hz");
@@ -383,8 +385,7 @@ fn holds_are_found_whatever_became_of_the_times() {
 fn six_faces_do_not_determine_cross_axis_terms() {
     let mut rng = stream(12, Purpose::Sensor, 0);
     let truth = draw_sensor(&sensor(SensorModel::ScaleBias), &mut rng);
-    let mut recording =
-        Recording { times_s: vec![], readings: vec![], axes: 3, unit: ReadingUnit::MetrePerSecondSquared };
+    let (mut times_s, mut readings) = (vec![], vec![]);
     let faces = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y(), Vector3::z(), -Vector3::z()];
     for k in 0..24 * 500 {
         let (pose, next) = (faces[(k / 500) % 6], faces[(k / 500 + 1) % 6]);
@@ -394,9 +395,11 @@ fn six_faces_do_not_determine_cross_axis_terms() {
             * 9.80665;
         let noise =
             Vector3::from_fn(|axis, _| 0.02 * (((k * 7919 + axis * 104_729) % 1009) as f64 / 1009.0 - 0.5));
-        recording.times_s.push(k as f64 * 0.01);
-        recording.readings.push(truth.reading(&force) + noise);
+        times_s.push(k as f64 * 0.01);
+        readings.push(truth.reading(&force) + noise);
     }
+    let recording =
+        Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared).expect("samples in order");
     let error = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect_err("faces only");
     assert!(error.is_not_identifiable(), "{error}");
     let text = error.to_string();

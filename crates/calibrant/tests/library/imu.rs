@@ -71,7 +71,7 @@ fn a_ferraris_session_agrees_with_imucal() {
         ..ImuReadOptions::default()
     };
     let recording = read_imu_recording(&path, &options).expect("readable").recording;
-    let times = recording.accelerometer.as_ref().expect("there").times_s.clone();
+    let times = recording.accelerometer.as_ref().expect("there").times_s().to_vec();
     let mut setup = ImuSetup::default();
     setup.holds.gravity.magnitude_mps2 = 9.81;
     let (mut intervals, mut directions) = (Vec::new(), Vec::new());

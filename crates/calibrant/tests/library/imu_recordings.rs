@@ -24,7 +24,7 @@ fn fails(recording: &ImuRecording, gyroscope: &Gyroscope) -> Error {
 #[test]
 fn degrees_that_are_called_radians_are_named() {
     let (_, mut recording) = small();
-    let readings = &mut recording.gyroscope.as_mut().expect("there").readings;
+    let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|reading| *reading *= 180.0 / std::f64::consts::PI);
     let message = fails(&recording, &Gyroscope::default()).to_string();
     assert!(message.contains("in deg/s, not rad/s"), "{message}");
@@ -35,8 +35,7 @@ fn counts_of_an_unknown_gain_and_axes_in_another_order_are_found() {
     let (truth, mut recording) = small();
     let order = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0) * 1000.0;
     let gyroscope = recording.gyroscope.as_mut().expect("there");
-    gyroscope.readings.iter_mut().for_each(|reading| *reading = order * *reading + Vector3::repeat(32768.0));
-    gyroscope.unit = ReadingUnit::Counts;
+    *gyroscope = gyroscope.mapped(ReadingUnit::Counts, |reading| order * reading + Vector3::repeat(32768.0));
     let model = Gyroscope { unit: ReadingUnit::Counts, ..Gyroscope::default() };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &model, &ImuSetup::default(), unit).expect("found");
@@ -54,7 +53,7 @@ fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
     let (truth, mut recording) = small();
     let order = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0);
     let gyroscope = recording.gyroscope.as_mut().expect("there");
-    gyroscope.readings.iter_mut().for_each(|reading| *reading = order * *reading);
+    gyroscope.readings_mut().iter_mut().for_each(|reading| *reading = order * *reading);
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
     let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
@@ -73,14 +72,14 @@ fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
     let (truth, mut recording) = small();
     let gyroscope = recording.gyroscope.as_mut().expect("there");
     let limit = 1.6;
-    let whole = gyroscope.readings.clone();
+    let whole = gyroscope.readings().to_vec();
     gyroscope
-        .readings
+        .readings_mut()
         .iter_mut()
         .for_each(|reading| *reading = reading.map(|rate| rate.clamp(-limit, limit)));
     let is_cut = |from: f64, to: f64| {
         let within = |t: &f64| (from..=to).contains(t);
-        let times = &recording.gyroscope.as_ref().expect("there").times_s;
+        let times = recording.gyroscope.as_ref().expect("there").times_s();
         times.iter().zip(&whole).filter(|(t, _)| within(t)).filter(|(_, rate)| rate.amax() > limit).count()
             > 2
     };
@@ -121,11 +120,10 @@ fn an_axis_about_which_nothing_turns_is_named() {
             sensor_from_world = half * sensor_from_world;
         }
     }
-    let mut noisy = |of: &[Vector3<f64>], sd: f64, unit: ReadingUnit| Recording {
-        times_s: (0..of.len()).map(|k| k as f64 / rate_hz).collect(),
-        readings: of.iter().map(|y| y + Vector3::from_fn(|_, _| sd * normal(&mut rng))).collect(),
-        axes: 3,
-        unit,
+    let mut noisy = |of: &[Vector3<f64>], sd: f64, unit: ReadingUnit| {
+        let times_s = (0..of.len()).map(|k| k as f64 / rate_hz).collect();
+        let readings = of.iter().map(|y| y + Vector3::from_fn(|_, _| sd * normal(&mut rng))).collect();
+        Recording::new(times_s, readings, 3, unit).expect("samples in order")
     };
     let recording = ImuRecording {
         accelerometer: Some(noisy(&forces, 0.01, ReadingUnit::MetrePerSecondSquared)),
@@ -141,7 +139,7 @@ fn an_axis_about_which_nothing_turns_is_named() {
 #[test]
 fn an_axis_that_is_not_connected_is_named() {
     let (_, mut recording) = small();
-    let readings = &mut recording.gyroscope.as_mut().expect("there").readings;
+    let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|reading| reading.y = 0.0);
     let message = fails(&recording, &Gyroscope::default()).to_string();
     assert!(message.contains("axis y of the gyroscope never changes"), "{message}");
@@ -165,8 +163,7 @@ fn a_gyroscope_that_ends_early_leaves_named_parameters_undetermined() {
     let (_, mut recording) = small();
     // it ends in the second hold
     let gyroscope = recording.gyroscope.as_mut().expect("there");
-    gyroscope.times_s.truncate(690);
-    gyroscope.readings.truncate(690);
+    *gyroscope = gyroscope.only(|k| k < 690);
     let error = fails(&recording, &Gyroscope::default());
     assert!(error.is_not_identifiable(), "{error}");
     assert!(error.to_string().contains("gyroscope.scale"), "{error}");
@@ -184,8 +181,7 @@ fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
     ] {
         let mut recording = whole.clone();
         let gyroscope = recording.gyroscope.as_mut().expect("there");
-        gyroscope.times_s = gyroscope.times_s[covered.clone()].to_vec();
-        gyroscope.readings = gyroscope.readings[covered.clone()].to_vec();
+        *gyroscope = gyroscope.only(|k| covered.contains(&k));
         let calibration =
             run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
         let holds = &calibration.hold_results();

@@ -28,7 +28,7 @@ fn determined(model: SensorModel, trust: Trust) -> bool {
 fn permuted(case: &Case) -> Case {
     let turn = |v: &Vector3<f64>| Vector3::new(v.y, v.z, v.x);
     let mut other = case.clone();
-    other.recording.readings = case.recording.readings.iter().map(turn).collect();
+    other.recording = case.recording.mapped(case.recording.unit(), turn);
     let motion = &case.command.motion;
     let nodes = motion.acceleration_mps2().iter().map(turn).collect();
     other.command.motion = JerkControlledMotion::new(motion.times_s().to_vec(), nodes).expect("valid");
@@ -37,9 +37,7 @@ fn permuted(case: &Case) -> Case {
 
 /// Only the first `samples` of a recording.
 fn calibrate_first(case: &Case, samples: usize) -> calibrant::Result<Calibration> {
-    let mut recording = case.recording.clone();
-    recording.times_s.truncate(samples);
-    recording.readings.truncate(samples);
+    let recording = case.recording.only(|k| k < samples);
     let problem = CalibrationProblem {
         sensor: &case.sensor,
         recording: &recording,
@@ -72,7 +70,7 @@ proptest! {
         prop_assume!(determined(model, trust));
         let case = Case::new(model, trust, 8, 1.0, 20.0, seed);
         let mut scaled = case.clone();
-        scaled.recording.readings.iter_mut().for_each(|y| *y *= gain);
+        scaled.recording.readings_mut().iter_mut().for_each(|y| *y *= gain);
         scaled.sensor.gain = Some(Vector3::repeat(gain));
         scaled.sensor.noise_mps2 = case.sensor.noise_mps2.map(|noise| noise * gain);
         let (one, other) = (case.calibrate().expect("identifiable"), scaled.calibrate().expect("identifiable"));

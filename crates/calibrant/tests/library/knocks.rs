@@ -87,7 +87,7 @@ fn spikes_beside_knocks_are_found() {
         let mut recording = setup.record(&imu, &mut rng);
         let gyroscope = recording.gyroscope.as_mut().expect("recorded");
         let mut wrong = Vec::new();
-        for (k, reading) in gyroscope.readings.iter_mut().enumerate() {
+        for (k, reading) in gyroscope.readings_mut().iter_mut().enumerate() {
             if rng.random::<f64>() < 1.0 / 2000.0 {
                 reading.y += 2.0;
                 wrong.push(k);

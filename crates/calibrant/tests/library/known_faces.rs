@@ -153,7 +153,7 @@ fn a_session_without_noise_converges() {
         let mut recording = simulate_table(&truth, &steps, &quiet, &mut rng);
         // a file of seven decimals
         let of = recording.accelerometer.as_mut().expect("recorded");
-        for reading in &mut of.readings {
+        for reading in of.readings_mut() {
             *reading = reading.map(|y| (y * 1e7).round() / 1e7);
         }
         let found = run(&recording, &setup).expect("determined");

@@ -44,7 +44,7 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
         // spike
         let at = hold.first - 3;
         let across = hold.mean.cross(&Vector3::x()).normalize();
-        for reading in &mut gyroscope.readings[at - 9..=at] {
+        for reading in &mut gyroscope.readings_mut()[at - 9..=at] {
             *reading += across * (0.1 * angle * setup.rate_hz);
         }
         let found = calibrate(&recording, SensorModel::Full);
@@ -63,7 +63,7 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
 }
 
 fn gyroscope_time(recording: &ImuRecording, at: usize) -> f64 {
-    recording.gyroscope.as_ref().expect("there").times_s[at]
+    recording.gyroscope.as_ref().expect("there").times_s()[at]
 }
 
 /// About x only right angles, so that a rotation by −90° in place of 90° gives a rotation error of exactly
@@ -94,7 +94,7 @@ fn an_axis_that_points_the_other_way_is_found_where_all_turns_about_it_are_right
         .gyroscope
         .as_mut()
         .expect("there")
-        .readings
+        .readings_mut()
         .iter_mut()
         .for_each(|reading| reading.x = -reading.x);
     let turned = calibrate(&recording, SensorModel::ScaleBias);

@@ -38,8 +38,7 @@ fn every_attitude_is_found() {
         let gain = if unit == ReadingUnit::Counts { 1000.0 } else { 1.0 };
         let (truth, mut recording) = turned(number, &by);
         let gyroscope = recording.gyroscope.as_mut().expect("there");
-        gyroscope.unit = unit;
-        gyroscope.readings.iter_mut().for_each(|reading| *reading *= gain);
+        *gyroscope = gyroscope.mapped(unit, |reading| reading * gain);
         let calibration = run(&recording, unit).unwrap_or_else(|error| panic!("{number}: {error}"));
         let error = (calibration.imu.gyroscope.matrix / gain - truth.gyroscope.matrix).amax();
         assert!(error < 5e-3, "{number}: {error}");

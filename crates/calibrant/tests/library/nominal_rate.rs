@@ -1,7 +1,7 @@
 //! A sample rate that nobody measured is uncertain, and with it the gains of the gyroscope.
 
 use crate::common::hand::ByHand;
-use crate::common::{draw_imu, normal, run_imu};
+use crate::common::{draw_imu, normal, retimed, run_imu};
 use calibrant::estimate::{Gyroscope, ImuSetup};
 use calibrant::sensor::{ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
@@ -16,7 +16,7 @@ fn the_gains_of_the_gyroscope_carry_the_uncertainty_of_the_rate() {
         let mut recording = ByHand::default().record(&imu, &mut rng);
         let faster = 1.0 + RATE_SD * normal(&mut rng);
         for sensor in [&mut recording.accelerometer, &mut recording.gyroscope] {
-            sensor.as_mut().expect("there").times_s.iter_mut().for_each(|t| *t *= faster);
+            *sensor = sensor.take().map(|sensor| retimed(&sensor, |t| t * faster));
         }
         let setup = ImuSetup { rate_sd: RATE_SD, ..ImuSetup::default() };
         let found = run_imu(&recording, &Gyroscope::default(), &setup, ReadingUnit::MetrePerSecondSquared);

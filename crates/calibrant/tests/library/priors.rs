@@ -52,20 +52,20 @@ fn in_poses(poses: usize, seed: u64) -> Recording {
 fn about_x(poses: usize, seed: u64) -> (Recording, Vec<(f64, f64)>) {
     let (truth, mut rng) = (truth(seed), stream(seed, Purpose::Sensor, 2));
     let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
-    let mut recording = in_poses(1, seed);
-    (recording.times_s, recording.readings) = (Vec::new(), Vec::new());
+    let (mut times_s, mut readings) = (Vec::new(), Vec::new());
     let mut intervals = Vec::new();
     for pose in 0..poses {
         let (sin, cos) = (2.4 * pose as f64).sin_cos();
         let force = Vector3::new(0.0, sin, cos) * 9.80665;
-        let start = recording.times_s.len();
+        let start = times_s.len();
         for _ in 0..300 {
-            recording.times_s.push(recording.times_s.len() as f64 / 100.0);
-            recording.readings.push(truth.reading(&force) + Vector3::from_fn(|_, _| 0.01 * normal()));
+            times_s.push(times_s.len() as f64 / 100.0);
+            readings.push(truth.reading(&force) + Vector3::from_fn(|_, _| 0.01 * normal()));
         }
-        intervals.push((recording.times_s[start], recording.times_s[recording.times_s.len() - 1]));
+        intervals.push((times_s[start], times_s[times_s.len() - 1]));
     }
-    (recording, intervals)
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    (Recording::new(times_s, readings, 3, unit).expect("samples in order"), intervals)
 }
 
 fn run(

@@ -19,7 +19,7 @@ fn draw(rng: &mut Rng) -> ImuParameters {
 
 /// Rounds the gyroscope's readings to multiples of a step.
 fn round(recording: &mut ImuRecording, step: f64) {
-    let readings = &mut recording.gyroscope.as_mut().expect("there").readings;
+    let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|y| *y = y.map(|rate| (rate / step).round() * step));
 }
 

@@ -25,7 +25,7 @@ fn draw(rng: &mut Rng) -> ImuParameters {
 
 /// Limits axis x of the accelerometer.
 fn clip(recording: &mut ImuRecording, limit: f64) {
-    let readings = &mut recording.accelerometer.as_mut().expect("there").readings;
+    let readings = recording.accelerometer.as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|y| y.x = y.x.clamp(-limit, limit));
 }
 
@@ -72,7 +72,7 @@ fn intervals_cover_the_truth_where_the_accelerometer_saturates() {
 
 /// A hold is cut off where its readings would go beyond the limit.
 fn is_cut(whole: &Recording, (start_s, end_s): (f64, f64), limit: f64) -> bool {
-    let inside = whole.times_s.iter().zip(&whole.readings).filter(|(t, _)| (start_s..=end_s).contains(*t));
+    let inside = whole.times_s().iter().zip(whole.readings()).filter(|(t, _)| (start_s..=end_s).contains(*t));
     inside.filter(|(_, y)| y.x.abs() >= limit).count() > 1
 }
 
@@ -219,15 +219,12 @@ fn a_long_quiet_hold_at_the_largest_count_is_not_cut_off() {
                     readings.push((force + Vector3::from_fn(|_, _| sd * normal(&mut rng))).map(f64::round));
                 }
             }
-            let recording = Recording {
-                times_s: (0..readings.len()).map(|k| k as f64 * 0.01).collect(),
-                readings,
-                axes: 3,
-                unit: ReadingUnit::Counts,
-            };
+            let times_s = (0..readings.len()).map(|k| k as f64 * 0.01).collect();
+            let recording =
+                Recording::new(times_s, readings, 3, ReadingUnit::Counts).expect("samples in order");
             let found = recording.saturations();
             assert!(found.is_empty(), "noise {sd} counts, {number}: {found:?}");
-            largest += recording.readings.iter().filter(|y| y.z == recording.readings[0].z).count();
+            largest += recording.readings().iter().filter(|y| y.z == recording.readings()[0].z).count();
         }
     }
     assert!(largest > 6 * 20 * 1000, "the test needs repeated values");

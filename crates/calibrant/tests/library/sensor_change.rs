@@ -37,7 +37,7 @@ fn from(
         SensorKind::Gyroscope => recording.gyroscope.as_mut(),
     };
     let sensor = sensor.expect("there");
-    for (t, reading) in sensor.times_s.iter().zip(&mut sensor.readings) {
+    for (t, reading) in sensor.samples_mut() {
         if *t >= time_s {
             reading[axis] = gain * reading[axis] + bias;
         }
@@ -63,7 +63,7 @@ fn a_sensor_that_does_not_change_is_not_accused() {
             })
             .collect();
         let accelerometer = recording.accelerometer.as_mut().expect("there");
-        for (t, reading) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
+        for (t, reading) in accelerometer.samples_mut() {
             *reading += pushes[((t / 4.5) as usize).min(poses - 1)];
         }
         let gyroscope = Gyroscope { noise: noise_radps.map(Vector3::repeat), ..Gyroscope::default() };
@@ -180,8 +180,8 @@ fn a_drift_is_told_and_temperature_pointed_at() {
         ImuSimulation { poses: 30, temperature_c: Some([20.0, 38.0]), ..ImuSimulation::default() };
     let mut recording = simulated(405, 0, &simulation);
     let accelerometer = recording.accelerometer.as_mut().expect("there");
-    let end_s = accelerometer.times_s.last().copied().expect("samples");
-    for (t, reading) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
+    let end_s = accelerometer.times_s().last().copied().expect("samples");
+    for (t, reading) in accelerometer.samples_mut() {
         reading.y += 0.04 * t / end_s;
     }
     let with_temperature = run(&recording, &Gyroscope::default());

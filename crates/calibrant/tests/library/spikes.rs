@@ -39,7 +39,7 @@ fn sensor(recording: &mut ImuRecording, sensor_kind: SensorKind) -> &mut Recordi
 fn add_spikes(recording: &mut Recording, every: f64, noise: f64, seed: u64) -> usize {
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let mut count = 0;
-    for reading in &mut recording.readings {
+    for reading in recording.readings_mut() {
         if rng.random::<f64>() * every < 1.0 {
             let size = noise * 10.0_f64.powf(rng.random_range(1.3..3.0));
             reading[rng.random_range(0..3)] += if rng.random::<bool>() { size } else { -size };
@@ -63,7 +63,7 @@ fn one_invalid_sample_hides_no_hold_of_either_sensor() {
         for invalid in [-2_147_483_648.0, 1e12, 1e30, f64::INFINITY] {
             for sample in [120, 1000, 3000] {
                 let mut damaged = recording.clone();
-                sensor(&mut damaged, of).readings[sample].y = invalid;
+                sensor(&mut damaged, of).readings_mut()[sample].y = invalid;
                 let found = find_imu_holds(&damaged, 1.0).expect("found");
                 assert_eq!(found.len(), 24, "{of} {invalid} {sample}");
                 for (one, other) in found.iter().zip(&clean) {
@@ -81,7 +81,7 @@ fn invalid_samples_in_a_row_are_a_gap_and_are_named_with_time_and_value() {
     let clean = find_imu_holds(&recording, 1.0).expect("found");
     for of in SensorKind::ALL {
         let mut damaged = recording.clone();
-        let readings = &mut sensor(&mut damaged, of).readings;
+        let readings = sensor(&mut damaged, of).readings_mut();
         readings[1000..1020].iter_mut().for_each(|reading| reading.x = -2_147_483_648.0);
         damaged.temperature_c = Some(vec![25.0; damaged.accelerometer.as_ref().expect("there").len()]);
         let (without, spikes) = damaged.without_spikes();
@@ -136,12 +136,12 @@ fn a_spike_of_the_gyroscope_in_a_rotation_is_replaced() {
     let middle = 0.5 * (rotation.start_s + rotation.end_s);
     let mut damaged = recording.clone();
     let gyroscope = sensor(&mut damaged, SensorKind::Gyroscope);
-    let sample = gyroscope.times_s.partition_point(|t| *t < middle);
-    let read = gyroscope.readings[sample].y;
-    gyroscope.readings[sample].y += 500.0 * ImuSimulation::default().gyroscope_noise;
+    let sample = gyroscope.times_s().partition_point(|t| *t < middle);
+    let read = gyroscope.readings()[sample].y;
+    gyroscope.readings_mut()[sample].y += 500.0 * ImuSimulation::default().gyroscope_noise;
     let (without, spikes) = gyroscope.without_spikes(SensorKind::Gyroscope);
     assert_eq!(spikes.expect("one").samples, [sample]);
-    assert!((without.readings[sample].y - read).abs() < 6.0 * ImuSimulation::default().gyroscope_noise);
+    assert!((without.readings()[sample].y - read).abs() < 6.0 * ImuSimulation::default().gyroscope_noise);
     assert!(worst_shift(&run(&damaged, &ImuSetup::default()), &clean) < 0.1);
 }
 
@@ -159,11 +159,8 @@ fn honest_recordings_have_no_spikes() {
 #[test]
 fn neither_heavy_tails_nor_coarse_steps_nor_brief_turns_are_spikes() {
     let times_s: Vec<f64> = (0..20_000).map(|k| f64::from(k) * 0.1).collect();
-    let recording = |readings: Vec<Vector3<f64>>| Recording {
-        times_s: times_s.clone(),
-        readings,
-        axes: 3,
-        unit: ReadingUnit::RadianPerSecond,
+    let recording = |readings: Vec<Vector3<f64>>| {
+        Recording::new(times_s.clone(), readings, 3, ReadingUnit::RadianPerSecond).expect("samples in order")
     };
     let mut rng = stream(7, Purpose::Sensor, 0);
     let mut heavy = || {

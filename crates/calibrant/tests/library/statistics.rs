@@ -295,7 +295,7 @@ fn the_bias_of_a_long_noisy_motion_is_foretold() {
                 case.sensor.unit,
                 3,
                 &happened,
-                &case.recording.times_s,
+                case.recording.times_s(),
                 &mut rng,
             );
             let case = crate::common::case::Case { recording, ..case };

@@ -173,7 +173,7 @@ fn the_correction_of_each_sample_is_that_at_its_temperature() {
         (SensorKind::Gyroscope, corrected.gyroscope.expect("there")),
     ] {
         let (sensor, terms) = (truth.sensor(sensor_kind), truth.thermal.sensor(sensor_kind));
-        for (k, reading) in recording.sensor(sensor_kind).expect("there").readings.iter().enumerate() {
+        for (k, reading) in recording.sensor(sensor_kind).expect("there").readings().iter().enumerate() {
             let tau = temperature[k] - 32.0;
             let mut left = reading - sensor.bias - terms.bias[0] * tau - terms.bias[1] * tau * tau;
             for axis in 0..3 {
@@ -260,7 +260,7 @@ fn a_constant_temperature_is_named_and_a_prior_alone_determines_a_term() {
 #[test]
 fn two_temperatures_do_not_determine_a_parabola() {
     let (_, mut recording) = recorded(&GYROSCOPE_BIAS, [20.0, 45.0]);
-    let times = &recording.accelerometer.as_ref().expect("there").times_s;
+    let times = recording.accelerometer.as_ref().expect("there").times_s();
     // it jumps in the rotation from 52 to 54 s
     recording.temperature_c = Some(times.iter().map(|t| if *t < 53.0 { 20.0 } else { 45.0 }).collect());
     let parabola = ThermalModel { gyroscope_bias: 2, ..GYROSCOPE_BIAS };
@@ -295,12 +295,12 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
         simulate_imu(&truth, &simulation, &mut stream(6, Purpose::Sensor, 4))
     };
     let (mut recording, warm) = (at(20.0), at(45.0));
-    let jump = recording.accelerometer.as_ref().expect("there").times_s.partition_point(|t| *t < 107.0);
+    let jump = recording.accelerometer.as_ref().expect("there").times_s().partition_point(|t| *t < 107.0);
     for (cold, warm) in
         [(&mut recording.accelerometer, warm.accelerometer), (&mut recording.gyroscope, warm.gyroscope)]
     {
         let (cold, warm) = (cold.as_mut().expect("there"), warm.expect("there"));
-        cold.readings[jump..].copy_from_slice(&warm.readings[jump..]);
+        cold.readings_mut()[jump..].copy_from_slice(&warm.readings()[jump..]);
     }
     recording.temperature_c.as_mut().expect("simulated")[jump..].fill(45.0);
     let left_out = |calibration: &Calibration| -> Vec<usize> {
@@ -326,7 +326,7 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
 
     let bad = &clean.hold_results()[11].hold;
     let accelerometer = recording.accelerometer.as_mut().expect("there");
-    for (t, reading) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
+    for (t, reading) in accelerometer.samples_mut() {
         if (bad.start_s..=bad.end_s).contains(t) {
             *reading *= 1.01;
         }
@@ -385,7 +385,7 @@ fn terms_are_found_where_the_directions_of_the_holds_are_known() {
     let starts: Vec<f64> = (0..30).map(|k| f64::from(k) * period).collect();
     let mut setup = setup(model);
     setup.holds.intervals_s = Some(starts.iter().map(|start| (start + 0.1, start + 2.4)).collect());
-    let at = |time: f64| forces.readings[forces.times_s.partition_point(|&t| t < time)];
+    let at = |time: f64| forces.readings()[forces.times_s().partition_point(|&t| t < time)];
     setup.directions = Some(starts.iter().map(|start| at(start + 1.0).normalize()).collect());
     let calibration = run(&recording, &setup).expect("determined");
     assert!(calibration.quantities.len() == 12 + 12 + 9 + 3, "{}", calibration.quantities.len());

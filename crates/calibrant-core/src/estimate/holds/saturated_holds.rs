@@ -23,12 +23,8 @@ use crate::sensor::{Recording, Saturation};
 ///     let all = force + Vector3::repeat(noise);
 ///     Vector3::new(all.x.min(8.0), all.y, all.z)
 /// };
-/// let recording = Recording {
-///     times_s: (0..100).map(f64::from).collect(),
-///     readings: (0..100).map(reading).collect(),
-///     axes: 3,
-///     unit: ReadingUnit::MetrePerSecondSquared,
-/// };
+/// let (times_s, readings) = ((0..100).map(f64::from).collect(), (0..100).map(reading).collect());
+/// let recording = Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared)?;
 /// let holds = holds_between(&recording, &[(0.0, 49.0), (50.0, 99.0)])?;
 /// let clipped = clipped_holds(&recording, &holds);
 /// assert!(clipped[0].is_none());

@@ -74,7 +74,7 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
     let Some(AccelerometerOnly { axes, unit: expected }) = options.accelerometer_only else {
         return Ok(file);
     };
-    let Some(mut recording) = file.recording.accelerometer.take() else {
+    let Some(recording) = file.recording.accelerometer.take() else {
         return Err(InputError::new(
             Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
@@ -82,18 +82,15 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
         )
         .into());
     };
-    recording.axes = axes;
-    for &axis in Axis::ALL.iter().skip(axes) {
-        recording.readings.iter_mut().for_each(|reading| reading[axis.index()] = 0.0);
-    }
+    let recording = recording.with_axes(axes);
     let mut noticed = Vec::new();
     let unused = file.columns.iter().filter(|column| !column.is_used());
     let names: Vec<String> = unused.map(|column| column.name.clone()).collect();
     if draft.plain.is_some() && !names.is_empty() {
         noticed.push(Noticed::ColumnsIgnored(names));
     }
-    if options.accelerometer_unit.is_none() && recording.unit != expected {
-        noticed.push(Noticed::UnitUnexpected { stated: recording.unit, expected });
+    if options.accelerometer_unit.is_none() && recording.unit() != expected {
+        noticed.push(Noticed::UnitUnexpected { stated: recording.unit(), expected });
     }
     let found = noticed.into_iter().map(|noticed| Finding::new(noticed).at(draft.line));
     file.findings.splice(0..0, found);

@@ -29,7 +29,7 @@ pub const USUAL_RATE_SD_PPM: f64 = 100.0;
 /// };
 /// let file = parse_imu_recording(text, &options)?;
 /// let gyroscope = file.recording.gyroscope.expect("there");
-/// assert_eq!(gyroscope.readings[0].x, std::f64::consts::FRAC_PI_2);
+/// assert_eq!(gyroscope.readings()[0].x, std::f64::consts::FRAC_PI_2);
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -81,7 +81,7 @@ impl ImuReadOptions {
     ///
     /// let options = ImuReadOptions::accelerometer(3, ReadingUnit::MetrePerSecondSquared);
     /// let file = parse_imu_recording(b"t_s,ax_g,ay_g,az_g\n0.00,0,0,1\n0.01,0,0,1\n", &options)?;
-    /// assert_eq!(file.recording.accelerometer.expect("there").readings[0].z, 9.80665);
+    /// assert_eq!(file.recording.accelerometer.expect("there").readings()[0].z, 9.80665);
     /// assert!(file.findings[0].to_string().contains("axis x never changes"));
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```

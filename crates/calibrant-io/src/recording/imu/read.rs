@@ -79,7 +79,7 @@ pub(super) fn with_checksum((file, sha256): (ImuFile, String)) -> ImuFile {
 /// let file = parse_imu_recording(text.as_bytes(), &ImuReadOptions::default())?;
 /// assert_eq!(file.format, FileFormat::MtManager);
 /// let gyroscope = file.recording.gyroscope.expect("there");
-/// assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.03], "the counter began anew, and one sample was lost");
+/// assert_eq!(gyroscope.times_s(), [0.0, 0.01, 0.03], "the counter began anew, and one sample was lost");
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {

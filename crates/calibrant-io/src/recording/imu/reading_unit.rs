@@ -9,6 +9,7 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::number_format::plain;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
+use nalgebra::Vector3;
 
 /// A gyroscope that reads faster rates than this is most likely not in rad/s.
 const FAST_RADPS: f64 = 40.0;
@@ -88,10 +89,10 @@ fn contradiction(draft: &Draft, message: String, help: String) -> Box<InputError
 }
 
 /// The question where the unit is not known, with what the readings suggest.
-pub(super) fn question(sensor_kind: SensorKind, recording: &Recording) -> String {
-    let largest = recording.readings.iter().map(|y| y.amax()).fold(0.0, f64::max);
-    let whole = recording.readings.iter().all(|y| y.iter().all(|value| value.fract() == 0.0));
-    let median = median_magnitude(recording);
+pub(super) fn question(sensor_kind: SensorKind, readings: &[Vector3<f64>]) -> String {
+    let largest = readings.iter().map(|y| y.amax()).fold(0.0, f64::max);
+    let whole = readings.iter().all(|y| y.iter().all(|value| value.fract() == 0.0));
+    let median = median_magnitude(readings);
     let hint = match sensor_kind {
         _ if whole && largest > COUNTS => "suggest counts",
         SensorKind::Gyroscope if largest > FAST_DEGPS => "suggest mdps",
@@ -116,8 +117,8 @@ fn round(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-fn median_magnitude(recording: &Recording) -> f64 {
-    let mut magnitudes: Vec<f64> = recording.readings.iter().map(|y| y.norm()).collect();
+fn median_magnitude(readings: &[Vector3<f64>]) -> f64 {
+    let mut magnitudes: Vec<f64> = readings.iter().map(|y| y.norm()).collect();
     let middle = magnitudes.len() / 2;
     if magnitudes.is_empty() { 0.0 } else { *magnitudes.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
@@ -129,11 +130,11 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         return Ok(());
     }
     let factor = stated.reading().1;
-    let median = median_magnitude(recording);
+    let median = median_magnitude(recording.readings());
     let (shown, unit) = (plain(round(median / factor), 6), stated.symbol());
     if stated == ImuUnit::MetrePerSecondSquared && (median - 1.0).abs() <= ONE {
-        let near = |y: &nalgebra::Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
-        let share = recording.readings.iter().filter(|y| near(y)).count() as f64 / recording.len() as f64;
+        let near = |y: &Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
+        let share = recording.readings().iter().filter(|y| near(y)).count() as f64 / recording.len() as f64;
         if share > 0.7 {
             return Err(InputError::new(Refusal::UnitImplausible,
                 format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} most of the time: is it in g?"),

@@ -15,9 +15,9 @@ use crate::recording::reader_finding::{Finding, Noticed, Tally};
 use crate::recording::recording_quality;
 use crate::text_decoding::Checked;
 use calibrant_core::diagnostic::Code;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
-use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, SensorKind, WORKING_C, interpolated};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated};
 use nalgebra::Vector3;
 use std::iter::once;
 
@@ -78,8 +78,8 @@ pub(super) fn assemble(
     let mut recording = ImuRecording::default();
     let mut maps: Vec<LineMap> = Vec::new();
     for (&sensor_kind, unit) in sensor_kinds.iter().zip(units.iter().flatten()) {
-        let (mut readings, lines) = readings(sensor_kind, *unit, &times, &kept, samples, &mut findings)?;
-        readings.axes = draft.plain.map_or(3, |only| only.axes);
+        let (readings, lines) = readings(sensor_kind, *unit, &times, &kept, samples, &mut findings)?;
+        let readings = readings.with_axes(draft.plain.map_or(3, |only| only.axes));
         lost_sign::check(&readings, &format!("{sensor_kind} "))?;
         if sensor_kind == SensorKind::Accelerometer {
             if !is_plain {
@@ -159,10 +159,9 @@ fn ask(
 }
 
 /// The readings of a sensor in the unit of the file.
-fn raw(sensor_kind: SensorKind, samples: &Samples) -> Recording {
+fn raw(sensor_kind: SensorKind, samples: &Samples) -> Vec<Vector3<f64>> {
     let is_whole = |reading: &&Vector3<f64>| reading.iter().all(|value| value.is_finite());
-    let readings: Vec<Vector3<f64>> = samples.sensor(sensor_kind).iter().filter(is_whole).copied().collect();
-    Recording { times_s: vec![0.0; readings.len()], readings, axes: 3, unit: ReadingUnit::Counts }
+    samples.sensor(sensor_kind).iter().filter(is_whole).copied().collect()
 }
 
 /// The rows of a file that are kept.
@@ -255,7 +254,10 @@ fn readings(
         times_s.push(times[row]);
     }
     readings.truncate(times_s.len());
-    let recording = Recording { times_s, readings, axes: 3, unit };
+    let recording = Recording::new(times_s, readings, 3, unit).map_err(|error| match error {
+        Error::Recording(input_error) => input_error,
+        other => InputError::new(Refusal::FileDamaged, other.to_string(), "write the file again").into(),
+    })?;
     absent.report(findings, Some(sensor_kind), Noticed::ReadingsMissing);
     missing.report(findings, Some(sensor_kind), Noticed::ValuesMissing);
     same_times.report(findings, Some(sensor_kind), Noticed::SampleTimesRepeated);
@@ -295,7 +297,7 @@ fn temperature(
         draft.leave_aside(ColumnMeaning::Temperature, "it has no values");
         return None;
     }
-    let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s;
+    let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s();
     let missing = kept.len() - known.len();
     if missing > 0 {
         let all = || kept.rows().map(|row| times[row]);
@@ -326,7 +328,7 @@ fn examine(
         .filter_map(|&sensor_kind| Some((sensor_kind, recording.sensor(sensor_kind)?)))
         .zip(lines)
         .collect();
-    let shared = sensors.windows(2).all(|pair| pair[0].0.1.times_s == pair[1].0.1.times_s);
+    let shared = sensors.windows(2).all(|pair| pair[0].0.1.times_s() == pair[1].0.1.times_s());
     for (k, ((sensor_kind, sensor), lines)) in sensors.iter().enumerate() {
         if k == 0 || !shared {
             let rate = sensor.rate_hz();
@@ -334,7 +336,7 @@ fn examine(
                 recording_quality::clock(rate, findings);
             }
             let from = findings.len();
-            recording_quality::sampling(&sensor.times_s, rate, lines, findings);
+            recording_quality::sampling(sensor.times_s(), rate, lines, findings);
             if !shared {
                 findings[from..].iter_mut().for_each(|finding| finding.sensor_kind = Some(*sensor_kind));
             }

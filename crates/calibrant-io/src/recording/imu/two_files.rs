@@ -52,7 +52,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 ///     ..ImuReadOptions::default()
 /// };
 /// let file = parse_imu_pair(b"0.00 33108 33329 36429\n0.01 33096 33336 36437\n", b"0.00 32786 32429 32499\n0.01 32797 32410 32531\n", &options)?;
-/// assert_eq!(file.recording.gyroscope.expect("there").readings[1].y, 32410.0);
+/// assert_eq!(file.recording.gyroscope.expect("there").readings()[1].y, 32410.0);
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
@@ -109,7 +109,7 @@ fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Finding> {
 
 /// The finding where one of a pair of files covers much less of the time than the other, or nothing of it.
 fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Finding> {
-    let span = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
+    let span = |recording: &Recording| Some((*recording.times_s().first()?, *recording.times_s().last()?));
     let (accelerometer, gyroscope) =
         (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
     let common_s = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
@@ -156,8 +156,7 @@ fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
 fn on_one_clock(first: &ImuFile, second: &mut ImuFile) {
     let (Some(of_first), Some(of_second)) = (first.counted_from_ns, second.counted_from_ns) else { return };
     let later_s = of_second.saturating_sub(of_first) as f64 / 1e9;
-    if let Some(gyroscope) = &mut second.recording.gyroscope {
-        gyroscope.times_s.iter_mut().for_each(|t| *t += later_s);
-    }
+    let gyroscope = second.recording.gyroscope.take();
+    second.recording.gyroscope = gyroscope.map(|gyroscope| gyroscope.later_by(later_s));
     second.findings.retain(|finding| !matches!(finding.noticed, Noticed::TimesFromFirst { .. }));
 }

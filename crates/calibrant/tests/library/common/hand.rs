@@ -157,8 +157,9 @@ impl ByHand {
                 *t = last;
             }
         }
-        let recording =
-            |readings, unit| Some(Recording { times_s: times_s.clone(), readings, axes: 3, unit });
+        let recording = |readings, unit| {
+            Some(Recording::new(times_s.clone(), readings, 3, unit).expect("samples in order"))
+        };
         ImuRecording {
             accelerometer: recording(accelerometer, ReadingUnit::MetrePerSecondSquared),
             gyroscope: recording(gyroscope, ReadingUnit::RadianPerSecond),

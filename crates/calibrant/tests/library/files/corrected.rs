@@ -57,11 +57,8 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
         vec![0.0, 0.013, 0.02],
         vec![Vector3::new(1.5, -0.4, 0.8), Vector3::new(-2.5, 3.0, 0.1), Vector3::new(0.0, 0.1, -4.0)],
     );
-    let sensor_kind = |times_s: &Vec<f64>, readings: &Vec<Vector3<f64>>, unit: ReadingUnit| Recording {
-        times_s: times_s.clone(),
-        readings: readings.clone(),
-        axes: 3,
-        unit,
+    let sensor_kind = |times_s: &Vec<f64>, readings: &Vec<Vector3<f64>>, unit: ReadingUnit| {
+        Recording::new(times_s.clone(), readings.clone(), 3, unit).expect("samples in order")
     };
     let recording = ImuRecording {
         accelerometer: Some(sensor_kind(&times, &readings_a, SI[0])),

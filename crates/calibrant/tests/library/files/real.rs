@@ -12,9 +12,9 @@ fn the_xsens_recording_of_imu_tk_reads_whole() {
     let file = read_imu_recording(&path, &options).expect("good");
     let recording = file.recording.accelerometer.expect("there");
     assert_eq!((recording.len(), file.rows), (51_175, 51_175));
-    assert_eq!(recording.unit, ReadingUnit::Counts);
-    assert_eq!(recording.readings[0].as_slice(), [33108.0, 33329.0, 36429.0]);
-    assert_eq!(recording.times_s.last(), Some(&511.718));
+    assert_eq!(recording.unit(), ReadingUnit::Counts);
+    assert_eq!(recording.readings()[0].as_slice(), [33108.0, 33329.0, 36429.0]);
+    assert_eq!(recording.times_s().last(), Some(&511.718));
     assert!((recording.rate_hz() - 100.0).abs() < 0.2, "{}", recording.rate_hz());
     let kinds: Vec<_> = file.findings.iter().map(|finding| finding.code()).collect();
     assert_eq!(kinds, [Code::SamplingIrregular], "{:?}", file.findings);

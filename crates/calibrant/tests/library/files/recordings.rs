@@ -71,7 +71,7 @@ fn the_unit_comes_from_the_header_then_the_option_then_the_experiment() {
         let options = ImuReadOptions::accelerometer(3, expected);
         read(text.as_bytes(), &ImuReadOptions { accelerometer_unit: unit.map(ImuUnit::from), ..options })
     };
-    let unit = |header, unit, expected| read(header, unit, expected).expect("good").recording.unit;
+    let unit = |header, unit, expected| read(header, unit, expected).expect("good").recording.unit();
     assert_eq!(unit("ax,ay,az", None, Counts), Counts);
     assert_eq!(unit("ax,ay,az", Some(MetrePerSecondSquared), Counts), MetrePerSecondSquared);
     assert_eq!(unit("ax_counts,ay_counts,az_counts", Some(Counts), MetrePerSecondSquared), Counts);
@@ -87,7 +87,7 @@ fn the_unit_comes_from_the_header_then_the_option_then_the_experiment() {
         format!("line 1: the accelerometer's columns are in g, but the unit was given as m/s² {help}")
     );
     let file = read("ax_g,ay_g,az_g", None, Counts).expect("good");
-    assert_eq!(file.recording.readings[1].as_slice(), [2.0 * 9.80665, 3.0 * 9.80665, 4.0 * 9.80665]);
+    assert_eq!(file.recording.readings()[1].as_slice(), [2.0 * 9.80665, 3.0 * 9.80665, 4.0 * 9.80665]);
     assert_eq!(
         file.findings[0].to_string(),
         "line 1: readings are in m/s² by their header, the experiment says counts"
@@ -99,8 +99,8 @@ fn the_unit_comes_from_the_header_then_the_option_then_the_experiment() {
 fn one_axis_needs_one_column() {
     for text in ["t_s,ax\n0,1\n1,2\n", "0 1\n1 2\n", "t_s,ax,ay,az\n0,1,x,\n1,2,,\n"] {
         let file = read(text.as_bytes(), &options(1)).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(file.recording.axes, 1);
-        assert_eq!(file.recording.readings[1].as_slice(), [2.0, 0.0, 0.0]);
+        assert_eq!(file.recording.axes(), 1);
+        assert_eq!(file.recording.readings()[1].as_slice(), [2.0, 0.0, 0.0]);
     }
 }
 

@@ -31,18 +31,15 @@ fn recordings_come_back_bit_for_bit() {
             let at = |i: usize| if i < axes { AWKWARD[(k + i) % 6] } else { 0.0 };
             Vector3::new(at(0), at(1), at(2))
         };
-        let recording = Recording {
-            times_s: (0..100).map(|k| k as f64 * 0.1 - 3.0).collect(),
-            readings: (0..100).map(reading).collect(),
-            axes,
-            unit,
-        };
+        let times_s = (0..100).map(|k| k as f64 * 0.1 - 3.0).collect();
+        let readings = (0..100).map(reading).collect();
+        let recording = Recording::new(times_s, readings, axes, unit).expect("samples in order");
         let path = directory.path().join("recording.csv");
         write_recording(&path, &recording).expect("written");
         let back = read_accelerometer(&path, axes, unit);
         assert_eq!(back, recording);
         let bits = |r: &Recording| {
-            r.readings.iter().flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect::<Vec<_>>()
+            r.readings().iter().flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect::<Vec<_>>()
         };
         assert_eq!(bits(&back), bits(&recording));
     }

@@ -17,12 +17,13 @@ fn studies() -> Studies {
     let case = SingleCase {
         truth: SensorParameters::identity(),
         true_motion: motion.clone(),
-        recording: Recording {
-            times_s: vec![0.0, 0.5, 1.0],
-            readings: vec![Vector3::zeros(); 3],
-            axes: 1,
-            unit: ReadingUnit::MetrePerSecondSquared,
-        },
+        recording: Recording::new(
+            vec![0.0, 0.5, 1.0],
+            vec![Vector3::zeros(); 3],
+            1,
+            ReadingUnit::MetrePerSecondSquared,
+        )
+        .expect("samples in order"),
         calibration: uniaxial(),
     };
     let study = Study {

@@ -94,7 +94,8 @@ impl Gantry {
             truth * force + Vector3::new(0.1, -0.2, 0.05) + error * noise
         };
         let readings = times_s.iter().map(reading).collect();
-        let recording = Recording { times_s, readings, axes: 3, unit: ReadingUnit::MetrePerSecondSquared };
+        let unit = ReadingUnit::MetrePerSecondSquared;
+        let recording = Recording::new(times_s, readings, 3, unit).expect("samples in order");
         Self { motion, log, recording, noise }
     }
 

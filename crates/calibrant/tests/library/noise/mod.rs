@@ -215,13 +215,11 @@ fn an_outlier_is_left_out_and_named() {
     let record = |spike: f64| {
         let axis: Vec<Vec<f64>> =
             (0..3).map(|k| simulate(&[(PowerLaw::White, 5e-4)], 60_000, 40 + k)).collect();
-        let mut recording = Recording {
-            times_s: (0..60_000).map(|k| f64::from(k) * INTERVAL_S).collect(),
-            readings: (0..60_000).map(|k| Vector3::new(axis[0][k], axis[1][k], 9.8 + axis[2][k])).collect(),
-            axes: 3,
-            unit: ReadingUnit::MetrePerSecondSquared,
-        };
-        recording.readings[31_234].x += spike;
+        let times_s = (0..60_000).map(|k| f64::from(k) * INTERVAL_S).collect();
+        let readings = (0..60_000).map(|k| Vector3::new(axis[0][k], axis[1][k], 9.8 + axis[2][k])).collect();
+        let unit = ReadingUnit::MetrePerSecondSquared;
+        let mut recording = Recording::new(times_s, readings, 3, unit).expect("samples in order");
+        recording.readings_mut()[31_234].x += spike;
         let segment = Segment::between(&recording, 0.0, 600.0).expect("long enough");
         SensorNoise::of(SensorKind::Accelerometer, &recording, segment).expect("noisy")
     };
@@ -283,12 +281,10 @@ fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
 
 /// The noise of an accelerometer of one axis, from all of these samples.
 fn examine(values: &[f64], moments: &Moments) -> SensorNoise {
-    let recording = Recording {
-        times_s: (0..values.len()).map(|k| k as f64 * INTERVAL_S).collect(),
-        readings: values.iter().map(|&y| Vector3::new(y, 0.0, 0.0)).collect(),
-        axes: 1,
-        unit: ReadingUnit::MetrePerSecondSquared,
-    };
+    let times_s = (0..values.len()).map(|k| k as f64 * INTERVAL_S).collect();
+    let readings = values.iter().map(|&y| Vector3::new(y, 0.0, 0.0)).collect();
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let recording = Recording::new(times_s, readings, 1, unit).expect("samples in order");
     let segment = Segment::between(&recording, 0.0, 1e9).expect("long enough");
     SensorNoise::with_moments(SensorKind::Accelerometer, &recording, segment, moments).expect("noisy")
 }

@@ -72,11 +72,11 @@ fn scatter(recording: &mut ImuRecording, simulation: &ImuSimulation, size: f64, 
     };
     let (pushes, biases, swings) = (vectors(2e-3 * size), vectors(5e-4 * size), vectors(2e-3 * size));
     let accelerometer = recording.accelerometer.as_mut().expect("there");
-    for (t, y) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
+    for (t, y) in accelerometer.samples_mut() {
         *y += pushes[(t / period) as usize];
     }
     let gyroscope = recording.gyroscope.as_mut().expect("there");
-    for (t, y) in gyroscope.times_s.iter().zip(&mut gyroscope.readings) {
+    for (t, y) in gyroscope.samples_mut() {
         let j = (t / period) as usize;
         let into = t - j as f64 * period - simulation.hold_s;
         if into > 0.0 {

@@ -48,13 +48,13 @@ fn what_stands_out_is_named() {
     let calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     let mut other = simulate_imu(&truth, &simulation, &mut rng);
     let accelerometer = other.accelerometer.as_mut().expect("there");
-    for (t, y) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
+    for (t, y) in accelerometer.samples_mut() {
         if (4.5 * 6.0..4.5 * 6.0 + 2.5).contains(t) {
             *y *= 1.005;
         }
     }
     let gyroscope = other.gyroscope.as_mut().expect("there");
-    for (t, y) in gyroscope.times_s.iter().zip(&mut gyroscope.readings) {
+    for (t, y) in gyroscope.samples_mut() {
         if (4.5 * 11.0 + 3.0..4.5 * 11.0 + 4.0).contains(t) {
             *y += Vector3::repeat(0.02);
         }
@@ -92,7 +92,7 @@ fn errors_equal_those_of_plain_arithmetic() {
     let (accelerometer, gyroscope) = (other.accelerometer.expect("there"), other.gyroscope.expect("there"));
     let still = |recording: &Recording, (start, end): (f64, f64)| {
         let inside =
-            recording.times_s.iter().zip(&recording.readings).filter(|(t, _)| (start..=end).contains(*t));
+            recording.times_s().iter().zip(recording.readings()).filter(|(t, _)| (start..=end).contains(*t));
         let readings: Vec<_> = inside.map(|(_, y)| *y).collect();
         readings.iter().sum::<Vector3<f64>>() / readings.len() as f64
     };
@@ -113,7 +113,7 @@ fn errors_equal_those_of_plain_arithmetic() {
     assert_eq!(of(ErrorKind::Rotation).len(), 15);
     for error in of(ErrorKind::Rotation) {
         let mut gravity = forces[error.from_hold.expect("a rotation")].normalize();
-        let (times, readings) = (&gyroscope.times_s, &gyroscope.readings);
+        let (times, readings) = (gyroscope.times_s(), gyroscope.readings());
         let inside = |k: &usize| times[*k] >= error.start_s - 1e-9 && times[*k + 1] <= error.end_s + 1e-9;
         for k in (0..times.len() - 1).filter(inside) {
             for part in 0..100 {
@@ -152,7 +152,7 @@ fn repeated(gyroscope_noise: f64) {
         for (sensor_kind, sd) in
             [(&mut recording.accelerometer, 0.01), (&mut recording.gyroscope, gyroscope_noise)]
         {
-            for y in &mut sensor_kind.as_mut().expect("there").readings {
+            for y in sensor_kind.as_mut().expect("there").readings_mut() {
                 *y += Vector3::from_fn(|_, _| sd * normal(rng));
             }
         }

@@ -120,7 +120,7 @@ fn rates_in_another_unit_are_known_by_their_turns() {
         let found = tried(
             |_| (),
             |other| {
-                let readings = &mut other.gyroscope.as_mut().expect("there").readings;
+                let readings = other.gyroscope.as_mut().expect("there").readings_mut();
                 readings.iter_mut().for_each(|y| *y *= times);
             },
         );
@@ -144,7 +144,7 @@ fn readings_in_g_that_are_stated_in_metres_are_asked_about() {
         [(1.0 / 9.80665, "are the readings in g, "), (9.80665, "are the readings in m/s², ")]
     {
         let mut other = simulate(&truth, &setup, 0.0, &mut rng);
-        other.accelerometer.as_mut().expect("there").readings.iter_mut().for_each(|y| *y *= times);
+        other.accelerometer.as_mut().expect("there").readings_mut().iter_mut().for_each(|y| *y *= times);
         let error = validate_imu(&calibration, &bench.problem(&other)).expect_err("another unit").to_string();
         assert!(error.contains(expected), "{error}");
     }
@@ -160,7 +160,7 @@ fn another_temperature_is_told_where_nothing_follows_it() {
         temperature_c: recording
             .accelerometer
             .as_ref()
-            .map(|readings| vec![temperature_c; readings.times_s.len()]),
+            .map(|readings| vec![temperature_c; readings.times_s().len()]),
         ..recording
     };
     let one = at(simulate(&truth, &setup, 1.0, &mut rng), 24.5);

@@ -163,7 +163,7 @@ fn filtered_noise_is_scatter_that_goes_with_the_noise() {
             let mut filtered = |sd: f64| {
                 let mut recording = simulate_imu(&truth, &quiet, &mut rng);
                 let mut noise = Vector3::zeros();
-                for y in &mut recording.gyroscope.as_mut().expect("there").readings {
+                for y in recording.gyroscope.as_mut().expect("there").readings_mut() {
                     noise = 0.8 * noise + 0.6 * Vector3::from_fn(|_, _| sd * normal(&mut rng));
                     *y += noise;
                 }
@@ -206,7 +206,7 @@ fn rounded(mut recording: ImuRecording, setup: &ImuSimulation, deviations: f64) 
 }
 
 fn in_steps(recording: &mut Recording, step: f64) {
-    recording.readings.iter_mut().for_each(|y| *y = y.map(|y| (y / step).round() * step));
+    recording.readings_mut().iter_mut().for_each(|y| *y = y.map(|y| (y / step).round() * step));
 }
 
 /// The effect of quantisation on a hold's mean is part of the prediction. A coarser range of the

@@ -20,9 +20,7 @@ fn the_standard_deviations_on_the_xsens_recording_are_to_be_believed() {
     let half = |first: bool| {
         let of = |of: &Option<Recording>| {
             let of = of.as_ref().expect("there");
-            let pairs = of.times_s.iter().zip(&of.readings).filter(|(t, _)| (**t < middle) == first);
-            let (times_s, readings) = pairs.map(|(t, y)| (*t, *y)).unzip();
-            Some(Recording { times_s, readings, axes: 3, unit: of.unit })
+            Some(of.only(|k| (of.times_s()[k] < middle) == first))
         };
         let (accelerometer, gyroscope) = (of(&recording.accelerometer), of(&recording.gyroscope));
         ImuRecording { accelerometer, gyroscope, temperature_c: None }

@@ -48,13 +48,13 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
     assert!(refused(&without).contains("the recording has no gyroscope"));
     let mut restless = recording.clone();
     for sensor in [&mut restless.accelerometer, &mut restless.gyroscope] {
-        for (k, y) in sensor.as_mut().expect("there").readings.iter_mut().enumerate() {
+        for (k, y) in sensor.as_mut().expect("there").readings_mut().iter_mut().enumerate() {
             *y += Vector3::repeat(3.0 * (k as f64 * 0.9).sin() * (1.0 + k as f64 * 1e-3));
         }
     }
     let message = refused(&restless);
     assert!(message.contains("no holds") || message.contains("miss the magnitude"), "{message}");
     let mut another = recording.clone();
-    another.accelerometer.as_mut().expect("there").readings.iter_mut().for_each(|y| *y *= 0.1);
+    another.accelerometer.as_mut().expect("there").readings_mut().iter_mut().for_each(|y| *y *= 0.1);
     assert!(refused(&another).contains("its holds miss the magnitude of gravity by 8.8"));
 }

@@ -4,6 +4,7 @@ use crate::common::draw_imu;
 use crate::validation::bench::{KINDS, bench, intervals, simulate};
 use calibrant::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
 use calibrant::report::validation_sentences;
+use calibrant::sensor::Recording;
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use rayon::prelude::*;
 
@@ -57,10 +58,10 @@ fn poses_that_repeat_are_counted_and_share_their_scatter() {
     let mut twice = once.clone();
     let period_s = 12.0 * (short.hold_s + short.turn_s);
     for recording in [&mut twice.accelerometer, &mut twice.gyroscope].into_iter().flatten() {
-        let again: Vec<f64> = recording.times_s.iter().map(|t| t + period_s).collect();
-        let readings = recording.readings.clone();
-        recording.times_s.extend(again);
-        recording.readings.extend(readings);
+        let again = recording.times_s().iter().map(|t| t + period_s);
+        let times_s = recording.times_s().iter().copied().chain(again).collect();
+        let readings = recording.readings().repeat(2);
+        *recording = Recording::new(times_s, readings, 3, recording.unit()).expect("samples in order");
     }
     let (of_once, of_twice) =
         (bench(&short).validate(&calibration, &once), bench_of_24.validate(&calibration, &twice));
@@ -97,7 +98,7 @@ fn folds_judge_what_the_fit_used() {
     let gyroscope = recording.gyroscope.as_mut().expect("there");
     for (hold, (start_s, end_s)) in intervals(&simulation).into_iter().enumerate() {
         if turning.contains(&hold) {
-            let pairs = gyroscope.times_s.iter().zip(&mut gyroscope.readings);
+            let pairs = gyroscope.samples_mut();
             pairs
                 .filter(|(t, _)| (start_s..end_s).contains(*t))
                 .for_each(|(_, y)| *y += gain * vertical[hold] * 0.1);

@@ -110,7 +110,7 @@ fn written(recording: &ImuRecording, directory: &Path) -> Source {
     let mut source = Source::from_file(directory.join("recording.csv"));
     let accelerometer = recording.accelerometer.as_ref().expect("recorded");
     match &recording.gyroscope {
-        Some(gyroscope) if gyroscope.times_s != accelerometer.times_s => {
+        Some(gyroscope) if gyroscope.times_s() != accelerometer.times_s() => {
             let path = directory.join("gyroscope.csv");
             write_recording(&source.recording, accelerometer).expect("written");
             std::fs::write(&path, gyroscope_csv(gyroscope)).expect("written");
@@ -124,7 +124,7 @@ fn written(recording: &ImuRecording, directory: &Path) -> Source {
 
 fn gyroscope_csv(recording: &Recording) -> String {
     let mut text = String::from("t_s,gx_radps,gy_radps,gz_radps\n");
-    for (t, rate) in recording.times_s.iter().zip(&recording.readings) {
+    for (t, rate) in recording.times_s().iter().zip(recording.readings()) {
         writeln!(text, "{t:?},{:?},{:?},{:?}", rate.x, rate.y, rate.z).expect("a string");
     }
     text

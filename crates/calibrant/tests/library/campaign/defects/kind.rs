@@ -1,6 +1,6 @@
 //! What may be wrong with a recording: nine kinds, each in four sizes, from hardly visible to gross.
 
-use crate::common::normal;
+use crate::common::{normal, retimed};
 use calibrant::sensor::{Gauge, ImuParameters, ImuRecording, Recording, SensorKind};
 use calibrant::simulate::Rng;
 use nalgebra::{Matrix3, Vector3};
@@ -94,11 +94,11 @@ impl Kind {
         let later = 1.0 - onset as f64 / count as f64;
         match self {
             Self::BiasStep => {
-                sensor.readings[onset..].iter_mut().for_each(|y| y[axis] += size);
+                sensor.readings_mut()[onset..].iter_mut().for_each(|y| y[axis] += size);
                 parameters.bias[axis] += size * later;
             }
             Self::GainChange => {
-                sensor.readings[onset..].iter_mut().for_each(|y| y[axis] *= 1.0 + size);
+                sensor.readings_mut()[onset..].iter_mut().for_each(|y| y[axis] *= 1.0 + size);
                 let mut mean = Matrix3::identity();
                 mean[(axis, axis)] += size * later;
                 parameters.matrix = mean * parameters.matrix;
@@ -108,12 +108,12 @@ impl Kind {
             Self::TemperatureDrift => {
                 let direction = Vector3::from_fn(|_, _| normal(rng)).normalize();
                 let warmed = |k: usize| 1.0 - (-3.0 * k as f64 / count as f64).exp();
-                (0..count).for_each(|k| sensor.readings[k] += direction * (size * warmed(k)));
+                (0..count).for_each(|k| sensor.readings_mut()[k] += direction * (size * warmed(k)));
                 parameters.bias += direction * (size * (0..count).map(warmed).sum::<f64>() / count as f64);
             }
             Self::SwappedAxes => {
                 let first = ((1.0 - size) * count as f64) as usize;
-                sensor.readings[first..].iter_mut().for_each(|y| y.swap_rows(axis, other));
+                sensor.readings_mut()[first..].iter_mut().for_each(|y| y.swap_rows(axis, other));
                 // gravity alone cannot tell a sensor from one whose axes are named otherwise
                 if is_alone && first == 0 {
                     parameters.bias.swap_rows(axis, other);
@@ -123,25 +123,25 @@ impl Kind {
                 }
             }
             Self::Saturation => {
-                let mut sizes: Vec<f64> = sensor.readings.iter().map(|y| y[axis].abs()).collect();
+                let mut sizes: Vec<f64> = sensor.readings().iter().map(|y| y[axis].abs()).collect();
                 sizes.sort_unstable_by(f64::total_cmp);
                 let limit = sizes[((1.0 - size) * count as f64) as usize];
-                sensor.readings.iter_mut().for_each(|y| y[axis] = y[axis].clamp(-limit, limit));
+                sensor.readings_mut().iter_mut().for_each(|y| y[axis] = y[axis].clamp(-limit, limit));
             }
-            Self::Clock => sensor.times_s.iter_mut().for_each(|t| *t *= 1.0 + size),
+            Self::Clock => *sensor = retimed(sensor, |t| t * (1.0 + size)),
             Self::LostSamples => {}
             Self::Vibration => {
                 let direction = Vector3::from_fn(|_, _| normal(rng)).normalize();
                 let turns_per_s = std::f64::consts::TAU * rng.random_range(10.0..45.0);
-                for (t, y) in sensor.times_s.iter().zip(&mut sensor.readings) {
+                for (t, y) in sensor.samples_mut() {
                     *y += direction * (size * (turns_per_s * t).sin());
                 }
             }
             // an axis stays where it was, or repeats another
             Self::GluedAxis => {
                 let first = ((1.0 - size) * count as f64) as usize;
-                let (stays, value) = (rng.random::<bool>(), sensor.readings[first][axis]);
-                sensor.readings[first..]
+                let (stays, value) = (rng.random::<bool>(), sensor.readings()[first][axis]);
+                sensor.readings_mut()[first..]
                     .iter_mut()
                     .for_each(|y| y[axis] = if stays { value } else { y[other] });
             }
@@ -155,7 +155,9 @@ fn lose(recording: &mut ImuRecording, share: f64, rng: &mut Rng) {
     let kept: Vec<bool> = (0..count).map(|_| rng.random::<f64>() >= share).collect();
     for sensor in [&mut recording.accelerometer, &mut recording.gyroscope].into_iter().flatten() {
         let mut number = 0..;
-        sensor.readings.retain(|_| kept[number.next().expect("endless")]);
-        sensor.times_s.truncate(sensor.readings.len());
+        let mut readings = sensor.readings().to_vec();
+        readings.retain(|_| kept[number.next().expect("endless")]);
+        let times_s = sensor.times_s()[..readings.len()].to_vec();
+        *sensor = Recording::new(times_s, readings, 3, sensor.unit()).expect("samples in order");
     }
 }

@@ -51,8 +51,8 @@ fn mt(preamble: &str, delimiter: &str) -> String {
 #[test]
 fn mt_manager_reads_the_same_with_every_delimiter_and_comment() {
     let expected = gyroscope(&mt("// Update Rate: 50.0Hz\n", "\t"), &PLAIN);
-    assert_eq!(expected.times_s, [0.0, 0.02, 0.04, 0.1], "the counter begins anew, two samples are lost");
-    assert_eq!(expected.readings[1].as_slice(), [0.2, 0.1, 0.4]);
+    assert_eq!(expected.times_s(), [0.0, 0.02, 0.04, 0.1], "the counter begins anew, two samples are lost");
+    assert_eq!(expected.readings()[1].as_slice(), [0.2, 0.1, 0.4]);
     for delimiter in ["\t", ",", ";", " "] {
         for preamble in [
             "// Start Time: Unknown\n// Update Rate: 50.0Hz\n// Filter Profile: human\n// Firmware Version: 4.4.0\n",
@@ -85,7 +85,7 @@ fn sample_time_fine_is_in_tenths_of_a_millisecond_and_begins_anew() {
     }
     let file = read(&text, &PLAIN);
     let gyroscope = file.recording.gyroscope.as_ref().expect("there");
-    assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.02, 0.03]);
+    assert_eq!(gyroscope.times_s(), [0.0, 0.01, 0.02, 0.03]);
     assert!(file.recording.accelerometer.is_none());
     let temperature = file.recording.temperature_c.as_ref().expect("there");
     let expected = [20.5, 21.5, 22.5, 23.5];
@@ -118,13 +118,13 @@ fn movella_dot_is_in_degrees_and_microseconds() {
     let file = read(&text, &PLAIN);
     assert_eq!(file.format, FileFormat::MovellaDot);
     let gyroscope = file.recording.gyroscope.as_ref().expect("there");
-    assert_eq!(gyroscope.readings[0].as_slice(), [std::f64::consts::PI, 0.0, std::f64::consts::FRAC_PI_2]);
-    assert_eq!(gyroscope.times_s, [0.0, 0.016667, 0.033334]);
+    assert_eq!(gyroscope.readings()[0].as_slice(), [std::f64::consts::PI, 0.0, std::f64::consts::FRAC_PI_2]);
+    assert_eq!(gyroscope.times_s(), [0.0, 0.016667, 0.033334]);
     let free = file.columns.iter().find(|column| column.name == "FreeAcc_X").expect("there");
     assert_eq!(free.unused.as_deref(), Some("gravity has been removed: no reading of a sensor"));
     // without times, the counter and the output rate
     let text = text.replace("4294950629", "").replace(",0,0.1", ",,0.1").replace(",16667,", ",,");
-    let times = read(&text, &PLAIN).recording.gyroscope.expect("there").times_s;
+    let times = read(&text, &PLAIN).recording.gyroscope.expect("there").times_s().to_vec();
     assert_eq!(times, [0.0, 1.0 / 60.0, 2.0 / 60.0]);
 }
 
@@ -145,10 +145,10 @@ fn euroc_keeps_every_nanosecond() {
             file.recording.accelerometer.as_ref().expect("there"),
             file.recording.gyroscope.as_ref().expect("there"),
         );
-        assert_eq!(accelerometer.times_s, [0.0, 0.005_000_192, 0.010_000_128]);
-        assert_eq!(accelerometer.readings[2].x, 7.886_181_041_666_666);
-        assert_eq!(gyroscope.readings[2].z, 0.037_699_111_843_077_52);
-        assert_eq!(gyroscope.unit, ReadingUnit::RadianPerSecond);
+        assert_eq!(accelerometer.times_s(), [0.0, 0.005_000_192, 0.010_000_128]);
+        assert_eq!(accelerometer.readings()[2].x, 7.886_181_041_666_666);
+        assert_eq!(gyroscope.readings()[2].z, 0.037_699_111_843_077_52);
+        assert_eq!(gyroscope.unit(), ReadingUnit::RadianPerSecond);
         let name = if options.format.is_none() { "timestamp [ns]" } else { "1" };
         assert_eq!(
             findings(&file)[0],
@@ -162,10 +162,10 @@ fn a_csv_says_units_by_name_in_many_ways() {
     let rows = "0,90,0,45,1,0,0\n10,0,90,1,0,1,0\n20,45,0,90,0,0,1\n";
     let expected = read(&format!("t_ms,gx_degps,gy_degps,gz_degps,ax_g,ay_g,az_g\n{rows}"), &PLAIN);
     let accelerometer = expected.recording.accelerometer.as_ref().expect("there");
-    assert_eq!(accelerometer.times_s, [0.0, 0.01, 0.02]);
-    assert_eq!(accelerometer.readings[2].z, 9.80665);
+    assert_eq!(accelerometer.times_s(), [0.0, 0.01, 0.02]);
+    assert_eq!(accelerometer.readings()[2].z, 9.80665);
     assert_eq!(
-        expected.recording.gyroscope.as_ref().expect("there").readings[0].x,
+        expected.recording.gyroscope.as_ref().expect("there").readings()[0].x,
         std::f64::consts::FRAC_PI_2
     );
     for header in [
@@ -198,9 +198,9 @@ fn thousandths_are_units() {
     let given = units(ImuUnit::MilliGravity, ImuUnit::MilliDegreePerSecond);
     assert_eq!(read(&format!("t_s,ax,ay,az,gx,gy,gz\n{rows}"), &given).recording, named);
     let (accelerometer, gyroscope) = (named.accelerometer.expect("there"), named.gyroscope.expect("there"));
-    assert!((accelerometer.readings[0] - Vector3::new(0.0, 0.98, 0.017) * 9.80665).amax() < 1e-14);
+    assert!((accelerometer.readings()[0] - Vector3::new(0.0, 0.98, 0.017) * 9.80665).amax() < 1e-14);
     let expected = Vector3::new(std::f64::consts::FRAC_PI_2, 0.0, -0.5_f64.to_radians());
-    assert!((gyroscope.readings[0] - expected).amax() < 1e-14);
+    assert!((gyroscope.readings()[0] - expected).amax() < 1e-14);
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn columns_are_mapped_by_name_or_number() {
     let by_name = options("clock", ["fx", "fy", "fz"], ["p", "q", "r"], "T");
     let named = read(&format!("ax,clock,p,q,r,fx,fy,fz,T\n{rows}"), &by_name);
     assert_eq!(named.recording, by_number.recording);
-    assert_eq!(named.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.01, 0.02]);
+    assert_eq!(named.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.01, 0.02]);
     assert_eq!(named.columns[0].unused.as_deref(), Some("other columns are named in [columns]"));
     // a mapped column's given unit takes precedence over its name
     let text = "t_s,ax_mps2,ay_mps2,az_mps2\n0,1,0,0\n1,0,1,0.1\n2,0,0.1,1\n";
@@ -234,7 +234,7 @@ fn columns_are_mapped_by_name_or_number() {
         accelerometer_unit: Some(ImuUnit::StandardGravity),
         ..PLAIN
     };
-    assert_eq!(accelerometer(text, &overruled).readings[0].x, 9.80665);
+    assert_eq!(accelerometer(text, &overruled).readings()[0].x, 9.80665);
     // a counter in place of a time
     let counted = ImuReadOptions {
         columns: ColumnMapping {
@@ -247,14 +247,14 @@ fn columns_are_mapped_by_name_or_number() {
         accelerometer_unit: Some(ImuUnit::MetrePerSecondSquared),
         ..PLAIN
     };
-    assert_eq!(accelerometer("5 1 2 9.8\n6 2 9.8 1\n8 1 3 9.8\n", &counted).times_s, [0.0, 0.1, 0.3]);
+    assert_eq!(accelerometer("5 1 2 9.8\n6 2 9.8 1\n8 1 3 9.8\n", &counted).times_s(), [0.0, 0.1, 0.3]);
 }
 
 #[test]
 fn rows_without_times_take_the_given_rate() {
     let options = ImuReadOptions { rate_hz: Some(4.0), ..PLAIN };
     let file = read("ax_mps2,ay_mps2,az_mps2\n0,1,9.8\n1,0,9.8\n2,1,9.7\n", &options);
-    assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.25, 0.5]);
+    assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.25, 0.5]);
     assert_eq!(
         findings(&file)[0],
         "the file has no sample times and no counter: each row is taken as one sample at 4 Hz (as given), so lost samples do not show; rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
@@ -266,7 +266,7 @@ fn sensors_of_different_rates_may_share_a_file() {
     let text = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n\
         0.000,0,1,9.8,0.1,0.2,0.3\n0.005,,,,0.2,0.1,0.3\n0.010,1,0,9.7,0.1,0.3,0.2\n0.015,,,,0.3,0.2,0.1\n0.02,1,2,9.8,0.1,0.2,0.4\n";
     let file = read(text, &PLAIN);
-    assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.01, 0.02]);
+    assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.01, 0.02]);
     assert_eq!(file.recording.gyroscope.as_ref().expect("there").len(), 5);
     assert_eq!(findings(&file), ["line 3: 2 rows without a reading of the accelerometer (first here)"]);
 }
@@ -319,7 +319,7 @@ fn a_pair_may_have_headers_and_different_times() {
     .expect("good");
     let (accelerometer, gyroscope) =
         (file.recording.accelerometer.expect("there"), file.recording.gyroscope.expect("there"));
-    assert_eq!((accelerometer.times_s, gyroscope.times_s), (vec![0.0, 1.0], vec![0.5, 1.5, 2.5]));
+    assert_eq!((accelerometer.times_s(), gyroscope.times_s()), (&[0.0, 1.0][..], &[0.5, 1.5, 2.5][..]));
     // the same file twice: each is read for its own sensor
     let whole = b"t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n0,0,1,9.8,0.1,0.2,0.3\n1,1,0,9.8,0.2,0.1,0.4\n";
     let file = parse_imu_pair(whole, whole, &PLAIN).expect("good");

@@ -34,7 +34,7 @@ fn one_absurd_number_is_a_invalid_sample_whatever_its_size() {
             assert_eq!((spikes.samples.as_slice(), spikes.time_s), (&[120][..], 120.0), "{value}");
             let expected = factor * value.parse::<f64>().expect("a number");
             assert!((spikes.reading / expected - 1.0).abs() < 1e-12, "{value}");
-            assert!(clean.readings[120].y.abs() <= 1.0, "{value}");
+            assert!(clean.readings()[120].y.abs() <= 1.0, "{value}");
         }
     }
 }

@@ -50,7 +50,7 @@ fn times_of_packets_are_asked_about_and_a_given_rate_takes_their_place() {
         );
         let read = read(&text, &ImuReadOptions { times, ..given() });
         let gyroscope = read.recording.gyroscope.as_ref().expect("there");
-        assert_eq!((gyroscope.len(), gyroscope.times_s[1500]), (ROWS, 15.0), "{name}");
+        assert_eq!((gyroscope.len(), gyroscope.times_s()[1500]), (ROWS, 15.0), "{name}");
         assert!(
             findings(&read)
                 .iter()

@@ -100,10 +100,10 @@ fn a_table_reads_with_any_compression() {
             file.recording.accelerometer.as_ref().expect("there"),
             file.recording.gyroscope.as_ref().expect("there"),
         );
-        assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]);
-        assert_eq!(accelerometer.times_s, [0.0, 0.02, 0.03, 0.04, 0.05], "the second has no x");
-        assert_eq!(gyroscope.readings[0].x, std::f64::consts::FRAC_PI_2);
-        assert_eq!(accelerometer.readings[2].as_slice(), [0.1 * 3.0, 1.0 + 0.1 * 3.0, 9.5 + 0.1 * 3.0]);
+        assert_eq!(gyroscope.times_s(), [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]);
+        assert_eq!(accelerometer.times_s(), [0.0, 0.02, 0.03, 0.04, 0.05], "the second has no x");
+        assert_eq!(gyroscope.readings()[0].x, std::f64::consts::FRAC_PI_2);
+        assert_eq!(accelerometer.readings()[2].as_slice(), [0.1 * 3.0, 1.0 + 0.1 * 3.0, 9.5 + 0.1 * 3.0]);
         assert_eq!(file.recording.temperature_c, Some(vec![20.0, 22.0, 23.0, 24.0, 25.0]));
         assert_eq!(
             findings(&file)[..2],
@@ -168,7 +168,7 @@ fn tables_that_cannot_be_used_say_why() {
         time_unit: Some(TimeUnit::Millisecond),
         ..units(ImuUnit::Counts, ImuUnit::DegreePerSecond)
     };
-    assert_eq!(read(&unitless, &reported).recording.gyroscope.expect("there").times_s, [0.0, 0.01]);
+    assert_eq!(read(&unitless, &reported).recording.gyroscope.expect("there").times_s(), [0.0, 0.01]);
 }
 
 #[test]
@@ -240,7 +240,7 @@ fn one_absurd_number_of_a_table_is_a_invalid_sample() {
     };
     let read = |invalid| parse_imu_recording(&table(invalid), &ImuReadOptions::default());
     let recording = read(1).expect("read").recording.gyroscope.expect("there");
-    assert_eq!(recording.readings[20].x, f64::from(1e38_f32));
+    assert_eq!(recording.readings()[20].x, f64::from(1e38_f32));
     let message = read(5).expect_err("refused").to_string();
     assert!(
         message.starts_with("the value 9.99999968028569")

@@ -126,5 +126,5 @@ fn a_pair_in_pieces_is_its_bytes() {
     let pair = read_imu_pair(&one, &other, &options).expect("a pair");
     assert!(pair == parse_imu_pair(first.as_bytes(), second.as_bytes(), &options).expect("a pair"));
     assert_eq!(pair.sha256.len(), 2);
-    assert_eq!(pair.recording.gyroscope.expect("there").readings[ROWS - 1].y, 32_000.0 + 119.99);
+    assert_eq!(pair.recording.gyroscope.expect("there").readings()[ROWS - 1].y, 32_000.0 + 119.99);
 }

@@ -17,11 +17,11 @@ fn the_pair_of_imu_tk_reads_whole() {
     assert_eq!((file.format, file.rows), (FileFormat::ImuTk, 51_175));
     let (accelerometer, gyroscope) =
         (file.recording.accelerometer.expect("there"), file.recording.gyroscope.expect("there"));
-    assert_eq!((accelerometer.unit, gyroscope.unit), (ReadingUnit::Counts, ReadingUnit::Counts));
-    assert_eq!(accelerometer.readings[0].as_slice(), [33108.0, 33329.0, 36429.0]);
-    assert_eq!(gyroscope.readings[0].as_slice(), [32786.0, 32429.0, 32499.0]);
-    assert_eq!(accelerometer.times_s, gyroscope.times_s);
-    assert_eq!(gyroscope.times_s.last(), Some(&511.718));
+    assert_eq!((accelerometer.unit(), gyroscope.unit()), (ReadingUnit::Counts, ReadingUnit::Counts));
+    assert_eq!(accelerometer.readings()[0].as_slice(), [33108.0, 33329.0, 36429.0]);
+    assert_eq!(gyroscope.readings()[0].as_slice(), [32786.0, 32429.0, 32499.0]);
+    assert_eq!(accelerometer.times_s(), gyroscope.times_s());
+    assert_eq!(gyroscope.times_s().last(), Some(&511.718));
     let question = read_imu_pair(&acc, &gyr, &ImuReadOptions::default()).expect_err("no units").to_string();
     assert!(
         question.contains("the accelerometer's columns have no unit: magnitudes around 57100 suggest counts"),
@@ -48,9 +48,9 @@ fn the_ferraris_session_of_imucal_asks_for_units_and_rate() {
     let file = read_imu_recording(&path, &options).expect("good");
     assert_eq!(file.format, FileFormat::Imucal);
     let gyroscope = file.recording.gyroscope.as_ref().expect("there");
-    assert_eq!(gyroscope.unit, ReadingUnit::RadianPerSecond);
-    assert!((gyroscope.readings[0].x - (-0.6103515625_f64).to_radians()).abs() < 1e-15);
-    assert_eq!(gyroscope.times_s[1024], 10.0);
+    assert_eq!(gyroscope.unit(), ReadingUnit::RadianPerSecond);
+    assert!((gyroscope.readings()[0].x - (-0.6103515625_f64).to_radians()).abs() < 1e-15);
+    assert_eq!(gyroscope.times_s()[1024], 10.0);
     assert_eq!(gyroscope.len(), file.rows);
     assert_eq!(
         findings(&file)[0],
@@ -69,9 +69,9 @@ fn every_sample_file_of_mt_manager_is_read_or_refused_with_the_reason() {
         assert_eq!(used(&file)[0], "PacketCounter");
         assert_eq!(used(&file)[1..], all);
         let gyroscope = file.recording.gyroscope.as_ref().expect("there");
-        assert_eq!((gyroscope.unit, gyroscope.len()), (ReadingUnit::RadianPerSecond, file.rows));
-        assert_eq!(gyroscope.readings[0].as_slice(), [0.024471, 0.002012, 0.007768]);
-        assert_eq!(gyroscope.times_s[..3], [0.0, 0.01, 0.02]);
+        assert_eq!((gyroscope.unit(), gyroscope.len()), (ReadingUnit::RadianPerSecond, file.rows));
+        assert_eq!(gyroscope.readings()[0].as_slice(), [0.024471, 0.002012, 0.007768]);
+        assert_eq!(gyroscope.times_s()[..3], [0.0, 0.01, 0.02]);
     }
     if let Some(path) = mt("MT2022_ACC_GYRO_ROT_ALL_TAB_NAN_00B42D4B.txt") {
         let question =
@@ -95,7 +95,7 @@ fn every_sample_file_of_mt_manager_is_read_or_refused_with_the_reason() {
     if let Some(path) = mt("MT2022_ACC_GYRO_ROT_MAT_SEMICOLON_00B42D4B.txt") {
         let file = read_imu_recording(&path, &with_rate).expect("good");
         assert_eq!(used(&file)[1..], all);
-        assert_eq!(file.recording.accelerometer.as_ref().expect("there").readings[0].z, 9.922524);
+        assert_eq!(file.recording.accelerometer.as_ref().expect("there").readings()[0].z, 9.922524);
     }
     if let Some(path) = mt("MT_012005D6-000_sit_to_stand-000_00B421ED.txt") {
         let reason =

@@ -32,9 +32,9 @@ fn series(rows: &[String], sensor_kind: SensorKind) -> (Vec<f64>, Vec<[f64; 3]>)
 
 fn assert_is(found: Option<&Recording>, expected: (Vec<f64>, Vec<[f64; 3]>), what: &str) {
     let found = found.expect("there");
-    assert_eq!(found.times_s, expected.0, "{what}");
+    assert_eq!(found.times_s(), expected.0, "{what}");
     let readings: Vec<[f64; 3]> =
-        found.readings.iter().map(|reading| [reading.x, reading.y, reading.z]).collect();
+        found.readings().iter().map(|reading| [reading.x, reading.y, reading.z]).collect();
     assert_eq!(readings, expected.1, "{what}");
 }
 
@@ -86,7 +86,7 @@ fn each_sensor_has_its_own_series() {
             let celsius = file.recording.temperature_c.as_ref().expect("there");
             // 20 °C and 20 K/s, up to the last of its rows
             let expected = |t: f64| 20.0 + 20.0 * t.min(0.35);
-            let times = &file.recording.accelerometer.as_ref().expect("there").times_s;
+            let times = file.recording.accelerometer.as_ref().expect("there").times_s();
             let is_near = |(t, found): (&f64, &f64)| (found - expected(*t)).abs() < 1e-9;
             assert!(times.iter().zip(celsius).all(is_near), "{celsius:?}");
         }
