@@ -15,6 +15,24 @@ pub trait Form<T> {
     fn form(&self) -> T;
 }
 
+/// The first entries of a vector, one for each axis.
+#[must_use]
+pub fn per_axis(vector: &Vector3<f64>, axes: usize) -> Vec<f64> {
+    vector.iter().take(axes).copied().collect()
+}
+
+/// A row for each vector.
+#[must_use]
+pub fn vector_rows(vectors: &[Vector3<f64>], axes: usize) -> Vec<Vec<f64>> {
+    vectors.iter().map(|vector| per_axis(vector, axes)).collect()
+}
+
+/// The upper left block of a 3×3 matrix, row by row.
+#[must_use]
+pub fn block(matrix: &Matrix3<f64>, axes: usize) -> Vec<Vec<f64>> {
+    (0..axes).map(|row| (0..axes).map(|column| matrix[(row, column)]).collect()).collect()
+}
+
 /// Writes a field in the form `T`.
 ///
 /// # Examples

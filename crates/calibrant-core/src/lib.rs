@@ -6,7 +6,7 @@
 //! [`noise`] examines a sensor at rest. [`estimate`] calibrates. [`fleet`] looks at many calibrations.
 //! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
 //! recordings. [`budget`] says what work takes, [`progress`] how far it is, and [`interruption`] ends it early. [`number_format`] writes
-//! numbers for people.
+//! numbers for people, [`json`] and [`form`] results for programs.
 //!
 //! The crate `calibrant` re-exports all of it. Depend on that crate unless the build time matters.
 
@@ -20,6 +20,7 @@ pub mod fleet;
 pub mod form;
 pub mod information;
 pub mod interruption;
+pub mod json;
 pub mod motion;
 pub mod noise;
 pub mod number_format;

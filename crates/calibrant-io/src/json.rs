@@ -7,17 +7,24 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
 use std::path::Path;
 
+/// The version of all JSON files. Added fields do not change it.
+pub const SCHEMA: u32 = 3;
+
 /// Writes a value as a JSON file. It is deterministic: fields in their order, numbers with the fewest digits
 /// that read back to the same bits, no time of day. A value that is not a number is `null`.
-pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+///
+/// # Errors
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write_atomically(path, |out| {
         value.serialize(&mut Serializer::with_formatter(&mut *out, Rows::default()))?;
         writeln!(out)
     })
 }
 
-/// The same as text.
-pub(super) fn to_json(value: &impl Serialize) -> String {
+/// The text that [`write_json`] writes.
+#[must_use]
+pub fn to_json(value: &impl Serialize) -> String {
     let mut out = Vec::new();
     // writing into memory does not fail, and no map here has keys that are not strings
     if value.serialize(&mut Serializer::with_formatter(&mut out, Rows::default())).is_err() {

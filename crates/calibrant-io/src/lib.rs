@@ -106,6 +106,7 @@ pub use finished::Finished;
 pub use hashed_file::HashedFile;
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
+pub use json::{SCHEMA, to_json, write_json};
 pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_preset, missing_limits};
 pub use machine_calibration::{
     MachineLogInput, MachineResult, machine_calibration_json, write_machine_calibration,

@@ -29,6 +29,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("diagnostic", &["error", "sensor", "motion"]),
     ("acceptance", &["diagnostic"]),
     ("arrowhead", &[]),
+    ("json", &[]),
     ("root", &[]),
     ("sensor", &["error"]),
     ("motion", &["error", "sensor"]),

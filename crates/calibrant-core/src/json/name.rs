@@ -1,0 +1,63 @@
+//! Enums as names.
+
+/// Writes an enum as its `name()`. With the list of all its values, it is read back, and the schema lists the names.
+///
+/// ```
+/// # use calibrant_core::json_name;
+/// #[derive(Clone, Copy)]
+/// enum Colour { Red, Green }
+/// impl Colour {
+///     const ALL: [Self; 2] = [Self::Red, Self::Green];
+///     fn name(self) -> &'static str { match self { Self::Red => "red", Self::Green => "green" } }
+/// }
+/// json_name!(Colour, Colour::ALL);
+/// ```
+#[macro_export]
+macro_rules! json_name {
+    ($type:ty) => {
+        impl ::serde::Serialize for $type {
+            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
+                serializer.serialize_str(&self.name())
+            }
+        }
+        impl ::schemars::JsonSchema for $type {
+            fn inline_schema() -> bool {
+                true
+            }
+            fn schema_name() -> ::std::borrow::Cow<'static, str> {
+                $crate::json::type_name(stringify!($type)).into()
+            }
+            fn json_schema(_: &mut ::schemars::SchemaGenerator) -> ::schemars::Schema {
+                ::schemars::json_schema!({ "type": "string" })
+            }
+        }
+    };
+    ($type:ty, $all:expr) => {
+        impl ::serde::Serialize for $type {
+            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
+                serializer.serialize_str(&self.name())
+            }
+        }
+        impl<'de> ::serde::Deserialize<'de> for $type {
+            fn deserialize<D: ::serde::Deserializer<'de>>(deserializer: D) -> ::core::result::Result<Self, D::Error> {
+                let found = <::std::string::String as ::serde::Deserialize>::deserialize(deserializer)?;
+                $all.iter().copied().find(|known| known.name() == found).ok_or_else(|| {
+                    let known: ::std::vec::Vec<_> = $all.iter().map(|known| format!("`{}`", known.name())).collect();
+                    ::serde::de::Error::custom(format!("`{found}` is none of {}", known.join(", ")))
+                })
+            }
+        }
+        impl ::schemars::JsonSchema for $type {
+            fn inline_schema() -> bool {
+                true
+            }
+            fn schema_name() -> ::std::borrow::Cow<'static, str> {
+                $crate::json::type_name(stringify!($type)).into()
+            }
+            fn json_schema(_: &mut ::schemars::SchemaGenerator) -> ::schemars::Schema {
+                let names: ::std::vec::Vec<_> = $all.iter().map(|known| known.name().to_string()).collect();
+                ::schemars::json_schema!({ "type": "string", "enum": names })
+            }
+        }
+    };
+}
