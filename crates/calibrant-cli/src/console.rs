@@ -1,20 +1,16 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
-mod calibration;
-mod machine;
 mod manner;
 mod table;
-mod validation;
 mod width;
 
-pub(crate) use calibration::calibration;
 pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
 pub(crate) use table::table;
-pub(crate) use width::paragraph;
 
 use calibrant::Error;
 use calibrant::io::Finding;
 use calibrant::pipeline::{Note, extrapolation_in_words};
+use calibrant::report::{Sheet, wrapped};
 use calibrant::sensor::CalibratedImu;
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
@@ -31,6 +27,11 @@ pub(crate) fn harmless(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
+/// Prints a result to stdout, as wide as the terminal is.
+pub(crate) fn sheet(sheet: &Sheet<'_>) {
+    print(&sheet.text(width::get()));
+}
+
 /// Prints a result to stdout as people read it, unless `--quiet` hides it. Its lines fit the terminal, and its minus signs can be copied into a
 /// program.
 pub(crate) fn print(text: &str) {
@@ -39,9 +40,14 @@ pub(crate) fn print(text: &str) {
     }
     let text = text.replace('−', "-");
     print_always(&match width::of_terminal() {
-        Some(width) => width::wrapped(&text, width),
+        Some(width) => wrapped(&text, width),
         None => text,
     });
+}
+
+/// A paragraph, two characters from the margin.
+pub(crate) fn paragraph(text: &str) -> String {
+    calibrant::report::paragraph(text, width::get())
 }
 
 /// Prints what was asked for to stdout as it is, also with `--quiet`. A closed reader (`| head`) is not an error.

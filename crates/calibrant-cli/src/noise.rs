@@ -15,7 +15,7 @@ use calibrant::io::{
     DiagnosticWords, ImuFile, Input, ResultPlaces, file_name, noise_json, write_atomically, write_noise,
 };
 use calibrant::noise::{Segment, SensorNoise};
-use calibrant::report::{About, message, noise_report, number_format};
+use calibrant::report::{About, message, noise_sheet, number_format};
 use calibrant::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -107,7 +107,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     if let Some(directory) = &arguments.output {
         write_noise(&directory.join("noise.json"), &noise, &inputs, &words)?;
-        let html = noise_report(&noise, &about(arguments, &file, &inputs, examined));
+        let html = noise_sheet(&noise, &about(arguments, &file, &inputs, examined)).html();
         let page = directory.join("report.html");
         write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
         if !arguments.json {

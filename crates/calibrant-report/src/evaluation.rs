@@ -8,7 +8,7 @@ use super::figure::{
 };
 use super::html::{Page, verdict_box};
 use super::number_format;
-use super::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
@@ -24,7 +24,7 @@ const WORTH_IT: f64 = 1.5;
 /// A user's motion as one HTML file: a verdict, and its predicted standard deviations beside those of the best motion
 /// found. It lists broken limits and undetermined parameters.
 ///
-/// Self-contained as [`calibration_report`](super::calibration_report) is.
+/// Self-contained as [`Sheet::html`](crate::Sheet::html) is.
 #[must_use]
 pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
     let title = if about.title.is_empty() { "Evaluation of a motion" } else { &about.title };
@@ -168,7 +168,7 @@ fn not_alike(other: &OtherSetting) -> String {
 }
 
 fn own_table(parameters: &[Parameter], sd: &[f64]) -> String {
-    let mut table = Table::new("", &["parameter", "unit", "sd"]);
+    let mut table = Table::new(["parameter", "unit", "sd"]);
     for (parameter, &sd) in parameters.iter().zip(sd) {
         let unit = DisplayUnit::suited_to(parameter.unit, [sd]);
         let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
@@ -193,7 +193,7 @@ fn criterion_table(assessment: &Assessment) -> String {
         assessment.criterion.formula(),
         assessment.criterion.scaling()
     );
-    let mut table = Table::new("", &[name.as_str(), "value", "efficiency of your motion"]);
+    let mut table = Table::new([name.as_str(), "value", "efficiency of your motion"]);
     let mut row = |name: &str, value: f64, efficiency: Option<f64>| {
         table.row(vec![
             Cell::Name(name.to_string()),

@@ -16,9 +16,9 @@ mod machine;
 mod noise;
 mod poses;
 mod report_context;
+mod sheet;
 mod study;
 mod sweep;
-mod table;
 mod validation;
 mod words;
 
@@ -28,21 +28,15 @@ pub use calibrant_core::number_format;
 mod tests;
 
 pub use batch::{Batch, BatchParameter, BatchSensor, batch_report};
-pub use calibration::{
-    calibration_quality, calibration_report, nuisances_in_words, over_the_gain, temperature_in_words,
-    used_in_words,
-};
+pub use calibration::calibration_sheet;
 pub use design::design_report;
 pub use evaluation::evaluation_report;
-pub use limits::limit_rows;
-pub use machine::{
-    machine_report, machine_unit, machine_validation_heading, machine_validation_rows,
-    machine_validation_sentences, mounting_in_words,
-};
-pub use noise::{coefficient_name, noise_report};
+pub use machine::machine_sheet;
+pub use noise::{coefficient_name, noise_sheet};
 pub use poses::{design_in_words, evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
 pub use report_context::About;
+pub use sheet::{Cell, Column, Digits, Grade, Section, Sheet, SheetVerdict, Shown, Table, paragraph, wrapped};
 pub use study::study_report;
 pub use sweep::sweep_report;
-pub use validation::{validation_heading, validation_rows, validation_sentences};
+pub use validation::validation_sentences;
 pub use words::{coarse_axis, message, spikes_taken_out};

@@ -2,52 +2,47 @@
 
 use super::About;
 use super::figure::allan_figure;
-use super::html::{Page, escape, verdict_box};
 use super::number_format;
-use super::table::{Cell, Table};
+use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
 use crate::words::{capitalised, message};
 use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
-use rayon::prelude::*;
 
 /// Samples are disturbed if they scatter by more than this factor times white noise.
 const DISTURBED: f64 = 1.05;
 /// Samples are correlated if they scatter by less than this factor times white noise.
 const FILTERED: f64 = 0.95;
 
-/// The noise of one or two sensors as one HTML file: verdict, Allan deviation plots, tables in SI and in customary units.
-///
-/// Self-contained as [`calibration_report`](super::calibration_report) is.
+/// The noise of one or two sensors as a sheet: verdict, Allan deviation plots, tables in SI and in customary units.
 #[must_use]
-pub fn noise_report(noise: &[SensorNoise], about: &About) -> String {
-    let title = if about.title.is_empty() { "Noise" } else { &about.title };
-    let opening = || Page::opened(title, verdict(noise, about));
-    Page::of_parts([&opening, &|| noise_sections(noise)]).finish(title, &about.facts, &about.footer())
+pub fn noise_sheet<'a>(noise: &'a [SensorNoise], about: &'a About) -> Sheet<'a> {
+    Sheet {
+        title: if about.title.is_empty() { "Noise".into() } else { about.title.clone() },
+        verdict: Some(verdict(noise, about)),
+        sections: noise_sections(noise),
+        inputs: about.facts.clone(),
+        footer: about.footer(),
+    }
 }
 
 /// A section on each sensor: its figure, coefficients, samples.
-pub(super) fn noise_sections(noise: &[SensorNoise]) -> Page {
-    let figures: Vec<String> = noise.par_iter().map(|sensor_kind| allan_figure(sensor_kind).html()).collect();
-    let mut page = Page::default();
-    noise.iter().zip(figures).for_each(|(sensor_kind, figure)| noise_section(&mut page, sensor_kind, figure));
-    page
+pub(super) fn noise_sections(noise: &[SensorNoise]) -> Vec<Section<'_>> {
+    noise.iter().map(noise_section).collect()
 }
 
-fn noise_section(page: &mut Page, noise: &SensorNoise, figure: String) {
+fn noise_section(noise: &SensorNoise) -> Section<'_> {
     let segment = &noise.segment;
-    page.section(
-        &format!("Noise of the {}", noise.sensor_kind),
-        &format!(
-            "From {} samples, {} to {} s, at {} Hz.",
-            number_format::count(segment.samples()),
-            number_format::fixed(segment.start_s, 2),
-            number_format::fixed(segment.end_s, 2),
-            number_format::significant(segment.rate_hz(), 5)
-        ),
-    );
-    page.push(coefficient_table(noise));
-    page.push(figure);
-    page.subsection("White noise of one sample");
-    page.push(sample_table(noise));
+    let mut section = Section::new(format!("Noise of the {}", noise.sensor_kind)).lead(format!(
+        "From {} samples, {} to {} s, at {} Hz.",
+        number_format::count(segment.samples()),
+        number_format::fixed(segment.start_s, 2),
+        number_format::fixed(segment.end_s, 2),
+        number_format::significant(segment.rate_hz(), 5)
+    ));
+    section.table(coefficient_table(noise));
+    section.figure(|| Some(allan_figure(noise)));
+    section.subheading("White noise of one sample");
+    sample_table(&mut section, noise);
+    section
 }
 
 /// Name of a coefficient.
@@ -62,11 +57,10 @@ pub fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str 
     }
 }
 
-fn coefficient_table(noise: &SensorNoise) -> String {
-    let mut table = Table::new(
-        "",
-        &["", "value ± sd", "95 % interval, also in customary units; or the reason why it is not determined"],
-    );
+fn coefficient_table(noise: &SensorNoise) -> Table {
+    let columns =
+        ["", "value ± sd", "95 % interval, also in customary units; or the reason why it is not determined"];
+    let mut table = Table::new(columns);
     for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
         for axis in &noise.axes {
             let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
@@ -74,7 +68,7 @@ fn coefficient_table(noise: &SensorNoise) -> String {
             table.explain(&name, value, &words);
         }
     }
-    table.html()
+    table
 }
 
 /// A coefficient with its unit, and its interval or its reason.
@@ -110,10 +104,10 @@ fn coefficient_in_words(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw
 }
 
 /// The white noise of one sample beside the scatter of the samples.
-fn sample_table(noise: &SensorNoise) -> String {
+fn sample_table(section: &mut Section<'_>, noise: &SensorNoise) {
     let unit = noise.unit.symbol();
     let (white, sd) = (format!("N √rate ({unit})"), format!("sd of samples ({unit})"));
-    let mut table = Table::new("", &["axis", &white, &sd, "ratio", "samples"]);
+    let mut table = Table::new(["axis", &white, &sd, "ratio", "samples"]);
     for axis in &noise.axes {
         let sigma = axis.fit.model.white_noise_per_sample(noise.segment.rate_hz());
         let ratio = sigma.map(|sigma| axis.sample_sd / sigma);
@@ -137,12 +131,12 @@ fn sample_table(noise: &SensorNoise) -> String {
             Cell::Text(what.to_string()),
         ]);
     }
-    let explanation = "N √rate is the noise that a sample would have if it were independent of the others: the one that says how well a mean of many is known, and \
-                       the one to calibrate with. Samples that scatter less are correlated, as after a filter; those that scatter more are disturbed by something that averages out.";
-    format!("{}<p>{}</p>", table.html(), escape(explanation))
+    section.table(table);
+    section.explanation("N √rate is the noise that a sample would have if it were independent of the others: the one that says how well a mean of many is known, and \
+                       the one to calibrate with. Samples that scatter less are correlated, as after a filter; those that scatter more are disturbed by something that averages out.");
 }
 
-fn verdict(noise: &[SensorNoise], about: &About) -> String {
+fn verdict(noise: &[SensorNoise], about: &About) -> SheetVerdict {
     let axes = || noise.iter().flat_map(|sensor_kind| &sensor_kind.axes);
     let explained = axes().all(|axis| axis.fit.explains());
     let drifts = axes().any(|axis| axis.fit.drift.is_significant());
@@ -157,14 +151,14 @@ fn verdict(noise: &[SensorNoise], about: &About) -> String {
     };
     let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
     let doubtful = noise.iter().any(|sensor_kind| sensor_kind.caveat.is_some());
-    let (class, word) = match () {
-        () if doubtful => ("bad", "✗ This is not only the noise of a sensor at rest."),
-        () if !explained => ("bad", "✗ The model does not explain the noise."),
-        () if drifts || determined(PowerLaw::White) < total => ("caution", "! Look closer."),
+    let (grade, word) = match () {
+        () if doubtful => (Grade::Bad, "✗ This is not only the noise of a sensor at rest."),
+        () if !explained => (Grade::Bad, "✗ The model does not explain the noise."),
+        () if drifts || determined(PowerLaw::White) < total => (Grade::Caution, "! Look closer."),
         () if slow == 0 => {
-            ("caution", "! White noise is determined. The recording is too short for slow noise.")
+            (Grade::Caution, "! White noise is determined. The recording is too short for slow noise.")
         }
-        () => ("good", "✓ White noise and slow noise are determined."),
+        () => (Grade::Good, "✓ White noise and slow noise are determined."),
     };
     let sentence = format!(
         "White noise (N): {}; {}; {}.",
@@ -178,5 +172,7 @@ fn verdict(noise: &[SensorNoise], about: &About) -> String {
     let warnings = caveats
         .chain(noise.iter().flat_map(|sensor_kind| sensor_kind.warnings.iter().map(message)))
         .collect();
-    verdict_box(class, word, &sentence, &[("Warnings", warnings), ("Findings", about.findings.clone())])
+    SheetVerdict::new(grade, word, sentence)
+        .with("Warnings", warnings)
+        .with("Findings", about.findings.clone())
 }

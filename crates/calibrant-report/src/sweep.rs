@@ -5,13 +5,13 @@ use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
 use super::html::{Page, verdict_box};
 use super::number_format;
-use super::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
 
 /// A sweep as one HTML file: the effect of the quantity in a sentence, the curves, a table of all values.
 ///
-/// Self-contained as [`calibration_report`](super::calibration_report) is.
+/// Self-contained as [`Sheet::html`](crate::Sheet::html) is.
 #[must_use]
 pub fn sweep_report(sweep: &Sweep, about: &About) -> String {
     let title = if about.title.is_empty() { "Sweep" } else { &about.title };
@@ -130,7 +130,7 @@ fn table(sweep: &Sweep) -> String {
         .chain(of_parameters)
         .chain(["criterion".to_string(), above_label.to_string(), "ended".to_string()])
         .collect();
-    let mut table = Table::new("", &columns.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = Table::new(columns);
     for (point, sd) in sweep.points.iter().zip(&sd) {
         let mut cells =
             vec![Cell::Name(number_format::short(point.value)), Cell::Number(point.intervals.to_string())];

@@ -1,9 +1,8 @@
-//! Validation in a report: the errors of a calibration on data that it did not use, in sentences and tables.
+//! Validation on a sheet: the errors of a calibration on data that it did not use, in sentences and a table.
 
 use super::figure::validation_errors;
-use super::html::{Page, list};
 use super::number_format;
-use super::table::{Cell, Table};
+use crate::sheet::{Cell, Section, Table};
 use crate::words::headline;
 use calibrant_core::estimate::{
     BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
@@ -59,8 +58,7 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
 }
 
 /// The data of the validation: `on other.csv`, `5 folds`.
-#[must_use]
-pub fn validation_heading(validation: &Validation) -> String {
+fn heading(validation: &Validation) -> String {
     match &validation.source {
         ValidationSource::Recording { name } if name.is_empty() => "On another recording".into(),
         ValidationSource::Recording { name } => format!("On {name}"),
@@ -68,36 +66,6 @@ pub fn validation_heading(validation: &Validation) -> String {
             format!("{folds} blocks of holds, each predicted from the others")
         }
     }
-}
-
-/// Header and rows of the table: errors, number, distinct orientations, rms, predicted, ratio, p-value.
-#[must_use]
-pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[String; 7]>) {
-    let header = ["error of", "number", "distinct", "rms", "predicted", "ratio (99 %)", "p-value"];
-    let mut rows = Vec::new();
-    for errors in &validation.kinds {
-        rows.push([
-            what(errors.kind).into(),
-            errors.counted().to_string(),
-            errors.distinct.to_string(),
-            measured(errors.kind, errors.rms),
-            measured(errors.kind, errors.predicted_rms),
-            between(errors.factor, errors.factor_interval),
-            number_format::probability(errors.p_value),
-        ]);
-        if let Some(part) = errors.parameters {
-            rows.push([
-                "– through the parameters".into(),
-                number_format::UNKNOWN.into(),
-                number_format::UNKNOWN.into(),
-                number_format::UNKNOWN.into(),
-                number_format::UNKNOWN.into(),
-                between(part.factor, part.factor_interval),
-                number_format::probability(part.p_value),
-            ]);
-        }
-    }
-    (header, rows)
 }
 
 /// A line for each kind of error: its ratio, and what that says of the covariance.
@@ -122,47 +90,52 @@ pub(super) fn validation_in_short(validations: &[Validation]) -> Vec<String> {
 }
 
 /// The section on all validations of a calibration. Without a validation there is no section.
-pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
+pub(super) fn validation_section(validations: &[Validation]) -> Option<Section<'_>> {
     if validations.is_empty() {
-        return;
+        return None;
     }
-    page.section(
-        "Validation",
+    let mut section = Section::new("Validation").lead(
         "Errors on data that the calibration did not use, and the errors that it predicts. The prediction includes the covariance, the noise, and the scatter between holds and \
          rotations. The ratio is rms over prediction: 1 if the standard deviations are right. It has a 99 % confidence interval, for all rows together. Holds within 10° are one orientation, and share what the model misses there.",
     );
     for validation in validations {
-        page.subsection(&validation_heading(validation));
-        page.push(list(&validation_sentences(validation)));
-        page.push(table(validation));
-        page.push(validation_errors(validation).html());
+        section.subheading(heading(validation));
+        section.list(validation_sentences(validation));
+        section.table(table(validation));
+        section.figure(|| Some(validation_errors(validation)));
     }
+    Some(section)
 }
 
-/// The rows of [`validation_rows`], with the units in a column of their own.
-fn table(validation: &Validation) -> String {
-    let ([name, number, distinct, rms, predicted, ratio, p_value], rows) = validation_rows(validation);
-    let mut table = Table::new("", &[name, number, distinct, rms, predicted, "unit", ratio, p_value]);
-    let units = validation.kinds.iter().flat_map(|errors| [Some(unit(errors.kind)), None]);
-    let with_parts = validation.kinds.iter().flat_map(|errors| [true, errors.parameters.is_some()]);
-    let units = units.zip(with_parts).filter(|(_, there)| *there).map(|(unit, _)| unit);
-    for ([name, number, distinct, rms, predicted, ratio, p_value], unit) in rows.into_iter().zip(units) {
-        let bare = |text: String| match unit {
-            Some(unit) => Cell::Number(text.trim_end_matches(unit).trim_end().to_string()),
-            None => Cell::Number(text),
+/// Errors, number, distinct orientations, rms, predicted, ratio and p-value of each kind, and of the part of the parameters.
+fn table(validation: &Validation) -> Table {
+    let columns = ["error of", "number", "distinct", "rms", "predicted", "unit", "ratio (99 %)", "p-value"];
+    let mut table = Table::new(columns);
+    for errors in &validation.kinds {
+        let unit = unit(errors.kind);
+        let bare = |value: f64| {
+            let text = measured(errors.kind, value);
+            Cell::Number(text.trim_end_matches(unit).trim_end().to_owned())
         };
         table.row(vec![
-            Cell::Name(name),
-            Cell::Number(number),
-            Cell::Number(distinct),
-            bare(rms),
-            bare(predicted),
-            Cell::Text(unit.unwrap_or(number_format::UNKNOWN).to_string()),
-            Cell::Number(ratio),
-            Cell::Number(p_value),
+            Cell::name(what(errors.kind)),
+            Cell::Number(errors.counted().to_string()),
+            Cell::Number(errors.distinct.to_string()),
+            bare(errors.rms),
+            bare(errors.predicted_rms),
+            Cell::unit(unit),
+            Cell::Number(between(errors.factor, errors.factor_interval)),
+            Cell::probability(errors.p_value),
         ]);
+        if let Some(part) = errors.parameters {
+            let mut row = vec![Cell::name("– through the parameters")];
+            row.extend([(); 5].map(|()| Cell::Missing));
+            row.push(Cell::Number(between(part.factor, part.factor_interval)));
+            row.push(Cell::probability(part.p_value));
+            table.row(row);
+        }
     }
-    table.html()
+    table
 }
 
 fn unit(kind: ErrorKind) -> &'static str {

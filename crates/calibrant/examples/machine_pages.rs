@@ -10,7 +10,7 @@ use calibrant_machine::estimate::{
     MachineProblem, MachineSettings, MachineSetup, MountingPrior, calibrate_on_machine,
 };
 use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
-use calibrant_report::{About, machine_report};
+use calibrant_report::{About, machine_sheet};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,7 @@ fn page(title: &str, problem: &MachineProblem<'_>) -> Result<String, Failure> {
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
-    Ok(machine_report(&calibration, problem.setup, &[], problem.recording, &about))
+    Ok(machine_sheet(&calibration, problem.setup, &[], problem.recording, &about).html())
 }
 
 fn quantities() -> Vec<ImuQuantity> {

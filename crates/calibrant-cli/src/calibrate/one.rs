@@ -34,7 +34,7 @@ fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
         console::print_always(&outcome.json());
         return exit;
     }
-    console::print(&console::calibration(outcome));
+    console::sheet(&outcome.sheet());
     console::print(&format!("\n{}\n", job.arguments.main_result().display()));
     exit
 }

@@ -4,8 +4,8 @@
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};
 use calibrant_report::{
-    About, Batch, BatchParameter, BatchSensor, batch_report, calibration_report, design_report,
-    evaluation_report, machine_report, study_report, sweep_report,
+    About, Batch, BatchParameter, BatchSensor, batch_report, calibration_sheet, design_report,
+    evaluation_report, machine_sheet, study_report, sweep_report,
 };
 use std::path::PathBuf;
 
@@ -51,14 +51,14 @@ fn main() -> std::io::Result<()> {
     };
     write(
         "motion.html",
-        calibration_report(&case.calibration, &case.recording.clone().into(), &[], &simulated),
+        calibration_sheet(&case.calibration, &case.recording.clone().into(), &[], &simulated).html(),
     )?;
 
     let mut blind = about("Calibration of sensor 7", "sensor7.csv", case.recording.len());
     blind.findings = vec!["3 samples are missing between 12.5 s and 14.5 s".to_string()];
     write(
         "motion_blind.html",
-        calibration_report(&case.calibration, &case.recording.clone().into(), &[], &blind),
+        calibration_sheet(&case.calibration, &case.recording.clone().into(), &[], &blind).html(),
     )?;
 
     let case = fakes::motion_case(1, 5, 10.0, 9);
@@ -66,13 +66,13 @@ fn main() -> std::io::Result<()> {
         About { truth: Some(case.truth), ..about("A uniaxial sensor", "uniaxial.csv", case.recording.len()) };
     write(
         "uniaxial.html",
-        calibration_report(&case.calibration, &case.recording.clone().into(), &[], &simulated),
+        calibration_sheet(&case.calibration, &case.recording.clone().into(), &[], &simulated).html(),
     )?;
 
     let (calibration, recording) = fakes::hold_case(38, 300);
     write(
         "holds.html",
-        calibration_report(
+        calibration_sheet(
             &calibration,
             &recording,
             &[],
@@ -81,14 +81,14 @@ fn main() -> std::io::Result<()> {
                 "mti.csv",
                 recording.accelerometer.as_ref().map_or(0, sensor::Recording::len),
             ),
-        ),
+        ).html(),
     )?;
 
     let case = imus::imu_case(24, 1);
     println!("imu: rotation {} is disturbed", imus::DISTURBED + 1);
     let samples = case.recording.gyroscope.as_ref().map_or(0, sensor::Recording::len);
     let imu_about = about("A whole IMU, turned by hand", "imu.csv", samples);
-    write("imu.html", calibration_report(&case.calibration, &case.recording, &[], &imu_about))?;
+    write("imu.html", calibration_sheet(&case.calibration, &case.recording, &[], &imu_about).html())?;
 
     let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
     let problem = designs::problem(&sensor, &limits);
@@ -106,18 +106,18 @@ fn main() -> std::io::Result<()> {
     for (name, poses) in [("machine.html", false), ("machine_poses.html", true)] {
         let case = machines::machine_case(poses, 20.0, 1);
         let about = about("A sensor on a machine", "imu.csv", 3980);
-        write(name, machine_report(&case.calibration, &case.setup, &[], &case.recording, &about))?;
+        write(name, machine_sheet(&case.calibration, &case.setup, &[], &case.recording, &about).html())?;
     }
 
     let case = fakes::motion_case(3, 20, 10_000.0, 9);
     write(
         "long.html",
-        calibration_report(
+        calibration_sheet(
             &case.calibration,
             &case.recording.clone().into(),
             &[],
             &about("A long recording", "long.csv", case.recording.len()),
-        ),
+        ).html(),
     )?;
 
     write("study.html", study_report(&studies::everything(50, 30), &about("Study of 50 sensors", "–", 0)))?;

@@ -10,7 +10,7 @@ use crate::report_context::About;
 /// A batch of sensors as one HTML file: yield, the sensors that are not ok, the codes that occur most, and each parameter as a histogram and
 /// over the order of the recordings.
 ///
-/// The file is self-contained, as [`calibration_report`](crate::calibration_report) is. Equal batches give equal pages.
+/// The file is self-contained, as [`Sheet::html`](crate::Sheet::html) is. Equal batches give equal pages.
 ///
 /// # References
 /// `iso7870_2` (the control limits)

@@ -2,7 +2,7 @@
 
 use super::sensors::{Batch, BatchSensor};
 use crate::number_format::{self, UNKNOWN};
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::diagnostic::{Code, Usability};
 
 /// The most sensors in the table of those that are not ok.
@@ -20,7 +20,7 @@ pub(super) fn not_ok(batch: &Batch) -> Option<(String, usize)> {
     sensors
         .sort_by_key(|of| of.usability().map_or(0, |usability| Usability::Bad as u8 - usability as u8 + 1));
     let columns = ["sensor", "verdict", "decided by", "what was found"];
-    let mut table = Table::new("", &columns);
+    let mut table = Table::new(columns);
     for sensor in sensors.iter().take(MOST_ROWS) {
         let mut cells = vec![name(sensor), verdict(sensor), Cell::Text(codes_and_limits(sensor))];
         cells.push(Cell::Words(reasons(sensor)));
@@ -31,7 +31,7 @@ pub(super) fn not_ok(batch: &Batch) -> Option<(String, usize)> {
 
 /// All sensors in their order.
 pub(super) fn all(batch: &Batch) -> String {
-    let mut table = Table::new("", &["order", "sensor", "verdict", "decided by"]);
+    let mut table = Table::new(["order", "sensor", "verdict", "decided by"]);
     for (number, sensor) in batch.sensors.iter().enumerate() {
         table.row(vec![
             Cell::Number(number_format::count(number + 1)),

@@ -1,7 +1,7 @@
 //! The improvement by a calibration, in numbers: errors before and after it.
 
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::estimate::{Calibration, HoldCalibration};
 
 /// One error: its name, its value before and after, its unit, and its meaning.
@@ -14,7 +14,7 @@ struct Improved {
 }
 
 /// Gravity residuals, the gyroscope at rest, and rotation errors. Empty if no data are left to check them.
-pub(super) fn improvements(calibration: &Calibration, holds: &HoldCalibration) -> String {
+pub(super) fn improvements(calibration: &Calibration, holds: &HoldCalibration) -> Table {
     let mut rows: Vec<Improved> = magnitude(holds).into_iter().collect();
     rows.extend(calibration.gyroscope.as_ref().map(|gyroscope| Improved {
         name: "rate at rest, rms",
@@ -47,25 +47,21 @@ fn magnitude(holds: &HoldCalibration) -> Option<Improved> {
     })
 }
 
-fn table(rows: &[Improved]) -> String {
-    if rows.is_empty() {
-        return String::new();
-    }
-    let mut table = Table::new("", &["", "before", "after", "unit", "smaller by", "meaning"]);
+fn table(rows: &[Improved]) -> Table {
+    let mut table = Table::new(["", "before", "after", "unit", "smaller by", "meaning"]);
     for row in rows {
         let factor = match row.before / row.after {
             factor if factor.is_finite() => format!("{} ×", number_format::significant(factor, 3)),
             _ => number_format::UNKNOWN.into(),
         };
-        let [before, after] = [row.before, row.after].map(|value| number_format::significant(value, 3));
         table.row(vec![
-            Cell::Name(row.name.to_string()),
-            Cell::Number(before),
-            Cell::Number(after),
-            Cell::Text(row.unit.to_string()),
+            Cell::name(row.name),
+            Cell::significant(row.before, 3),
+            Cell::significant(row.after, 3),
+            Cell::unit(row.unit),
             Cell::Number(factor),
-            Cell::Words(row.meaning.to_string()),
+            Cell::Words(row.meaning.to_owned()),
         ]);
     }
-    table.html()
+    table
 }

@@ -2,26 +2,25 @@
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
-use crate::table::Table;
+use crate::sheet::{Shown, Table, explained};
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
 
 /// The statistics of the fit with one line of explanation each.
-pub(super) fn fit_table(calibration: &Calibration) -> String {
+pub(super) fn fit_table(calibration: &Calibration) -> Table {
     let fit = &calibration.fit;
     let axes = &Axis::ALL[..calibration.axes()];
     let mut table = Table::explained();
-    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     let status = calibration.status.name().replace('_', " ");
-    row("status", status, "How the iteration ended. Only “converged” is an optimum.");
-    row("iterations", calibration.iterations.to_string(), "Steps of the estimator. A handful is usual.");
-    row(
+    table.explain("status", status, "How the iteration ended. Only “converged” is an optimum.");
+    table.explain("iterations", calibration.iterations.to_string(), "Steps of the estimator. A handful is usual.");
+    table.explain_on_page(
         "gradient norm",
         number_format::significant(calibration.gradient_norm, 2),
         "Distance from the optimum in standard deviations of the parameters. Good: far below 1.",
     );
-    row(
+    table.explain(
         "χ²",
         number_format::significant(fit.chi2, 5),
         match fit.p_value {
@@ -31,13 +30,13 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
             }
         },
     );
-    row(
+    table.explain(
         "degrees of freedom",
         number_format::count(fit.degrees_of_freedom),
         "Number of data less number of unknowns. χ² scatters about it by √(2·dof).",
     );
     if let Some(p) = fit.p_value {
-        row(
+        table.explain_on_page(
             "p-value",
             number_format::probability(p),
             "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.",
@@ -52,21 +51,23 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
         format!("{} {symbol}", axes.iter().map(number).collect::<Vec<_>>().join(", "))
     };
     let rows = [
-        ("residual rms", fit.residual_rms, "Root mean square of the residuals of each axis."),
-        ("assumed noise", fit.assumed_noise, "Standard deviation of one sample, as χ² assumes it."),
+        (Shown::OnPage, "residual rms", fit.residual_rms, "Root mean square of the residuals of each axis."),
+        (Shown::Everywhere, "assumed noise", fit.assumed_noise, "Standard deviation of one sample, as χ² assumes it."),
         (
+            Shown::Everywhere,
             "noise estimate",
             fit.noise_estimate,
             "Standard deviation of one sample, from the data. Good: close to the assumed noise, if one was given.",
         ),
     ];
-    for (name, values, meaning) in rows {
+    for (shown, name, values, meaning) in rows {
         if let Some(values) = values {
-            row(&format!("{name} {names}"), per_axis(&values, unit.factor, unit.symbol), meaning);
+            let value = per_axis(&values, unit.factor, unit.symbol);
+            table.row_shown(shown, explained(&format!("{name} {names}"), value, meaning));
         }
     }
     for (test, axis) in fit.whiteness.iter().zip(axes) {
-        row(
+        table.explain_on_page(
             &format!("whiteness {axis}, p"),
             number_format::probability(test.p_value),
             &format!(
@@ -78,16 +79,16 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
     }
     if let Some(gyroscope) = &calibration.gyroscope {
         let (still, symbol) = (&gyroscope.still, gyroscope.unit.symbol());
-        row(
+        table.explain(
             "gyroscope's noise x, y, z",
             per_axis(&still.noise, 1.0, symbol),
             &format!("Standard deviation of one sample, from: {}.", still.noise_source),
         );
-        row(
+        table.explain_on_page(
             "between holds x, y, z",
             per_axis(&still.between_holds_sd, 1.0, symbol),
             "Standard deviation of the gyroscope's mean from hold to hold, beyond this noise. Causes: a wandering bias, the Earth's rate.",
         );
     }
-    table.html()
+    table
 }

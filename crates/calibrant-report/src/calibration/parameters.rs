@@ -1,7 +1,7 @@
 //! The table of the parameters of one sensor, also in units of the stimulus.
 
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Column, Digits, Table};
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters, ThermalPart,
@@ -11,12 +11,12 @@ use calibrant_core::sensor::{
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Name, estimate and sd of the parameters of one sensor.
-pub(super) fn estimate_table(calibration: &Calibration, sensor_kind: SensorKind) -> String {
-    let mut table = Table::new("", &ESTIMATE);
+pub(super) fn estimate_table(calibration: &Calibration, sensor_kind: SensorKind) -> Table {
+    let mut table = Table::new(ESTIMATE);
     for k in calibration.places_of(sensor_kind) {
         table.row(estimate(calibration, k).into());
     }
-    table.html()
+    table
 }
 
 /// The first columns of a table of parameters.
@@ -25,9 +25,9 @@ const ESTIMATE: [&str; 3] = ["parameter", "estimate ± sd", "unit"];
 fn estimate(calibration: &Calibration, k: usize) -> [Cell; 3] {
     let parameter = &calibration.parameters[k];
     [
-        Cell::Name(parameter.name.clone()),
-        Cell::Number(number_format::with_sd(calibration.values[k], calibration.sd()[k])),
-        Cell::Text(if parameter.unit == "1" { "–" } else { parameter.unit }.to_string()),
+        Cell::name(&*parameter.name),
+        Cell::estimate(calibration.values[k], calibration.sd()[k]),
+        Cell::unit(parameter.unit),
     ]
 }
 
@@ -37,73 +37,61 @@ pub(crate) fn parameter_table(
     calibration: &Calibration,
     sensor_kind: SensorKind,
     truth: Option<&SensorParameters>,
-) -> String {
+) -> Table {
     let places = calibration.places_of(sensor_kind);
     let parameters = || places.iter().map(|&k| &calibration.parameters[k]);
     let with_nominal = parameters().any(|parameter| parameter.nominal.is_some());
     let with_spread = parameters().any(|parameter| parameter.spread.is_some());
     let with_prior = places.iter().any(|&k| calibration.known_beforehand(k).is_some());
+    let over_gain = "the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus";
+    let prior = "the share of the information that comes from the prior and not from the data";
+    let mut columns: Vec<Column> = ESTIMATE.map(Column::new).into();
+    columns.push(Column::new("over the gain").noted(over_gain));
     let optional = [
-        (with_nominal, &["nominal"][..]),
-        (with_spread, &["datasheet spread", "sd / spread"]),
-        (with_prior, &["from prior"]),
-        (truth.is_some(), &["truth", "error / sd"]),
+        (with_nominal, vec![Column::new("nominal")]),
+        (with_spread, vec![Column::new("datasheet spread"), Column::on_page("sd / spread")]),
+        (with_prior, vec![Column::new("from prior").noted(prior)]),
+        (truth.is_some(), vec![Column::on_page("truth"), Column::on_page("error / sd")]),
     ];
-    let mut columns = [&ESTIMATE[..], &["over the gain"]].concat();
-    columns.extend(optional.iter().filter(|(there, _)| *there).flat_map(|(_, names)| *names));
-    let mut table = Table::new("", &columns);
+    columns.extend(optional.into_iter().filter(|(there, _)| *there).flat_map(|(_, columns)| columns));
+    let mut table = Table::new(columns);
     let sds = calibration.sd();
-    let number = |value: Option<f64>, show: &dyn Fn(f64) -> String| {
-        Cell::Number(value.map_or(number_format::UNKNOWN.to_string(), show))
-    };
+    let short = |value: Option<f64>| value.map_or(Cell::Missing, Cell::short);
     for &k in &places {
         let (quantity, parameter) = (calibration.quantities[k], &calibration.parameters[k]);
         let (value, sd) = (calibration.values[k], sds[k]);
         let mut row: Vec<Cell> = estimate(calibration, k).into();
         row.push(Cell::Number(over_the_gain(calibration, quantity, sd)));
         if with_nominal {
-            row.push(number(parameter.nominal, &number_format::short));
+            row.push(short(parameter.nominal));
         }
         if with_spread {
             let spread = parameter.spread.filter(|spread| *spread > 0.0);
-            row.push(number(spread, &number_format::short));
-            row.push(number(spread, &|spread| number_format::percent(sd / spread)));
+            row.push(short(spread));
+            row.push(spread.map_or(Cell::Missing, |spread| Cell::percent(sd / spread)));
         }
         if with_prior {
-            row.push(match calibration.known_beforehand(k) {
-                Some(share) => Cell::Mark(number_format::percent(share)),
-                None => Cell::Text(number_format::UNKNOWN.to_string()),
-            });
+            let share = calibration.known_beforehand(k);
+            row.push(share.map_or(Cell::Missing, |share| Cell::Mark(number_format::percent(share))));
         }
         if let Some(truth) = truth {
             let truth = match quantity {
                 ImuQuantity::Of(SensorKind::Accelerometer, of) => Some(of.value(truth)),
                 _ => None,
             };
-            row.push(number(truth, &|truth| number_format::rounded_to(truth, sd)));
-            row.push(number(truth, &|truth| number_format::fixed((value - truth) / sd, 2)));
+            let rounded = |value: f64| Cell::Value { value, digits: Digits::RoundedTo(sd) };
+            row.push(truth.map_or(Cell::Missing, rounded));
+            row.push(truth.map_or(Cell::Missing, |truth| Cell::fixed((value - truth) / sd, 2)));
         }
         table.row(row);
     }
-    table.html()
-}
-
-/// What the columns of [`parameter_table`] mean.
-pub(crate) fn column_notes(calibration: &Calibration) -> String {
-    let mut notes = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
-    if (0..calibration.parameters.len()).any(|k| calibration.known_beforehand(k).is_some()) {
-        notes.push_str(
-            " From prior: the share of the information that comes from the prior and not from the data.",
-        );
-    }
-    notes
+    table
 }
 
 /// A parameter over the gain of its axis, with the sd of this ratio. A bias is then in the unit of the stimulus, a
 /// scale factor is its deviation from 1, and an off-diagonal entry is a share. For readings in counts, biases
 /// and scale factors show only their sd over the gain, since the value has no meaning in SI.
-#[must_use]
-pub fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> String {
+fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> String {
     let sensor_kind = quantity.sensor_kind();
     let counts = calibration.unit(sensor_kind) == ReadingUnit::Counts;
     let (axis, unit, per) = match quantity {

@@ -7,9 +7,8 @@ use calibrant_core::sensor::SensorKind;
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
 
-/// The data of a calibration: `14 of 14 holds, 12 of 13 rotations between them and 1 turn of known angle`.
-#[must_use]
-pub fn used_in_words(calibration: &Calibration) -> String {
+/// The data of a calibration: `14 of 14 holds, 12 of 13 rotations (not used: 3 → 4) between them and 1 turn of known angle`.
+pub(super) fn used_in_words(calibration: &Calibration) -> String {
     let holds = match &calibration.recovered {
         Recovered::Motion(motion) => {
             let intervals = number_format::counted(motion.motion.intervals(), "interval");
@@ -20,13 +19,20 @@ pub fn used_in_words(calibration: &Calibration) -> String {
         }
         Recovered::Holds(holds) => holds,
     };
-    let used =
-        |used: usize, all: usize, what: &str| format!("{used} of {}", number_format::counted(all, what));
-    let mut from = vec![used(holds.used().count(), holds.holds.len(), "hold")];
+    let used = |all: usize, what: &str, left_out: Vec<String>| {
+        let from = format!("{} of {}", all - left_out.len(), number_format::counted(all, what));
+        match left_out.as_slice() {
+            [] => from,
+            some => format!("{from} (not used: {})", some.join(", ")),
+        }
+    };
+    let bad = (0..holds.holds.len()).filter(|&k| !holds.holds[k].used).map(|k| (k + 1).to_string());
+    let mut from = vec![used(holds.holds.len(), "hold", bad.collect())];
     let (rotations, turns) = (calibration.rotations(), calibration.turns());
     if !rotations.is_empty() {
-        let good = calibration.used_rotations().count();
-        from.push(used(good, rotations.len(), "rotation") + " between them");
+        let bad = rotations.iter().filter(|rotation| !rotation.used);
+        let bad = bad.map(|rotation| format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1));
+        from.push(used(rotations.len(), "rotation", bad.collect()) + " between them");
     }
     if !turns.is_empty() {
         from.push(number_format::counted(turns.len(), "turn") + " of known angle");
@@ -37,8 +43,7 @@ pub fn used_in_words(calibration: &Calibration) -> String {
 
 /// Rotation errors, errors of known turns, gravity residuals, and whether the assumed noise explains the data.
 /// Rotation errors before the calibration are named too. Each is a sentence without its full stop.
-#[must_use]
-pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
+pub(super) fn calibration_quality(calibration: &Calibration) -> Vec<String> {
     let mut parts = Vec::new();
     if calibration.used_rotations().next().is_some() {
         parts.push(format!(
@@ -75,16 +80,8 @@ pub(super) fn milliseconds(time: &TimeOffset) -> String {
     format!("{sign}{} ms", number_format::with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
 }
 
-/// What was estimated beside the parameters, and what is unknown: the time offset of the gyroscope, the drift of the accelerometer's bias, the latitude.
-#[must_use]
-pub fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
-    let time = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset);
-    let offset = time.map(|time| format!("the time offset of the gyroscope is {}", milliseconds(&time)));
-    let drift = bias_drift(calibration).map(|(drift, unit)| {
-        format!(
-            "the bias drift of the accelerometer from the first hold to the last is {drift} {unit} (x, y, z)"
-        )
-    });
+/// What is unknown, or was taken out of the readings: the latitude, gravity beside a motion.
+pub(super) fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
     let latitude = calibration.unknown_latitude().map(|unknown| {
         format!(
             "without holds.latitude_deg, the Earth's rate about the vertical makes standard deviations up to {:.1} times larger ({})",
@@ -92,7 +89,7 @@ pub fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
             unknown.parameter.name()
         )
     });
-    offset.into_iter().chain(drift).chain(latitude).chain(tilt(calibration)).collect()
+    latitude.into_iter().chain(tilt(calibration)).collect()
 }
 
 /// The tilt of the sensor against gravity beside a commanded motion.

@@ -2,35 +2,34 @@
 
 use super::quality::milliseconds;
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Column, Table};
 use calibrant_core::diagnostic::RotationReason;
 use calibrant_core::estimate::{Calibration, RotationResult};
 
 /// The table of what all rotations have in common.
-pub(super) fn rotation_summary(calibration: &Calibration) -> String {
+pub(super) fn rotation_summary(calibration: &Calibration) -> Table {
     let rotations = calibration.rotations();
     let used = calibration.used_rotations().count();
     let mut table = Table::explained();
-    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
-    row(
+    table.explain_on_page(
         "rotations used",
         format!("{used} of {}", rotations.len()),
         "Each gives two equations for the gyroscope.",
     );
     if used > 0 {
-        row(
+        table.explain_on_page(
             "rotation error, rms",
             number_format::missed_angle(calibration.rotation_rms_rad()),
             "Angle from propagated gravity to measured gravity after a rotation, over the used rotations.",
         );
-        row(
+        table.explain_on_page(
             "rotation error before",
             number_format::missed_angle(calibration.rotation_rms_before_rad()),
             "With one bias and one gain for all axes, or the datasheet's.",
         );
     }
     let excess = calibration.gyroscope.as_ref().map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad);
-    row(
+    table.explain_on_page(
         "beyond the noise, sd per axis",
         number_format::missed_angle(excess),
         if excess > 0.0 {
@@ -40,91 +39,80 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> String {
         },
     );
     if let Some(time) = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset) {
-        row(
+        table.explain(
             "time offset of the gyroscope",
             milliseconds(&time),
             "How much later it shows movements than the accelerometer. Holds and rotations do not depend on it; a filter that fuses both sensors does.",
         );
     }
-    table.html()
+    table
 }
 
 /// One row for each rotation.
-pub(super) fn rotation_table(rotations: &[RotationResult]) -> String {
-    let columns = [
-        "holds",
-        "start (s)",
-        "end (s)",
-        "path (°)",
-        "peak (°/s)",
-        "before (°)",
-        "after (°)",
-        "studentised",
-        "used",
-    ];
-    let mut table = Table::new("", &columns);
+pub(super) fn rotation_table(rotations: &[RotationResult]) -> Table {
+    let degrees = |heading: &str| Column::new(heading).in_unit("°");
+    let mut table = Table::new([
+        Column::new("holds"),
+        Column::new("start").in_unit("s"),
+        Column::new("end").in_unit("s"),
+        degrees("path"),
+        Column::new("peak").in_unit("°/s"),
+        degrees("before"),
+        degrees("after"),
+        Column::new("studentised"),
+        Column::new("used"),
+    ]);
     for rotation in rotations {
         let found = |value: f64, decimals: usize| {
-            let known = rotation.is_integrated();
-            Cell::Number(if known {
-                number_format::fixed(value, decimals)
-            } else {
-                number_format::UNKNOWN.to_string()
-            })
+            if rotation.is_integrated() { Cell::fixed(value, decimals) } else { Cell::Missing }
         };
-        let mut cells = vec![
-            Cell::Name(format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1)),
-            Cell::Number(number_format::fixed(rotation.start_s, 2)),
-            Cell::Number(number_format::fixed(rotation.end_s, 2)),
+        let cells = vec![
+            Cell::name(format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1)),
+            Cell::fixed(rotation.start_s, 2),
+            Cell::fixed(rotation.end_s, 2),
             found(rotation.path_rad.to_degrees(), 0),
             found(rotation.peak_radps.to_degrees(), 0),
             found(rotation.error_before_rad.to_degrees(), 2),
             found(rotation.error_rad.to_degrees(), 3),
             found(rotation.studentised, 2),
         ];
-        if rotation.used {
-            cells.push(Cell::Text("yes".to_string()));
-            table.row(cells);
-        } else {
-            let reason = rotation.reason.unwrap_or(RotationReason::Unfit);
-            cells.push(Cell::Mark(format!("no: {reason}")));
-            table.row_left_out(cells);
-        }
+        let reason = rotation.reason.unwrap_or(RotationReason::Unfit);
+        table.row_used(cells, if rotation.used { None } else { Some(reason) });
     }
-    table.html()
+    table
 }
 
 /// One row for each turn of known angle.
-pub(super) fn turn_table(calibration: &Calibration) -> String {
-    let columns = [
-        "turn",
-        "start (s)",
-        "end (s)",
-        "made x, y, z (°)",
-        "shown x, y, z (°)",
-        "difference (°)",
-        "of the angle",
-    ];
-    let mut table = Table::new("", &columns);
+pub(super) fn turn_table(calibration: &Calibration) -> Table {
+    let degrees = |heading: &str| Column::new(heading).in_unit("°");
+    let mut table = Table::new([
+        Column::new("turn"),
+        Column::new("start").in_unit("s"),
+        Column::new("end").in_unit("s"),
+        degrees("made x, y, z"),
+        degrees("shown x, y, z"),
+        degrees("difference"),
+        Column::new("of the angle"),
+    ]);
     let checked = calibration.turns_check_the_gains();
     for (number, turn) in calibration.turns().iter().enumerate() {
         let axes = |angle: &nalgebra::Vector3<f64>| {
             angle.iter().map(|a| number_format::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
         };
         let missed = (turn.measured_rad - turn.angle_rad).norm();
+        let [difference, share] = match checked {
+            true => [Cell::fixed(missed.to_degrees(), 3), Cell::percent(missed / turn.angle_rad.norm())],
+            false => [Cell::Number("exact".into()), Cell::Missing],
+        };
         table.row(vec![
-            Cell::Name((number + 1).to_string()),
-            Cell::Number(number_format::fixed(turn.start_s, 2)),
-            Cell::Number(number_format::fixed(turn.end_s, 2)),
+            Cell::name((number + 1).to_string()),
+            Cell::fixed(turn.start_s, 2),
+            Cell::fixed(turn.end_s, 2),
             Cell::Number(axes(&turn.angle_rad)),
             Cell::Number(axes(&turn.measured_rad)),
-            Cell::Number(if checked { number_format::fixed(missed.to_degrees(), 3) } else { "exact".into() }),
-            Cell::Number(if checked {
-                number_format::percent(missed / turn.angle_rad.norm())
-            } else {
-                "–".into()
-            }),
+            difference,
+            share,
         ]);
     }
-    table.html()
+    table
 }

@@ -4,8 +4,7 @@ use crate::number_format;
 use calibrant_core::estimate::Calibration;
 
 /// The reference temperature, the polynomials and the temperatures of the holds; `None` without temperature terms.
-#[must_use]
-pub fn temperature_in_words(calibration: &Calibration) -> Option<String> {
+pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> {
     calibration.holds()?.temperatures_c.as_ref()?;
     let thermal = &calibration.imu.thermal;
     let celsius = |t: f64| number_format::significant(t, 3);

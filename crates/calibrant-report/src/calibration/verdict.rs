@@ -2,8 +2,9 @@
 
 use super::quality::{calibration_quality, used_in_words};
 use crate::validation::validation_in_short;
+use crate::sheet::{Grade, SheetVerdict};
 use crate::words::{capitalised, message};
-use crate::{About, html, number_format};
+use crate::{About, number_format};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability, Verdict};
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{Axis, ImuQuantity, Invariant, Quantity, SensorKind};
@@ -16,8 +17,8 @@ const MOSTLY_PRIOR: f64 = 0.5;
 /// them.
 const IMPROVED: f64 = 0.8;
 
-/// The verdict with its warnings, as one prominent box.
-pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
+/// The verdict with its warnings.
+pub(super) fn verdict(calibration: &Calibration, about: &About) -> SheetVerdict {
     let remarks = (not_improved(calibration).into_iter())
         .chain(hardly_determined(calibration))
         .chain(mostly_prior(calibration))
@@ -33,27 +34,26 @@ pub(crate) fn calibration_verdict(
     validation: Vec<String>,
     sentence: &str,
     about: &About,
-) -> String {
+) -> SheetVerdict {
     let of = |severity: Severity| -> Vec<String> {
         diagnostics.iter().filter(|found| found.severity() == severity).map(message).collect()
     };
     let remarks: Vec<String> = of(Severity::Note).into_iter().chain(remarks).collect();
     let own = || Verdict::on(diagnostics.iter().map(Diagnostic::code), &[]);
     let verdict = about.verdict.clone().unwrap_or_else(own);
-    let (class, word) = match (verdict.usability, remarks.is_empty()) {
-        (Usability::Ok, true) => ("good", "✓ Usable.".to_owned()),
-        (Usability::Ok, false) => ("good", "✓ Usable; read the remarks.".to_owned()),
-        (Usability::Doubtful, _) => ("caution", "! Doubtful: read the warnings first.".to_owned()),
-        (Usability::Bad, _) => ("bad", format!("✗ Bad: do not use ({}).", verdict.code_names().join(", "))),
+    let (grade, word) = match (verdict.usability, remarks.is_empty()) {
+        (Usability::Ok, true) => (Grade::Good, "✓ Usable.".to_owned()),
+        (Usability::Ok, false) => (Grade::Good, "✓ Usable; read the remarks.".to_owned()),
+        (Usability::Doubtful, _) => (Grade::Caution, "! Doubtful: read the warnings first.".to_owned()),
+        (Usability::Bad, _) => (Grade::Bad, format!("✗ Bad: do not use ({}).", verdict.code_names().join(", "))),
     };
-    let lists = [
-        ("Errors", of(Severity::Error)),
-        ("Warnings", of(Severity::Warning)),
-        ("Remarks", remarks),
-        ("Validation", validation),
-        ("About the recording", about.findings.clone()),
-    ];
-    html::verdict_box(class, &word, sentence, &lists)
+    SheetVerdict::new(grade, word, sentence)
+        .with("Errors", of(Severity::Error))
+        .with("Warnings", of(Severity::Warning))
+        .with("Remarks", remarks)
+        .with("Validation", validation)
+        .with("About the recording", about.findings.clone())
+        .on_terminal(format!("verdict: {verdict}"))
 }
 
 fn sentence(calibration: &Calibration) -> String {

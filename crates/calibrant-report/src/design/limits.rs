@@ -1,7 +1,7 @@
 //! The table of limits, and their use by a motion.
 
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_design::{LimitKind, LimitUse};
 
 /// A limit is active from this share of its use on.
@@ -11,7 +11,7 @@ const ACTIVE: f64 = 0.9999;
 pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> String {
     let reached = format!("largest of the {name}");
     let columns = ["limit", "axis", "unit", "allowed", reached.as_str(), "at time (s)", "used"];
-    let mut table = Table::new("", &columns);
+    let mut table = Table::new(columns);
     let mut rows = uses.to_vec();
     rows.sort_by_key(|found| (found.kind, found.axis));
     if rows.is_empty() {

@@ -25,7 +25,7 @@ use verdict::verdict;
 /// A design as one HTML file: the certificate in words, the predicted standard deviations of initial and optimal motion,
 /// the motions with their limits, confidence ellipses, correlations, and the starts of the search.
 ///
-/// Self-contained as [`calibration_report`](super::calibration_report) is.
+/// Self-contained as [`Sheet::html`](crate::Sheet::html) is.
 #[must_use]
 pub fn design_report(design: &Design, about: &About) -> String {
     let title = if about.title.is_empty() { "Design" } else { &about.title };

@@ -2,7 +2,7 @@
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Parameter;
 use calibrant_design::{Design, Evaluation};
@@ -26,7 +26,7 @@ pub(crate) fn promised_table(
     if with_spread {
         columns.push("datasheet spread");
     }
-    let mut table = Table::new("", &columns);
+    let mut table = Table::new(columns);
     for (i, ((parameter, old), new)) in parameters.iter().zip(before.1.sd()).zip(after.1.sd()).enumerate() {
         let unit = DisplayUnit::suited_to(parameter.unit, [old, new]);
         let shown = |sd: f64| {
@@ -90,7 +90,7 @@ pub(crate) fn above(excess: f64) -> String {
 pub(crate) fn criterion_table(design: &Design) -> String {
     let nats = matches!(design.criterion, Criterion::D(_));
     let shown = |value: f64| Cell::Number(number_format::significant(value - design.floor, 6));
-    let mut table = Table::new("", &["criterion", "value", "meaning"]);
+    let mut table = Table::new(["criterion", "value", "meaning"]);
     let mut row = |name: &str, value: Cell, meaning: String| {
         table.row(vec![Cell::Name(name.to_string()), value, Cell::Words(meaning)]);
     };

@@ -1,7 +1,7 @@
 //! The table of the starts of the search.
 
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use crate::words::capitalised;
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
@@ -85,7 +85,7 @@ pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Str
         "iterations",
         "ended",
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = Table::new(columns);
     for group in groups(starts, criterion) {
         for (rank, start) in group.sorted.iter().enumerate() {
             let excess = group.excess(start);

@@ -3,41 +3,71 @@
 use super::quantity::machine_unit;
 use crate::figure::correction_bars;
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Section, Table};
 use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
 
 /// The corrections in prior standard deviations and in their units; `None` where none were estimated.
-pub(super) fn corrections(calibration: &MachineCalibration, setup: &MachineSetup) -> Option<String> {
-    let of_joint = |joint: usize| {
-        let geometry = (0..6).map(move |k| MachineQuantity::Geometry(joint, k));
-        std::iter::once(MachineQuantity::Zero(joint)).chain(geometry)
-    };
-    let all = || (0..calibration.joints.len()).flat_map(of_joint);
-    all().find_map(|quantity| calibration.position(quantity))?;
+pub(super) fn corrections<'a>(
+    calibration: &'a MachineCalibration,
+    setup: &'a MachineSetup,
+) -> Option<Section<'a>> {
+    let mut section = Section::new("Geometry").lead("How the machine differs from its file, each correction held near 0 by what was known beforehand. Translations and rotations are in the frame of the joint.");
+    section.paragraph(largest(calibration, setup)?);
+    section.drawn(|| bars(calibration, setup));
+    let mut within = Section::default();
+    within.table(table(calibration, setup));
+    section.folded("Table of the corrections", within);
+    Some(section)
+}
+
+fn of_joint(joint: usize) -> impl Iterator<Item = MachineQuantity> {
+    let geometry = (0..6).map(move |k| MachineQuantity::Geometry(joint, k));
+    std::iter::once(MachineQuantity::Zero(joint)).chain(geometry)
+}
+
+fn prior_sd(calibration: &MachineCalibration, setup: &MachineSetup, quantity: MachineQuantity) -> f64 {
+    setup.prior_sd(quantity, calibration.noise.len())
+}
+
+/// The joint whose correction is the farthest from what its file says, in what was known of it.
+fn largest(calibration: &MachineCalibration, setup: &MachineSetup) -> Option<String> {
+    let estimated = (0..calibration.joints.len()).flat_map(of_joint).filter_map(|quantity| {
+        let (value, _) = calibration.estimate(quantity)?;
+        Some((quantity, value.abs() / prior_sd(calibration, setup, quantity)))
+    });
+    let estimated: Vec<_> = estimated.collect();
+    let (quantity, deviations) = estimated.iter().max_by(|one, other| one.1.total_cmp(&other.1))?;
+    Some(format!(
+        "{} corrections of the joints, the largest {} standard deviations of what is known ({}).",
+        estimated.len(),
+        number_format::significant(*deviations, 2),
+        quantity.name(&calibration.joints)
+    ))
+}
+
+fn bars(calibration: &MachineCalibration, setup: &MachineSetup) -> String {
     let scaled = |quantity: MachineQuantity| {
         let (value, sd) = calibration.estimate(quantity)?;
-        let prior = setup.prior_sd(quantity, calibration.noise.len());
+        let prior = prior_sd(calibration, setup, quantity);
         prior.is_finite().then(|| (value / prior, sd / prior))
     };
     let rows: Vec<(String, Vec<_>)> = (calibration.joints.iter().enumerate())
         .map(|(joint, name)| (name.clone(), of_joint(joint).map(scaled).collect()))
         .collect();
-    let mut table = Table::new("", &["correction", "estimate ± sd", "prior sd", "unit"]);
-    for quantity in all() {
+    correction_bars(&["zero", "x", "y", "z", "about x", "about y", "about z"], &rows)
+}
+
+fn table(calibration: &MachineCalibration, setup: &MachineSetup) -> Table {
+    let mut table = Table::new(["correction", "estimate ± sd", "prior sd", "unit"]);
+    for quantity in (0..calibration.joints.len()).flat_map(of_joint) {
         let Some((value, sd)) = calibration.estimate(quantity) else { continue };
         let (factor, unit) = machine_unit(calibration, quantity);
-        let prior = factor * setup.prior_sd(quantity, calibration.noise.len());
         table.row(vec![
             Cell::Name(quantity.name(&calibration.joints)),
-            Cell::Number(number_format::with_sd(factor * value, factor * sd)),
-            Cell::Number(number_format::short(prior)),
-            Cell::Text(unit.into()),
+            Cell::estimate(factor * value, factor * sd),
+            Cell::short(factor * prior_sd(calibration, setup, quantity)),
+            Cell::unit(unit),
         ]);
     }
-    let columns = ["zero", "x", "y", "z", "about x", "about y", "about z"];
-    Some(format!(
-        "{}<details><summary>Table of the corrections</summary>{}</details>",
-        correction_bars(&columns, &rows),
-        table.html()
-    ))
+    table
 }

@@ -1,4 +1,4 @@
-//! The report page on a sensor that a machine carried.
+//! The sheet of a calibration of a sensor that a machine carried.
 
 mod geometry;
 mod mounting;
@@ -9,7 +9,4 @@ mod quantity;
 mod validation;
 mod verdict;
 
-pub use mounting::mounting_in_words;
-pub use page::machine_report;
-pub use quantity::machine_unit;
-pub use validation::{machine_validation_heading, machine_validation_rows, machine_validation_sentences};
+pub use page::machine_sheet;

@@ -8,8 +8,7 @@ use calibrant_machine::estimate::{MachineCalibration, MachineSetup, MountingPrio
 const LIMITING: f64 = 0.5;
 
 /// The gauge of an unknown mounting, or how many parameters a mounting that is known too little limits. `None` where the mounting is no matter.
-#[must_use]
-pub fn mounting_in_words(calibration: &MachineCalibration, setup: &MachineSetup) -> Option<String> {
+pub(super) fn mounting_in_words(calibration: &MachineCalibration, setup: &MachineSetup) -> Option<String> {
     match setup.mounting {
         MountingPrior::Exact => None,
         MountingPrior::Unknown => {

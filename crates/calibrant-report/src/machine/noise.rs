@@ -2,57 +2,60 @@
 
 use super::quantity::place;
 use crate::figure::DisplayUnit;
-use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Column, Table};
 use calibrant_core::sensor::Axis;
 use calibrant_machine::estimate::MachineCalibration;
 
 fn growth(factor: Option<f64>) -> Cell {
-    Cell::Number(factor.map_or_else(|| "none".into(), |factor| number_format::significant(factor, 2)))
+    factor.map_or_else(|| Cell::Number("none".into()), |factor| Cell::significant(factor, 2))
 }
 
 /// Noise of each axis of each sensor.
-pub(super) fn sensor_noise(calibration: &MachineCalibration) -> String {
-    let columns = [
-        "sensor",
-        "at rest",
-        "white part",
-        "white / at rest",
-        "rms of residuals",
-        "unit",
-        "growth κ",
-        "samples",
-    ];
-    let mut table = Table::new("", &columns);
+pub(super) fn sensor_noise(calibration: &MachineCalibration) -> Table {
+    let mut table = Table::new([
+        Column::new("sensor"),
+        Column::new("at rest").noted("standard deviation of one sample where the machine does not move"),
+        Column::on_page("white part").noted(
+            "what neighbouring samples do not share, which the sensor alone would have. A share far below 100 % means that other errors, shared by neighbours, \
+             add to the sensor’s noise",
+        ),
+        Column::on_page("white / at rest"),
+        Column::on_page("rms of residuals"),
+        Column::new("unit"),
+        Column::new("growth κ").noted("the variance is σ² (1 + κ a), with the activity a of the motion, whose mean is 1"),
+        Column::on_page("samples"),
+    ]);
     for noise in &calibration.noise {
         let symbol = calibration.units[place(noise.sensor)].map_or("1", |unit| unit.symbol());
         let unit = DisplayUnit::suited_to(symbol, noise.rms.iter().chain(&noise.noise).copied());
-        let number = |value: f64| Cell::Number(number_format::significant(unit.factor * value, 3));
+        let number = |value: f64| Cell::significant(unit.factor * value, 3);
         for axis in Axis::ALL {
             let k = axis.index();
             table.row(vec![
-                Cell::Name(format!("{} {axis}", noise.sensor)),
+                Cell::name(format!("{} {axis}", noise.sensor)),
                 number(noise.noise[k]),
                 number(noise.white_noise[k]),
-                Cell::Number(number_format::percent(noise.white_noise[k] / noise.noise[k])),
+                Cell::percent(noise.white_noise[k] / noise.noise[k]),
                 number(noise.rms[k]),
-                Cell::Text(unit.symbol.into()),
+                Cell::unit(unit.symbol),
                 growth(noise.growth),
-                Cell::Number(number_format::count(noise.residuals.len())),
+                Cell::count(noise.residuals.len()),
             ]);
         }
     }
-    format!(
-        "{}<p>At rest: standard deviation of one sample where the machine does not move. White part: what neighbouring samples do not share, which the sensor alone would have. \
-         A share far below 100 % means that other errors, shared by neighbours, add to the sensor’s noise. Growth: the variance is σ² (1 + κ a), with the activity a of the motion, whose mean is 1.</p>",
-        table.html()
-    )
+    table
 }
 
 /// Noise of each part of the log.
-pub(super) fn reference_noise(calibration: &MachineCalibration) -> String {
-    let mut table =
-        Table::new("", &["reference", "sd of a sample", "unit", "growth κ", "outliers", "samples"]);
+pub(super) fn reference_noise(calibration: &MachineCalibration) -> Table {
+    let mut table = Table::new([
+        Column::new("reference"),
+        Column::new("sd of a sample"),
+        Column::new("unit"),
+        Column::new("growth κ"),
+        Column::new("outliers"),
+        Column::on_page("samples"),
+    ]);
     for noise in &calibration.reference_noise {
         let (factor, unit) = match (noise.unit, noise.sd < 1e-4) {
             ("m", true) => (1e6, "µm"),
@@ -61,13 +64,13 @@ pub(super) fn reference_noise(calibration: &MachineCalibration) -> String {
             (_, false) => (1e3, "mrad"),
         };
         table.row(vec![
-            Cell::Name(noise.name.clone()),
-            Cell::Number(number_format::significant(factor * noise.sd, 3)),
-            Cell::Text(unit.into()),
+            Cell::name(&*noise.name),
+            Cell::significant(factor * noise.sd, 3),
+            Cell::unit(unit),
             growth(noise.growth),
-            Cell::Number(number_format::count(noise.outliers)),
-            Cell::Number(number_format::count(noise.samples)),
+            Cell::count(noise.outliers),
+            Cell::count(noise.samples),
         ]);
     }
-    table.html()
+    table
 }

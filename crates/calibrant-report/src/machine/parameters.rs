@@ -3,8 +3,8 @@
 use super::quantity::{expected, machine_unit, of_mount};
 use crate::figure::{budget_bars, source_in_words};
 use crate::number_format;
-use crate::table::{Cell, Table};
-use calibrant_core::sensor::SensorKind;
+use crate::sheet::{Cell, Column, Section, Shown, Table};
+use calibrant_core::sensor::{ImuQuantity, SensorKind};
 use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, Source};
 
 /// From here on, correlated residuals are worth a mark.
@@ -17,17 +17,21 @@ pub(super) fn is_widened(calibration: &MachineCalibration) -> bool {
 
 /// By how much correlated residuals widened an sd.
 fn widened(factor: f64) -> Cell {
-    Cell::Number(if factor > WIDENED {
-        format!("× {}", number_format::significant(factor, 2))
-    } else {
-        "–".into()
-    })
+    match factor > WIDENED {
+        true => Cell::Number(format!("× {}", number_format::significant(factor, 2))),
+        false => Cell::Missing,
+    }
+}
+
+/// These columns, and that of [`widened`] where it says something.
+fn with_widened(columns: &[&str], calibration: &MachineCalibration) -> Table {
+    let further = is_widened(calibration).then(|| Column::on_page("sd widened"));
+    Table::new(columns.iter().copied().map(Column::new).chain(further))
 }
 
 /// The parameters of one sensor.
-pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind) -> String {
-    let columns = ["parameter", "estimate ± sd", "unit", "sd widened"];
-    let mut table = Table::new("", &columns[..if is_widened(calibration) { 4 } else { 3 }]);
+pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind) -> Table {
+    let mut table = with_widened(&["parameter", "estimate ± sd", "unit"], calibration);
     let sds = calibration.sd();
     for (k, quantity) in calibration.quantities.iter().enumerate() {
         let MachineQuantity::Imu(of) = quantity else { continue };
@@ -35,98 +39,110 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
             continue;
         }
         let (factor, unit) = machine_unit(calibration, *quantity);
-        let mut cells = vec![
+        table.row(vec![
             Cell::Name(of.name()),
-            Cell::Number(number_format::with_sd(factor * calibration.values[k], factor * sds[k])),
-            Cell::Text(if unit == "1" { "–" } else { unit }.to_string()),
-        ];
-        cells.extend(is_widened(calibration).then(|| widened(calibration.inflation[k])));
-        table.row(cells);
+            Cell::estimate(factor * calibration.values[k], factor * sds[k]),
+            Cell::unit(unit),
+            widened(calibration.inflation[k]),
+        ]);
     }
-    table.html()
+    table
 }
 
 /// Lever arm, mounting, delays, clock, tilt and gravity, beside what was known of them.
-pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup) -> String {
-    let columns = ["quantity", "estimate ± sd", "expected ± prior sd", "unit", "sd / prior sd", "sd widened"];
-    let count = if is_widened(calibration) { 6 } else { 5 };
-    let mut table = Table::new("", &columns[..count]);
+pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup) -> Table {
+    let columns = ["quantity", "estimate ± sd", "expected ± prior sd", "unit", "sd / prior sd"];
+    let mut table = with_widened(&columns, calibration);
     for quantity in of_mount(calibration) {
         let (factor, unit) = machine_unit(calibration, quantity);
         let before = factor * expected(setup, quantity);
         let name = Cell::Name(quantity.name(&calibration.joints));
         let Some(place) = calibration.position(quantity) else {
-            let held = number_format::short(before);
-            let none = || Cell::Number(number_format::UNKNOWN.into());
-            let mut cells = vec![
+            let held = Cell::Number("held".into());
+            table.row(vec![
                 name,
-                Cell::Number("held".into()),
-                Cell::Number(held),
-                Cell::Text(unit.into()),
-                none(),
-                none(),
-            ];
-            cells.truncate(count);
-            table.row(cells);
+                held,
+                Cell::short(before),
+                Cell::unit(unit),
+                Cell::Missing,
+                Cell::Missing,
+            ]);
             continue;
         };
         let (value, sd) = (factor * calibration.values[place], factor * calibration.sd()[place]);
         let prior = factor * setup.prior_sd(quantity, calibration.noise.len());
-        let beforehand = match prior.is_finite() {
-            true => format!("{} ± {}", number_format::short(before), number_format::significant(prior, 2)),
-            false => "unknown".into(),
+        let [beforehand, share] = match prior.is_finite() {
+            true => {
+                let prior_sd = number_format::significant(prior, 3);
+                let known = format!("{} ± {prior_sd}", number_format::short(before));
+                [Cell::Number(known), Cell::percent(sd / prior)]
+            }
+            false => [Cell::Number("unknown".into()), Cell::Missing],
         };
-        let share = if prior.is_finite() {
-            number_format::percent(sd / prior)
-        } else {
-            number_format::UNKNOWN.into()
-        };
-        let mut cells = vec![
+        table.row(vec![
             name,
-            Cell::Number(number_format::with_sd(value, sd)),
-            Cell::Number(beforehand),
-            Cell::Text(unit.into()),
-            Cell::Number(share),
+            Cell::estimate(value, sd),
+            beforehand,
+            Cell::unit(unit),
+            share,
             widened(calibration.inflation[place]),
-        ];
-        cells.truncate(count);
-        table.row(cells);
+        ]);
     }
-    table.html()
+    table
 }
 
-/// The budget as bars, and as a table of the part of each source.
-pub(super) fn budget(calibration: &MachineCalibration) -> String {
+/// The part of each source: as bars and in standard deviations on a page, in per cent on a terminal.
+pub(super) fn budget<'a>(section: &mut Section<'a>, calibration: &'a MachineCalibration) {
+    section.table(shares(calibration).shown(Shown::OnTerminal));
+    section.drawn(|| bars(calibration));
+    let mut within = Section::default();
+    within.table(deviations(calibration));
+    within.paragraph("Each number is a standard deviation. Their squares add up to that of the sd.");
+    section.folded("Table of the budget", within);
+}
+
+/// Per cent of the variance from each source that has a part.
+fn shares(calibration: &MachineCalibration) -> Table {
+    let is_used = |source: &usize| calibration.budget.iter().any(|row| row.parts[*source] > 0.0);
+    let used: Vec<usize> = (0..Source::ALL.len()).filter(is_used).collect();
+    let names = used.iter().map(|source| source_in_words(Source::ALL[*source]));
+    let mut table = Table::new(std::iter::once("variance from, %".to_owned()).chain(names));
+    for row in &calibration.budget {
+        let percent = |source: &usize| Cell::fixed(100.0 * row.parts[*source] / row.variance, 0);
+        table.row(std::iter::once(Cell::Name(row.quantity.name())).chain(used.iter().map(percent)).collect());
+    }
+    table
+}
+
+fn unit_of(calibration: &MachineCalibration, quantity: ImuQuantity) -> &'static str {
+    machine_unit(calibration, MachineQuantity::Imu(quantity)).1
+}
+
+fn bars(calibration: &MachineCalibration) -> String {
     let rows: Vec<(String, String, [f64; Source::ALL.len()])> = calibration
         .budget
         .iter()
         .map(|row| {
-            let unit = machine_unit(calibration, MachineQuantity::Imu(row.quantity)).1;
+            let unit = unit_of(calibration, row.quantity);
             let sd = number_format::uncertainty(row.variance.sqrt());
             let sd = if unit == "1" { sd } else { format!("{sd} {unit}") };
             (row.quantity.name(), sd, row.parts.map(|part| part / row.variance))
         })
         .collect();
+    budget_bars(&rows)
+}
+
+fn deviations(calibration: &MachineCalibration) -> Table {
     let mut columns = vec!["parameter".to_string(), "sd".into()];
     columns.extend(Source::ALL.map(source_in_words));
     columns.push("unit".into());
-    let mut table = Table::new("", &columns.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = Table::new(columns);
     for row in &calibration.budget {
-        let number = |variance: f64| {
-            Cell::Number(match variance {
-                none if none <= 0.0 => "0".into(),
-                _ => number_format::significant(variance.sqrt(), 2),
-            })
-        };
-        let unit = machine_unit(calibration, MachineQuantity::Imu(row.quantity)).1;
-        let mut cells = vec![Cell::Name(row.quantity.name()), number(row.variance)];
-        cells.extend(row.parts.map(number));
-        cells.push(Cell::Text(if unit == "1" { "–" } else { unit }.to_string()));
+        let sd = |variance: f64| Cell::significant(variance.max(0.0).sqrt(), 2);
+        let mut cells = vec![Cell::Name(row.quantity.name()), sd(row.variance)];
+        cells.extend(row.parts.map(sd));
+        cells.push(Cell::unit(unit_of(calibration, row.quantity)));
         table.row(cells);
     }
-    format!(
-        "{}<details><summary>Table of the budget</summary>{}<p>Each number is a standard deviation. Their squares add up to that of the sd.</p></details>",
-        budget_bars(&rows),
-        table.html()
-    )
+    table
 }

@@ -1,10 +1,8 @@
 //! Validation of a calibration on a machine, in sentences and a table.
 
 use super::quantity::machine_unit;
-use crate::html::{Page, list};
 use crate::number_format;
-use crate::table::{Cell, Table};
-use crate::words::capitalised;
+use crate::sheet::{Cell, Section, Table};
 use calibrant_core::estimate::CovarianceVerdict;
 use calibrant_machine::estimate::{
     LargestShift, MachineCalibration, MachineValidation, MachineValidationSource, ParameterShift,
@@ -14,38 +12,17 @@ use calibrant_machine::estimate::{
 const OTHER_CAUSE: f64 = 30.0;
 
 /// What a validation is on.
-#[must_use]
-pub fn machine_validation_heading(validation: &MachineValidation) -> String {
+fn heading(validation: &MachineValidation) -> String {
     match &validation.source {
-        MachineValidationSource::Recording { name } => format!("on {name}"),
+        MachineValidationSource::Recording { name } => format!("On {name}"),
         MachineValidationSource::Blocks { folds, length_s, .. } => {
             format!("{folds} blocks of {} s, each left out in turn", number_format::significant(*length_s, 3))
         }
     }
 }
 
-/// Header and a row for each sensor.
-#[must_use]
-pub fn machine_validation_rows(
-    validation: &MachineValidation,
-    calibration: &MachineCalibration,
-) -> ([&'static str; 5], Vec<[String; 5]>) {
-    let header = ["parameters of", "χ²", "degrees of freedom", "ratio (99 %)", "largest movement"];
-    let row = |shift: &ParameterShift| {
-        [
-            shift.sensor.to_string(),
-            number_format::significant(shift.chi2, 3),
-            shift.degrees_of_freedom.to_string(),
-            ratio(shift),
-            largest(&shift.largest, &validation.source, calibration),
-        ]
-    };
-    (header, validation.shifts.iter().map(row).collect())
-}
-
 /// A verdict for each sensor, and the blocks that cannot be left out.
-#[must_use]
-pub fn machine_validation_sentences(validation: &MachineValidation) -> Vec<String> {
+fn sentences(validation: &MachineValidation) -> Vec<String> {
     let mut sentences: Vec<String> = validation.shifts.iter().map(sentence).collect();
     if validation.shifts.is_empty() {
         sentences.push("These data tell nothing: what is known beforehand outweighs them.".into());
@@ -125,28 +102,31 @@ pub(super) fn validation_in_short(validations: &[MachineValidation]) -> Vec<Stri
 }
 
 /// A section with all validations; none without any.
-pub(super) fn validation_section(
-    page: &mut Page,
+pub(super) fn validation_section<'a>(
     validations: &[MachineValidation],
     calibration: &MachineCalibration,
-) {
+) -> Option<Section<'a>> {
     if validations.is_empty() {
-        return;
+        return None;
     }
-    page.section(
-        "Validation",
+    let mut section = Section::new("Validation").lead(
         "How far the parameters move with other data, beside what their covariance predicts. The ratio is √(χ²/degrees of freedom): 1 if the standard deviations are right.",
     );
     for validation in validations {
-        page.subsection(&capitalised(&machine_validation_heading(validation)));
-        page.push(list(&machine_validation_sentences(validation)));
-        let (header, rows) = machine_validation_rows(validation, calibration);
-        let mut table = Table::new("", &header);
-        for [sensor, numbers @ ..] in rows {
-            let mut cells = vec![Cell::Name(sensor)];
-            cells.extend(numbers.map(Cell::Number));
-            table.row(cells);
+        section.subheading(heading(validation));
+        section.list(sentences(validation));
+        let columns = ["parameters of", "χ²", "degrees of freedom", "ratio (99 %)", "largest movement"];
+        let mut table = Table::new(columns);
+        for shift in &validation.shifts {
+            table.row(vec![
+                Cell::name(shift.sensor.to_string()),
+                Cell::significant(shift.chi2, 3),
+                Cell::Number(shift.degrees_of_freedom.to_string()),
+                Cell::Number(ratio(shift)),
+                Cell::Number(largest(&shift.largest, &validation.source, calibration)),
+            ]);
         }
-        page.push(table.html());
+        section.table(table);
     }
+    Some(section)
 }

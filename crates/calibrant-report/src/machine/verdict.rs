@@ -2,6 +2,7 @@
 
 use super::validation::{doubts, validation_in_short};
 use crate::calibration::{calibration_verdict, noise_explains};
+use crate::sheet::SheetVerdict;
 use crate::words::capitalised;
 use crate::{About, number_format};
 use calibrant_core::sensor::Invariant;
@@ -10,12 +11,12 @@ use calibrant_machine::estimate::{MachineCalibration, MachineTrust, MachineValid
 /// Below this probability, the noise does not explain the data.
 const UNEXPLAINED: f64 = 0.001;
 
-/// The verdict with its warnings, as one prominent box.
+/// The verdict with its warnings.
 pub(super) fn verdict(
     calibration: &MachineCalibration,
     validations: &[MachineValidation],
     about: &About,
-) -> String {
+) -> SheetVerdict {
     let remarks = unexplained(calibration).into_iter().chain(doubts(validations));
     let validation = validation_in_short(validations);
     calibration_verdict(&calibration.warnings, remarks, validation, &sentence(calibration), about)

@@ -8,7 +8,7 @@ use super::About;
 use super::figure::{DisplayUnit, device, pose_directions};
 use super::html::{Page, escape, verdict_box};
 use super::number_format::{self, significant};
-use super::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use attitude::Attitude;
 use calibrant_core::sensor::ReadingUnit;
 use calibrant_design::poses::{PoseBound, PoseDesign, PoseEvaluation, PoseProblem};
@@ -157,7 +157,7 @@ fn predicted(problem: &PoseProblem, sd: &DVector<f64>, reading: ReadingUnit) -> 
     } else {
         &["parameter", "unit", "predicted sd"]
     };
-    let mut table = Table::new("", header);
+    let mut table = Table::new(header.iter().copied());
     for (k, (quantity, sd)) in problem.list.quantities().iter().zip(sd.iter()).enumerate() {
         let unit = DisplayUnit::suited_to(quantity.unit(reading), [*sd]);
         let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };

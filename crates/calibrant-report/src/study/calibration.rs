@@ -1,13 +1,13 @@
 //! The chapter on calibrations of a population of sensors: the thesis's chapter 3.
 
-use crate::calibration::{column_notes, parameter_table};
+use crate::calibration::parameter_table;
 use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
 use crate::html::Page;
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::SensorKind;
 use calibrant_design::study::{SingleCase, Study};
@@ -48,8 +48,9 @@ fn rates(what: &str, case: &SingleCase) -> String {
 }
 
 fn single(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
-    page.paragraph(&column_notes(&case.calibration));
+    let table = parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth));
+    page.push(table.html());
+    page.paragraph(&table.notes().join(" "));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 4 of the thesis: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
@@ -61,7 +62,7 @@ fn single(page: &mut Page, case: &SingleCase) {
 }
 
 fn fine(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
+    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)).html());
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 5 of the thesis: actual and estimated states and inputs";
         page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
@@ -108,7 +109,7 @@ fn settings(study: &Study) -> String {
         texts.join(", ")
     };
     let unknown = || number_format::UNKNOWN.to_string();
-    let mut table = Table::new("", &["setting", "value"]);
+    let mut table = Table::new(["setting", "value"]);
     let mut row =
         |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
     row("sensors", number_format::count(study.outcomes.len()));
@@ -141,7 +142,7 @@ fn summary_table(study: &Study) -> String {
         "mean error",
         "coverage of 95 % intervals",
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = Table::new(columns);
     for entry in &study.summary {
         let unit = DisplayUnit::suited(entry.unit, entry.predicted_sd.max(entry.realised_rms));
         let shown = |value: f64| Cell::Number(number_format::significant(value * unit.factor, 3));

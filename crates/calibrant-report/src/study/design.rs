@@ -8,7 +8,7 @@ use crate::figure::{
 };
 use crate::html::Page;
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_design::limit_use;
 use calibrant_design::study::{DesignStudy, Factor, ParameterSummary};
 
@@ -147,7 +147,7 @@ fn improvement_table(study: &DesignStudy) -> String {
         "realised factor",
         "coverage of 95 % intervals, optimal",
     ];
-    let mut table = Table::new("", &columns);
+    let mut table = Table::new(columns);
     for entry in &study.summary {
         let (before, after) = (&entry.initial, &entry.optimal);
         let numbers = |s: &ParameterSummary| [s.predicted_sd, s.realised_rms];
@@ -170,7 +170,7 @@ fn improvement_table(study: &DesignStudy) -> String {
 }
 
 fn trace_table(study: &DesignStudy) -> String {
-    let mut table = Table::new("", &["trace of the covariance (SI)", "least", "median", "most"]);
+    let mut table = Table::new(["trace of the covariance (SI)", "least", "median", "most"]);
     for (name, range) in [("initial motion", &study.trace.initial), ("optimal motion", &study.trace.optimal)]
     {
         let shown = |value: f64| Cell::Number(number_format::significant(value, 4));

@@ -13,7 +13,7 @@ use calibrant_design::study::Studies;
 /// show calibrations, 7 the surface of the trace, and 8 to 11 initial against optimal motion. Figures 13 and
 /// 14 show the latter with process noise.
 ///
-/// The file is self-contained, as [`calibration_report`](super::calibration_report) is. Figures of single sensors show
+/// The file is self-contained, as [`Sheet::html`](crate::Sheet::html) is. Figures of single sensors show
 /// an evenly spread part of a large population, and state that.
 #[must_use]
 pub fn study_report(studies: &Studies, about: &About) -> String {

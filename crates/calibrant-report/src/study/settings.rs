@@ -1,7 +1,7 @@
 //! The settings of a study of initial against optimal motions, as a table.
 
 use crate::number_format;
-use crate::table::{Cell, Table};
+use crate::sheet::{Cell, Table};
 use calibrant_core::motion::{KnownEnds, Rest, Trust};
 use calibrant_core::sensor::Axis;
 use calibrant_design::study::DesignStudy;
@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 /// Settings in two columns.
 pub(super) fn settings(study: &DesignStudy) -> String {
     let axes = study.sensor.active_axes();
-    let mut table = Table::new("", &["setting", "value"]);
+    let mut table = Table::new(["setting", "value"]);
     let mut row =
         |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
     row("sensors", number_format::count(study.outcomes.len()));

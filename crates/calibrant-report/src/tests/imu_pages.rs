@@ -1,6 +1,6 @@
 //! Tests of the pages on a whole IMU.
 
-use super::super::{About, calibration_report, number_format};
+use super::super::{About, calibration_sheet, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
 use calibrant_core::diagnostic::{Diagnostic, RotationReason};
 use calibrant_core::estimate::{Calibration, GyroscopeCalibration, Recovered};
@@ -20,7 +20,7 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let gyroscope = case.recording.gyroscope.as_ref().expect("recorded");
     let segment = Segment::between(gyroscope, 0.0, 2.0).expect("long enough");
     let noise = SensorNoise::of(SensorKind::Gyroscope, gyroscope, segment).expect("noisy");
-    let html = calibration_report(&case.calibration, &case.recording, &[noise], &about());
+    let html = calibration_sheet(&case.calibration, &case.recording, &[noise], &about()).html();
     assert_sound(&html);
     let text = html.replace("<th scope=\"row\">", "");
     for quantity in &case.calibration.quantities {
@@ -31,7 +31,10 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     }
     let from = imus::DISTURBED + 1;
     for says in [
-        "from 14 of 14 holds, 12 of 13 rotations between them and 1 turn of known angle",
+        &*format!(
+            "from 14 of 14 holds, 12 of 13 rotations (not used: {from} → {}) between them and 1 turn of known angle",
+            from + 1
+        ),
         "The rotation error is",
         "The gains are known to",
         "from prior",
@@ -61,6 +64,42 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     assert!(copied.is_ascii() && copied.contains("b_a = [3.31"), "{copied}");
 }
 
+#[test]
+fn a_terminal_shows_what_was_used_what_was_found_and_how_good_it_is() {
+    let case = imus::imu_case(14, 1);
+    assert!(case.recording.gyroscope.is_some());
+    let about = about();
+    let sheet = calibration_sheet(&case.calibration, &case.recording, &[], &about);
+    let text = sheet.text(120);
+    let in_one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let from = imus::DISTURBED + 1;
+    for says in [
+        &*format!(
+            "from 14 of 14 holds, 12 of 13 rotations (not used: {from} → {}) between them and 1 turn of known angle",
+            from + 1
+        ),
+        "accelerometer.matrix.yz",
+        "gyroscope.g_sensitivity.zz",
+        "counts/(rad/s)",
+        "(°/s)/g",
+        "The rotation error is 0.0",
+        "the error of the known turns is",
+        "gyroscope's noise x, y, z ",
+        " counts",
+        "status converged",
+        "iterations ",
+    ] {
+        assert!(in_one_line.contains(says), "{says}\n{text}");
+    }
+    let known = text.lines().find(|line| line.contains("g_sensitivity.xx")).expect("there");
+    assert!(known.ends_with(" %"), "{known}");
+    assert!(text.starts_with("verdict: doubtful (") && text.contains("\nParameters\n"), "{text}");
+    // nothing is wider than the terminal
+    for width in [40, 60, 80, 120] {
+        assert!(sheet.text(width).lines().all(|line| line.chars().count() <= width), "{width}");
+    }
+}
+
 /// One gain and one offset for all axes, by hand: `|mean − b̄|/K̄ − g` in each hold.
 #[test]
 fn the_magnitude_before_is_that_of_plain_readings() {
@@ -82,7 +121,7 @@ fn the_magnitude_before_is_that_of_plain_readings() {
     let rms = (squares / holds.holds.len() as f64).sqrt();
     let found = holds.magnitude_residual_rms_before_mps2().expect("regular");
     assert!((found / rms - 1.0).abs() < 1e-9 && rms > 0.5, "{found} beside {rms}");
-    let html = calibration_report(&case.calibration, &case.recording, &[], &about());
+    let html = calibration_sheet(&case.calibration, &case.recording, &[], &about()).html();
     let [before, after] =
         [found, holds.magnitude_residual_rms_mps2].map(|v| number_format::significant(v, 3));
     assert!(
@@ -96,7 +135,7 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
     let case = imus::imu_case(14, 1);
     let mut calibration = case.calibration;
     let page = |calibration: &Calibration| {
-        let html = calibration_report(calibration, &case.recording, &[], &about());
+        let html = calibration_sheet(calibration, &case.recording, &[], &about()).html();
         assert_sound(&html);
         html
     };
@@ -126,7 +165,7 @@ fn degenerate_results_and_hostile_words_are_reported_without_harm() {
         rotation.reason = Some(RotationReason::SamplesMissing);
     }
     let hostile = About { findings: vec!["a<b>&\"c\"".into()], ..About::default() };
-    let html = calibration_report(&calibration, &ImuRecording::default(), &[], &hostile);
+    let html = calibration_sheet(&calibration, &ImuRecording::default(), &[], &hostile).html();
     assert_sound(&html);
     assert!(html.contains("a&lt;b&gt;&amp;&quot;c&quot;"));
     assert!(html.contains("no: the gyroscope has too few samples") && !html.contains("Rotation errors"));
@@ -139,10 +178,10 @@ fn degenerate_results_and_hostile_words_are_reported_without_harm() {
     calibration.covariance.fill(f64::NAN);
     calibration.values.fill(f64::INFINITY);
     gyroscope_of(&mut calibration).still.noise.fill(f64::NAN);
-    assert_sound(&calibration_report(&calibration, &case.recording, &[], &about()));
+    assert_sound(&calibration_sheet(&calibration, &case.recording, &[], &about()).html());
 
     calibration.imu.gyroscope.matrix.fill(0.0);
-    let html = calibration_report(&calibration, &case.recording, &[], &about());
+    let html = calibration_sheet(&calibration, &case.recording, &[], &about()).html();
     assert_sound(&html);
     assert!(html.contains("there is no correction"));
 }

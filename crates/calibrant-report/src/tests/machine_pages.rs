@@ -1,6 +1,6 @@
 //! Tests of the page on a machine.
 
-use super::super::{About, machine_report};
+use super::super::{About, machine_sheet};
 use super::{about, assert_sound, sensor};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::CalibrationStatus;
@@ -11,7 +11,7 @@ mod machines;
 use machines::{MachineCase, machine_case};
 
 fn page(case: &MachineCase) -> String {
-    machine_report(&case.calibration, &case.setup, &[], &case.recording, &about())
+    machine_sheet(&case.calibration, &case.setup, &[], &case.recording, &about()).html()
 }
 
 /// A sound page but for its one script, which fetches nothing.
@@ -107,7 +107,7 @@ fn degenerate_results_on_a_machine_are_reported_without_panic() {
     case.calibration.used_share = 0.4;
     case.calibration.inflation.fill(3.0);
     let about = About { title: hostile.into(), findings: vec![hostile.into()], ..about() };
-    let html = machine_report(&case.calibration, &case.setup, &[], &case.recording, &about);
+    let html = machine_sheet(&case.calibration, &case.setup, &[], &case.recording, &about).html();
     assert_sound_with_script(&html);
     assert!(!html.contains(hostile) && html.contains("do not use (not-converged)") && html.contains("× 3.0"));
 

@@ -18,10 +18,8 @@ pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings:
     }
     (outcome.limits, outcome.findings) = (limits, findings);
     let verdict = outcome.verdict();
-    if let Some(about) = &mut outcome.about {
-        about.verdict = Some(verdict);
-        about.limits.clone_from(&outcome.limits);
-    }
+    outcome.about.verdict = Some(verdict);
+    outcome.about.limits.clone_from(&outcome.limits);
 }
 
 /// What validations say against the covariance.

@@ -113,11 +113,9 @@ impl<'e> MachineTask<'e> {
         }
         let Moved { recorded, log_input, .. } = moved;
         let origin = recorded.origin(source);
-        let about = options.report.then(|| {
-            let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
-            let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
-            about(&format!("{what} on a machine"), facts, &recorded, &origin.inputs, options)
-        });
+        let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
+        let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
+        let about = about(&format!("{what} on a machine"), facts, &recorded, &origin.inputs, options);
         let outcome = MachineOutcome { calibration, setup, log: log_input, validations };
         Ok(Outcome {
             calibrated: Calibrated::OnMachine(Box::new(outcome)),
@@ -129,6 +127,7 @@ impl<'e> MachineTask<'e> {
             origin,
             recording: recorded.recording,
             about,
+            with_page: options.report,
             allowed: options.allowed.clone(),
         })
     }

@@ -12,7 +12,7 @@ use calibrant_io::{
     DiagnosticWords, Origin, Summary, calibration_json, machine_calibration_json, write_atomically,
     write_calibration, write_machine_calibration,
 };
-use calibrant_report::{About, calibration_report, machine_report, message};
+use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet, message};
 use std::path::Path;
 
 /// A calibration with everything that stands beside it.
@@ -36,8 +36,10 @@ pub struct Outcome {
     pub(crate) recording: ImuRecording,
     /// Diagnostics that the files mark as allowed.
     pub(crate) allowed: Vec<Code>,
-    /// The head of the report, where one is written.
-    pub(crate) about: Option<About>,
+    /// What a sheet says beside the calibration.
+    pub(crate) about: About,
+    /// Is a page written?
+    pub(crate) with_page: bool,
 }
 
 impl Outcome {
@@ -135,17 +137,22 @@ impl Outcome {
         }
     }
 
-    /// The text of `report.html`, where one is written.
-    fn report_html(&self) -> Option<String> {
-        let about = self.about.as_ref()?;
-        Some(match &self.calibrated {
+    /// The calibration for people: as text for a terminal, or as a page.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet<'_> {
+        match &self.calibrated {
             Calibrated::Sensors(calibration) => {
-                calibration_report(calibration, &self.recording, &self.noise, about)
+                calibration_sheet(calibration, &self.recording, &self.noise, &self.about)
             }
             Calibrated::OnMachine(machine) => {
                 let MachineOutcome { calibration, setup, validations, .. } = machine.as_ref();
-                machine_report(calibration, setup, validations, &self.recording, about)
+                machine_sheet(calibration, setup, validations, &self.recording, &self.about)
             }
-        })
+        }
+    }
+
+    /// The text of `report.html`, where one is written.
+    fn report_html(&self) -> Option<String> {
+        self.with_page.then(|| self.sheet().html())
     }
 }

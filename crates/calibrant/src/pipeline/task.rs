@@ -72,17 +72,15 @@ impl<'e> Task<'e> {
         setup.set_white_noise(noise.white_noise);
         let validations = self.validations(options, &calibration, (&recorded, &setup), notes)?;
         let origin = recorded.origin(source);
-        let (noise, about) = match options.report {
-            false => (Vec::new(), None),
-            true => {
-                let what = if calibration.gyroscope.is_none() { "an accelerometer" } else { "an IMU" };
-                let prior = calibration.datasheet_prior.then(|| ("Prior", "datasheet".to_owned()));
-                let about = calibrant_report::About {
-                    validations: validations.clone(),
-                    ..about(what, prior, &recorded, &origin.inputs, options)
-                };
-                (noise.physical(&calibration, &recorded.recording)?, Some(about))
-            }
+        let what = if calibration.gyroscope.is_none() { "an accelerometer" } else { "an IMU" };
+        let prior = calibration.datasheet_prior.then(|| ("Prior", "datasheet".to_owned()));
+        let about = calibrant_report::About {
+            validations: validations.clone(),
+            ..about(what, prior, &recorded, &origin.inputs, options)
+        };
+        let noise = match options.report {
+            false => Vec::new(),
+            true => noise.physical(&calibration, &recorded.recording)?,
         };
         Ok(Outcome {
             calibrated: Calibrated::Sensors(Box::new(calibration)),
@@ -94,6 +92,7 @@ impl<'e> Task<'e> {
             origin,
             recording: recorded.recording,
             about,
+            with_page: options.report,
             allowed: options.allowed.clone(),
         })
     }
