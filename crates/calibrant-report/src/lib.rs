@@ -35,7 +35,9 @@ pub use machine::machine_sheet;
 pub use noise::{coefficient_name, noise_sheet};
 pub use poses::{design_in_words, evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
 pub use report_context::About;
-pub use sheet::{Cell, Column, Digits, Grade, Section, Sheet, SheetVerdict, Shown, Table, paragraph, wrapped};
+pub use sheet::{
+    Cell, Column, Digits, Grade, Section, Sheet, SheetVerdict, Shown, Table, paragraph, wrapped,
+};
 pub use study::study_report;
 pub use sweep::sweep_report;
 pub use validation::validation_sentences;

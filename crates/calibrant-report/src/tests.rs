@@ -3,7 +3,6 @@
 use super::{About, Batch, BatchParameter, BatchSensor, calibration_sheet, study_report};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{Calibration, Recovered};
-use calibrant_core::sensor::Recording;
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};
 use nalgebra::Vector3;

@@ -8,8 +8,16 @@ use calibrant::report::{Cell, Table};
 pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let mut table = Table::new(header.iter().copied());
     for row in rows {
-        let (first, others) = row.split_first().map_or((None, &[][..]), |(first, others)| (Some(first), others));
-        table.row(first.cloned().map(Cell::Name).into_iter().chain(others.iter().cloned().map(Cell::Number)).collect());
+        let (first, others) =
+            row.split_first().map_or((None, &[][..]), |(first, others)| (Some(first), others));
+        table.row(
+            first
+                .cloned()
+                .map(Cell::Name)
+                .into_iter()
+                .chain(others.iter().cloned().map(Cell::Number))
+                .collect(),
+        );
     }
     table.text(width::get())
 }

@@ -81,7 +81,8 @@ fn main() -> std::io::Result<()> {
                 "mti.csv",
                 recording.accelerometer.as_ref().map_or(0, sensor::Recording::len),
             ),
-        ).html(),
+        )
+        .html(),
     )?;
 
     let case = imus::imu_case(24, 1);
@@ -117,7 +118,8 @@ fn main() -> std::io::Result<()> {
             &case.recording.clone().into(),
             &[],
             &about("A long recording", "long.csv", case.recording.len()),
-        ).html(),
+        )
+        .html(),
     )?;
 
     write("study.html", study_report(&studies::everything(50, 30), &about("Study of 50 sensors", "–", 0)))?;

@@ -41,9 +41,5 @@ fn row(name: String, angle: &InvariantValue) -> Vec<Cell> {
         Some(sd) => Cell::estimate(factor * value, factor * sd),
         None => Cell::fixed(factor * value, decimals),
     };
-    vec![
-        Cell::Name(name),
-        shown(angle.value, 1f64.to_degrees(), 3),
-        shown(angle.value - right, 1e3, 2),
-    ]
+    vec![Cell::Name(name), shown(angle.value, 1f64.to_degrees(), 3), shown(angle.value - right, 1e3, 2)]
 }

@@ -14,7 +14,11 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     let mut table = Table::explained();
     let status = calibration.status.name().replace('_', " ");
     table.explain("status", status, "How the iteration ended. Only “converged” is an optimum.");
-    table.explain("iterations", calibration.iterations.to_string(), "Steps of the estimator. A handful is usual.");
+    table.explain(
+        "iterations",
+        calibration.iterations.to_string(),
+        "Steps of the estimator. A handful is usual.",
+    );
     table.explain_on_page(
         "gradient norm",
         number_format::significant(calibration.gradient_norm, 2),
@@ -52,7 +56,12 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     };
     let rows = [
         (Shown::OnPage, "residual rms", fit.residual_rms, "Root mean square of the residuals of each axis."),
-        (Shown::Everywhere, "assumed noise", fit.assumed_noise, "Standard deviation of one sample, as χ² assumes it."),
+        (
+            Shown::Everywhere,
+            "assumed noise",
+            fit.assumed_noise,
+            "Standard deviation of one sample, as χ² assumes it.",
+        ),
         (
             Shown::Everywhere,
             "noise estimate",

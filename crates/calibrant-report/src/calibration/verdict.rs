@@ -1,8 +1,8 @@
 //! The verdict on a calibration: can it be used?
 
 use super::quality::{calibration_quality, used_in_words};
-use crate::validation::validation_in_short;
 use crate::sheet::{Grade, SheetVerdict};
+use crate::validation::validation_in_short;
 use crate::words::{capitalised, message};
 use crate::{About, number_format};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability, Verdict};
@@ -45,7 +45,9 @@ pub(crate) fn calibration_verdict(
         (Usability::Ok, true) => (Grade::Good, "✓ Usable.".to_owned()),
         (Usability::Ok, false) => (Grade::Good, "✓ Usable; read the remarks.".to_owned()),
         (Usability::Doubtful, _) => (Grade::Caution, "! Doubtful: read the warnings first.".to_owned()),
-        (Usability::Bad, _) => (Grade::Bad, format!("✗ Bad: do not use ({}).", verdict.code_names().join(", "))),
+        (Usability::Bad, _) => {
+            (Grade::Bad, format!("✗ Bad: do not use ({}).", verdict.code_names().join(", ")))
+        }
     };
     SheetVerdict::new(grade, word, sentence)
         .with("Errors", of(Severity::Error))

@@ -93,7 +93,8 @@ fn machine<'a>(calibration: &'a MachineCalibration, scene: &SceneOnce) -> Sectio
     let mut section = Section::on_page("The machine")
         .lead("The motion as the calibration found it, with the corrected geometry.");
     let scene = scene.clone();
-    section.drawn(move || scene.of(calibration).map_or_else(|| "<p>No sample was used.</p>".into(), in_motion));
+    section
+        .drawn(move || scene.of(calibration).map_or_else(|| "<p>No sample was used.</p>".into(), in_motion));
     section
 }
 
@@ -155,7 +156,8 @@ fn of_sensor(
 }
 
 fn noise<'a>(calibration: &MachineCalibration) -> Section<'a> {
-    let mut section = Section::new("Noise").lead("What the weights of the data are, and where they come from.");
+    let mut section =
+        Section::new("Noise").lead("What the weights of the data are, and where they come from.");
     section.table(sensor_noise(calibration));
     section.table(reference_noise(calibration));
     if calibration.trust == MachineTrust::Known {
@@ -165,8 +167,7 @@ fn noise<'a>(calibration: &MachineCalibration) -> Section<'a> {
 }
 
 fn fit(calibration: &MachineCalibration) -> Section<'_> {
-    let mut section =
-        Section::new("Fit and correlations").lead("Whether model and noise describe the data.");
+    let mut section = Section::new("Fit and correlations").lead("Whether model and noise describe the data.");
     section.table(fit_table(calibration));
     section.drawn(|| {
         let of_joint = |quantity: &MachineQuantity| {
@@ -211,7 +212,11 @@ fn fit_table(calibration: &MachineCalibration) -> Table {
     let knots = calibration.motion.knots();
     table.explain(
         "knots of the motion",
-        format!("every {} ms, degree {}", number_format::significant(1e3 * knots.step_s, 3), knots.degree.number()),
+        format!(
+            "every {} ms, degree {}",
+            number_format::significant(1e3 * knots.step_s, 3),
+            knots.degree.number()
+        ),
         &format!(
             "The motion is a spline with {} intervals. It cannot follow anything much faster than two knots.",
             number_format::count(knots.intervals)

@@ -59,14 +59,7 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
         let name = Cell::Name(quantity.name(&calibration.joints));
         let Some(place) = calibration.position(quantity) else {
             let held = Cell::Number("held".into());
-            table.row(vec![
-                name,
-                held,
-                Cell::short(before),
-                Cell::unit(unit),
-                Cell::Missing,
-                Cell::Missing,
-            ]);
+            table.row(vec![name, held, Cell::short(before), Cell::unit(unit), Cell::Missing, Cell::Missing]);
             continue;
         };
         let (value, sd) = (factor * calibration.values[place], factor * calibration.sd()[place]);

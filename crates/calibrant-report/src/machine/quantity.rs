@@ -6,7 +6,10 @@ use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSe
 use calibrant_machine::reference::Motion;
 
 /// Factor and symbol of the unit in which tables show a quantity: mm, mrad, ms, ppm.
-pub(super) fn machine_unit(calibration: &MachineCalibration, quantity: MachineQuantity) -> (f64, &'static str) {
+pub(super) fn machine_unit(
+    calibration: &MachineCalibration,
+    quantity: MachineQuantity,
+) -> (f64, &'static str) {
     match quantity {
         MachineQuantity::Imu(of) => {
             let reading = calibration.units[place(of.sensor_kind())];

@@ -169,6 +169,9 @@ mod tests {
         assert_eq!(says(Cell::percent(0.123)), "12 %");
         assert_eq!(says(Cell::Value { value: -0.04, digits: Digits::Signed(1) }), "0.0");
         assert_eq!(says(Cell::Value { value: 1.234_56, digits: Digits::RoundedTo(0.012) }), "1.235");
-        assert_eq!([says(Cell::probability(f64::NAN)), says(Cell::Missing), says(Cell::unit(""))], ["–", "–", "–"]);
+        assert_eq!(
+            [says(Cell::probability(f64::NAN)), says(Cell::Missing), says(Cell::unit(""))],
+            ["–", "–", "–"]
+        );
     }
 }

@@ -16,7 +16,8 @@ impl Sheet<'_> {
     /// suits a wide screen, a phone and A4 paper. Figures are drawn now, in parallel.
     #[must_use]
     pub fn html(&self) -> String {
-        let shown: Vec<&Section<'_>> = self.sections.iter().filter(|section| section.shown.on_page()).collect();
+        let shown: Vec<&Section<'_>> =
+            self.sections.iter().filter(|section| section.shown.on_page()).collect();
         let bodies: Vec<Vec<String>> = shown.par_iter().map(|section| body(section)).collect();
         let verdict = self.verdict.as_ref().map_or_else(String::new, verdict);
         let mut page = Page::opened(&self.title, verdict);
@@ -112,7 +113,9 @@ fn cell(cell: &Cell, class: &str) -> String {
             let address = escape(&encoded(address));
             format!("<th scope=\"row\"{}><a href=\"{address}\">{text}</a></th>", long(name))
         }
-        Cell::Value { .. } | Cell::Estimate { .. } | Cell::Number(_) => format!("<td class=\"n\">{text}</td>"),
+        Cell::Value { .. } | Cell::Estimate { .. } | Cell::Number(_) => {
+            format!("<td class=\"n\">{text}</td>")
+        }
         Cell::Missing => format!("<td{class}>{text}</td>"),
         Cell::Text(_) => format!("<td>{text}</td>"),
         Cell::Words(_) => format!("<td class=\"words\">{text}</td>"),

@@ -117,7 +117,8 @@ impl<'a> Section<'a> {
         let shown = first.shown;
         self.push(shown, Piece::Tables(tables));
         let is_new = |note: &String| {
-            let says = |piece: &Piece<'_>| matches!(piece, Piece::Paragraph(text) if text.contains(note.as_str()));
+            let says =
+                |piece: &Piece<'_>| matches!(piece, Piece::Paragraph(text) if text.contains(note.as_str()));
             !self.pieces.iter().any(|(_, piece)| says(piece))
         };
         let mut fresh: Vec<String> = notes.into_iter().filter(is_new).collect();

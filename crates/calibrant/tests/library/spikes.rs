@@ -221,6 +221,7 @@ fn as_many_holds_as_parameters_leave_nothing_to_check() {
     let Recovered::Holds(holds) = &calibration.recovered else { panic!("from holds") };
     assert_eq!((holds.holds.len(), holds.degrees_of_freedom), (9, 0));
     let html =
-        calibrant::report::calibration_sheet(&calibration, &recording.into(), &[], &Default::default()).html();
+        calibrant::report::calibration_sheet(&calibration, &recording.into(), &[], &Default::default())
+            .html();
     assert!(html.contains("no data left to check") && !html.contains("|f| − g in holds, rms"));
 }

@@ -36,7 +36,8 @@ pub(super) fn table(table: &Table, width: usize) -> Option<String> {
     let most = if others.is_empty() { room } else { room / 2 };
     let mut columns = vec![printed(heading(*first), &rows, *first, most, false)];
     let left = room.saturating_sub(columns[0].width + GAP).max(NARROW);
-    columns.extend(others.iter().map(|&column| printed(heading(column), &rows, column, left, numeric(column))));
+    columns
+        .extend(others.iter().map(|&column| printed(heading(column), &rows, column, left, numeric(column))));
     let widths: Vec<usize> = columns.iter().map(|column| column.width).collect();
     let part = |others: Range<usize>| part(&columns, others, rows.len(), !table.is_list);
     Some(parts(&widths, room).into_iter().map(part).collect::<Vec<_>>().join("\n"))
