@@ -5,7 +5,7 @@ use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::{ComparedQuantity, Comparison};
-use calibrant::io::comparison_json;
+use calibrant::io::{ComparisonFile, to_json};
 use calibrant::report::number_format;
 use calibrant::sensor::InvariantValue;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
     if arguments.json {
-        console::print_always(&comparison_json(&comparison, &name_a, &name_b));
+        console::print_always(&to_json(&ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b }));
         return Ok(Exit::DONE);
     }
     console::print(&format!("A: {name_a} ({})\nB: {name_b} ({})\n\n", in_words(&a), in_words(&b)));

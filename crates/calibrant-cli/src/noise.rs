@@ -12,7 +12,8 @@ use arguments::Gains;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    DiagnosticWords, ImuFile, Input, ResultPlaces, file_name, noise_json, write_atomically, write_noise,
+    DiagnosticWords, ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_atomically,
+    write_json,
 };
 use calibrant::noise::{Segment, SensorNoise};
 use calibrant::report::{About, message, noise_sheet, number_format};
@@ -92,7 +93,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         None => imu.sensor(first.sensor_kind).and_then(|it| holds::examined(&holds, &first.segment, it)),
     };
     let inputs = inputs(arguments, &file, first.sensor_kind);
-    let words = DiagnosticWords::new(&message);
+    let result = NoiseFile { noise: &noise, inputs: &inputs, words: DiagnosticWords::new(&message) };
 
     let second = arguments.gyroscope.as_deref().map(file_name);
     console::findings(&file.findings, &file_name(&arguments.recording), second.as_deref());
@@ -101,12 +102,12 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|found| console::warn(&message(found)));
     if arguments.json {
-        console::print_always(&noise_json(&noise, &inputs, &words));
+        console::print_always(&to_json(&result));
     } else {
         noise.iter().for_each(|sensor| console::print(&table::noise_table(sensor, examined.as_deref())));
     }
     if let Some(directory) = &arguments.output {
-        write_noise(&directory.join("noise.json"), &noise, &inputs, &words)?;
+        write_json(&directory.join("noise.json"), &result)?;
         let html = noise_sheet(&noise, &about(arguments, &file, &inputs, examined)).html();
         let page = directory.join("report.html");
         write_atomically(&page, |out| out.write_all(html.as_bytes()))?;

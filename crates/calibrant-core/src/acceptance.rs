@@ -7,6 +7,7 @@
 //! A standard deviation is decided without a guard band: it passes up to the largest that is accepted.
 
 use crate::diagnostic::{Diagnostic, LimitMiss};
+use crate::json::if_some;
 
 /// Standard deviations of the guard band: 95 % on one side.
 pub const GUARD_BAND: f64 = 1.645;
@@ -67,6 +68,8 @@ impl Decision {
         }
     }
 }
+
+crate::json_name!(Decision);
 
 /// A figure beside its limit.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,6 +133,24 @@ fn of_limit(limit: &AcceptanceLimit, figures: &[Figure]) -> Vec<CheckedLimit> {
         return vec![CheckedLimit { figure, range, largest_sd, decision: Decision::NotChecked }];
     }
     checked
+}
+
+crate::json_object! {
+    /// A figure beside its limit.
+    CheckedLimit as limit {
+        name: &limit.figure.name,
+        /// None where the result does not have it.
+        value: finite(limit.figure.value),
+        sd: limit.figure.sd.and_then(finite),
+        /// The least and the largest accepted value.
+        range: if_some(limit.range.map(|(least, most)| [least, most])),
+        largest_sd: if_some(limit.largest_sd),
+        decision: limit.decision,
+    }
+}
+
+fn finite(number: f64) -> Option<f64> {
+    number.is_finite().then_some(number)
 }
 
 impl CheckedLimit {

@@ -1,9 +1,9 @@
 //! Diagnostics as files state them: code, severity, subject, numbers and message.
 
-use super::acceptance::{LimitFields, VerdictFields};
 use calibrant_core::acceptance::CheckedLimit;
 use calibrant_core::diagnostic::{Code, Diagnostic, Verdict};
-use serde::{Serialize, Serializer};
+use calibrant_core::json::{if_some, named};
+use calibrant_core::json_object;
 
 /// How diagnostics are written: the words for each, the codes that somebody allows, and what counts for the verdict beside them.
 ///
@@ -26,55 +26,50 @@ impl<'a> DiagnosticWords<'a> {
     pub fn new(message: &'a (dyn Fn(&Diagnostic) -> String + Sync)) -> Self {
         Self { message, allowed: &[], findings: &[], limits: &[] }
     }
-}
 
-impl DiagnosticWords<'_> {
     /// The verdict on a result with these diagnostics.
-    pub(super) fn verdict(&self, diagnostics: &[Diagnostic]) -> VerdictFields {
+    pub(super) fn verdict(&self, diagnostics: &[Diagnostic]) -> Verdict {
         let codes = diagnostics.iter().map(Diagnostic::code).chain(self.findings.iter().copied());
-        VerdictFields::of(&Verdict::on(codes, self.allowed))
+        Verdict::on(codes, self.allowed)
     }
 
-    /// The limits that were checked.
-    pub(super) fn limit_fields(&self) -> Vec<LimitFields> {
-        self.limits.iter().map(LimitFields::of).collect()
+    /// Each diagnostic with its words.
+    pub(super) fn all<'d>(&'d self, diagnostics: &'d [Diagnostic]) -> Vec<WordedDiagnostic<'d>> {
+        diagnostics.iter().map(|diagnostic| WordedDiagnostic { diagnostic, words: self }).collect()
     }
 }
 
 /// A diagnostic in a file.
-#[derive(Serialize)]
-pub(super) struct DiagnosticFields {
-    code: &'static str,
-    severity: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    subject: Option<String>,
-    numbers: Numbers,
-    message: String,
+pub(super) struct WordedDiagnostic<'a> {
+    diagnostic: &'a Diagnostic,
+    words: &'a DiagnosticWords<'a>,
+}
+
+json_object! {
+    /// What the user should know.
+    WordedDiagnostic<'_> as of {
+        code: of.diagnostic.code(),
+        /// `note`, `warning` or `error`; `allowed` where the user allows the code.
+        severity: of.severity(),
+        subject: if_some(of.diagnostic.subject()),
+        /// By their names.
+        numbers: Numbers(of.diagnostic.numbers()),
+        message: (of.words.message)(of.diagnostic),
+    }
+}
+
+impl WordedDiagnostic<'_> {
+    fn severity(&self) -> &'static str {
+        let code = self.diagnostic.code();
+        if self.words.allowed.contains(&code) { "allowed" } else { code.severity().name() }
+    }
 }
 
 /// Numbers by name, in their order.
 struct Numbers(Vec<(&'static str, f64)>);
 
-impl Serialize for Numbers {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().copied())
-    }
-}
-
-impl DiagnosticFields {
-    /// Each of them.
-    pub(super) fn all(diagnostics: &[Diagnostic], words: &DiagnosticWords<'_>) -> Vec<Self> {
-        diagnostics.iter().map(|diagnostic| Self::of(diagnostic, words)).collect()
-    }
-
-    fn of(diagnostic: &Diagnostic, words: &DiagnosticWords<'_>) -> Self {
-        let code = diagnostic.code();
-        Self {
-            code: code.name(),
-            severity: if words.allowed.contains(&code) { "allowed" } else { code.severity().name() },
-            subject: diagnostic.subject(),
-            numbers: Numbers(diagnostic.numbers()),
-            message: (words.message)(diagnostic),
-        }
+json_object! {
+    Numbers as numbers {
+        by_name: named(numbers.0.iter().copied()),
     }
 }

@@ -49,7 +49,7 @@ struct Holds {
     between_holds_sd_mps2: Option<f64>,
 }
 
-/// Reads a `calibration.json` that [`write_calibration`](super::write_calibration) wrote.
+/// Reads a `calibration.json` with a [`CalibrationFile`](super::CalibrationFile).
 ///
 /// # Errors
 /// [`Error::Experiment`] with the file, as [`read_calibrated_imu`](super::read_calibrated_imu). Also where it

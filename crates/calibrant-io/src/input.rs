@@ -2,11 +2,12 @@
 
 use super::stated_rate::stated_rate_hz;
 use calibrant_core::sensor::Recording;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// The recording from which a calibration came.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Input {
     /// Name of the file, without its directory, so that the result does not depend on the directory.
     pub file: String,

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// The version of all JSON files. Added fields do not change it.
-pub const SCHEMA: u32 = 3;
+pub const SCHEMA: u32 = 2;
 
 /// Writes a value as a JSON file. It is deterministic: fields in their order, numbers with the fewest digits
 /// that read back to the same bits, no time of day. A value that is not a number is `null`.

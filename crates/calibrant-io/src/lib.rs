@@ -7,14 +7,14 @@
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
 //! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`machine_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
-//! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`write_calibration`] |
+//! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
-//! | corrected recordings, comparisons | | [`write_corrected_recording`], [`comparison_json`] |
+//! | corrected recordings, comparisons | | [`write_corrected_recording`], [`ComparisonFile`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
 //! | `design.json` and `evaluation.json` of poses | | [`write_pose_design`], [`write_pose_evaluation`] |
 //! | `poses.csv` | [`read_poses`] | [`write_poses`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
-//! | `noise.json` | | [`write_noise`] |
+//! | `noise.json` | | [`NoiseFile`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
 //! | records of calibrations, an SQLite database | `Records` | `Records` |
@@ -25,7 +25,6 @@
 //! nothing silently: it returns a [`Finding`]. Every result is written beside its place and then renamed
 //! ([`write_atomically`]), so it is whole or absent.
 
-mod acceptance;
 mod atomic_output;
 mod calibration;
 mod comparison;
@@ -41,9 +40,8 @@ mod experiment;
 mod experiment_presets;
 mod ferraris_sections;
 mod finished;
-mod gyroscope;
 mod hashed_file;
-mod holds;
+mod heading;
 mod input;
 mod inspection;
 mod json;
@@ -79,11 +77,10 @@ mod text_excerpt;
 mod told;
 mod truth;
 mod utc_time;
-mod validation;
 
 pub use atomic_output::{remove_unfinished, write_atomically};
-pub use calibration::{calibration_json, write_calibration};
-pub use comparison::comparison_json;
+pub use calibration::CalibrationFile;
+pub use comparison::ComparisonFile;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
     imu_tk_files, parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, read_measured_noise,
@@ -114,7 +111,7 @@ pub use machine_calibration::{
 pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use name_pattern::NamePattern;
-pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
+pub use noise::NoiseFile;
 pub use origin::Origin;
 pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
 pub use poses::{read_poses, write_poses};

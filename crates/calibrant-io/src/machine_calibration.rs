@@ -1,14 +1,15 @@
 //! Writes `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
-use super::acceptance::{LimitFields, VerdictFields};
-use super::convention::{Heading, ImuCore};
-use super::diagnostics::{DiagnosticFields, DiagnosticWords};
+use super::diagnostics::{DiagnosticWords, WordedDiagnostic};
+use super::heading::Heading;
 use super::json;
 use super::machine_validation::{ValidationFields, validation_fields};
-use super::origin::{Origin, OriginFields};
+use super::origin::Origin;
 use super::shared_fields::{FitFields, matrix_rows};
+use calibrant_core::acceptance::CheckedLimit;
+use calibrant_core::diagnostic::Verdict;
 use calibrant_core::error::Result;
-use calibrant_core::sensor::{ReadingUnit, SensorKind};
+use calibrant_core::sensor::{ImuFields, ReadingUnit, SensorKind};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, ReferenceNoise,
@@ -103,41 +104,41 @@ struct CalibrationFile<'a> {
     #[serde(flatten)]
     heading: Heading,
     #[serde(flatten)]
-    origin: OriginFields<'a>,
-    verdict: VerdictFields,
+    origin: &'a Origin,
+    verdict: Verdict,
     status: &'static str,
     iterations: usize,
     gradient_norm: f64,
     #[serde(flatten)]
-    core: ImuCore,
+    core: ImuFields,
     correlation: Vec<Vec<f64>>,
     fit: FitFields,
     machine: MachineFields<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     validation: Option<ValidationFields>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    limits: Vec<LimitFields>,
-    warnings: Vec<DiagnosticFields>,
+    limits: Vec<CheckedLimit>,
+    warnings: Vec<WordedDiagnostic<'a>>,
 }
 
 impl<'a> CalibrationFile<'a> {
-    fn of(result: &MachineResult<'a>, origin: &'a Origin, words: &DiagnosticWords<'_>) -> Self {
+    fn of(result: &MachineResult<'a>, origin: &'a Origin, words: &'a DiagnosticWords<'a>) -> Self {
         let calibration = result.calibration;
         let imu = calibration.calibrated();
         Self {
-            heading: Heading::new(),
-            origin: origin.fields(),
+            heading: Heading::of("calibration"),
+            origin,
             verdict: words.verdict(&calibration.warnings),
             status: calibration.status.name(),
             iterations: calibration.iterations,
             gradient_norm: calibration.gradient_norm,
-            core: ImuCore::of(&imu, 3, &origin.inputs),
+            core: ImuFields::of(imu.clone()),
             correlation: imu.covariance.as_ref().map_or(Vec::new(), |sigma| matrix_rows(&correlation(sigma))),
             fit: FitFields::of(&calibration.fit, ReadingUnit::MetrePerSecondSquared, 3),
             machine: MachineFields::of(result),
             validation: validation_fields(result.validations, &calibration.joints),
-            limits: words.limit_fields(),
-            warnings: DiagnosticFields::all(&calibration.warnings, words),
+            limits: words.limits.to_vec(),
+            warnings: words.all(&calibration.warnings),
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::hashed_file::HashedFile;
 use super::input::Input;
 use super::utc_time::UtcTime;
-use serde::Serialize;
+use calibrant_core::json::if_some;
+use calibrant_core::json_object;
 
 /// Where a calibration comes from. There is no time of day in it: the same files give the same origin.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,37 +23,28 @@ pub struct Origin {
     pub inputs: Vec<Input>,
 }
 
+json_object! {
+    /// Where a result comes from.
+    Origin as origin {
+        /// The serial number, or what else names the sensor.
+        sensor: if_some(origin.sensor.as_deref()),
+        /// When the recording was made, UTC.
+        recorded: if_some(origin.recorded.map(|time| time.to_string())),
+        /// Where it was made.
+        station: if_some(origin.station.as_deref()),
+        /// The experiment file.
+        experiment: if_some(origin.experiment.as_ref()),
+        /// The commanded motion, or the log of a machine, where it is one file for all recordings.
+        motion_file: if_some(origin.motion.as_ref()),
+        /// The files of the recording.
+        inputs: &origin.inputs,
+    }
+}
+
 impl Origin {
     /// Of these files of a recording, with nothing else known.
     #[must_use]
     pub fn of_inputs(inputs: impl IntoIterator<Item = Input>) -> Self {
         Self { inputs: inputs.into_iter().collect(), ..Self::default() }
     }
-
-    /// Its fields at the head of a file.
-    pub(super) fn fields(&self) -> OriginFields<'_> {
-        let Self { sensor, recorded, station, experiment, motion, .. } = self;
-        OriginFields {
-            sensor: sensor.as_deref(),
-            recorded: *recorded,
-            station: station.as_deref(),
-            experiment: experiment.as_ref(),
-            motion_file: motion.as_ref(),
-        }
-    }
-}
-
-/// To be flattened into a file, after its heading.
-#[derive(Serialize)]
-pub(super) struct OriginFields<'a> {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sensor: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    recorded: Option<UtcTime>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    station: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    experiment: Option<&'a HashedFile>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    motion_file: Option<&'a HashedFile>,
 }

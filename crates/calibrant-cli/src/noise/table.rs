@@ -1,7 +1,7 @@
 //! The table of a sensor's noise.
 
 use crate::console;
-use calibrant::io::noise_line;
+use calibrant::noise::noise_line;
 use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units};
 use calibrant::report::{coefficient_name, number_format};
 

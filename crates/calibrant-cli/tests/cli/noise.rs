@@ -428,7 +428,7 @@ fn the_mti_at_rest() {
     // a line with 1.6 % of the variance of x, whose samples' filter leaves little else: N is that of longer
     // cluster times
     assert!(outcome.stderr.contains("accelerometer x: a line at 45.4 Hz has 1.6 %"), "{}", outcome.stderr);
-    assert!(outcome.stdout.contains("in [sensor]: noise_counts = ") && sensor["doubt"].is_null());
+    assert!(outcome.stdout.contains("in [sensor]: noise_counts = ") && sensor["caveat"].is_null());
     let line = &sensor["axes"][0]["vibration"];
     assert!(line["left_out"] == true && line["of_white"].as_f64().expect("known") < 0.01, "{line}");
     for axis in sensor["axes"].as_array().expect("axes") {

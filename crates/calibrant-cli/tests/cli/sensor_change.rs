@@ -25,7 +25,10 @@ fn an_accelerometer_that_changes_is_told_on_the_console_in_the_json_and_in_the_r
         assert_eq!(warned, changes, "{}", json["warnings"]);
         let errors = &json["validation"]["folds"]["magnitude"];
         let verdict = if changes { ("doubtful", "\"change\"") } else { ("believed", "null") };
-        assert_eq!((errors["verdict"].as_str(), &*errors["doubt"].to_string()), (Some(verdict.0), verdict.1));
+        assert_eq!(
+            (errors["verdict"].as_str(), &*errors["caveat"].to_string()),
+            (Some(verdict.0), verdict.1)
+        );
         assert_eq!(bench.read("result/report.html").contains(message), changes);
     }
 }

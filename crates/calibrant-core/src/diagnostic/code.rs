@@ -423,3 +423,5 @@ codes! {
         "It is missing for more than 30 s, or no sensor works at it."
         "Check the column of the temperature and its unit.";
 }
+
+crate::json_name!(Code, Code::ALL);

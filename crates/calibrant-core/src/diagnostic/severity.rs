@@ -22,3 +22,5 @@ impl Severity {
         }
     }
 }
+
+crate::json_name!(Severity);

@@ -1,6 +1,8 @@
 //! May a result be used? The diagnostics decide.
 
 use crate::diagnostic::{Code, Severity};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// May a result be used?
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -42,6 +44,8 @@ impl Usability {
     }
 }
 
+crate::json_name!(Usability, Usability::ALL);
+
 /// May a result be used, and which diagnostics decide it?
 ///
 /// The severest code decides: an error makes a result bad, a warning makes it doubtful. Codes that the user allows do not count.
@@ -55,7 +59,7 @@ impl Usability {
 /// assert_eq!(Verdict::on(codes, &[Code::ScaleNegative]).usability, Usability::Doubtful);
 /// assert_eq!(Verdict::on([], &[]).to_string(), "ok");
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Verdict {
     /// May it be used?
     pub usability: Usability,

@@ -12,10 +12,13 @@
 
 use super::effective_degrees;
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
+use crate::form::{As, Form};
 use crate::sensor::{
     CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
 };
 use nalgebra::{DMatrix, DVector};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Two calibrations side by side.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,14 +56,57 @@ pub struct ComparedQuantity {
     pub p_value: Option<f64>,
 }
 
+crate::json_object! {
+    /// Two calibrations side by side.
+    Comparison as comparison {
+        /// The invariants that both have.
+        quantities: &comparison.quantities,
+        /// All parameters together; none without a covariance.
+        overall: comparison.overall,
+        /// What could not be compared, and what the comparison assumes.
+        notes: &comparison.notes,
+    }
+}
+
+crate::json_object! {
+    /// One invariant in two calibrations.
+    ComparedQuantity as row {
+        name: row.invariant.name(),
+        /// Its unit; where they differ, that of A, a bar, and that of B.
+        unit: row.unit(),
+        a: row.a.value,
+        a_sd: row.a.sd,
+        b: row.b.value,
+        b_sd: row.b.sd,
+        /// Second minus first; none where the units differ.
+        difference: row.difference,
+        difference_sd: row.sd,
+        difference_in_sd: row.in_sd,
+        /// None where the sd is known.
+        degrees_of_freedom: Form::<Option<f64>>::form(&row.degrees_of_freedom),
+        p_value: row.p_value,
+    }
+}
+
+impl ComparedQuantity {
+    fn unit(&self) -> String {
+        if self.unit_a == self.unit_b {
+            self.unit_a.into()
+        } else {
+            format!("{} | {}", self.unit_a, self.unit_b)
+        }
+    }
+}
+
 /// Difference of all parameters together.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OverallDifference {
     /// `dᵀ (Σ_A + Σ_B)⁺ d`.
     pub chi2: f64,
     /// Rank of `Σ_A + Σ_B`.
     pub degrees_of_freedom: usize,
     /// The least degrees of freedom behind a part of `Σ_A + Σ_B`.
+    #[serde(with = "As::<Option<f64>>")]
     pub degrees_behind: f64,
     /// Probability of a larger difference, by Fisher's F, if both are calibrations of one sensor.
     pub p_value: f64,

@@ -27,6 +27,7 @@ mod gravity_off_earth;
 mod hold_result;
 mod holds;
 mod imu;
+mod json;
 mod motion;
 mod motion_outliers;
 mod problem;
@@ -59,6 +60,7 @@ pub use imu::{
     calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds, find_imu_holds,
     swapped_sensors,
 };
+pub use json::FitInUnit;
 pub use motion_outliers::without_motion_outliers;
 pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

@@ -1,6 +1,7 @@
 //! Enums as names.
 
-/// Writes an enum as its `name()`. With the list of all its values, it is read back, and the schema lists the names.
+/// Writes a value as its name: that of `name()`, or of the method after the colon. With the list of all values, it is read back, and the
+/// schema lists the names.
 ///
 /// ```
 /// # use calibrant_core::json_name;
@@ -15,48 +16,48 @@
 #[macro_export]
 macro_rules! json_name {
     ($type:ty) => {
-        impl ::serde::Serialize for $type {
-            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
-                serializer.serialize_str(&self.name())
-            }
-        }
-        impl ::schemars::JsonSchema for $type {
-            fn inline_schema() -> bool {
-                true
-            }
-            fn schema_name() -> ::std::borrow::Cow<'static, str> {
-                $crate::json::type_name(stringify!($type)).into()
-            }
-            fn json_schema(_: &mut ::schemars::SchemaGenerator) -> ::schemars::Schema {
-                ::schemars::json_schema!({ "type": "string" })
-            }
-        }
+        $crate::json_name!($type: name);
     };
     ($type:ty, $all:expr) => {
-        impl ::serde::Serialize for $type {
-            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
-                serializer.serialize_str(&self.name())
-            }
-        }
+        $crate::json_name!($type: name, $all);
+    };
+    ($type:ty: $name:ident) => {
+        $crate::json_name!(@write $type, $name, ::schemars::json_schema!({ "type": "string" }));
+    };
+    ($type:ty: $name:ident, $all:expr) => {
+        $crate::json_name!(@write $type, $name, {
+            let names: ::std::vec::Vec<_> = $all.iter().map(|known| known.$name().to_string()).collect();
+            ::schemars::json_schema!({ "type": "string", "enum": names })
+        });
+
         impl<'de> ::serde::Deserialize<'de> for $type {
             fn deserialize<D: ::serde::Deserializer<'de>>(deserializer: D) -> ::core::result::Result<Self, D::Error> {
                 let found = <::std::string::String as ::serde::Deserialize>::deserialize(deserializer)?;
-                $all.iter().copied().find(|known| known.name() == found).ok_or_else(|| {
-                    let known: ::std::vec::Vec<_> = $all.iter().map(|known| format!("`{}`", known.name())).collect();
+                $all.iter().copied().find(|known| known.$name().to_string() == found).ok_or_else(|| {
+                    let known: ::std::vec::Vec<_> = $all.iter().map(|known| format!("`{}`", known.$name())).collect();
                     ::serde::de::Error::custom(format!("`{found}` is none of {}", known.join(", ")))
                 })
             }
         }
+    };
+    (@write $type:ty, $name:ident, $schema:expr) => {
+        impl ::serde::Serialize for $type {
+            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
+                serializer.collect_str(&self.$name())
+            }
+        }
+
         impl ::schemars::JsonSchema for $type {
             fn inline_schema() -> bool {
                 true
             }
+
             fn schema_name() -> ::std::borrow::Cow<'static, str> {
                 $crate::json::type_name(stringify!($type)).into()
             }
+
             fn json_schema(_: &mut ::schemars::SchemaGenerator) -> ::schemars::Schema {
-                let names: ::std::vec::Vec<_> = $all.iter().map(|known| known.name().to_string()).collect();
-                ::schemars::json_schema!({ "type": "string", "enum": names })
+                $schema
             }
         }
     };

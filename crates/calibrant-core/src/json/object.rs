@@ -4,6 +4,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
 /// The fields of an object. [`json_object!`](crate::json_object) implements it.
@@ -84,6 +85,16 @@ impl<T: Serialize + JsonSchema> Entry for IfAny<Vec<T>> {
 
     fn describe(key: &str, about: &str, object: &mut ObjectSchema<'_>) {
         IfAny::<&[T]>::describe(key, about, object);
+    }
+}
+
+impl<K: Serialize + JsonSchema, T: Serialize + JsonSchema> Entry for IfAny<BTreeMap<K, T>> {
+    fn write<M: SerializeMap>(&self, key: &str, map: &mut M) -> Result<(), M::Error> {
+        if self.0.is_empty() { Ok(()) } else { map.serialize_entry(key, &self.0) }
+    }
+
+    fn describe(key: &str, about: &str, object: &mut ObjectSchema<'_>) {
+        object.optionally(|object| BTreeMap::<K, T>::describe(key, about, object));
     }
 }
 

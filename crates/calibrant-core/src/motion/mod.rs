@@ -10,6 +10,7 @@ mod limits;
 mod motion_gravity;
 mod motion_state;
 mod sample_times;
+mod table;
 
 pub use commanded_motion::{CommandedMotion, InputNoise, KnownEnds, Trust};
 pub use earth_rate::{EARTH_RATE_RADPS, earth_rate};
@@ -21,3 +22,4 @@ pub use limits::{AxisLimits, Limits, Rest};
 pub use motion_gravity::MotionGravity;
 pub use motion_state::MotionState;
 pub use sample_times::{IntervalSums, sample_times};
+pub use table::MotionTable;

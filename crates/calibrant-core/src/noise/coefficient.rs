@@ -42,6 +42,15 @@ pub enum Coefficient {
 }
 
 impl Coefficient {
+    /// Why it is not determined.
+    #[must_use]
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Determined(_) => None,
+            Self::NotDetermined { reason, .. } => Some(reason),
+        }
+    }
+
     /// The estimate, where it is determined.
     #[must_use]
     pub fn estimate(&self) -> Option<&Estimate> {

@@ -23,6 +23,8 @@
 use super::allan_regression::Regression;
 use super::periodogram::Periodogram;
 use nalgebra::DVector;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::f64::consts::{LN_2, PI};
 
 /// Logarithm of the inverse probability of such a peak by chance, over all frequencies.
@@ -44,7 +46,7 @@ const ALL: f64 = 0.97;
 const SHARE: f64 = 0.01;
 
 /// Lines in the spectrum of an axis that are large enough to report.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Vibration {
     /// Frequency of the strongest line, Hz.
     pub frequency_hz: f64,

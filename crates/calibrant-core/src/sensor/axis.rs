@@ -33,3 +33,5 @@ impl fmt::Display for Axis {
         write!(f, "{}", self.letter())
     }
 }
+
+crate::json_name!(Axis: letter, Axis::ALL);

@@ -49,3 +49,5 @@ impl fmt::Display for SensorKind {
         f.write_str(self.name())
     }
 }
+
+crate::json_name!(SensorKind, SensorKind::ALL);

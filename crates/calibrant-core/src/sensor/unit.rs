@@ -12,6 +12,9 @@ pub enum ReadingUnit {
 }
 
 impl ReadingUnit {
+    /// Every unit.
+    pub const ALL: [Self; 3] = [Self::MetrePerSecondSquared, Self::RadianPerSecond, Self::Counts];
+
     /// As it is printed: `m/s²`, `rad/s` or `counts`.
     #[must_use]
     pub fn symbol(self) -> &'static str {
@@ -32,3 +35,5 @@ impl ReadingUnit {
         }
     }
 }
+
+crate::json_name!(ReadingUnit: symbol, ReadingUnit::ALL);

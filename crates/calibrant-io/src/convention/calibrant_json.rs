@@ -12,10 +12,13 @@ use super::json_core::ImuCore;
 use super::usable_calibration::usable;
 use super::words::input_error;
 use super::{CalibratedImuFile, ImuFormat, truth};
+use crate::heading::Heading;
 use crate::json;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
-use calibrant_core::sensor::CalibratedImu;
+use calibrant_core::json::{flat, if_some};
+use calibrant_core::json_object;
+use calibrant_core::sensor::{CalibratedImu, ImuFields};
 use serde::{Deserialize, Serialize};
 
 /// The kind of file that the field `kind` names.
@@ -23,33 +26,33 @@ const KIND: &str = "calibration";
 /// The remedy for a broken file.
 const HELP: &str = "give a file that calibrant wrote";
 
-/// The first fields of every file of this schema.
+/// The first fields of a calibration by another version of the program.
+#[cfg(feature = "records")]
 #[derive(Serialize)]
-pub(crate) struct Heading {
+pub(crate) struct RecordHeading {
     schema: u32,
     kind: &'static str,
     program: String,
 }
 
-impl Heading {
-    pub(crate) fn new() -> Self {
-        Self::of(crate::atomic_output::program())
-    }
-
+#[cfg(feature = "records")]
+impl RecordHeading {
     /// That of a calibration by this program.
     pub(crate) fn of(program: String) -> Self {
-        Self { schema: 2, kind: KIND, program }
+        Self { schema: json::SCHEMA, kind: KIND, program }
     }
 }
 
-#[derive(Serialize)]
-struct File {
-    #[serde(flatten)]
-    heading: Heading,
-    #[serde(flatten)]
-    core: ImuCore,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    noise: Option<NoiseFields>,
+struct File<'a>(&'a CalibratedImuFile);
+
+json_object! {
+    /// A calibrated IMU.
+    File<'_> as file {
+        heading: flat(Heading::of(KIND)),
+        imu: flat(ImuFields::of(file.0.imu.clone())),
+        inputs: &file.0.inputs,
+        noise: if_some(file.0.noise.as_ref()),
+    }
 }
 
 /// The fields beside the core. A file of the estimator has more, which this reader ignores.
@@ -61,29 +64,11 @@ struct Header {
     prior: Option<String>,
     /// Only the file of a simulation has one.
     seed: Option<serde_json::Value>,
-    noise: Option<NoiseFields>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct NoiseFields {
-    #[serde(rename = "accelerometer_density_mps2_per_sqrt_hz")]
-    accelerometer_density: Option<f64>,
-    #[serde(rename = "accelerometer_random_walk_mps3_per_sqrt_hz")]
-    accelerometer_random_walk: Option<f64>,
-    #[serde(rename = "gyroscope_density_radps_per_sqrt_hz")]
-    gyroscope_density: Option<f64>,
-    #[serde(rename = "gyroscope_random_walk_radps2_per_sqrt_hz")]
-    gyroscope_random_walk: Option<f64>,
-    update_rate_hz: Option<f64>,
-    rostopic: Option<String>,
+    noise: Option<ImuNoise>,
 }
 
 pub(super) fn write(file: &CalibratedImuFile) -> String {
-    json::to_json(&File {
-        heading: Heading::new(),
-        core: ImuCore::of(&file.imu, 3, &file.inputs),
-        noise: file.noise.as_ref().map(NoiseFields::of),
-    })
+    json::to_json(&File(file))
 }
 
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
@@ -100,7 +85,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         ));
     }
     let (imu, inputs) = core.into_imu()?;
-    let noise = header.noise.map(NoiseFields::into_noise).transpose()?;
+    let noise = header.noise.map(ImuNoise::checked).transpose()?;
     Ok(CalibratedImuFile { imu, noise, inputs, format: ImuFormat::CalibrantJson, findings: Vec::new() })
 }
 
@@ -132,15 +117,15 @@ impl Header {
         serde_json::from_str(text).map_err(|error| broken(&error))
     }
 
-    /// Is it the file of a simulation? Only that has a seed, and its own schema.
+    /// Is it the file of a simulation? Only that has a seed.
     fn is_truth(&self) -> bool {
-        self.seed.is_some() && self.schema.as_ref().is_some_and(|schema| *schema == 1)
+        self.seed.is_some()
     }
 
     /// The core of a file of this schema, of a calibration that converged.
     fn core(&self, text: &str) -> Checked<ImuCore> {
         match &self.schema {
-            Some(schema) if *schema == 2 => (),
+            Some(schema) if *schema == json::SCHEMA => (),
             Some(schema) if *schema == 1 => return Err(obsolete()),
             Some(schema) => {
                 let message = format!("schema {schema} of a calibration is not known to this version");
@@ -175,30 +160,4 @@ fn obsolete() -> Box<InputError> {
         "schema 1 of calibration.json is that of an earlier calibrant: its parameters have other names",
         "calibrate the recording again with this version",
     )
-}
-
-impl NoiseFields {
-    fn of(noise: &ImuNoise) -> Self {
-        Self {
-            accelerometer_density: noise.accelerometer_density,
-            accelerometer_random_walk: noise.accelerometer_random_walk,
-            gyroscope_density: noise.gyroscope_density,
-            gyroscope_random_walk: noise.gyroscope_random_walk,
-            update_rate_hz: noise.update_rate_hz,
-            rostopic: noise.rostopic.clone(),
-        }
-    }
-
-    fn into_noise(self) -> Checked<ImuNoise> {
-        ImuNoise {
-            accelerometer_density: self.accelerometer_density,
-            accelerometer_random_walk: self.accelerometer_random_walk,
-            gyroscope_density: self.gyroscope_density,
-            gyroscope_random_walk: self.gyroscope_random_walk,
-            update_rate_hz: self.update_rate_hz,
-            rostopic: self.rostopic,
-            ..ImuNoise::default()
-        }
-        .checked()
-    }
 }

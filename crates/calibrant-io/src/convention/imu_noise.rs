@@ -4,26 +4,33 @@ use super::words::input_error;
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::SensorKind;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Rates are the same within this share. Clocks of two sensors differ by less, and half of it changes the
 /// noise of a sample.
 const SAME_RATE: f64 = 0.01;
 
 /// Noise densities of an IMU, as Kalibr's `imu.yaml` has them.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct ImuNoise {
     /// White noise of the accelerometer, m/s²/√Hz.
+    #[serde(rename = "accelerometer_density_mps2_per_sqrt_hz")]
     pub accelerometer_density: Option<f64>,
     /// Random walk of its bias, m/s³/√Hz.
+    #[serde(rename = "accelerometer_random_walk_mps3_per_sqrt_hz")]
     pub accelerometer_random_walk: Option<f64>,
     /// White noise of the gyroscope, rad/s/√Hz.
+    #[serde(rename = "gyroscope_density_radps_per_sqrt_hz")]
     pub gyroscope_density: Option<f64>,
     /// Random walk of its bias, rad/s²/√Hz.
+    #[serde(rename = "gyroscope_random_walk_radps2_per_sqrt_hz")]
     pub gyroscope_random_walk: Option<f64>,
     /// Sample rate, Hz.
     pub update_rate_hz: Option<f64>,
     /// Sample rates at which the densities of accelerometer and gyroscope were measured, Hz, where they are
     /// known: the files have one rate.
+    #[serde(skip)]
     pub measured_at_hz: [Option<f64>; 2],
     /// The ROS topic of the readings.
     pub rostopic: Option<String>,

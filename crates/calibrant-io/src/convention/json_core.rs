@@ -13,7 +13,6 @@ use super::words::input_error;
 use crate::shared_fields::{block, matrix_rows, per_axis};
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
-use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
     SensorParameters,
@@ -123,7 +122,7 @@ impl ImuCore {
         Self {
             direction: Some(DIRECTION.into()),
             frame: Some(imu.frame.clone()),
-            gauge: gauge_of(imu).map(|gauge| gauge.name().into()),
+            gauge: imu.gauge().map(|gauge| gauge.name().into()),
             accelerometer: sensor_kind(SensorKind::Accelerometer),
             gyroscope: sensor_kind(SensorKind::Gyroscope),
             temperature: TemperatureCore::of(imu),
@@ -141,16 +140,6 @@ impl ImuCore {
     #[cfg(feature = "records")]
     pub(crate) fn without_inputs(self) -> Self {
         Self { inputs: None, ..self }
-    }
-
-    /// The same, with what was known of each parameter beforehand: by the datasheet, and by its prior.
-    pub(crate) fn with_knowledge(mut self, calibration: &Calibration) -> Self {
-        for (k, fields) in self.parameters.iter_mut().flatten().enumerate() {
-            let described = &calibration.parameters[k];
-            (fields.nominal, fields.spread_sd) = (described.nominal, described.spread);
-            fields.prior_share = calibration.prior_share.get(k).copied();
-        }
-        self
     }
 
     /// Is the accelerometer one of a single axis?
@@ -423,15 +412,6 @@ pub(super) fn quantity_of(
         }
         _ => Some(found),
     }
-}
-
-/// The gauge of an IMU, where it has one and is not diagonal.
-pub(super) fn gauge_of(imu: &CalibratedImu) -> Option<Gauge> {
-    let pair = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(_, Quantity::Symmetric(..)));
-    if imu.quantities.iter().any(pair) {
-        return Some(Gauge::Symmetric);
-    }
-    Gauge::of(&imu.parameters.sensor(imu.reference()).matrix)
 }
 
 /// The covariance of this number of parameters. An entry that is no number becomes one that

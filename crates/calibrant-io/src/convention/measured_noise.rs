@@ -4,11 +4,10 @@
 use super::ImuNoise;
 use super::file::LARGEST;
 use super::words::input_error;
-use crate::json;
-use crate::noise::NOISE_SCHEMA;
+use crate::json::{self, SCHEMA};
 use crate::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, Refusal, Result};
-use calibrant_core::sensor::{CalibratedImu, SensorKind};
+use calibrant_core::sensor::{Axis, CalibratedImu, ReadingUnit, SensorKind};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -25,20 +24,20 @@ struct NoiseFile {
 
 #[derive(Deserialize)]
 struct Sensor {
-    sensor: String,
-    reading_unit: String,
+    #[serde(rename = "sensor")]
+    kind: SensorKind,
+    reading_unit: ReadingUnit,
     interval_s: f64,
     interval_jitter: Option<f64>,
     first_sample: Option<usize>,
     end_sample: Option<usize>,
-    axes: Vec<Axis>,
-    #[serde(rename = "doubt")]
+    axes: Vec<AxisNoise>,
     caveat: Option<String>,
 }
 
 #[derive(Deserialize)]
-struct Axis {
-    axis: String,
+struct AxisNoise {
+    axis: Axis,
     random_walk: Coefficient,
     rate_random_walk: Coefficient,
 }
@@ -62,8 +61,8 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
         let bytes = text_decoding::read_bytes(path, LARGEST, "noise.json")?;
         let file: NoiseFile = serde_json::from_str(text_decoding::as_text(&bytes)?)
             .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
-        if let Some(schema) = file.schema.filter(|schema| *schema > NOISE_SCHEMA) {
-            let message = format!("it is of version {schema}, and this program knows up to {NOISE_SCHEMA}");
+        if let Some(schema) = file.schema.filter(|schema| *schema > SCHEMA) {
+            let message = format!("it is of version {schema}, and this program knows up to {SCHEMA}");
             return Err(input_error(
                 Refusal::CalibrationInvalid,
                 message,
@@ -80,15 +79,7 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
 }
 
 fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<()> {
-    let Some(sensor_kind) =
-        SensorKind::ALL.into_iter().find(|sensor_kind| sensor_kind.name() == sensor.sensor)
-    else {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            format!("no sensor is called \"{}\"", sensor.sensor),
-            HELP,
-        ));
-    };
+    let sensor_kind = sensor.kind;
     let Some(unit) = imu.unit(sensor_kind) else { return Ok(()) };
     if let Some(caveat) = &sensor.caveat {
         let message = format!("the noise of the {sensor_kind} is not that of a sensor at rest: {caveat}");
@@ -98,11 +89,11 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
             "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",
         ));
     }
-    let is_physical = sensor.reading_unit == sensor_kind.stimulus_unit().symbol();
-    if !is_physical && unit.symbol() != sensor.reading_unit {
+    let is_physical = sensor.reading_unit == sensor_kind.stimulus_unit();
+    if !is_physical && unit != sensor.reading_unit {
         let message = format!(
             "the noise of the {sensor_kind} is in {}, the calibration in {}",
-            sensor.reading_unit,
+            sensor.reading_unit.symbol(),
             unit.symbol()
         );
         return Err(input_error(
@@ -112,13 +103,10 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         ));
     }
     let matrix = &imu.parameters.sensor(sensor_kind).matrix;
-    let gain = |name: &str| {
-        let row = ["x", "y", "z"].iter().position(|axis| *axis == name)?;
-        Some(if is_physical { 1.0 } else { matrix.row(row).norm() })
-    };
-    let largest = |of: fn(&Axis) -> &Coefficient| -> Option<f64> {
+    let gain = |axis: Axis| if is_physical { 1.0 } else { matrix.row(axis.index()).norm() };
+    let largest = |of: fn(&AxisNoise) -> &Coefficient| -> Option<f64> {
         let densities: Option<Vec<f64>> =
-            sensor.axes.iter().map(|axis| Some(of(axis).value? / gain(&axis.axis)?)).collect();
+            sensor.axes.iter().map(|axis| Some(of(axis).value? / gain(axis.axis))).collect();
         densities?.into_iter().reduce(f64::max)
     };
     let (density, walk) = (largest(|axis| &axis.random_walk), largest(|axis| &axis.rate_random_walk));

@@ -34,7 +34,9 @@ mod usable_calibration;
 mod words;
 mod write;
 
-pub(crate) use calibrant_json::{Heading, read_any_estimates, read_estimates};
+#[cfg(feature = "records")]
+pub(crate) use calibrant_json::RecordHeading;
+pub(crate) use calibrant_json::{read_any_estimates, read_estimates};
 pub use file::{CalibratedImuFile, WrittenImu};
 pub use format::ImuFormat;
 pub use imu_noise::ImuNoise;

@@ -4,7 +4,7 @@ use super::drift::SensorDrift;
 use super::fleet::{Fleet, FleetParameter, LeftOut};
 use super::history::{SensorChange, SensorHistory};
 use super::query::KeptRecord;
-use crate::convention::{Heading, ImuCore};
+use crate::convention::{ImuCore, RecordHeading};
 use crate::hashed_file::HashedFile;
 use crate::json::to_json;
 use crate::utc_time::UtcTime;
@@ -70,7 +70,7 @@ pub fn records_json(records: &[KeptRecord]) -> String {
 #[derive(Serialize)]
 struct CalibrationFields<'a> {
     #[serde(flatten)]
-    heading: Heading,
+    heading: RecordHeading,
     #[serde(flatten)]
     record: RecordFields<'a>,
     #[serde(flatten)]
@@ -81,7 +81,7 @@ struct CalibrationFields<'a> {
 #[must_use]
 pub fn record_json(kept: &KeptRecord) -> String {
     to_json(&CalibrationFields {
-        heading: Heading::of(kept.record.program.clone()),
+        heading: RecordHeading::of(kept.record.program.clone()),
         record: RecordFields::of(kept),
         core: ImuCore::of(&kept.record.imu, 3, &[]).without_inputs(),
     })

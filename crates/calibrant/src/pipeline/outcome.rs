@@ -9,8 +9,8 @@ use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{
-    DiagnosticWords, Origin, Summary, calibration_json, machine_calibration_json, write_atomically,
-    write_calibration, write_machine_calibration,
+    CalibrationFile, DiagnosticWords, Origin, Summary, machine_calibration_json, to_json, write_atomically,
+    write_json, write_machine_calibration,
 };
 use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet, message};
 use std::path::Path;
@@ -92,7 +92,7 @@ impl Outcome {
     pub fn json(&self) -> String {
         match &self.calibrated {
             Calibrated::Sensors(calibration) => {
-                calibration_json(calibration, &self.validations, &self.origin, &self.words())
+                to_json(&CalibrationFile::of(calibration, &self.validations, &self.origin, &self.words()))
             }
             Calibrated::OnMachine(machine) => {
                 machine_calibration_json(&machine.result(), &self.origin, &self.words())
@@ -128,9 +128,10 @@ impl Outcome {
     fn write_json(&self, directory: &Path) -> Result<()> {
         let path = directory.join("calibration.json");
         match &self.calibrated {
-            Calibrated::Sensors(calibration) => {
-                write_calibration(&path, calibration, &self.validations, &self.origin, &self.words())
-            }
+            Calibrated::Sensors(calibration) => write_json(
+                &path,
+                &CalibrationFile::of(calibration, &self.validations, &self.origin, &self.words()),
+            ),
             Calibrated::OnMachine(machine) => {
                 write_machine_calibration(&path, &machine.result(), &self.origin, &self.words())
             }

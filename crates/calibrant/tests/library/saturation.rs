@@ -8,7 +8,7 @@ use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldResult,
     HoldsSetup, ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
 };
-use calibrant::io::{Input, Origin, calibration_json};
+use calibrant::io::{CalibrationFile, Input, Origin, to_json};
 use calibrant::sensor::{
     Axis, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
 };
@@ -259,9 +259,13 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
     );
     // and the file has it, too
     let input = Input { file: "x.csv".into(), sha256: String::new(), samples: 0, rate_hz: 100.0 };
-    let json: serde_json::Value =
-        serde_json::from_str(&calibration_json(&calibration, &[], &Origin::of_inputs([input]), &WORDS))
-            .expect("JSON");
+    let json: serde_json::Value = serde_json::from_str(&to_json(&CalibrationFile::of(
+        &calibration,
+        &[],
+        &Origin::of_inputs([input]),
+        &WORDS,
+    )))
+    .expect("JSON");
     let table = json["holds"]["table"].as_array().expect("a table");
     for (row, hold) in table.iter().zip(&holds.holds) {
         assert_eq!(row["reason"].as_str(), reason(hold).as_deref());

@@ -6,7 +6,7 @@ use calibrant::estimate::{
     Calibration, CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuProblem, ImuSetup,
     KnownTerm, ThermalModel, Turn, calibrate_imu,
 };
-use calibrant::io::{ConventionOptions, Origin, calibration_json, parse_calibrated_imu};
+use calibrant::io::{CalibrationFile, ConventionOptions, Origin, parse_calibrated_imu, to_json};
 use calibrant::sensor::{
     CalibratedImu, Gauge, ImuCorrection, ImuParameters, ImuQuantity, ImuRecording, Sensor, SensorKind,
     SensorModel, SensorParameters, Thermal,
@@ -341,7 +341,7 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     let (_, recording) = recorded(&ALL_TO_2, [20.0, 45.0]);
     let linear = ThermalModel { accelerometer_bias: 1, ..GYROSCOPE_BIAS };
     let calibration = run(&recording, &setup(linear)).expect("determined");
-    let text = calibration_json(&calibration, &[], &Origin::default(), &WORDS);
+    let text = to_json(&CalibrationFile::of(&calibration, &[], &Origin::default(), &WORDS));
     let back = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("ours");
     assert_eq!(back.imu, calibration.calibrated());
     let message = text.replace("\"reference_c\": 32.0", "\"reference_c\": 3200.0");

@@ -5,8 +5,11 @@ use crate::estimate::imu::clock_rate::{ClockRate, TimeOffset};
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::uncalibrated::Uncalibrated;
+use crate::form::As;
 use crate::sensor::ReadingUnit;
 use nalgebra::{DVector, Vector3};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The part of a calibration that belongs to the gyroscope.
 #[derive(Debug, Clone)]
@@ -90,15 +93,17 @@ pub struct RotationResult {
 }
 
 /// A turn of known angle and its fit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TurnResult {
     /// Begin, s.
     pub start_s: f64,
     /// End, s.
     pub end_s: f64,
     /// The given rotation, `φ e`, rad.
+    #[serde(with = "As::<[f64; 3]>")]
     pub angle_rad: Vector3<f64>,
     /// The rotation that the calibrated gyroscope measures, rad.
+    #[serde(with = "As::<[f64; 3]>")]
     pub measured_rad: Vector3<f64>,
 }
 

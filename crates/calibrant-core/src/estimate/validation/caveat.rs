@@ -47,3 +47,5 @@ impl Caveat {
         }
     }
 }
+
+crate::json_name!(Caveat);

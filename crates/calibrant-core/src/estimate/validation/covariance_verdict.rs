@@ -51,3 +51,5 @@ impl CovarianceVerdict {
         }
     }
 }
+
+crate::json_name!(CovarianceVerdict);

@@ -5,7 +5,13 @@ use super::covariance_verdict::CovarianceVerdict;
 use super::explanation::LikelyExplanation;
 use super::noise_comparison::NoiseRatio;
 use super::unused_error::{ErrorKind, UnusedError};
+use crate::form::{As, per_axis};
+use crate::json::{if_any, if_some, named};
+use crate::json_object;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// A calibration on data that were not used for it.
 #[derive(Debug, Clone)]
@@ -81,7 +87,7 @@ pub struct ValidatedErrors {
 }
 
 /// What the errors say of the parameters alone: their common part along the directions in which the parameters would move them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterPart {
     /// χ² of this part.
     pub chi2: f64,
@@ -92,15 +98,18 @@ pub struct ParameterPart {
     /// By how much the standard deviations of the parameters would have to be multiplied; 0 where the errors need no uncertainty of the parameters at all.
     pub factor: f64,
     /// Its 99 % confidence interval; it reaches to 0, or to infinity, where these data leave it open.
+    #[serde(rename = "factor_interval_99", with = "As::<[Option<f64>; 2]>")]
     pub factor_interval: (f64, f64),
 }
 
 /// The gyroscope's bias in another recording, less that of the calibration.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct BiasShift {
     /// The difference, rad/s.
+    #[serde(with = "As::<[f64; 3]>")]
     pub shift_radps: Vector3<f64>,
     /// Its predicted standard deviation, rad/s.
+    #[serde(rename = "shift_sd_radps", with = "As::<[f64; 3]>")]
     pub sd_radps: Vector3<f64>,
     /// Probability of one at least this large if the bias is the same.
     pub p_value: f64,
@@ -108,7 +117,84 @@ pub struct BiasShift {
     pub moved: bool,
 }
 
+json_object! {
+    /// A calibration on data that were not used for it.
+    Validation as validation {
+        /// The recording.
+        file: if_some(validation.recording()),
+        /// Number of blocks of holds.
+        folds: if_some(validation.folds().map(|(folds, _)| folds)),
+        failed_folds: if_any(validation.folds().map_or(&[][..], |(_, failed)| failed)),
+        /// Scatter within the holds over that of the calibration's recording, by sensor and axis.
+        noise_ratio: if_any(validation.noise.iter().map(|noise| (noise.sensor_kind.name(), per_axis(&noise.axes, 3))).collect::<BTreeMap<_, _>>()),
+        /// The coarsest step of the readings, in their unit, by sensor.
+        coarse_step: if_any(validation.noise.iter().filter_map(|noise| Some((noise.sensor_kind.name(), noise.coarse?.step))).collect::<BTreeMap<_, _>>()),
+        gyroscope_bias_shift: if_some(validation.bias_shift),
+        likely_explanations: if_any(validation.reasons.as_slice()),
+        kinds: named(validation.kinds.iter().map(|errors| (errors.kind.name(), errors))),
+    }
+}
+
+json_object! {
+    /// A block of holds without which there is no calibration.
+    FailedFold as fold {
+        first_hold_index: fold.holds.0,
+        last_hold_index: fold.holds.1,
+        reason: &fold.reason,
+    }
+}
+
+json_object! {
+    /// All errors of one kind beside what was predicted of them.
+    ValidatedErrors as kind {
+        unit: kind.kind.unit(),
+        errors: kind.errors.len(),
+        /// How many of them count.
+        counted: kind.counted(),
+        /// Orientations, or rotations, that differ among those that count.
+        distinct: kind.distinct,
+        rms: kind.rms,
+        predicted_rms: kind.predicted_rms,
+        chi2: kind.chi2,
+        degrees_of_freedom: kind.degrees_of_freedom,
+        p_value: kind.p_value,
+        /// Errors over prediction.
+        factor: kind.factor,
+        /// 99 % interval of the factor by which the standard deviations are off.
+        factor_interval_99: [kind.factor_interval.0, kind.factor_interval.1],
+        verdict: kind.verdict,
+        /// Why errors as large as predicted confirm nothing.
+        caveat: if_some(kind.caveat),
+        /// What the errors say of the parameters alone.
+        parameters: if_some(kind.parameters),
+        table: &kind.errors,
+    }
+}
+
 impl Validation {
+    /// The data: `recording` or `folds`.
+    #[must_use]
+    pub fn source_name(&self) -> &'static str {
+        match self.source {
+            ValidationSource::Recording { .. } => "recording",
+            ValidationSource::Folds { .. } => "folds",
+        }
+    }
+
+    fn recording(&self) -> Option<&str> {
+        match &self.source {
+            ValidationSource::Recording { name } => Some(name),
+            ValidationSource::Folds { .. } => None,
+        }
+    }
+
+    fn folds(&self) -> Option<(usize, &[FailedFold])> {
+        match &self.source {
+            ValidationSource::Recording { .. } => None,
+            ValidationSource::Folds { folds, failed } => Some((*folds, failed)),
+        }
+    }
+
     /// The errors of one kind.
     #[must_use]
     pub fn of_kind(&self, kind: ErrorKind) -> Option<&ValidatedErrors> {

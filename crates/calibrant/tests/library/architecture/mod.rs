@@ -26,17 +26,21 @@ const LAYERS: &[&[&str]] = &[
 const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
     ("budget", &["error"]),
-    ("diagnostic", &["error", "sensor", "motion"]),
-    ("acceptance", &["diagnostic"]),
+    ("diagnostic", &["json", "error", "sensor", "motion"]),
+    ("acceptance", &["json", "diagnostic"]),
     ("arrowhead", &[]),
+    ("form", &[]),
     ("json", &[]),
     ("root", &[]),
-    ("sensor", &["error"]),
-    ("motion", &["error", "sensor"]),
+    ("sensor", &["form", "json", "error"]),
+    ("motion", &["form", "json", "error", "sensor"]),
     ("information", &["error", "sensor", "motion", "arrowhead"]),
-    ("estimate", &["diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"]),
+    (
+        "estimate",
+        &["form", "json", "diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"],
+    ),
     ("fleet", &["estimate", "sensor"]),
-    ("noise", &["diagnostic", "error", "sensor", "motion", "root"]),
+    ("noise", &["json", "diagnostic", "error", "sensor", "motion", "root"]),
     ("simulate", &["error", "sensor", "motion", "noise"]),
 ];
 

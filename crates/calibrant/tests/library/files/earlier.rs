@@ -2,7 +2,7 @@
 
 use crate::common::WORDS;
 use crate::files::results::{input, uniaxial};
-use calibrant::io::{Origin, calibration_json, parse_calibration, read_calibration};
+use calibrant::io::{CalibrationFile, Origin, parse_calibration, read_calibration, to_json};
 use calibrant::sensor::{ParameterList, ReadingUnit, SensorModel};
 
 /// A good file of one axis.
@@ -108,8 +108,11 @@ fn a_file_that_is_written_is_read_back() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
     let calibration = uniaxial();
-    std::fs::write(&path, calibration_json(&calibration, &[], &Origin::of_inputs([input()]), &WORDS))
-        .expect("written");
+    std::fs::write(
+        &path,
+        to_json(&CalibrationFile::of(&calibration, &[], &Origin::of_inputs([input()]), &WORDS)),
+    )
+    .expect("written");
     let found = read_calibration(&path).expect("read");
     assert_eq!(found.values, calibration.values);
     assert_eq!(found.covariance, calibration.covariance);

@@ -5,8 +5,8 @@ use super::results::input;
 use crate::common::WORDS;
 use calibrant::estimate::CalibrationStatus;
 use calibrant::io::{
-    ConventionOptions, ImuFormat, Input, Origin, calibrated_imu_texts, calibration_json,
-    parse_calibrated_imu, read_calibrated_imu, write_calibration,
+    CalibrationFile, ConventionOptions, ImuFormat, Input, Origin, calibrated_imu_texts, parse_calibrated_imu,
+    read_calibrated_imu, to_json, write_json,
 };
 use calibrant::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant::{estimate, motion, sensor};
@@ -23,7 +23,8 @@ fn it_is_read_as_a_calibrated_imu_to_the_bit() {
     let path = directory.path().join("calibration.json");
     let samples = case.recording.gyroscope.map_or(0, |recording| recording.len());
     let inputs = [input(), Input { file: "gyroscope.csv".into(), samples, ..input() }];
-    write_calibration(&path, &calibration, &[], &Origin::of_inputs(inputs.clone()), &WORDS).expect("written");
+    write_json(&path, &CalibrationFile::of(&calibration, &[], &Origin::of_inputs(inputs.clone()), &WORDS))
+        .expect("written");
     let back = read_calibrated_imu(&path, &ConventionOptions::default()).expect("read");
     assert_eq!(back.imu, calibration.calibrated());
     assert_eq!(back.inputs, inputs);
@@ -32,7 +33,7 @@ fn it_is_read_as_a_calibrated_imu_to_the_bit() {
     let text = std::fs::read_to_string(&path).expect("read");
     assert_eq!(
         text,
-        calibration_json(&calibration, &[], &Origin::of_inputs(inputs.clone()), &WORDS),
+        to_json(&CalibrationFile::of(&calibration, &[], &Origin::of_inputs(inputs.clone()), &WORDS)),
         "the same bytes"
     );
     // and converts to the other formats
@@ -42,9 +43,13 @@ fn it_is_read_as_a_calibrated_imu_to_the_bit() {
 #[test]
 fn it_says_everything_that_is_needed_to_judge_it() {
     let calibration = imu_case(14, 1).calibration;
-    let json: Value =
-        serde_json::from_str(&calibration_json(&calibration, &[], &Origin::of_inputs([input()]), &WORDS))
-            .expect("JSON");
+    let json: Value = serde_json::from_str(&to_json(&CalibrationFile::of(
+        &calibration,
+        &[],
+        &Origin::of_inputs([input()]),
+        &WORDS,
+    )))
+    .expect("JSON");
     assert_eq!((&json["schema"], &json["status"]), (&2.into(), &"converged".into()));
     let number = |value: &Value| value.as_f64().expect("a number");
 
@@ -61,9 +66,13 @@ fn it_says_everything_that_is_needed_to_judge_it() {
     assert!(holds.get("latitude_deg").is_none(), "not known");
     let mut placed = calibration.clone();
     placed.gyroscope.as_mut().expect("an IMU").latitude_deg = Some(-33.9);
-    let placed: Value =
-        serde_json::from_str(&calibration_json(&placed, &[], &Origin::of_inputs([input()]), &WORDS))
-            .expect("JSON");
+    let placed: Value = serde_json::from_str(&to_json(&CalibrationFile::of(
+        &placed,
+        &[],
+        &Origin::of_inputs([input()]),
+        &WORDS,
+    )))
+    .expect("JSON");
     assert_eq!(placed["holds"]["latitude_deg"], -33.9);
     assert_eq!(holds["table"].as_array().expect("a list").len(), 14);
     assert!(number(&holds["table"][0]["mean_counts"][0]) > 3e4);
@@ -109,7 +118,7 @@ fn what_was_not_integrated_is_null_and_what_did_not_converge_is_not_read() {
     for rotation in &mut calibration.gyroscope.as_mut().expect("an IMU").rotations {
         (rotation.used, rotation.path_rad) = (false, 0.0);
     }
-    let text = calibration_json(&calibration, &[], &Origin::of_inputs([input()]), &WORDS);
+    let text = to_json(&CalibrationFile::of(&calibration, &[], &Origin::of_inputs([input()]), &WORDS));
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert!(
         json["rotations"]["error_rms_rad"].is_null() && json["rotations"]["table"][0]["error_rad"].is_null()

@@ -9,8 +9,8 @@ use calibrant::estimate::{
     Uncalibrated, Whiteness,
 };
 use calibrant::io::{
-    Failure, Input, Origin, Summary, SummaryRow, calibration_json, read_motion, truth_json, write_atomically,
-    write_calibration, write_motion, write_recording, write_summary,
+    CalibrationFile, Failure, Input, Origin, Summary, SummaryRow, read_motion, to_json, truth_json,
+    write_atomically, write_json, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
 use calibrant::sensor::{
@@ -167,7 +167,7 @@ pub(super) fn uniaxial() -> Calibration {
 
 #[test]
 fn calibration_json_of_a_motion() {
-    let text = calibration_json(&uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS);
+    let text = to_json(&CalibrationFile::of(&uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS));
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!((&json["schema"], &json["kind"]), (&json!(2), &json!("calibration")));
     assert_eq!(json["gradient_norm"], Value::Null, "NaN is null");
@@ -196,7 +196,8 @@ fn calibration_json_of_a_motion() {
     assert!(text.contains("\"covariance\": [\n    [0.25, 0.0],\n    [0.0, 0.25]\n  ]"), "{text}");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
-    write_calibration(&path, &uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS).expect("written");
+    write_json(&path, &CalibrationFile::of(&uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS))
+        .expect("written");
     assert_eq!(std::fs::read_to_string(path).expect("read"), text, "the same bytes each time");
 }
 
@@ -248,7 +249,7 @@ pub(super) fn holds_in_counts() -> Calibration {
 
 #[test]
 fn calibration_json_of_holds_in_counts() {
-    let text = calibration_json(&holds_in_counts(), &[], &Origin::of_inputs([input()]), &WORDS);
+    let text = to_json(&CalibrationFile::of(&holds_in_counts(), &[], &Origin::of_inputs([input()]), &WORDS));
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["parameters"].as_array().map(Vec::len), Some(9));
     assert_eq!(json["holds"]["table"][0]["mean_counts"], json!([1.0, 2.0, 3.0]));

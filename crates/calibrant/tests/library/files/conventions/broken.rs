@@ -4,8 +4,8 @@ use super::{COUNTS, SI, alone, file, imu};
 use crate::common::WORDS;
 use crate::files::results::{input, uniaxial};
 use calibrant::io::{
-    ConventionOptions, ImuFormat, Origin, RawUnits, calibrated_imu_texts, calibration_json,
-    parse_calibrated_imu, read_calibrated_imu,
+    CalibrationFile, ConventionOptions, ImuFormat, Origin, RawUnits, calibrated_imu_texts,
+    parse_calibrated_imu, read_calibrated_imu, to_json,
 };
 use calibrant::sensor::{Gauge, SensorKind};
 use proptest::prelude::*;
@@ -105,7 +105,7 @@ fn calibrant_json() {
         assert!(message.contains(says), "{to}: {message}");
     }
     // one axis is no IMU
-    let uniaxial = calibration_json(&uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS);
+    let uniaxial = to_json(&CalibrationFile::of(&uniaxial(), &[], &Origin::of_inputs([input()]), &WORDS));
     let message = message_of(&uniaxial, &ConventionOptions::default());
     assert!(message.contains("a sensor with one axis; an IMU has three"), "{message}");
     // earlier versions wrote another schema

@@ -4,8 +4,8 @@ use super::{COUNTS, SI, alone, file, imu, largest_difference, readings, there_an
 use crate::common::WORDS;
 use calibrant::estimate::Comparison;
 use calibrant::io::{
-    CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, Origin, RawUnits, calibration_json,
-    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
+    CalibratedImuFile, CalibrationFile, ConventionOptions, ImuFormat, ImuNoise, Origin, RawUnits,
+    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, to_json, write_calibrated_imu,
 };
 use calibrant::sensor::{Gauge, ImuQuantity, ReadingUnit, SensorKind};
 use proptest::prelude::*;
@@ -102,8 +102,12 @@ fn the_json_says_what_it_means() {
 #[test]
 fn the_calibration_of_an_accelerometer_is_read_as_an_imu() {
     let calibration = crate::files::results::holds_in_counts();
-    let text =
-        calibration_json(&calibration, &[], &Origin::of_inputs([crate::files::results::input()]), &WORDS);
+    let text = to_json(&CalibrationFile::of(
+        &calibration,
+        &[],
+        &Origin::of_inputs([crate::files::results::input()]),
+        &WORDS,
+    ));
     let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("readable");
     assert_eq!(file.imu.parameters.accelerometer, calibration.imu.accelerometer);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));

@@ -1,0 +1,84 @@
+//! The holds of a calibration as JSON.
+
+use crate::estimate::{FaceTilt, HoldCalibration, HoldResult};
+use crate::form::per_axis;
+use crate::json::{if_some, with_ending};
+use crate::json_object;
+use crate::sensor::ReadingUnit;
+
+/// The holds of an accelerometer with readings in this unit.
+pub(super) struct HoldsOf<'a> {
+    pub(super) holds: &'a HoldCalibration,
+    pub(super) unit: ReadingUnit,
+    /// Latitude of an IMU, where it was known.
+    pub(super) latitude_deg: Option<f64>,
+}
+
+json_object! {
+    /// The holds, estimated with the parameters.
+    HoldsOf<'_> as of {
+        gravity_mps2: of.holds.gravity.magnitude_mps2,
+        gravity_sd_mps2: of.holds.gravity.sd_mps2,
+        /// With a latitude, the model contains Earth's rate about the vertical.
+        latitude_deg: if_some(of.latitude_deg),
+        gauge: of.holds.gauge.name(),
+        /// Were they found in the recording?
+        detected: of.holds.detected,
+        /// Standard deviation of a hold's mean beyond the noise of its samples.
+        between_holds_sd_mps2: of.holds.between_holds_sd_mps2,
+        /// Does that scatter decide the covariance?
+        between_holds_dominates: of.holds.between_holds_dominates,
+        /// Drift of the bias from the first hold to the last, which was subtracted.
+        bias_drift: if_some(of.holds.drift.as_ref().map(|drift| with_ending(of.unit.suffix(), per_axis(&drift.value, 3)))),
+        bias_drift_sd: if_some(of.holds.drift.as_ref().map(|drift| with_ending(of.unit.suffix(), per_axis(&drift.sd(), 3)))),
+        faces: if_some(of.holds.tilt),
+        /// Of the magnitudes of the used holds. With 0, the fit to them is exact and checks nothing.
+        degrees_of_freedom: of.holds.degrees_of_freedom,
+        magnitude_residual_rms_mps2: of.holds.magnitude_residual_rms_mps2,
+        magnitude_residual_rms_before_mps2: of.holds.magnitude_residual_rms_before_mps2(),
+        /// What the residuals before the calibration suppose.
+        before: &of.holds.before.source,
+        condition_number: of.holds.condition_number,
+        table: of.holds.holds.iter().map(|result| HoldOf { result, of }).collect::<Vec<_>>(),
+    }
+}
+
+json_object! {
+    /// The face alignment of the holds.
+    FaceTilt as tilt {
+        tilt_sd_rad: tilt.sd_rad,
+        source: tilt.source.name(),
+        /// Equations whose scatter determined it.
+        degrees_of_freedom: tilt.degrees_of_freedom,
+    }
+}
+
+struct HoldOf<'a> {
+    result: &'a HoldResult,
+    of: &'a HoldsOf<'a>,
+}
+
+json_object! {
+    /// One hold and its fit.
+    HoldOf<'_> as row {
+        first_sample: row.result.hold.first,
+        /// One past the last sample.
+        end_sample: row.result.hold.end,
+        samples: row.result.hold.samples(),
+        start_s: row.result.hold.start_s,
+        end_s: row.result.hold.end_s,
+        /// Mean reading.
+        mean: with_ending(row.of.unit.suffix(), per_axis(&row.result.hold.mean, 3)),
+        /// Standard deviation of single readings.
+        sd: with_ending(row.of.unit.suffix(), per_axis(&row.result.hold.sd, 3)),
+        /// Estimated specific force.
+        force_mps2: per_axis(&row.result.force_mps2, 3),
+        /// Magnitude of the corrected mean reading, less gravity.
+        magnitude_residual_mps2: row.result.magnitude_residual_mps2,
+        magnitude_residual_before_mps2: row.of.holds.magnitude_residual_before_mps2(&row.result.hold),
+        studentised_residual: row.result.studentised_residual,
+        used: row.result.used,
+        /// Why it was not used.
+        reason: if_some(row.result.why_left_out().map(|why| why.to_string())),
+    }
+}

@@ -1,0 +1,9 @@
+//! Calibrations as JSON. Vectors are over the axes that were calibrated; keys of readings end in their unit.
+
+mod calibration;
+mod fit;
+mod gyroscope;
+mod holds;
+mod motion;
+
+pub use fit::FitInUnit;

@@ -1,0 +1,48 @@
+//! A recovered motion as JSON.
+
+use crate::estimate::{RecoveredGravity, RecoveredMotion};
+use crate::json::{flat, if_some};
+use crate::json_object;
+use crate::motion::MotionTable;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// A motion over this number of axes.
+pub(super) struct MotionOf<'a> {
+    pub(super) recovered: &'a RecoveredMotion,
+    pub(super) axes: usize,
+}
+
+json_object! {
+    /// The motion, estimated with the parameters.
+    MotionOf<'_> as of {
+        /// Trust in the command: `known`, `noisy`, `unknown`.
+        trust: of.recovered.trust,
+        gravity: if_some(of.recovered.gravity.as_ref()),
+        motion: flat(MotionTable {
+            motion: &of.recovered.motion,
+            axes: of.axes,
+            acceleration_sd_mps2: Some(&of.recovered.acceleration_sd_mps2),
+        }),
+    }
+}
+
+#[derive(Serialize, JsonSchema)]
+struct Tilt {
+    name: String,
+    value_rad: f64,
+    sd_rad: f64,
+}
+
+json_object! {
+    /// Gravity beside a motion, and its tilt, which was estimated with the parameters.
+    RecoveredGravity as of {
+        /// Specific force of the sensor at rest, as given.
+        force_mps2: <[f64; 3]>::from(of.gravity.force_mps2),
+        /// Standard uncertainty of its magnitude.
+        sd_mps2: of.gravity.sd_mps2,
+        /// Standard deviation of the tilt beforehand.
+        tilt_prior_sd_rad: of.gravity.tilt_sd_rad,
+        tilt: of.tilts().into_iter().map(|(name, value_rad, sd_rad)| Tilt { name, value_rad, sd_rad }).collect::<Vec<_>>(),
+    }
+}

@@ -1,0 +1,142 @@
+//! The noise of a sensor as JSON: units stand beside the coefficients, points of the Allan deviation are columns.
+
+use super::{AllanDeviation, AllanPoint, AxisNoise, Coefficient, CoefficientUnit, PowerLaw, SensorNoise};
+use super::{coefficient_units, noise_line};
+use crate::json_object;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+json_object! {
+    /// The noise of one sensor at rest.
+    SensorNoise as noise {
+        sensor: noise.sensor_kind,
+        /// Unit of the readings, and of all coefficients but for seconds and hertz.
+        reading_unit: noise.unit,
+        first_sample: noise.segment.first,
+        /// One past the last sample.
+        end_sample: noise.segment.end,
+        start_s: noise.segment.start_s,
+        end_s: noise.segment.end_s,
+        interval_s: noise.segment.interval_s,
+        /// Largest deviation of a step from the interval, as a share of it.
+        interval_jitter: noise.segment.jitter,
+        missing_share: noise.segment.missing,
+        axes: noise.axes.iter().map(|axis| AxisOf { noise, axis }).collect::<Vec<_>>(),
+        /// The line of an experiment that states the white noise; none where it is not determined.
+        experiment: noise_line(noise),
+        /// Why the white noise is not that of a sensor at rest.
+        caveat: noise.caveat.as_deref(),
+    }
+}
+
+struct AxisOf<'a> {
+    noise: &'a SensorNoise,
+    axis: &'a AxisNoise,
+}
+
+impl<'a> AxisOf<'a> {
+    fn coefficient(&self, process: PowerLaw) -> CoefficientOf<'a> {
+        CoefficientOf {
+            coefficient: self.axis.fit.model.coefficient(process),
+            units: coefficient_units(self.noise.sensor_kind, process, self.noise.unit),
+        }
+    }
+}
+
+json_object! {
+    /// The noise of one axis.
+    AxisOf<'_> as of {
+        axis: of.axis.axis,
+        white_noise_per_sample: of.axis.fit.model.white_noise_per_sample(of.noise.segment.rate_hz()),
+        sample_sd: of.axis.sample_sd,
+        random_walk: of.coefficient(PowerLaw::White),
+        bias_instability: of.coefficient(PowerLaw::Flicker),
+        rate_random_walk: of.coefficient(PowerLaw::RandomWalk),
+        quantisation: of.coefficient(PowerLaw::Quantisation),
+        /// Where flicker noise has its largest share of the Allan variance.
+        bias_instability_tau_s: of.axis.fit.flat_tau_s,
+        drift: of.axis.fit.drift,
+        fit: FitOf(of),
+        /// Lines in the spectrum.
+        vibration: of.axis.fit.vibration.as_ref(),
+        allan: &of.axis.allan,
+    }
+}
+
+struct CoefficientOf<'a> {
+    coefficient: &'a Coefficient,
+    units: Vec<CoefficientUnit>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct InCustomaryUnit {
+    unit: &'static str,
+    value: f64,
+    sd: f64,
+}
+
+json_object! {
+    /// A coefficient with its 95 % interval, or what keeps it from being determined.
+    CoefficientOf<'_> as of {
+        determined: of.coefficient.estimate().is_some(),
+        unit: of.units[0].symbol,
+        value: of.coefficient.value(),
+        sd: of.coefficient.estimate().map(|found| found.sd),
+        low: of.coefficient.estimate().map(|found| found.low),
+        high: of.coefficient.estimate().map(|found| found.high),
+        /// The same in the units of datasheets.
+        customary: of.customary(),
+        upper_limit: of.coefficient.limit(),
+        reason: of.coefficient.reason(),
+    }
+}
+
+impl CoefficientOf<'_> {
+    fn customary(&self) -> Vec<InCustomaryUnit> {
+        let Some(found) = self.coefficient.estimate() else { return Vec::new() };
+        let scaled = |unit: &CoefficientUnit| {
+            let estimate = found.scaled(unit.factor);
+            InCustomaryUnit { unit: unit.symbol, value: estimate.value, sd: estimate.sd }
+        };
+        self.units[1..].iter().map(scaled).collect()
+    }
+}
+
+struct FitOf<'a>(&'a AxisOf<'a>);
+
+json_object! {
+    /// How well the processes explain the Allan deviation.
+    FitOf<'_> as of {
+        /// Do the samples show a filter?
+        filtered: of.0.axis.fit.filtered,
+        shortest_tau_s: of.0.axis.fit.shortest_tau_s,
+        longest_tau_s: of.0.axis.fit.longest_tau_s,
+        chi2: of.0.axis.fit.chi2,
+        degrees_of_freedom: of.0.axis.fit.degrees_of_freedom,
+        p_value: of.0.axis.fit.p_value,
+    }
+}
+
+json_object! {
+    super::Drift as drift {
+        per_s: drift.per_s,
+        sd: drift.sd,
+        significant: drift.is_significant(),
+    }
+}
+
+json_object! {
+    /// The overlapping Allan deviation with its 95 % bounds, in the unit of the readings.
+    AllanDeviation as allan {
+        cluster_samples: allan.points.iter().map(|point| point.cluster).collect::<Vec<_>>(),
+        tau_s: column(allan, |point| point.tau_s),
+        deviation: column(allan, |point| point.deviation),
+        low: column(allan, |point| point.low),
+        high: column(allan, |point| point.high),
+        degrees_of_freedom: column(allan, |point| point.degrees_of_freedom),
+    }
+}
+
+fn column(allan: &AllanDeviation, of: fn(&AllanPoint) -> f64) -> Vec<f64> {
+    allan.points.iter().map(of).collect()
+}
