@@ -23,6 +23,7 @@ mod records;
 mod rest_remark;
 mod run;
 mod simulate;
+#[cfg(feature = "study")]
 mod study;
 
 use calibrant::budget::Budget;
@@ -62,6 +63,7 @@ enum Command {
     Design(design::Arguments),
     Simulate(simulate::Arguments),
     Calibrate(Box<calibrate::Arguments>),
+    #[cfg(feature = "study")]
     Study(study::Arguments),
     Noise(noise::Arguments),
     Convert(convert::Arguments),
@@ -99,6 +101,7 @@ fn main() -> ExitCode {
         Command::Design(arguments) => arguments,
         Command::Simulate(arguments) => arguments,
         Command::Calibrate(arguments) => arguments.as_ref(),
+        #[cfg(feature = "study")]
         Command::Study(arguments) => arguments,
         Command::Noise(arguments) => arguments,
         Command::Convert(arguments) => arguments,

@@ -3,7 +3,7 @@
 //!
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
-//! [`noise`] examines a sensor at rest. [`estimate`] calibrates. [`fleet`] looks at many calibrations.
+//! [`noise`] examines a sensor at rest. [`estimate`] calibrates.
 //! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
 //! recordings. [`budget`] says what work takes, [`progress`] how far it is, and [`interruption`] ends it early. [`number_format`] writes
 //! numbers for people, [`json`] and [`form`] results for programs.
@@ -16,7 +16,6 @@ pub mod budget;
 pub mod diagnostic;
 pub mod error;
 pub mod estimate;
-pub mod fleet;
 pub mod form;
 pub mod information;
 pub mod interruption;

@@ -1,5 +1,5 @@
 //! Design: it finds the motion whose recording determines the parameters best, and bounds how far that is
-//! from the optimum. It simulates studies of both.
+//! from the optimum.
 
 mod active_set;
 mod admissible;
@@ -36,9 +36,9 @@ mod smooth_criterion;
 mod so_far;
 mod solve;
 mod stage_rows;
-pub mod study;
 mod sweep;
 mod tangent_bound;
+mod trace_surface;
 mod work;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
@@ -55,3 +55,4 @@ pub use shortest::{ShortestMotion, shortest_motion};
 pub use so_far::SoFar;
 pub use solve::design;
 pub use sweep::{Sweep, SweepPoint, SweepVariable, sweep, sweep_work};
+pub use trace_surface::{SurfaceSettings, TraceSurface, trace_surface};

@@ -150,7 +150,11 @@ impl<'a> DesignProblem<'a> {
         }
     }
 
-    pub(crate) fn check(&self) -> Result<()> {
+    /// Can a motion be designed for this problem at all?
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] says what is missing or contradicts itself.
+    pub fn check(&self) -> Result<()> {
         if let Some(left) = self.range_left() {
             let active = self.sensor.active_axes().iter();
             if let Some(axis) = active.copied().find(|axis| left[axis.index()] <= 0.0) {

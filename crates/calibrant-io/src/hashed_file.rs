@@ -4,13 +4,13 @@ use super::input::file_name;
 use super::recording::checksum::hex;
 use super::standard_input::open_input;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::io::Read;
 use std::path::Path;
 
 /// A file by its content.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct HashedFile {
     /// Name of the file, without its directory.
     pub file: String,

@@ -17,7 +17,6 @@
 //! | `noise.json` | | [`NoiseFile`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
-//! | records of calibrations, an SQLite database | `Records` | `Records` |
 //! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
@@ -59,7 +58,6 @@ mod poses;
 mod program;
 mod reach;
 mod recording;
-mod records;
 mod reference_inspection;
 mod reference_log;
 mod result_places;
@@ -69,6 +67,7 @@ mod sensor_naming;
 mod shared_fields;
 mod standard_input;
 mod stated_rate;
+#[cfg(feature = "study")]
 mod study;
 mod summary;
 mod sweep;
@@ -82,9 +81,9 @@ pub use atomic_output::{remove_unfinished, write_atomically};
 pub use calibration::CalibrationFile;
 pub use comparison::ComparisonFile;
 pub use convention::{
-    CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
-    imu_tk_files, parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, read_measured_noise,
-    write_calibrated_imu,
+    CalibratedImuFile, ConventionOptions, ImuCore, ImuFormat, ImuNoise, RawUnits, WrittenImu,
+    calibrated_imu_texts, imu_tk_files, parse_calibrated_imu, parse_estimates, read_calibrated_imu,
+    read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
 pub use corrected_recording::{check_not_corrected, write_corrected_recording};
 pub use dense_motion::write_dense_motion;
@@ -115,18 +114,13 @@ pub use noise::NoiseFile;
 pub use origin::Origin;
 pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
 pub use poses::{read_poses, write_poses};
+pub use program::program;
 pub use reach::Reached;
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
     parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
     write_recording,
-};
-pub use records::Record;
-#[cfg(feature = "records")]
-pub use records::{
-    ExportFormat, Fleet, FleetParameter, Inserted, KeptRecord, LeftOut, RecordFilter, Records, SensorChange,
-    SensorDrift, SensorHistory, drifts_json, fleet_json, history_json, record_json, records_json,
 };
 pub use reference_inspection::{
     JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,
@@ -140,9 +134,14 @@ pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
 pub use sensor_naming::{NamedRecording, SensorNaming};
+#[cfg(feature = "study")]
 pub use study::{study_json, write_study};
-pub use summary::{Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, write_summary};
+pub use summary::{
+    Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, spreadsheet_text, unit_ending,
+    write_summary,
+};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
+pub use text_decoding::{Checked, open_file, read_text};
 pub use told::{Told, ToldKind};
 pub use truth::{truth_json, write_imu_truth, write_motion_truth, write_truth};
 pub use utc_time::UtcTime;

@@ -1,5 +1,7 @@
 //! The program's name and version, by which every result says who wrote it.
 
-pub(super) fn program() -> String {
+/// The program's name and version, by which every result says who wrote it.
+#[must_use]
+pub fn program() -> String {
     format!("calibrant {}", env!("CARGO_PKG_VERSION"))
 }

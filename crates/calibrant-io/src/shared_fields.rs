@@ -2,7 +2,7 @@
 
 use calibrant_core::estimate::{FitStatistics, Whiteness};
 use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{Axis, Parameter, ReadingUnit};
+use calibrant_core::sensor::{Axis, ReadingUnit};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -50,8 +50,9 @@ pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
+#[cfg(feature = "study")]
 /// Number of axes of a list of parameters: that of its biases.
-pub(super) fn axes_of(parameters: &[Parameter]) -> usize {
+pub(super) fn axes_of(parameters: &[calibrant_core::sensor::Parameter]) -> usize {
     parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count().clamp(1, 3)
 }
 

@@ -238,18 +238,18 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
         if let Some(named) = named {
             header.extend(named.quality.iter().map(|(name, _)| name.clone()));
             for SummaryParameter { parameter: Parameter { name, unit, .. }, .. } in &named.parameters {
-                let ending = ending(unit);
+                let ending = unit_ending(unit);
                 header.extend([format!("{name}{ending}"), format!("{name}_sd{ending}")]);
             }
         }
         out.write_record(&header).map_err(io::Error::other)?;
         for row in rows {
-            let mut fields = vec![as_text(&row.file), as_text(&row.recording)];
+            let mut fields = vec![spreadsheet_text(&row.file), spreadsheet_text(&row.recording)];
             match (&row.outcome, named) {
                 (Ok(summary), Some(named)) => fields.extend(summary.fields(named)),
                 (Ok(_), None) => {}
                 (Err(failure), _) => {
-                    let message = as_text(&failure.message);
+                    let message = spreadsheet_text(&failure.message);
                     let failed = ["none", "", "error", &message, failure.code.name()];
                     fields.extend(failed.map(String::from));
                 }
@@ -288,7 +288,8 @@ fn number(value: Option<f64>) -> String {
 }
 
 /// A text that a spreadsheet takes for a text: one that begins like a formula gets an apostrophe before it.
-pub(super) fn as_text(text: &str) -> String {
+#[must_use]
+pub fn spreadsheet_text(text: &str) -> String {
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if formula { format!("'{text}") } else { text.to_owned() }
 }
@@ -313,7 +314,8 @@ const ENDINGS: [(&str, &str); 15] = [
 ];
 
 /// A unit as it ends a column's name.
-pub(super) fn ending(unit: &str) -> &'static str {
+#[must_use]
+pub fn unit_ending(unit: &str) -> &'static str {
     ENDINGS.iter().find(|(of, _)| *of == unit).map_or("", |(_, ending)| ending)
 }
 

@@ -3,7 +3,7 @@
 use super::atomic_output::write_atomically;
 use super::design::{CertificateFields, EvaluationFields, SettingFields};
 use super::json;
-use super::summary::ending;
+use super::summary::unit_ending;
 use calibrant_core::error::Result;
 use calibrant_design::{DesignProblem, DesignSettings, Sweep, SweepPoint};
 use serde::Serialize;
@@ -48,10 +48,10 @@ pub fn write_sweep_csv(path: &Path, sweep: &Sweep) -> Result<()> {
             "gap".into(),
         ];
         for parameter in &sweep.parameters {
-            header.push(format!("{}_sd{}", parameter.name, ending(parameter.unit)));
+            header.push(format!("{}_sd{}", parameter.name, unit_ending(parameter.unit)));
         }
         for parameter in &sweep.parameters {
-            header.push(format!("{}_sd_initial{}", parameter.name, ending(parameter.unit)));
+            header.push(format!("{}_sd_initial{}", parameter.name, unit_ending(parameter.unit)));
         }
         csv.write_record(&header)?;
         for point in &sweep.points {

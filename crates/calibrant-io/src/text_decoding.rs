@@ -8,7 +8,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// The result of a check. Its error does not yet know whether an experiment or a recording is at fault.
-pub(super) type Checked<T> = std::result::Result<T, Box<InputError>>;
+pub type Checked<T> = std::result::Result<T, Box<InputError>>;
 
 /// Reads a file whole, unless it is larger than `limit` bytes or plainly binary.
 ///
@@ -17,7 +17,7 @@ pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>
     /// Bytes that are read at once.
     const PIECE: u64 = 1 << 20;
     let in_file = |input_error: InputError| Box::new(input_error.in_file(path));
-    let mut file = open(path, what)?;
+    let mut file = open_file(path, what)?;
     // the length that a file states is not trusted far
     let expected = file.metadata().map_or(0, |metadata| metadata.len()).min(64 * PIECE);
     let mut bytes = Vec::with_capacity(expected as usize + 1);
@@ -37,8 +37,21 @@ pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>
     }
 }
 
-/// Opens a file to be read; `-` is standard input.
-pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
+/// The text of a file of at most `limit` bytes. `what` names its content in errors.
+///
+/// # Errors
+/// It cannot be read, is too large, or is no text.
+pub fn read_text(path: &Path, limit: u64, what: &str) -> Checked<String> {
+    let bytes = read_bytes(path, limit, what)?;
+    let text = as_text(&bytes).map_err(|error| error.in_file(path))?;
+    Ok(text.to_owned())
+}
+
+/// Opens a file to be read; `-` is standard input. `what` names its content in the error.
+///
+/// # Errors
+/// It cannot be read, or is a directory.
+pub fn open_file(path: &Path, what: &str) -> Checked<File> {
     let input_error = if path.is_dir() {
         InputError::new(
             Refusal::FileUnreadable,

@@ -1,10 +1,10 @@
 //! A point of time in UTC, as files state it: `2026-05-01`, or `2026-05-01T08:30:00Z`.
 
-use serde::{Serialize, Serializer};
+use jiff::Timestamp;
+use jiff::civil::{Date, Time};
+use jiff::tz::Offset;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
-
-/// Seconds of a day.
-const DAY_S: i64 = 86_400;
 
 /// A day in UTC, with its time where that is known.
 ///
@@ -17,94 +17,66 @@ const DAY_S: i64 = 86_400;
 /// assert_eq!(UtcTime::parse("2026-05-01").unwrap().to_string(), "2026-05-01");
 /// assert_eq!(UtcTime::parse("2026-02-29"), None);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct UtcTime {
-    /// Seconds since 1970; those of the day's beginning, where the time is not known.
-    seconds: i64,
-    /// Is only the day known?
-    is_day: bool,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UtcTime {
+    /// Only the day is known.
+    Day(Date),
+    /// The second is known.
+    Second(Timestamp),
 }
 
 impl UtcTime {
-    /// The time of this number of seconds since 1970.
+    /// The time of this number of seconds since 1970; the nearest one between the years −9999 and 9999.
     #[must_use]
     pub fn from_seconds(seconds: i64) -> Self {
-        Self { seconds, is_day: false }
+        let nearest = if seconds < 0 { Timestamp::MIN } else { Timestamp::MAX };
+        Self::Second(Timestamp::from_second(seconds).unwrap_or(nearest))
+    }
+
+    /// The time that the clock shows.
+    #[must_use]
+    pub fn now() -> Self {
+        Self::from_seconds(Timestamp::now().as_second())
     }
 
     /// Seconds since 1970. A day without a time counts from its beginning.
     #[must_use]
     pub fn seconds(self) -> i64 {
-        self.seconds
+        match self {
+            Self::Day(day) => Offset::UTC.to_timestamp(day.into()).map_or(0, Timestamp::as_second),
+            Self::Second(time) => time.as_second(),
+        }
     }
 
     /// The time of a text: `2026-05-01` or `20260501`, then nothing, or one of `T`, `_`, `-` and a blank, and a time: `08:30:00`, `08-30-00` or `083000`,
-    /// with or without `Z`. `None` for another text, or for a day that does not exist.
+    /// with or without `Z`. `None` for another text, or for a day that does not exist. A leap second is the second before it.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.strip_suffix('Z').unwrap_or(text);
-        let is_split = text.as_bytes().get(4) == Some(&b'-');
-        let length = if is_split { 10 } else { 8 };
-        let (day, time) = (text.get(..length)?, text.get(length..)?);
-        let [year, month, date] = numbers(day, [4, 2, 2], &['-'])?;
-        let days = days_of(year, month, date)?;
+        let length = if text.as_bytes().get(4) == Some(&b'-') { 10 } else { 8 };
+        let (day, time) = text.split_at_checked(length)?;
+        let day = Date::strptime("%Y%m%d", digits(day, &["0000-00-00", "00000000"])?).ok()?;
         if time.is_empty() {
-            return Some(Self { seconds: days * DAY_S, is_day: true });
+            return Some(Self::Day(day));
         }
         let time = time.strip_prefix(['T', '_', '-', ' '])?;
-        let [hour, minute, second] = numbers(time, [2, 2, 2], &[':', '-'])?;
-        // 60: a leap second
-        let possible = hour < 24 && minute < 60 && second <= 60;
-        possible.then(|| Self::from_seconds(days * DAY_S + 3600 * hour + 60 * minute + second))
+        let time = Time::strptime("%H%M%S", digits(time, &["00:00:00", "00-00-00", "000000"])?).ok()?;
+        Offset::UTC.to_timestamp(day.to_datetime(time)).ok().map(Self::Second)
     }
 }
 
-/// Three numbers of these widths, with one of these signs between them, or with none.
-fn numbers(text: &str, widths: [usize; 3], separators: &[char]) -> Option<[i64; 3]> {
-    let used = separators.iter().copied().find(|sign| text.contains(*sign));
-    let mut rest = text;
-    let mut found = [0; 3];
-    for (k, width) in widths.into_iter().enumerate() {
-        if let (1.., Some(sign)) = (k, used) {
-            rest = rest.strip_prefix(sign)?;
-        }
-        let digits = rest.get(..width).filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))?;
-        (found[k], rest) = (digits.parse().ok()?, &rest[width..]);
-    }
-    rest.is_empty().then_some(found)
-}
-
-/// Days from 1970 to a date of the Gregorian calendar, counted in years that begin in March. `None` for a date that does not exist.
-fn days_of(year: i64, month: i64, date: i64) -> Option<i64> {
-    let shifted = year - i64::from(month <= 2);
-    let of_year = (153 * ((month + 9) % 12) + 2) / 5 + date - 1;
-    let days = 365 * shifted + shifted.div_euclid(4) - shifted.div_euclid(100) + shifted.div_euclid(400);
-    let days = days + of_year - 719_468;
-    (date_of(days) == (year, month, date)).then_some(days)
-}
-
-/// The date of this number of days since 1970.
-fn date_of(days: i64) -> (i64, i64, i64) {
-    let days = days + 719_468;
-    let era = days.div_euclid(146_097);
-    let of_era = days.rem_euclid(146_097);
-    let year = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
-    let of_year = of_era - (365 * year + year / 4 - year / 100);
-    let month = (5 * of_year + 2) / 153;
-    let date = of_year - (153 * month + 2) / 5 + 1;
-    let month = if month < 10 { month + 3 } else { month - 9 };
-    (year + 400 * era + i64::from(month <= 2), month, date)
+/// The digits of a text that has one of these forms, in which 0 stands for every digit.
+fn digits(text: &str, forms: &[&str]) -> Option<String> {
+    let form = text.replace(|sign: char| sign.is_ascii_digit(), "0");
+    forms.contains(&form.as_str()).then(|| text.replace(|sign: char| !sign.is_ascii_digit(), ""))
 }
 
 impl fmt::Display for UtcTime {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (year, month, date) = date_of(self.seconds.div_euclid(DAY_S));
-        write!(f, "{year:04}-{month:02}-{date:02}")?;
-        if self.is_day {
-            return Ok(());
+        match self {
+            Self::Day(day) => day.fmt(f),
+            Self::Second(time) => time.fmt(f),
         }
-        let of_day = self.seconds.rem_euclid(DAY_S);
-        write!(f, "T{:02}:{:02}:{:02}Z", of_day / 3600, of_day / 60 % 60, of_day % 60)
     }
 }
 
@@ -114,15 +86,25 @@ impl Serialize for UtcTime {
     }
 }
 
+impl<'de> Deserialize<'de> for UtcTime {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        Self::parse(&text).ok_or_else(|| serde::de::Error::custom(format!("{text:?} is no date")))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use jiff::ToSpan;
 
     #[test]
     fn every_day_of_eight_centuries_reads_back() {
-        for days in -150_000..150_000 {
-            let day = UtcTime { seconds: days * DAY_S, is_day: true };
+        let mut date = Date::constant(1559, 4, 24);
+        for _ in 0..300_000 {
+            let day = UtcTime::Day(date);
             assert_eq!(UtcTime::parse(&day.to_string()), Some(day), "{day}");
+            date = date.saturating_add(1.day());
         }
         for (text, seconds) in
             [("1970-01-01", 0), ("2000-02-29", 951_782_400), ("2038-01-19T03:14:07Z", 2_147_483_647)]
@@ -130,6 +112,12 @@ mod tests {
             let time = UtcTime::parse(text).expect("a time");
             assert_eq!((time.seconds(), time.to_string()), (seconds, text.to_owned()));
         }
+    }
+
+    #[test]
+    fn a_leap_second_is_the_second_before_it() {
+        assert_eq!(UtcTime::parse("20161231T235960Z"), UtcTime::parse("2016-12-31 23:59:59"));
+        assert!(UtcTime::parse("20161231T235960Z").is_some());
     }
 
     #[test]

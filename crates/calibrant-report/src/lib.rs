@@ -17,6 +17,7 @@ mod noise;
 mod poses;
 mod report_context;
 mod sheet;
+#[cfg(feature = "study")]
 mod study;
 mod sweep;
 mod validation;
@@ -38,6 +39,7 @@ pub use report_context::About;
 pub use sheet::{
     Cell, Column, Digits, Grade, Section, Sheet, SheetVerdict, Shown, Table, paragraph, wrapped,
 };
+#[cfg(feature = "study")]
 pub use study::study_report;
 pub use sweep::sweep_report;
 pub use validation::validation_sentences;

@@ -36,7 +36,7 @@
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
 //! | from a recording's file to the calibration and its report | [`pipeline::Pipeline`], [`pipeline::Outcome`] |
 //! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
-//! | many calibrations over the years | [`fleet::Aging`], [`fleet::Distribution`], [`io::Record`] |
+//! | many calibrations over the years | [`records::Record`], [`records::Aging`], [`records::Distribution`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # From files
@@ -115,13 +115,16 @@
 pub mod pipeline;
 
 pub use calibrant_core::{
-    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, fleet, information, motion,
-    noise, sensor, simulate,
+    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, motion, noise,
+    sensor, simulate,
 };
 pub use calibrant_design as design;
-pub use calibrant_design::study;
 pub use calibrant_io as io;
 pub use calibrant_machine as machine;
+#[cfg(feature = "records")]
+pub use calibrant_records as records;
 pub use calibrant_report as report;
+#[cfg(feature = "study")]
+pub use calibrant_study as study;
 /// The linear algebra in the signatures: vectors and matrices.
 pub use nalgebra;

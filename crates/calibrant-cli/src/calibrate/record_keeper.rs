@@ -3,7 +3,7 @@
 use calibrant::Result;
 use calibrant::io::HashedFile;
 #[cfg(feature = "records")]
-use calibrant::io::{Record, Records};
+use calibrant::records::{Record, Records};
 use std::path::Path;
 #[cfg(feature = "records")]
 use std::sync::{Mutex, PoisonError};

@@ -4,8 +4,8 @@ use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::ComparedQuantity;
-use calibrant::fleet::QuantityAging;
-use calibrant::io::{Records, SensorChange, SensorDrift, SensorHistory, drifts_json, history_json};
+use calibrant::records::QuantityAging;
+use calibrant::records::{Records, SensorChange, SensorDrift, SensorHistory, drifts_json, history_json};
 use calibrant::report::number_format;
 use std::path::PathBuf;
 

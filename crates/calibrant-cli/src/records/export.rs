@@ -4,7 +4,8 @@ use super::selection::Selection;
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{ExportFormat, Records, ResultPlaces};
+use calibrant::io::ResultPlaces;
+use calibrant::records::{ExportFormat, Records};
 use calibrant::report::number_format;
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! `calibrant records fleet`: how the parameters differ from sensor to sensor.
 
 use crate::{Exit, console};
-use calibrant::io::{Fleet, FleetParameter, Records, fleet_json};
+use calibrant::records::{Fleet, FleetParameter, Records, fleet_json};
 use calibrant::report::number_format::{counted, rounded_to, short, signed, significant};
 use std::path::PathBuf;
 

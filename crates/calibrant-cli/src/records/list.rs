@@ -2,7 +2,7 @@
 
 use super::selection::Selection;
 use crate::{Exit, console};
-use calibrant::io::{KeptRecord, Records, records_json};
+use calibrant::records::{KeptRecord, Records, records_json};
 use std::path::PathBuf;
 
 /// List calibrations: by sensor, and by date.

@@ -1,7 +1,7 @@
 //! The options that choose records.
 
 use calibrant::diagnostic::Usability;
-use calibrant::io::RecordFilter;
+use calibrant::records::RecordFilter;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Which records.

@@ -3,7 +3,7 @@
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{KeptRecord, Records, record_json};
+use calibrant::records::{KeptRecord, Records, record_json};
 use calibrant::report::number_format;
 use std::path::PathBuf;
 

@@ -21,7 +21,7 @@ mod change;
 mod comparison;
 mod datasheet;
 mod earth;
-pub(crate) mod effective_degrees;
+mod effective_degrees;
 mod gravity_error;
 mod gravity_off_earth;
 mod hold_result;
@@ -49,6 +49,7 @@ pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use datasheet::{ALLOWED_SPREADS, allows_gain, beyond_datasheet, implausible_gains, noise_not_as_given};
+pub use effective_degrees::degrees_of_sum;
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
@@ -67,6 +68,7 @@ pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
 pub use recovered_gravity::RecoveredGravity;
 pub use result::*;
 pub use settings::CalibrationSettings;
+pub use statistics::{chi2_p_value, f_p_value};
 pub use uncalibrated::Uncalibrated;
 pub use unknown_latitude::UnknownLatitude;
 pub use validation::{

@@ -7,7 +7,8 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 const MANY_DEGREES: f64 = 1e5;
 
 /// Probability of a χ² at least this large. `None` without degrees of freedom.
-pub(crate) fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> {
+#[must_use]
+pub fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> {
     if degrees_of_freedom == 0 {
         return None;
     }
@@ -16,7 +17,8 @@ pub(crate) fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> 
 
 /// Probability of a χ² of n components at least this large, where a variance with `behind` degrees of freedom scales it: Fisher's F of χ²/n.
 /// With infinitely many it is χ². With one component, it is the two-sided Student's t of its root. `None` without components.
-pub(crate) fn f_p_value(chi2: f64, components: usize, behind: f64) -> Option<f64> {
+#[must_use]
+pub fn f_p_value(chi2: f64, components: usize, behind: f64) -> Option<f64> {
     if behind > MANY_DEGREES || components == 0 {
         return chi2_p_value(chi2, components);
     }

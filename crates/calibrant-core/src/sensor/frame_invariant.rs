@@ -112,6 +112,12 @@ impl Invariant {
         }
     }
 
+    /// Degrees of freedom behind its standard deviation in this IMU; infinite where that counts as known.
+    #[must_use]
+    pub fn degrees_behind(self, imu: &CalibratedImu) -> f64 {
+        imu.degrees_behind(self.covariance_part())
+    }
+
     /// The part of the covariance that it mainly belongs to.
     pub(crate) fn covariance_part(self) -> CovariancePart {
         let gyroscope = SensorKind::Gyroscope;

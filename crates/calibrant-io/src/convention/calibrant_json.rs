@@ -19,29 +19,12 @@ use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::json::{flat, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{CalibratedImu, ImuFields};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The kind of file that the field `kind` names.
 const KIND: &str = "calibration";
 /// The remedy for a broken file.
 const HELP: &str = "give a file that calibrant wrote";
-
-/// The first fields of a calibration by another version of the program.
-#[cfg(feature = "records")]
-#[derive(Serialize)]
-pub(crate) struct RecordHeading {
-    schema: u32,
-    kind: &'static str,
-    program: String,
-}
-
-#[cfg(feature = "records")]
-impl RecordHeading {
-    /// That of a calibration by this program.
-    pub(crate) fn of(program: String) -> Self {
-        Self { schema: json::SCHEMA, kind: KIND, program }
-    }
-}
 
 struct File<'a>(&'a CalibratedImuFile);
 
@@ -106,8 +89,11 @@ pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
     Ok((imu, header.prior.as_deref() == Some("datasheet")))
 }
 
-/// The sensors of a `calibration.json`, also of one that did not converge or cannot be used.
-pub(crate) fn read_any_estimates(text: &str) -> Checked<CalibratedImu> {
+/// The sensors of the text of a `calibration.json`, also of one that did not converge or cannot be used.
+///
+/// # Errors
+/// The text is no calibration of calibrant.
+pub fn parse_estimates(text: &str) -> Checked<CalibratedImu> {
     let header = Header { status: None, ..Header::of(text)? };
     Ok(header.core(text)?.into_imu()?.0)
 }

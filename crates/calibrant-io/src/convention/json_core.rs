@@ -20,9 +20,9 @@ use calibrant_core::sensor::{
 use nalgebra::{DMatrix, Matrix3};
 use serde::{Deserialize, Serialize};
 
-/// To be flattened into a file. All fields are optional for the reader, so that it can name what is missing.
+/// The fields of a calibrated IMU, to be flattened into a file. All fields are optional for the reader, so that it can name what is missing.
 #[derive(Debug, Serialize, Deserialize)]
-pub(crate) struct ImuCore {
+pub struct ImuCore {
     direction: Option<String>,
     frame: Option<String>,
     gauge: Option<String>,
@@ -97,7 +97,8 @@ struct ParameterCore {
 
 impl ImuCore {
     /// The fields of a calibrated IMU, or of an accelerometer with this number of axes.
-    pub(crate) fn of(imu: &CalibratedImu, axes: usize, inputs: &[Input]) -> Self {
+    #[must_use]
+    pub fn of(imu: &CalibratedImu, axes: usize, inputs: &[Input]) -> Self {
         // a fit that did not converge has a covariance of zeros, and no sd
         let sd = |k: usize| {
             imu.covariance
@@ -137,8 +138,8 @@ impl ImuCore {
     }
 
     /// The same without recordings.
-    #[cfg(feature = "records")]
-    pub(crate) fn without_inputs(self) -> Self {
+    #[must_use]
+    pub fn without_inputs(self) -> Self {
         Self { inputs: None, ..self }
     }
 
@@ -151,7 +152,10 @@ impl ImuCore {
     }
 
     /// The IMU that the fields describe, and its recordings.
-    pub(crate) fn into_imu(self) -> Checked<(CalibratedImu, Vec<Input>)> {
+    ///
+    /// # Errors
+    /// A field is missing, or contradicts another.
+    pub fn into_imu(self) -> Checked<(CalibratedImu, Vec<Input>)> {
         let missing = |field: &str| missing(field);
         check_direction("direction", &self.direction.ok_or_else(|| missing("direction"))?)?;
         let mut parameters = ImuParameters::identity();

@@ -34,14 +34,13 @@ mod usable_calibration;
 mod words;
 mod write;
 
-#[cfg(feature = "records")]
-pub(crate) use calibrant_json::RecordHeading;
-pub(crate) use calibrant_json::{read_any_estimates, read_estimates};
+pub use calibrant_json::parse_estimates;
+pub(crate) use calibrant_json::read_estimates;
 pub use file::{CalibratedImuFile, WrittenImu};
 pub use format::ImuFormat;
 pub use imu_noise::ImuNoise;
 pub use imu_tk::imu_tk_files;
-pub(crate) use json_core::ImuCore;
+pub use json_core::ImuCore;
 pub use kalibr::read_kalibr_noise;
 pub use measured_noise::read_measured_noise;
 pub use options::{ConventionOptions, RawUnits};

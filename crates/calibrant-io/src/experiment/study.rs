@@ -6,7 +6,7 @@ use super::toml_document::Section;
 use super::{Plan, limits};
 use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Trust};
-use calibrant_design::study::SurfaceSettings;
+use calibrant_design::SurfaceSettings;
 
 /// Range of the largest jerk of the surface.
 const JERK: Bounds = Bounds::above(0.0, 1e9, "m/s³");

@@ -28,7 +28,7 @@ pub(crate) struct FileBeginning {
 impl FileBeginning {
     /// Files that begin as `is_binary` says are read whole. No other file may have a NUL byte.
     pub(crate) fn read(path: &Path, is_binary: impl Fn(&[u8]) -> bool) -> Checked<Self> {
-        let file = text_decoding::open(path, "the recording")?;
+        let file = text_decoding::open_file(path, "the recording")?;
         let length = file.metadata().map_or(0, |metadata| metadata.len()).min(TRUSTED);
         let mut pieces = Pieces { file, length, hash: Sha256::new(), read: 0, ended: false, cut: Vec::new() };
         let mut bytes = Vec::new();

@@ -3,7 +3,7 @@
 use crate::shared_fields::{FitFields, MotionFields, axes_of};
 use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::{Parameter, ParameterList};
-use calibrant_design::study::{ParameterSummary, SensorOutcome, SingleCase, Study};
+use calibrant_study::{ParameterSummary, SensorOutcome, SingleCase, Study};
 use serde::Serialize;
 
 #[derive(Serialize)]

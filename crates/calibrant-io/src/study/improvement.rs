@@ -4,7 +4,7 @@ use super::calibration::{ParameterFields, SummaryFields};
 use crate::design::{CertificateFields, EvaluationFields, InputNoiseFields, LimitsFields};
 use crate::shared_fields::{MotionFields, axes_of};
 use calibrant_core::motion::{KnownEnds, Trust};
-use calibrant_design::study::{DesignOutcome, DesignStudy, Factor, Improvement, MotionOutcome, TraceRange};
+use calibrant_study::{DesignOutcome, DesignStudy, Factor, Improvement, MotionOutcome, TraceRange};
 use serde::Serialize;
 
 #[derive(Serialize)]

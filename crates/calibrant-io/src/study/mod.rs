@@ -6,7 +6,7 @@ mod surface;
 
 use super::json;
 use calibrant_core::error::Result;
-use calibrant_design::study::Studies;
+use calibrant_study::Studies;
 use calibration::StudyFields;
 use improvement::DesignStudyFields;
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! The fields of the surface: the criterion over the jerks of two intervals.
 
-use calibrant_design::study::TraceSurface;
+use calibrant_design::TraceSurface;
 use serde::Serialize;
 
 /// Entry `[i][j]` is at `u_1 = jerk_mps3[i]`, `u_2 = jerk_mps3[j]`; variances in SI.

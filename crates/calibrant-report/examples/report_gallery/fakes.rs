@@ -13,19 +13,19 @@ use rand_distr::{Distribution, StandardNormal};
 use sensor::{
     Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
 };
-use study::{ParameterSummary, SensorOutcome, SingleCase, Study};
+use study::SingleCase;
 
 /// Noise of one sample, m/s².
 const NOISE: f64 = 2e-4;
 
-struct Dice(ChaCha8Rng);
+pub(crate) struct Dice(ChaCha8Rng);
 
 impl Dice {
-    fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    fn normal(&mut self, sd: f64) -> f64 {
+    pub(crate) fn normal(&mut self, sd: f64) -> f64 {
         let z: f64 = StandardNormal.sample(&mut self.0);
         sd * z
     }
@@ -251,53 +251,4 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
 
 fn push(recording: &mut Recording, reading: Vector3<f64>, rate: f64) {
     recording.push(recording.len() as f64 / rate, reading.map(f64::round)).expect("samples in order");
-}
-
-/// A study of this many sensors.
-pub(crate) fn study(sensors: usize) -> Study {
-    let mut dice = Dice::new(50);
-    let single = motion_case(3, 14, 2.0, 4);
-    let fine = motion_case(3, 14, 10.0, 4);
-    let datasheet = Sensor::memsic_mxd2020u();
-    let parameters = datasheet.parameter_list().describe(&datasheet, &SensorParameters::identity());
-    let sd = [8e-5, 6e-5, 9e-5, 4e-5, 7e-5, 5e-5];
-    let outcomes: Vec<SensorOutcome> = (0..sensors)
-        .map(|_| {
-            let truth: Vec<f64> = parameters
-                .iter()
-                .map(|q| q.nominal.unwrap_or(0.0) + dice.normal(q.spread.unwrap_or(0.1)))
-                .collect();
-            let values = truth.iter().zip(sd).map(|(value, sd)| value + dice.normal(sd)).collect();
-            let p_value = (0..6).fold(0.5, |p: f64, _| (p + dice.normal(0.7)).rem_euclid(1.0));
-            SensorOutcome { truth, values, sd: sd.to_vec(), p_value: Some(p_value), status: "converged" }
-        })
-        .collect();
-    let summary = parameters
-        .iter()
-        .enumerate()
-        .map(|(p, parameter)| {
-            let errors: Vec<f64> = outcomes.iter().map(|o| o.values[p] - o.truth[p]).collect();
-            let n = errors.len().max(1) as f64;
-            ParameterSummary {
-                name: parameter.name.clone(),
-                unit: parameter.unit,
-                predicted_sd: sd[p],
-                realised_rms: (errors.iter().map(|e| e * e).sum::<f64>() / n).sqrt(),
-                mean_error: errors.iter().sum::<f64>() / n,
-                coverage_95: errors.iter().filter(|e| e.abs() < 1.96 * sd[p]).count() as f64 / n,
-            }
-        })
-        .collect();
-    Study {
-        sensor: datasheet,
-        parameters,
-        trust: "unknown",
-        seed: 1,
-        rate_hz: 2.0,
-        motion: single.true_motion.clone(),
-        outcomes,
-        summary,
-        single,
-        fine,
-    }
 }

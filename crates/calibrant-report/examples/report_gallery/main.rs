@@ -2,11 +2,12 @@
 //! `cargo run --example report_gallery -- DIRECTORY`.
 
 use calibrant_core::{estimate, information, motion, sensor, simulate};
-use calibrant_design::{self as design, study};
+use calibrant_design as design;
 use calibrant_report::{
     About, Batch, BatchParameter, BatchSensor, batch_report, calibration_sheet, design_report,
     evaluation_report, machine_sheet, study_report, sweep_report,
 };
+use calibrant_study as study;
 use std::path::PathBuf;
 
 mod batches;
@@ -126,7 +127,7 @@ fn main() -> std::io::Result<()> {
     write(
         "study_large.html",
         study_report(
-            &studies::calibrations(fakes::study(100_000)),
+            &studies::calibrations(studies::calibration_study(100_000)),
             &about("Study of 100 000 sensors", "–", 0),
         ),
     )

@@ -2,14 +2,14 @@
 //! covariance.
 
 use super::{design, designs, fakes, motion, sensor, simulate, study};
-use design::{DesignStatus, Evaluation};
+use design::{DesignStatus, Evaluation, SurfaceSettings, trace_surface};
 use motion::{InputNoise, Trust};
 use rand_distr::{Distribution, StandardNormal};
-use sensor::Sensor;
+use sensor::{Sensor, SensorParameters};
 use simulate::{Purpose, Rng, draw_sensor, initial_motion, stream};
 use study::{
-    DesignOutcome, DesignStudy, Factor, Improvement, MotionOutcome, ParameterSummary, Studies, Study,
-    SurfaceSettings, TraceRange, TraceSummary, trace_surface,
+    DesignOutcome, DesignStudy, Factor, Improvement, MotionOutcome, ParameterSummary, SensorOutcome, Studies,
+    Study, TraceRange, TraceSummary,
 };
 
 /// One study of calibrations and nothing else.
@@ -22,7 +22,7 @@ pub(crate) fn everything(calibrated: usize, designed: usize) -> Studies {
     let surface =
         SurfaceSettings { jerk_mps3: 0.5, points: 41, start_mps2: 0.0, interval_s: 1.0, rate_hz: 10.0 };
     Studies {
-        calibration: Some(fakes::study(calibrated)),
+        calibration: Some(calibration_study(calibrated)),
         surface: Some(trace_surface(&Sensor::memsic_mxd2020u(), &surface).expect("valid settings")),
         design: Some(design_study(designed, Trust::Known)),
         noisy: Some(design_study(designed, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }))),
@@ -122,4 +122,53 @@ fn range(mut values: Vec<f64>) -> TraceRange {
     values.sort_by(f64::total_cmp);
     let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
     TraceRange { least: at(0), median: at(values.len() / 2), most: at(values.len().saturating_sub(1)) }
+}
+
+/// A study of this many sensors.
+pub(crate) fn calibration_study(sensors: usize) -> Study {
+    let mut dice = fakes::Dice::new(50);
+    let single = fakes::motion_case(3, 14, 2.0, 4);
+    let fine = fakes::motion_case(3, 14, 10.0, 4);
+    let datasheet = Sensor::memsic_mxd2020u();
+    let parameters = datasheet.parameter_list().describe(&datasheet, &SensorParameters::identity());
+    let sd = [8e-5, 6e-5, 9e-5, 4e-5, 7e-5, 5e-5];
+    let outcomes: Vec<SensorOutcome> = (0..sensors)
+        .map(|_| {
+            let truth: Vec<f64> = parameters
+                .iter()
+                .map(|q| q.nominal.unwrap_or(0.0) + dice.normal(q.spread.unwrap_or(0.1)))
+                .collect();
+            let values = truth.iter().zip(sd).map(|(value, sd)| value + dice.normal(sd)).collect();
+            let p_value = (0..6).fold(0.5, |p: f64, _| (p + dice.normal(0.7)).rem_euclid(1.0));
+            SensorOutcome { truth, values, sd: sd.to_vec(), p_value: Some(p_value), status: "converged" }
+        })
+        .collect();
+    let summary = parameters
+        .iter()
+        .enumerate()
+        .map(|(p, parameter)| {
+            let errors: Vec<f64> = outcomes.iter().map(|o| o.values[p] - o.truth[p]).collect();
+            let n = errors.len().max(1) as f64;
+            ParameterSummary {
+                name: parameter.name.clone(),
+                unit: parameter.unit,
+                predicted_sd: sd[p],
+                realised_rms: (errors.iter().map(|e| e * e).sum::<f64>() / n).sqrt(),
+                mean_error: errors.iter().sum::<f64>() / n,
+                coverage_95: errors.iter().filter(|e| e.abs() < 1.96 * sd[p]).count() as f64 / n,
+            }
+        })
+        .collect();
+    Study {
+        sensor: datasheet,
+        parameters,
+        trust: "unknown",
+        seed: 1,
+        rate_hz: 2.0,
+        motion: single.true_motion.clone(),
+        outcomes,
+        summary,
+        single,
+        fine,
+    }
 }

@@ -14,6 +14,7 @@ mod temperature;
 mod verdict;
 
 pub use page::calibration_sheet;
+#[cfg(feature = "study")]
 pub(super) use parameters::parameter_table;
 pub(super) use quality::noise_explains;
 pub(super) use verdict::calibration_verdict;

@@ -12,11 +12,13 @@ pub(super) const GREEN: &str = "#009e73";
 pub(super) const BLUE: &str = "#0072b2";
 /// Vermillion, an orange red.
 pub(super) const VERMILLION: &str = "#d55e00";
+#[cfg(feature = "study")]
 /// Reddish purple.
 pub(super) const PURPLE: &str = "#cc79a7";
 /// Grey.
 pub(super) const GREY: &str = "#6e7781";
 
+#[cfg(feature = "study")]
 /// The look of each of many lines: a colour and SVG's dashes. The first ten have colours of their own, which also differ in lightness from
 /// their neighbours.
 pub(super) fn look(place: usize) -> (&'static str, &'static str) {

@@ -8,7 +8,7 @@ use super::{Figure, colour};
 use crate::number_format;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
-use calibrant_design::study::{DesignOutcome, DesignStudy, MotionOutcome};
+use calibrant_study::{DesignOutcome, DesignStudy, MotionOutcome};
 
 /// Largest number of sensors that are drawn one by one.
 const MOST_SENSORS: usize = 200;

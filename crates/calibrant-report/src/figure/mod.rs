@@ -11,6 +11,7 @@ mod chart;
 mod clipping;
 mod colour;
 mod correlation;
+#[cfg(feature = "study")]
 mod design_population;
 mod device;
 mod ellipse;
@@ -22,11 +23,13 @@ mod motion;
 mod motion_pair;
 mod panel;
 mod point_thinning;
+#[cfg(feature = "study")]
 mod population;
 mod residuals;
 mod rotations;
 mod sphere;
 mod starts;
+#[cfg(feature = "study")]
 mod surface;
 mod svg;
 mod sweep;
@@ -41,6 +44,7 @@ pub(super) use before_after::{holds_before_and_after, recording_before_and_after
 pub(super) use chart::CHART_SCRIPT;
 pub(super) use clipping::renumbered;
 pub(super) use correlation::{correlation_map, correlation_map_of};
+#[cfg(feature = "study")]
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;
 pub(super) use ellipse::confidence_ellipses;
@@ -53,11 +57,13 @@ pub(super) use machine::{
 };
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
 pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};
+#[cfg(feature = "study")]
 pub(super) use population::{p_values, parameter_errors, parameters_against_truth, standardised_errors};
 pub(super) use residuals::{autocorrelations, histograms, residuals_over_time};
 pub(super) use rotations::rotation_errors;
 pub(super) use sphere::{hold_directions, pose_directions};
 pub(super) use starts::start_values;
+#[cfg(feature = "study")]
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
 pub(super) use temperature::bias_over_temperature;

@@ -6,7 +6,7 @@ use super::residuals::{Histogram, bin_count};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::sensor::Parameter;
-use calibrant_design::study::Study;
+use calibrant_study::Study;
 
 /// Largest number of sensors that are drawn one by one.
 const MOST_POINTS: usize = 500;

@@ -6,7 +6,7 @@
 use super::frame::framed;
 use crate::html::escape;
 use crate::number_format;
-use calibrant_design::study::TraceSurface;
+use calibrant_design::TraceSurface;
 
 /// Left edge of the map.
 const LEFT: f64 = 78.0;

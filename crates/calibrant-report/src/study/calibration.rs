@@ -10,7 +10,7 @@ use crate::number_format;
 use crate::sheet::{Cell, Table};
 use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::SensorKind;
-use calibrant_design::study::{SingleCase, Study};
+use calibrant_study::{SingleCase, Study};
 
 /// The thesis's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
 pub(super) fn chapter(page: &mut Page, study: &Study) {

@@ -10,7 +10,7 @@ use crate::html::Page;
 use crate::number_format;
 use crate::sheet::{Cell, Table};
 use calibrant_design::limit_use;
-use calibrant_design::study::{DesignStudy, Factor, ParameterSummary};
+use calibrant_study::{DesignStudy, Factor, ParameterSummary};
 
 /// Predicted and realised factors differ significantly beyond this number of standard errors.
 const CHANCE: f64 = 3.0;
@@ -86,7 +86,7 @@ pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
 pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     let all = study.outcomes.len();
     let better = study.outcomes.iter().filter(|o| o.optimal.trace <= o.initial.trace).count();
-    let by_gain = |a: &&calibrant_design::study::Improvement, b: &&calibrant_design::study::Improvement| {
+    let by_gain = |a: &&calibrant_study::Improvement, b: &&calibrant_study::Improvement| {
         a.predicted.value.total_cmp(&b.predicted.value)
     };
     let gain = match study.summary.iter().max_by(by_gain) {
@@ -121,7 +121,7 @@ fn coverage(study: &DesignStudy) -> f64 {
         / study.summary.len().max(1) as f64
 }
 
-fn agrees(entry: &calibrant_design::study::Improvement) -> bool {
+fn agrees(entry: &calibrant_study::Improvement) -> bool {
     let error = |factor: &Factor| factor.standard_error.unwrap_or(f64::INFINITY);
     let both = error(&entry.predicted).hypot(error(&entry.realised));
     (entry.predicted.value - entry.realised.value).abs() <= CHANCE * both
@@ -181,7 +181,7 @@ fn trace_table(study: &DesignStudy) -> String {
             shown(range.most),
         ]);
     }
-    let ratio = |of: fn(&calibrant_design::study::TraceRange) -> f64| {
+    let ratio = |of: fn(&calibrant_study::TraceRange) -> f64| {
         Cell::Number(times(of(&study.trace.initial) / of(&study.trace.optimal)))
     };
     table.row(vec![

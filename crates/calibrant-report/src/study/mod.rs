@@ -7,7 +7,7 @@ mod settings;
 use super::About;
 use super::figure::trace_map;
 use super::html::{Page, list, verdict_box};
-use calibrant_design::study::Studies;
+use calibrant_study::Studies;
 
 /// Studies as one HTML file: for each study its settings, a summary, and the figures of the thesis. Figures 4 to 6
 /// show calibrations, 7 the surface of the trace, and 8 to 11 initial against optimal motion. Figures 13 and

@@ -4,7 +4,7 @@ use crate::number_format;
 use crate::sheet::{Cell, Table};
 use calibrant_core::motion::{KnownEnds, Rest, Trust};
 use calibrant_core::sensor::Axis;
-use calibrant_design::study::DesignStudy;
+use calibrant_study::DesignStudy;
 use nalgebra::Vector3;
 
 /// Settings in two columns.

@@ -3,7 +3,7 @@
 use super::{about, assert_sound, studies};
 use crate::{number_format, study_report};
 use calibrant_core::motion::Trust;
-use calibrant_design::study::Studies;
+use calibrant_study::Studies;
 
 #[test]
 fn a_study_of_everything_shows_the_figures_of_chapters_three_and_four() {
@@ -74,4 +74,27 @@ fn a_single_sensor_and_broken_numbers_are_reported_without_panic() {
         surface.log10_trace.iter_mut().flatten().for_each(|value| *value = None);
     }
     assert_sound(&study_report(&Studies { surface, ..Studies::default() }, &about()));
+}
+
+#[test]
+fn a_study_shows_the_figures_of_the_thesis() {
+    let study = studies::calibrations(studies::calibration_study(50));
+    let html = study_report(&study, &about());
+    assert_sound(&html);
+    for figure in 4..=6 {
+        assert!(html.contains(&format!("Figure {figure} of the thesis")), "Figure {figure}");
+    }
+}
+
+#[test]
+fn a_large_study_gives_a_small_file() {
+    let html = study_report(&studies::calibrations(studies::calibration_study(100_000)), &about());
+    assert_sound(&html);
+    assert!(html.len() < 2_000_000, "{} bytes", html.len());
+}
+
+#[test]
+fn a_study_of_one_sensor_or_none_is_reported_without_panic() {
+    assert_sound(&study_report(&studies::calibrations(studies::calibration_study(0)), &about()));
+    assert_sound(&study_report(&studies::calibrations(studies::calibration_study(1)), &about()));
 }

@@ -1,7 +1,6 @@
 //! Tests of gravity beside a commanded motion: against dense least squares, Monte Carlo, and readings that contradict it.
 
 use crate::common::case::Case;
-use calibrant::design::study::{StudyProblem, StudySettings, run_study};
 use calibrant::design::{DesignProblem, evaluate};
 use calibrant::error::Refusal;
 use calibrant::estimate::{
@@ -15,6 +14,7 @@ use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_gravity, draw_sensor, initial_motion, sample_times, simulate_recording, stream,
 };
+use calibrant::study::{StudyProblem, StudySettings, run_study};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 const NOISY: Trust = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });

@@ -15,6 +15,7 @@ mod diagnostics;
 mod earth_rate;
 mod estimate;
 mod files;
+#[cfg(feature = "study")]
 mod gravity;
 mod holds;
 mod imu;
@@ -35,7 +36,9 @@ mod quantisation;
 mod saturation;
 mod sensor_change;
 mod spikes;
+#[cfg(feature = "study")]
 mod statistics;
+#[cfg(feature = "study")]
 mod study;
 mod temperature_terms;
 mod validation;

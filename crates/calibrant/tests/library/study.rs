@@ -1,13 +1,10 @@
 //! Tests of the experiments of the thesis's chapter 4: the surface, the loop of Figure 2.
 
-use calibrant::design::DesignSettings;
+use calibrant::design::{DesignSettings, SurfaceSettings, TraceSurface, trace_surface};
 use calibrant::information::criterion::{AOptimality, Criterion};
 use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::Sensor;
-use calibrant::study::{
-    DesignStudy, DesignStudyProblem, StudySettings, SurfaceSettings, TraceSurface, run_design_study,
-    trace_surface,
-};
+use calibrant::study::{DesignStudy, DesignStudyProblem, StudySettings, run_design_study};
 use nalgebra::{DVector, Vector3};
 
 /// The process noise of the report.

@@ -17,7 +17,9 @@ use modules::Modules;
 const LAYERS: &[&[&str]] = &[
     &["calibrant-core", "lapack-over-nalgebra"],
     &["calibrant-design", "calibrant-machine"],
+    &["calibrant-study"],
     &["calibrant-io", "calibrant-report"],
+    &["calibrant-records"],
     &["calibrant"],
     &["calibrant-cli"],
 ];
@@ -39,7 +41,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "estimate",
         &["form", "json", "diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"],
     ),
-    ("fleet", &["estimate", "sensor"]),
     ("noise", &["json", "diagnostic", "error", "sensor", "motion", "root"]),
     ("simulate", &["error", "sensor", "motion", "noise"]),
 ];

@@ -1,12 +1,12 @@
 //! Tests of good experiment files: their values arrive, and missing keys have their defaults.
 
+use calibrant::design::SurfaceSettings;
 use calibrant::io::{
     CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Preset, Prior, ScaleBy,
     preset,
 };
 use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
-use calibrant::study::SurfaceSettings;
 use nalgebra::Vector3;
 
 fn parse(text: &str) -> Experiment {

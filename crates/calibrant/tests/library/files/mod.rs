@@ -12,4 +12,5 @@ mod real;
 mod recordings;
 mod reference_log;
 mod results;
+#[cfg(feature = "study")]
 mod study;

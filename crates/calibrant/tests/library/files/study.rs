@@ -1,12 +1,11 @@
 //! Tests of `study.json`, field by field.
 
 use super::results::uniaxial;
+use calibrant::design::{SurfaceSettings, TraceSurface};
 use calibrant::io::{study_json, write_study};
 use calibrant::motion::JerkControlledMotion;
 use calibrant::sensor::{ReadingUnit, Recording, Sensor, SensorParameters};
-use calibrant::study::{
-    ParameterSummary, SensorOutcome, SingleCase, Studies, Study, SurfaceSettings, TraceSurface,
-};
+use calibrant::study::{ParameterSummary, SensorOutcome, SingleCase, Studies, Study};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

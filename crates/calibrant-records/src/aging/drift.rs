@@ -1,0 +1,117 @@
+//! The drift of all sensors: which of them changed most.
+
+use super::history::{aging, has_converged};
+use super::sensor_aging::QuantityAging;
+use crate::database::{KeptRecord, RecordFilter, Records};
+use calibrant_core::error::Result;
+use calibrant_core::estimate::{Comparison, OverallDifference};
+use calibrant_io::UtcTime;
+use rayon::prelude::*;
+
+/// The drift of one sensor in short.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensorDrift {
+    /// The sensor.
+    pub sensor: String,
+    /// Number of its recordings; at least two.
+    pub calibrations: usize,
+    /// The earliest and the latest date, where two are known.
+    pub dates: Option<[UtcTime; 2]>,
+    /// The last change of all parameters together; `None` where it cannot be computed.
+    pub last_change: Option<OverallDifference>,
+    /// The quantity whose aging is the most significant.
+    pub largest_aging: Option<QuantityAging>,
+    /// Probability of so significant an aging of one of the quantities, if none ages: that of the largest, times their number (Bonferroni).
+    pub aging_p_value: Option<f64>,
+}
+
+impl Records {
+    /// The drift of each sensor with at least two recordings; the most significant stands first.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) where the records are damaged.
+    pub fn drifts(&self) -> Result<Vec<SensorDrift>> {
+        let (mut drifts, mut pending) = (Vec::new(), Pending::default());
+        self.each(&RecordFilter { latest: true, ..RecordFilter::default() }, |kept| {
+            if pending.is_full_before(&kept) {
+                drifts.extend(std::mem::take(&mut pending).drifts());
+            }
+            pending.add(kept);
+        })?;
+        drifts.extend(pending.drifts());
+        let least = |drift: &SensorDrift| drift.p_value().unwrap_or(1.0);
+        drifts.sort_by(|one, other| {
+            least(one).total_cmp(&least(other)).then_with(|| one.sensor.cmp(&other.sensor))
+        });
+        Ok(drifts)
+    }
+}
+
+/// Sensors that wait to be worked on together, so that not all records are in memory.
+#[derive(Default)]
+struct Pending {
+    sensors: Vec<Vec<KeptRecord>>,
+    records: usize,
+}
+
+impl Pending {
+    /// Does this record begin a sensor, with many records before it?
+    fn is_full_before(&self, kept: &KeptRecord) -> bool {
+        /// Largest number of records in memory.
+        const MOST: usize = 4096;
+        self.records >= MOST && !self.continues(kept)
+    }
+
+    fn continues(&self, kept: &KeptRecord) -> bool {
+        let last = self.sensors.last().and_then(|sensor| sensor.last());
+        last.is_some_and(|last| last.record.sensor == kept.record.sensor)
+    }
+
+    fn add(&mut self, kept: KeptRecord) {
+        self.records += 1;
+        let continues = self.continues(&kept);
+        match self.sensors.last_mut().filter(|_| continues) {
+            Some(sensor) => sensor.push(kept),
+            None => self.sensors.push(vec![kept]),
+        }
+    }
+
+    fn drifts(self) -> Vec<SensorDrift> {
+        self.sensors
+            .par_iter()
+            .filter(|sensor| sensor.len() > 1)
+            .map(|sensor| SensorDrift::of(sensor))
+            .collect()
+    }
+}
+
+impl SensorDrift {
+    fn of(calibrations: &[KeptRecord]) -> Self {
+        let mut converged = calibrations.iter().rev().filter(|kept| has_converged(kept));
+        let last_two = converged.next().zip(converged.next());
+        let last_change =
+            last_two.and_then(|(last, before)| Comparison::of(&before.record.imu, &last.record.imu).overall);
+        let (aging, _) = aging(calibrations);
+        let largest = aging.iter().min_by(|one, other| one.aging.p_value.total_cmp(&other.aging.p_value));
+        let dates = || calibrations.iter().filter_map(|kept| kept.record.recorded);
+        Self {
+            sensor: calibrations[0].record.sensor.clone(),
+            calibrations: calibrations.len(),
+            dates: dates()
+                .next()
+                .zip(dates().next_back())
+                .map(|(first, last)| [first, last])
+                .filter(|[a, b]| a != b),
+            last_change,
+            largest_aging: largest.copied(),
+            aging_p_value: largest.map(|of| (of.aging.p_value * aging.len() as f64).min(1.0)),
+        }
+    }
+
+    /// The smaller of the probabilities of the last change and of the aging, if nothing changed.
+    #[must_use]
+    pub fn p_value(&self) -> Option<f64> {
+        let of = [self.last_change.map(|change| change.p_value), self.aging_p_value];
+        of.into_iter().flatten().min_by(f64::total_cmp)
+    }
+}

@@ -1,0 +1,97 @@
+//! The model of a calibration: what calibrations of one kind of sensor share, so that a database has it once.
+//!
+//! It is calibrant JSON with zero in place of each estimate. Added to zero, the estimates come back to the last bit.
+
+use calibrant_core::sensor::{CalibratedImu, CovarianceDegrees, Thermal};
+use calibrant_io::{ImuCore, to_json};
+use nalgebra::DMatrix;
+
+/// The text of the model of an IMU.
+pub(super) fn text_of(imu: &CalibratedImu) -> String {
+    let mut model = CalibratedImu { covariance: None, degrees_of_freedom: None, ..imu.clone() };
+    for quantity in &imu.quantities {
+        quantity.add_to(&mut model.parameters, -quantity.value(&imu.parameters));
+    }
+    let none = Thermal::none();
+    (model.parameters.thermal.reference_c, model.parameters.thermal.range_c) =
+        (none.reference_c, none.range_c);
+    to_json(&ImuCore::of(&model, 3, &[]).without_inputs())
+}
+
+/// The IMU of a model's text; all its estimates are zero.
+pub(super) fn read(text: &str) -> Option<CalibratedImu> {
+    let core: ImuCore = serde_json::from_str(text).ok()?;
+    Some(core.into_imu().ok()?.0)
+}
+
+/// What a calibration has beside its model and its estimates.
+pub(super) struct Further {
+    pub(super) reference_c: Option<f64>,
+    pub(super) range_c: Option<[f64; 2]>,
+    pub(super) degrees: Option<Vec<u8>>,
+    pub(super) covariance: Option<Vec<u8>>,
+}
+
+impl Further {
+    /// Of an IMU.
+    pub(super) fn of(imu: &CalibratedImu) -> Self {
+        let thermal = &imu.parameters.thermal;
+        let triangle = |sigma: &DMatrix<f64>| {
+            let entry = |i: usize| (0..=i).map(move |j| sigma[(i, j)]);
+            bytes_of((0..sigma.nrows()).flat_map(entry))
+        };
+        let degrees =
+            |CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix }: CovarianceDegrees| {
+                bytes_of([accelerometer, gyroscope_at_rest, gyroscope_matrix])
+            };
+        Self {
+            reference_c: imu.follows_temperature().then_some(thermal.reference_c),
+            range_c: thermal.range_c.filter(|_| imu.follows_temperature()),
+            degrees: imu.degrees_of_freedom.map(degrees),
+            covariance: imu.covariance.as_ref().map(triangle),
+        }
+    }
+
+    /// The IMU of a model with these estimates. `None` where the sizes do not fit.
+    pub(super) fn onto(self, model: &CalibratedImu, estimates: &[f64]) -> Option<CalibratedImu> {
+        let size = model.quantities.len();
+        if estimates.len() != size {
+            return None;
+        }
+        let mut imu = model.clone();
+        for (quantity, value) in model.quantities.iter().zip(estimates) {
+            quantity.add_to(&mut imu.parameters, *value);
+        }
+        if let Some(reference_c) = self.reference_c {
+            (imu.parameters.thermal.reference_c, imu.parameters.thermal.range_c) =
+                (reference_c, self.range_c);
+        }
+        imu.covariance = match self.covariance {
+            Some(bytes) => {
+                let triangle = numbers_of(&bytes).filter(|numbers| numbers.len() == size * (size + 1) / 2)?;
+                let at = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+                Some(DMatrix::from_fn(size, size, at))
+            }
+            None => None,
+        };
+        imu.degrees_of_freedom = match self.degrees.map(|bytes| numbers_of(&bytes)) {
+            Some(numbers) => match numbers?[..] {
+                [accelerometer, gyroscope_at_rest, gyroscope_matrix] => {
+                    Some(CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix })
+                }
+                _ => return None,
+            },
+            None => None,
+        };
+        Some(imu)
+    }
+}
+
+fn bytes_of(numbers: impl IntoIterator<Item = f64>) -> Vec<u8> {
+    numbers.into_iter().flat_map(f64::to_le_bytes).collect()
+}
+
+fn numbers_of(bytes: &[u8]) -> Option<Vec<f64>> {
+    let (numbers, rest) = bytes.as_chunks::<8>();
+    rest.is_empty().then(|| numbers.iter().copied().map(f64::from_le_bytes).collect())
+}

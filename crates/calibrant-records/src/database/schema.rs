@@ -1,0 +1,119 @@
+//! The schema of the database: it makes a new one, and refuses one of another program or version.
+
+use super::failure::failed;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use rusqlite::{Connection, TransactionBehavior};
+use std::path::Path;
+
+/// `cali`: says that a database is ours.
+const APPLICATION_ID: i32 = 0x6361_6c69;
+
+/// What makes a new database.
+const NEW: &str = "
+    CREATE TABLE models (
+        id INTEGER PRIMARY KEY,
+        text TEXT NOT NULL UNIQUE -- calibrant JSON of the sensors, with zero in place of each parameter
+    ) STRICT;
+    CREATE TABLE names (
+        model INTEGER NOT NULL REFERENCES models (id),
+        place INTEGER NOT NULL, -- from 0
+        name TEXT NOT NULL,
+        unit TEXT NOT NULL,
+        PRIMARY KEY (model, place)
+    ) STRICT, WITHOUT ROWID;
+    CREATE TABLE calibrations (
+        id INTEGER PRIMARY KEY AUTOINCREMENT, -- the number of a calibration that was removed is not given again
+        sensor TEXT NOT NULL,
+        recorded TEXT, -- UTC: 2026-05-01, or 2026-05-01T08:30:00Z
+        inserted TEXT NOT NULL, -- UTC
+        station TEXT,
+        program TEXT NOT NULL,
+        plan TEXT NOT NULL, -- motion, holds or machine
+        experiment TEXT,
+        experiment_sha256 TEXT NOT NULL,
+        motion TEXT,
+        motion_sha256 TEXT NOT NULL, -- empty where there is no file of a motion
+        recording TEXT NOT NULL, -- with slashes between several files
+        recording_sha256 TEXT NOT NULL, -- with blanks between them
+        verdict TEXT NOT NULL CHECK (verdict IN ('ok', 'doubtful', 'bad')),
+        codes TEXT NOT NULL, -- with blanks between them
+        status TEXT NOT NULL,
+        model INTEGER NOT NULL REFERENCES models (id),
+        reference_c REAL, -- of the temperature terms
+        least_c REAL,
+        greatest_c REAL,
+        degrees BLOB, -- degrees of freedom behind the covariance, 3 f64
+        covariance BLOB, -- lower triangle by rows, f64, little endian
+        UNIQUE (recording_sha256, experiment_sha256, motion_sha256, program)
+    ) STRICT;
+    CREATE INDEX calibrations_of_sensor ON calibrations (sensor, recorded);
+    CREATE TABLE parameters (
+        calibration INTEGER NOT NULL REFERENCES calibrations (id) ON DELETE CASCADE,
+        place INTEGER NOT NULL,
+        value REAL NOT NULL,
+        sd REAL,
+        PRIMARY KEY (calibration, place)
+    ) STRICT, WITHOUT ROWID;
+    CREATE VIEW estimates AS
+        SELECT c.id AS calibration, c.sensor, c.recorded, c.station, c.verdict, n.name, n.unit, p.value, p.sd
+        FROM calibrations c JOIN parameters p ON p.calibration = c.id
+        JOIN names n ON n.model = c.model AND n.place = p.place;
+    CREATE VIEW latest AS
+        SELECT * FROM calibrations c WHERE NOT EXISTS (
+            SELECT 1 FROM calibrations d
+            WHERE d.recording_sha256 = c.recording_sha256 AND (d.inserted, d.id) > (c.inserted, c.id)
+        );
+";
+
+/// The version of the schema. No other one was ever released.
+pub(super) const VERSION: i32 = 2;
+
+/// Checks that a database is ours and of this version; makes the tables of one that is empty. Foreign keys hold in it from then on.
+pub(super) fn prepare(connection: &mut Connection, path: &Path) -> Result<()> {
+    let write = |error| failed(path, error);
+    connection.pragma_update(None, "foreign_keys", true).map_err(write)?;
+    // in one transaction: another process may make the database between two readings
+    let before = connection.transaction().map_err(write)?;
+    if is_made(&before, path)? {
+        return Ok(());
+    }
+    drop(before);
+    // another process may do the same at this moment
+    let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate).map_err(write)?;
+    if !is_made(&transaction, path)? {
+        transaction.execute_batch(NEW).map_err(write)?;
+        transaction.pragma_update(None, "application_id", APPLICATION_ID).map_err(write)?;
+        transaction.pragma_update(None, "user_version", VERSION).map_err(write)?;
+    }
+    transaction.commit().map_err(write)
+}
+
+/// Are the tables there? They are not in a database that is empty; one of another program or version is refused.
+fn is_made(connection: &Connection, path: &Path) -> Result<bool> {
+    let number = |name: &str| {
+        connection
+            .pragma_query_value(None, name, |row| row.get::<_, i32>(0))
+            .map_err(|error| failed(path, error))
+    };
+    let (application, version) = (number("application_id")?, number("user_version")?);
+    let refuse = |refusal, message: String, help: &str| {
+        Err(Error::experiment(InputError::new(refusal, message, help).in_file(path)))
+    };
+    if application != APPLICATION_ID {
+        let objects = connection
+            .query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get::<_, i64>(0))
+            .map_err(|error| failed(path, error))?;
+        if (application, version, objects) == (0, 0, 0) {
+            return Ok(false);
+        }
+        let message = "this is an SQLite database of another program".to_owned();
+        return refuse(Refusal::FormatUnknown, message, "give another file for the records");
+    }
+    if version == VERSION {
+        return Ok(true);
+    }
+    let message = format!(
+        "these records have version {version} of the schema, and this calibrant reads version {VERSION}"
+    );
+    refuse(Refusal::FormatUnsupported, message, "use the calibrant that wrote them, or a newer one")
+}

@@ -1,0 +1,8 @@
+//! The fleet: how each parameter differs from sensor to sensor.
+
+mod distribution;
+mod frame;
+mod parameters;
+
+pub use distribution::Distribution;
+pub use parameters::{Fleet, FleetParameter, LeftOut};

@@ -1,0 +1,90 @@
+//! All studies that one experiment file asks for.
+
+use super::{
+    DesignStudy, DesignStudyProblem, Study, StudyProblem, StudySettings, run_design_study, run_study,
+};
+use calibrant_core::error::Result;
+use calibrant_core::sensor::Sensor;
+use calibrant_design::{SurfaceSettings, TraceSurface, trace_surface};
+
+/// The studies that are wanted.
+#[derive(Debug, Clone, Default)]
+pub struct StudiesProblem<'a> {
+    /// Sensors calibrated without a design.
+    pub calibration: Option<StudyProblem<'a>>,
+    /// The criterion over the jerks of two intervals, for the first axis of this sensor.
+    pub surface: Option<(&'a Sensor, SurfaceSettings)>,
+    /// Initial against optimal motion.
+    pub design: Option<DesignStudyProblem<'a>>,
+    /// The same with process noise.
+    pub noisy: Option<DesignStudyProblem<'a>>,
+    /// Studies that are not wanted although a reader might expect them, and why, in words.
+    pub remarks: Vec<String>,
+}
+
+impl StudiesProblem<'_> {
+    /// How often `progress` will be called: the number of sensors.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        let designs = [&self.design, &self.noisy].into_iter().flatten().map(|problem| problem.sensors);
+        let sensors = self.calibration.iter().map(|problem| problem.sensors).chain(designs).sum::<usize>();
+        sensors as u64
+    }
+}
+
+/// The result of `calibrant study`: the studies that were wanted. The preset `report` wants all of them.
+#[derive(Debug, Clone, Default)]
+pub struct Studies {
+    /// Sensors calibrated without a design: the thesis's chapter 3, where only the ends of the motion are
+    /// known (Figures 4 to 6).
+    pub calibration: Option<Study>,
+    /// The criterion over the jerks of two intervals (Figure 7).
+    pub surface: Option<TraceSurface>,
+    /// Initial against optimal motion, as `[motion]` and `[limits]` say (Figures 8 to 11).
+    pub design: Option<DesignStudy>,
+    /// The same with process noise, of `[study.noisy]` (Figures 13 and 14).
+    pub noisy: Option<DesignStudy>,
+    /// Studies that were not run although a reader might expect them, and why, in words.
+    pub remarks: Vec<String>,
+}
+
+/// Runs the wanted studies, one after the other; `progress` is called with 1 after each sensor.
+///
+/// Where it is interrupted, it has the sensors that are finished, and a remark says so.
+///
+/// # Errors
+/// As [`run_study`], [`trace_surface`] and [`run_design_study`].
+pub fn run_studies(
+    problem: &StudiesProblem<'_>,
+    settings: &StudySettings,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Studies> {
+    let interruption = &settings.design.interruption;
+    let designed = |problem: &Option<DesignStudyProblem<'_>>| {
+        let wanted = problem.as_ref().filter(|_| !interruption.is_asked());
+        wanted.map(|problem| run_design_study(problem, settings, progress)).transpose()
+    };
+    let mut studies = Studies {
+        calibration: problem
+            .calibration
+            .as_ref()
+            .map(|problem| run_study(problem, settings, progress))
+            .transpose()?,
+        surface: problem
+            .surface
+            .as_ref()
+            .map(|(sensor, surface)| trace_surface(sensor, surface))
+            .transpose()?,
+        design: designed(&problem.design)?,
+        noisy: designed(&problem.noisy)?,
+        remarks: problem.remarks.clone(),
+    };
+    if interruption.is_asked() {
+        let designed = [&studies.design, &studies.noisy].into_iter().flatten();
+        let finished = designed.map(|study| study.outcomes.len()).sum::<usize>()
+            + studies.calibration.as_ref().map_or(0, |study| study.outcomes.len());
+        let all = problem.steps();
+        studies.remarks.push(format!("the study was interrupted: {finished} of {all} sensors are finished"));
+    }
+    Ok(studies)
+}
