@@ -1,7 +1,7 @@
 //! A file by its content.
 
 use super::input::file_name;
-use super::recording::checksum::hex;
+use super::recording::checksum::{hex, hex_sha256};
 use super::standard_input::open_input;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,6 +19,12 @@ pub struct HashedFile {
 }
 
 impl HashedFile {
+    /// What is in memory, by the name that results give it.
+    #[must_use]
+    pub fn of_bytes(name: impl Into<String>, bytes: &[u8]) -> Self {
+        Self { file: name.into(), sha256: hex_sha256(bytes) }
+    }
+
     /// A file as it is now; `None` where it cannot be read.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {

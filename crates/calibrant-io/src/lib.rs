@@ -118,9 +118,9 @@ pub use program::program;
 pub use reach::Reached;
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
-    parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
-    write_recording,
+    ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, imu_from_columns,
+    imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
+    write_imu_recording, write_recording,
 };
 pub use reference_inspection::{
     JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,

@@ -16,6 +16,7 @@
 mod content;
 mod file;
 mod format;
+mod in_memory;
 mod joint_columns;
 mod joints_in_order;
 mod log_assembly;

@@ -1,4 +1,4 @@
-//! Columns of numbers from a file that is not text: an MCAP bag or Parquet.
+//! Columns of numbers that are not text: of an MCAP bag, of Parquet, or in memory.
 
 use super::column_values::{READINGS, SLOTS, Samples, TIME, slots_of};
 use crate::recording::row_parser::Sense;

@@ -26,10 +26,12 @@ pub enum FileFormat {
     Mcap,
     /// Apache Parquet, columns named as in CSV.
     Parquet,
+    /// Columns in memory, named as in CSV.
+    Columns,
 }
 
 impl FileFormat {
-    /// All formats.
+    /// All formats of files.
     pub const ALL: [Self; 8] = [
         Self::MtManager,
         Self::MovellaDot,
@@ -53,6 +55,7 @@ impl FileFormat {
             Self::Csv => "csv",
             Self::Mcap => "mcap",
             Self::Parquet => "parquet",
+            Self::Columns => "columns",
         }
     }
 
@@ -68,6 +71,7 @@ impl FileFormat {
             Self::Csv => "CSV",
             Self::Mcap => "ROS 2 bag (MCAP)",
             Self::Parquet => "Parquet",
+            Self::Columns => "columns in memory",
         }
     }
 
@@ -80,7 +84,7 @@ impl FileFormat {
     /// Is it text?
     #[must_use]
     pub fn is_text(self) -> bool {
-        !matches!(self, Self::Mcap | Self::Parquet)
+        !matches!(self, Self::Mcap | Self::Parquet | Self::Columns)
     }
 
     /// The binary format that begins with these bytes.

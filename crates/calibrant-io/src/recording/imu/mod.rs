@@ -8,6 +8,7 @@
 //! | imu_tk | four columns of numbers, `t x y z`; two files | s | asked for |
 //! | imucal | `n_samples,gyr_x,…` | counter; the rate is asked for | asked for |
 //! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
+//! | a table in memory ([`imu_from_columns`]) | – | by name | by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //! | plain text | `t_s,ax,ay,az`, or `t x y z`, read for the accelerometer alone | s | by name, or the experiment's |
 //!
@@ -18,7 +19,6 @@
 //! it.
 
 mod accelerometer_only;
-#[cfg(any(feature = "mcap", feature = "parquet"))]
 mod binary_columns;
 mod column;
 mod column_names;
@@ -34,6 +34,7 @@ mod headerless_text;
 mod imu_message;
 mod imu_tk;
 mod imucal;
+mod in_memory;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod movella_dot;
@@ -57,6 +58,7 @@ pub(crate) use column_names::column as imu_column;
 pub use even_times::SampleTimes;
 pub use file::{ImuFile, SecondFile};
 pub use format::FileFormat;
+pub use in_memory::{imu_from_columns, imu_pair_of};
 pub use options::{AccelerometerOnly, ColumnMapping, ImuReadOptions, USUAL_RATE_SD_PPM};
 pub use read::{parse_imu_recording, read_imu_recording, read_imu_sensor};
 pub use two_files::{parse_imu_pair, read_imu_pair};

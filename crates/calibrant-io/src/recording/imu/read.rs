@@ -120,7 +120,7 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Sensor
             return Err(headerless_text::question(&head).into());
         }
         FileFormat::Csv => csv::draft(&head, asked),
-        FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
+        FileFormat::Mcap | FileFormat::Parquet | FileFormat::Columns => return Err(not_binary(format).into()),
     };
     rows(draft, head, source, options)
 }
@@ -215,7 +215,7 @@ pub(super) fn rows(
 }
 
 /// Makes a recording of the values of a file.
-fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
+pub(super) fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
     let assembled = assemble(&mut draft, &mut samples, options)?;
     let file = ImuFile {
         recording: assembled.recording,

@@ -127,7 +127,7 @@ fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Fin
 }
 
 /// Two files as one recording.
-fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
+pub(super) fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
     on_one_clock(&first, &mut second);
     let named = |sensor_kind: SensorKind, file: &ImuFile| -> Vec<Finding> {
         let named = |finding: Finding| finding.about(Some(sensor_kind));
