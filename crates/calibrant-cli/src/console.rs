@@ -9,9 +9,9 @@ pub(crate) use table::table;
 
 use calibrant::Error;
 use calibrant::io::Finding;
-use calibrant::pipeline::{Note, extrapolation_in_words};
 use calibrant::report::{Sheet, wrapped};
 use calibrant::sensor::CalibratedImu;
+use calibrant::session::{Note, extrapolation_in_words};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
@@ -116,7 +116,7 @@ pub(crate) fn findings(findings: &[Finding], file: &str, gyroscope: Option<&str>
     }
 }
 
-/// Prints the notes of a pipeline.
+/// Prints the notes of a session.
 pub(crate) fn noted(found: &Note) {
     let say = if found.is_warning() { warn } else { note };
     say(&found.to_string());

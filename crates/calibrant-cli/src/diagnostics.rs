@@ -3,8 +3,8 @@
 use crate::{Exit, console};
 use calibrant::diagnostic::{Code, Diagnostic, Severity, Usability, Verdict};
 use calibrant::io::{Told, ToldKind, nearest};
-use calibrant::pipeline::Note;
 use calibrant::report::message;
+use calibrant::session::Note;
 
 /// The diagnostics that the user denies and allows.
 #[derive(clap::Args)]
@@ -27,7 +27,7 @@ pub(crate) fn told_of(diagnostic: &Diagnostic) -> Told {
     }
 }
 
-/// A note of the pipeline in its sentence.
+/// A note of the session in its sentence.
 pub(crate) fn told_of_note(note: &Note) -> Told {
     let plain = |kind| Told { kind, code: None, file: String::new(), words: note.to_string() };
     match note {

@@ -1,7 +1,7 @@
 //! A file by its content.
 
 use super::input::file_name;
-use super::recording::checksum::{hex, hex_sha256};
+use super::recording::checksum::{hex, hex_of_lists, hex_sha256};
 use super::standard_input::open_input;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,13 @@ impl HashedFile {
     #[must_use]
     pub fn of_bytes(name: impl Into<String>, bytes: &[u8]) -> Self {
         Self { file: name.into(), sha256: hex_sha256(bytes) }
+    }
+
+    /// Lists of numbers in memory, each with its name.
+    #[must_use]
+    pub fn of_numbers(name: impl Into<String>, lists: &[(&str, Vec<f64>)]) -> Self {
+        let lists = lists.iter().map(|(name, values)| (*name, values.iter().copied()));
+        Self { file: name.into(), sha256: hex_of_lists(lists) }
     }
 
     /// A file as it is now; `None` where it cannot be read.

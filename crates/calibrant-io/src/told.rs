@@ -22,9 +22,9 @@ pub enum ToldKind {
     Diagnostic,
     /// A finding of the reader of the recording.
     Finding,
-    /// A warning of the pipeline.
+    /// A warning of the session.
     Warning,
-    /// A remark of the pipeline.
+    /// A remark of the session.
     Remark,
 }
 

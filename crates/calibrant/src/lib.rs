@@ -34,7 +34,7 @@
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
-//! | from a recording's file to the calibration and its report | [`pipeline::Pipeline`], [`pipeline::Outcome`] |
+//! | from a recording's file to the calibration and its report | [`session::Session`], [`session::Outcome`] |
 //! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
 //! | many calibrations over the years | [`records::Record`], [`records::Aging`], [`records::Distribution`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
@@ -43,13 +43,13 @@
 //! A sensor that a robot moved, and the commanded motion, as on the command line:
 //! ```
 //! use calibrant::io::Experiment;
-//! use calibrant::pipeline::{Pipeline, PipelineOptions, Source};
+//! use calibrant::session::{Session, SessionOptions, Source};
 //!
 //! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/04_many_sensors");
 //! let text = std::fs::read_to_string(format!("{folder}/experiment.toml")).expect("it is there");
 //! let experiment = Experiment::parse(&text, None)?;
-//! let options = PipelineOptions { motion: Some(format!("{folder}/motion.csv").into()), ..PipelineOptions::default() };
-//! let outcome = Pipeline::from_experiment(&experiment, options)?.run(&Source::from_file(format!("{folder}/sensor-17.csv")))?;
+//! let options = SessionOptions { motion: Some(format!("{folder}/motion.csv").into()), ..SessionOptions::default() };
+//! let outcome = Session::with(experiment.clone(), options)?.calibrate(&Source::from_file(format!("{folder}/sensor-17.csv")))?;
 //!
 //! let calibration = outcome.calibration().expect("of a motion");
 //! for (parameter, (value, sd)) in calibration.parameters.iter().zip(calibration.values.iter().zip(calibration.sd().iter())) {
@@ -110,9 +110,9 @@
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
 //! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; what a user should know of a result is a [`diagnostic`]; [`acceptance`] compares it with limits; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all of these, and none uses them.
-//! [`pipeline`] stands above all: it reads a recording, calibrates, validates and writes.
+//! [`session`] stands above all: it reads a recording, calibrates, validates and writes.
 
-pub mod pipeline;
+pub mod session;
 
 pub use calibrant_core::{
     Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, motion, noise,

@@ -4,7 +4,7 @@ use super::sources::readings;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::HashedFile;
-use calibrant::pipeline::Source;
+use calibrant::session::Source;
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -6,10 +6,10 @@ use super::sources::{check_motion, sources};
 use crate::console;
 use calibrant::acceptance::AcceptanceLimit;
 use calibrant::io::{Experiment, HashedFile, Plan, ResumeKey, SensorNaming, UrdfSource, read_acceptance};
-use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
+use calibrant::session::{MotionSource, Note, Outcome, Readings, Session, SessionOptions, Source};
 use std::path::{Path, PathBuf};
 
-/// The pipeline and its recordings.
+/// The session and its recordings.
 pub(super) struct Job<'a> {
     pub(super) arguments: &'a Arguments,
     pub(super) sources: Vec<Source>,
@@ -19,7 +19,7 @@ pub(super) struct Job<'a> {
     /// Where the results are recorded.
     pub(super) records: RecordKeeper,
     naming: SensorNaming,
-    pipeline: Pipeline<'a>,
+    session: Session,
     /// What the results of all recordings depend on.
     key: Option<ResumeKey>,
 }
@@ -32,11 +32,11 @@ impl<'a> Job<'a> {
         let naming = options.naming.clone();
         let shared: Option<Vec<_>> = shared_files(arguments, experiment).map(HashedFile::of).collect();
         let key = shared.map(|shared| ResumeKey::of(&format!("{options:?}"), &shared));
-        let pipeline = Pipeline::from_experiment(experiment, options)?;
-        pipeline.notes().iter().for_each(console::noted);
+        let session = Session::with(experiment.clone(), options)?;
+        session.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
         let records = RecordKeeper::open(arguments.records.as_deref())?;
-        Ok(Self { arguments, sources, experiment, limits, records, naming, pipeline, key })
+        Ok(Self { arguments, sources, experiment, limits, records, naming, session, key })
     }
 
     /// The key of the result of a recording with these files; `None` where a file that all recordings share cannot be read.
@@ -51,8 +51,8 @@ impl<'a> Job<'a> {
         files: impl FnOnce() -> Option<Vec<HashedFile>>,
     ) -> calibrant::Result<()> {
         // a name that is not of the pattern is refused where the recording is calibrated
-        let sensor = || Some(self.naming.of(&source.recording).ok()?.sensor);
-        self.records.check(sensor, files).map_err(|error| error.in_recording(&source.recording))
+        let sensor = || Some(self.naming.of(source.recording.path()).ok()?.sensor);
+        self.records.check(sensor, files).map_err(|error| error.in_recording(source.recording.path()))
     }
 
     /// Calibrates from a recording, writes the results and records them. Adds notes and warnings to `notes`, even if it fails.
@@ -62,7 +62,7 @@ impl<'a> Job<'a> {
         directory: &Path,
         notes: &mut Vec<Note>,
     ) -> calibrant::Result<Outcome> {
-        let outcome = self.pipeline.run_noting(source, notes)?;
+        let outcome = self.session.calibrate_noting(source, notes)?;
         outcome.write(directory)?;
         self.records.add(|| outcome.json())?;
         Ok(outcome)
@@ -83,21 +83,22 @@ fn shared_files<'a>(arguments: &'a Arguments, experiment: &'a Experiment) -> imp
     std::iter::once(&arguments.experiment).chain(optional).map(PathBuf::as_path)
 }
 
-fn options(arguments: &Arguments) -> calibrant::Result<PipelineOptions> {
+fn options(arguments: &Arguments) -> calibrant::Result<SessionOptions> {
     let other = |recording| Source {
-        gyroscope: arguments.validate_gyroscope.clone(),
+        gyroscope: arguments.validate_gyroscope.as_ref().map(Readings::file),
         ..Source::from_file(recording)
     };
-    Ok(PipelineOptions {
+    Ok(SessionOptions {
         experiment_file: arguments.experiment.clone(),
-        motion: arguments.motion.clone(),
+        motion: arguments.motion.clone().map(MotionSource::File),
         reading: arguments.reading.options()?,
         validate: arguments.validate.as_ref().map(other),
-        validate_motion: arguments.validate_motion.clone(),
+        validate_motion: arguments.validate_motion.clone().map(MotionSource::File),
         folds: arguments.folds,
         accept: arguments.accept.as_deref().map(read_acceptance).transpose()?,
         allowed: arguments.rules.allowed().to_vec(),
         naming: arguments.naming.options()?,
         report: !arguments.no_report,
+        ..SessionOptions::default()
     })
 }

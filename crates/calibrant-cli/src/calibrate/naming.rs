@@ -24,7 +24,7 @@ pub(super) struct Naming {
 }
 
 impl Naming {
-    /// The options as the pipeline takes them.
+    /// The options as the session takes them.
     pub(super) fn options(&self) -> calibrant::Result<SensorNaming> {
         let pattern = self.sensor_from.as_deref().map(NamePattern::parse).transpose()?;
         let given = self.sensor.is_some() || self.sensor_key.is_some();

@@ -4,7 +4,7 @@ use super::job::Job;
 use super::sources::hashed_readings;
 use crate::diagnostics::{told_of, told_of_note};
 use crate::{Exit, console};
-use calibrant::pipeline::{Outcome, Source};
+use calibrant::session::{Outcome, Source};
 
 /// Calibrates from the recording and shows the result.
 pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
@@ -19,7 +19,7 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
         Err(error) => {
             match job.experiment.imu {
                 Some(_) => console::error(&error),
-                None => console::error_in(&error, &source.recording),
+                None => console::error_in(&error, source.recording.path()),
             }
             Exit::of(&error)
         }

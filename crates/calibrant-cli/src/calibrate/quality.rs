@@ -2,8 +2,8 @@
 
 use calibrant::estimate::Calibration;
 use calibrant::io::{Experiment, Plan};
-use calibrant::pipeline::Calibrated;
 use calibrant::report::number_format;
+use calibrant::session::Calibrated;
 
 /// The columns between the verdict and the codes that decide it.
 pub(super) fn columns(experiment: &Experiment) -> &'static [&'static str] {

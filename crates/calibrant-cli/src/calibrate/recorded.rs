@@ -5,7 +5,7 @@ use super::quality;
 use crate::diagnostics::{told_of, told_of_note};
 use calibrant::Error;
 use calibrant::io::{Finished, HashedFile, Told};
-use calibrant::pipeline::Source;
+use calibrant::session::Source;
 use std::path::Path;
 
 /// A recording and what came of it.

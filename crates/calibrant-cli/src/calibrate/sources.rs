@@ -4,9 +4,9 @@ use super::arguments::Arguments;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, HashedFile, Plan};
-use calibrant::pipeline::Source;
 use calibrant::report::number_format;
-use std::path::{Path, PathBuf};
+use calibrant::session::{Readings, SectionList, Source};
+use std::path::Path;
 
 /// The recordings, with the gyroscope's file where there is one.
 pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
@@ -38,13 +38,13 @@ fn together(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result
     }
     arguments.naming.check_together(&arguments.recordings)?;
     let [first, further @ ..] = arguments.recordings.as_slice() else { return Ok(Vec::new()) };
-    Ok(vec![Source { further: further.to_vec(), ..Source::from_file(first) }])
+    Ok(vec![Source { further: further.iter().map(Readings::file).collect(), ..Source::from_file(first) }])
 }
 
 /// The files of a recording's readings, its own first.
 pub(super) fn readings(source: &Source) -> impl Iterator<Item = &Path> {
-    let files = std::iter::once(&source.recording).chain(&source.gyroscope).chain(&source.further);
-    files.map(PathBuf::as_path)
+    let readings = std::iter::once(&source.recording).chain(&source.gyroscope).chain(&source.further);
+    readings.map(Readings::path)
 }
 
 /// The [`readings`] by their content; `None` where one cannot be read.
@@ -64,10 +64,10 @@ fn with_gyroscopes(arguments: &Arguments) -> calibrant::Result<Vec<Source>> {
             "give --gyroscope FILE once for each recording, in their order, or not at all where the recordings have both sensors",
         );
     }
-    let gyroscopes = gyroscopes.iter().cloned().map(Some).chain(std::iter::repeat(None));
+    let gyroscopes = gyroscopes.iter().map(|file| Some(Readings::file(file))).chain(std::iter::repeat(None));
     let source = |(recording, gyroscope)| Source {
         gyroscope,
-        sections: arguments.sections.clone(),
+        sections: arguments.sections.clone().map(SectionList::File),
         ..Source::from_file(recording)
     };
     Ok(recordings.iter().zip(gyroscopes).map(source).collect())

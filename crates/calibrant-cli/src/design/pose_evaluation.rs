@@ -7,8 +7,8 @@ use crate::{Exit, console};
 use calibrant::design::poses::evaluate_poses;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{pose_evaluation_json, write_pose_evaluation};
-use calibrant::pipeline::{Pipeline, PipelineOptions, Source};
 use calibrant::report::{evaluation_in_words, pose_evaluation_report};
+use calibrant::session::{Session, SessionOptions, Source};
 use std::path::Path;
 
 pub(super) fn run(arguments: &Arguments, job: &Job, recording: &Path) -> calibrant::Result<Exit> {
@@ -20,12 +20,12 @@ pub(super) fn run(arguments: &Arguments, job: &Job, recording: &Path) -> calibra
             "leave it away, or design the next poses with --from and --add",
         )));
     }
-    let options = PipelineOptions {
+    let options = SessionOptions {
         experiment_file: arguments.experiment.clone(),
         report: false,
-        ..PipelineOptions::default()
+        ..SessionOptions::default()
     };
-    let outcome = Pipeline::from_experiment(&job.experiment, options)?.run(&Source::from_file(recording))?;
+    let outcome = Session::with(job.experiment.clone(), options)?.calibrate(&Source::from_file(recording))?;
     outcome.notes.iter().for_each(console::noted);
     let Some(calibration) = outcome.calibration() else {
         let message = "the holds of a machine are not compared with the best";

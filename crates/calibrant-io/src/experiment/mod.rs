@@ -17,6 +17,7 @@ mod known_keys;
 mod limits;
 mod machine;
 mod machine_mount;
+mod machine_sensors;
 mod machine_simulation;
 mod machine_source;
 mod motion;

@@ -29,12 +29,13 @@ mod machine;
 mod mounting;
 mod noise;
 mod nominal_rate;
-mod pipeline;
 mod priors;
 mod propagated;
 mod quantisation;
 mod saturation;
 mod sensor_change;
+mod session;
+mod session_in_memory;
 mod spikes;
 #[cfg(feature = "study")]
 mod statistics;

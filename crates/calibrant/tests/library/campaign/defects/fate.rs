@@ -5,8 +5,8 @@ use crate::common::draw_imu;
 use crate::common::hand::ByHand;
 use calibrant::diagnostic::Code;
 use calibrant::io::{Experiment, preset, write_imu_recording, write_recording};
-use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use calibrant::sensor::{ImuParameters, ImuRecording, Recording, SensorKind};
+use calibrant::session::{Note, Outcome, Session, SessionOptions, Source};
 use calibrant::simulate::{Purpose, stream};
 use std::fmt::Write;
 use std::path::Path;
@@ -83,10 +83,10 @@ fn calibrated(recording: &ImuRecording) -> (calibrant::Result<Outcome>, Vec<Stri
     let text = preset(if recording.gyroscope.is_some() { "imu" } else { "static-poses" }).expect("a preset");
     // the gauge of the simulated sensors
     let experiment = Experiment::parse(&text.replace("\"lower\"", "\"upper\""), None).expect("valid");
-    let options = PipelineOptions { report: false, ..PipelineOptions::default() };
-    let pipeline = Pipeline::from_experiment(&experiment, options).expect("valid");
+    let options = SessionOptions { report: false, ..SessionOptions::default() };
+    let session = Session::with(experiment.clone(), options).expect("valid");
     let mut notes = Vec::new();
-    let outcome = pipeline.run_noting(&source, &mut notes);
+    let outcome = session.calibrate_noting(&source, &mut notes);
     let said = notes.iter().filter_map(|note| match note {
         Note::Finding { finding, .. } if finding.code() == Code::ClockSource => None,
         Note::Finding { finding, .. } => Some(format!("{:?}", finding.noticed)),
@@ -112,12 +112,12 @@ fn written(recording: &ImuRecording, directory: &Path) -> Source {
     match &recording.gyroscope {
         Some(gyroscope) if gyroscope.times_s() != accelerometer.times_s() => {
             let path = directory.join("gyroscope.csv");
-            write_recording(&source.recording, accelerometer).expect("written");
+            write_recording(source.recording.path(), accelerometer).expect("written");
             std::fs::write(&path, gyroscope_csv(gyroscope)).expect("written");
-            source.gyroscope = Some(path);
+            source.gyroscope = Some(path.into());
         }
-        Some(_) => write_imu_recording(&source.recording, recording).expect("written"),
-        None => write_recording(&source.recording, accelerometer).expect("written"),
+        Some(_) => write_imu_recording(source.recording.path(), recording).expect("written"),
+        None => write_recording(source.recording.path(), accelerometer).expect("written"),
     }
     source
 }

@@ -6,7 +6,7 @@ use calibrant::io::{
     Experiment, ImuReadOptions, ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_imu_recording,
     parse_reference_log, preset,
 };
-use calibrant::pipeline::{Calibrated, Pipeline, PipelineOptions, Source};
+use calibrant::session::{Calibrated, Session, SessionOptions, Source};
 use nalgebra::Vector3;
 
 const JOINTS: &str = "sensor_msgs/msg/JointState";
@@ -147,9 +147,9 @@ fn a_bag_with_joints_and_an_imu_needs_no_further_log() {
     std::fs::write(&path, bag(&topics)).expect("written");
 
     let experiment = Experiment::parse(preset("gantry").expect("known"), None).expect("valid");
-    let options = PipelineOptions { report: false, ..PipelineOptions::default() };
-    let pipeline = Pipeline::from_experiment(&experiment, options).expect("prepared");
-    let outcome = pipeline.run(&Source::from_file(&path)).expect("calibrated");
+    let options = SessionOptions { report: false, ..SessionOptions::default() };
+    let session = Session::with(experiment.clone(), options).expect("prepared");
+    let outcome = session.calibrate(&Source::from_file(&path)).expect("calibrated");
     let Calibrated::OnMachine(machine) = &outcome.calibrated else { panic!("on a machine") };
     let calibration = &machine.calibration;
     let (bias, delay_s) =

@@ -1,6 +1,6 @@
 //! Reads recordings of an IMU: what the caller says of them first, then `[columns]`, then the units of the sensors.
 
-use super::options::PipelineOptions;
+use super::options::SessionOptions;
 use super::recorded::Recorded;
 use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -19,7 +19,7 @@ pub(crate) struct ImuReader<'e> {
 }
 
 impl<'e> ImuReader<'e> {
-    pub(crate) fn new(experiment: &'e Experiment, plan: &ImuPlan, options: &PipelineOptions) -> Self {
+    pub(crate) fn new(experiment: &'e Experiment, plan: &ImuPlan, options: &SessionOptions) -> Self {
         let sensors = ImuReadOptions {
             accelerometer_unit: (experiment.sensor.unit == ReadingUnit::Counts).then_some(ImuUnit::Counts),
             gyroscope_unit: plan.file_unit,
@@ -46,7 +46,7 @@ impl<'e> ImuReader<'e> {
             Ok(recorded) if source.gyroscope.is_none() && recorded.recording.gyroscope.is_none() => {
                 let message = "the recording has no gyroscope";
                 Err(Error::recording(
-                    InputError::new(Refusal::SensorMissing, message, help).in_file(&source.recording),
+                    InputError::new(Refusal::SensorMissing, message, help).in_file(source.path()),
                 ))
             }
             Err(Error::Recording(input_error))

@@ -4,10 +4,7 @@ use super::duplicates::{Readings, are_the_same};
 use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
-use calibrant_io::{
-    FileFormat, Finding, ImuFile, ImuReadOptions, Input, Origin, USUAL_RATE_SD_PPM, UtcTime, read_imu_pair,
-    read_imu_recording,
-};
+use calibrant_io::{FileFormat, Finding, ImuFile, ImuReadOptions, Input, Origin, USUAL_RATE_SD_PPM, UtcTime};
 use std::path::Path;
 
 /// The samples of one sensor or of both, and where they come from.
@@ -33,18 +30,15 @@ const PAUSE_S: f64 = 60.0;
 impl Recorded {
     /// Reads an accelerometer alone.
     pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
-        let ImuFile { recording, findings, sha256, counted_from_ns, .. } =
-            read_imu_recording(&source.recording, options)?;
+        let ImuFile { recording, findings, sha256, counted_from_ns, .. } = source.recording.read(options)?;
         let (format, rate_sd, joined) = (None, 0.0, Vec::new());
         Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
     }
 
     /// Reads an IMU from its file or its two files.
     pub(crate) fn imu_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
-        let ImuFile { recording, format, findings, sha256, counted_from_ns, .. } = match &source.gyroscope {
-            Some(gyroscope) => read_imu_pair(&source.recording, gyroscope, options),
-            None => read_imu_recording(&source.recording, options),
-        }?;
+        let ImuFile { recording, format, findings, sha256, counted_from_ns, .. } =
+            source.read_imu(options)?;
         let rate_sd = match findings.iter().any(Finding::is_nominal_rate) {
             true => 1e-6 * options.rate_sd_ppm.unwrap_or(USUAL_RATE_SD_PPM),
             false => 0.0,
@@ -115,7 +109,7 @@ impl Recorded {
             return self.joined.clone();
         }
         let sensors = SensorKind::ALL.map(|sensor_kind| self.recording.sensor(sensor_kind));
-        let files = source.files().zip(&self.sha256).zip(sensors);
+        let files = source.paths().zip(&self.sha256).zip(sensors);
         files.map(|((path, sha256), readings)| Input::of(path, sha256, readings)).collect()
     }
 }

@@ -17,7 +17,7 @@
 //! A simulated accelerometer that is held still in 24 orientations:
 //! ```
 //! use calibrant::io::{Experiment, preset, write_recording};
-//! use calibrant::pipeline::{Pipeline, PipelineOptions, Source};
+//! use calibrant::session::{Session, Source};
 //! use calibrant::sensor::{ReadingUnit, SensorParameters};
 //! use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 //! use nalgebra::Vector3;
@@ -31,8 +31,8 @@
 //! write_recording(&file, &recording)?;
 //!
 //! let experiment = Experiment::parse(preset("static-poses").expect("it exists"), None)?;
-//! let pipeline = Pipeline::from_experiment(&experiment, PipelineOptions::default())?;
-//! let outcome = pipeline.run(&Source::from_file(&file))?;
+//! let session = Session::from_experiment(&experiment, SessionOptions::default())?;
+//! let outcome = session.run(&Source::from_file(&file))?;
 //! outcome.write(directory.path())?;
 //!
 //! let calibration = outcome.calibration().expect("of holds");
@@ -51,17 +51,19 @@ mod kind;
 mod machine;
 mod machine_datasheet;
 mod machine_log;
+mod motion_source;
 mod noise;
 mod note;
 mod options;
 mod outcome;
+mod prepared;
 mod problem;
 mod read_imu;
 mod reader;
 mod recorded;
 mod report;
-mod run;
 mod sections;
+mod session;
 mod setup;
 mod source;
 mod task;
@@ -69,9 +71,10 @@ mod temperature;
 mod validation;
 
 pub use calibrated::{Calibrated, MachineOutcome};
+pub use motion_source::MotionSource;
 pub use note::Note;
-pub use options::PipelineOptions;
+pub use options::SessionOptions;
 pub use outcome::Outcome;
-pub use run::Pipeline;
-pub use source::Source;
+pub use session::Session;
+pub use source::{Readings, SectionList, Source};
 pub use temperature::extrapolation_in_words;

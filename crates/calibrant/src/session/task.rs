@@ -5,7 +5,7 @@ use super::duplicates::refuse_duplicate;
 use super::kind::Kind;
 use super::noise::NoiseInHold;
 use super::note::Note;
-use super::options::PipelineOptions;
+use super::options::SessionOptions;
 use super::outcome::Outcome;
 use super::reader::Reader;
 use super::recorded::Recorded;
@@ -30,37 +30,32 @@ pub(crate) struct Task<'e> {
 }
 
 impl<'e> Task<'e> {
-    /// Reads what all recordings need.
-    pub(crate) fn new(
-        experiment: &'e Experiment,
-        options: &PipelineOptions,
-        notes: &mut Vec<Note>,
-    ) -> Result<Self> {
-        Ok(Self {
+    pub(crate) fn new(experiment: &'e Experiment, kind: Kind<'e>, options: &SessionOptions) -> Self {
+        Self {
             accelerometer: &experiment.sensor,
-            kind: Kind::of(experiment, options, notes)?,
+            kind,
             reader: Reader::of(experiment, options),
             settings: CalibrationSettings {
                 datasheet_prior: experiment.imu.is_none() && experiment.calibrate.prior == Prior::Datasheet,
                 ..CalibrationSettings::default()
             },
-        })
+        }
     }
 
     /// Calibrates from one recording.
     pub(crate) fn run(
         &self,
         source: &Source,
-        options: &PipelineOptions,
+        options: &SessionOptions,
         notes: &mut Vec<Note>,
     ) -> Result<Outcome> {
         let mut recorded = self.reader.read(source)?;
         notes.extend(Note::of_findings(&recorded.findings, source));
-        for path in &source.further {
-            let further = Source::from_file(path);
+        for readings in &source.further {
+            let further = Source::new(readings.clone());
             let read = self.reader.read(&further)?;
             notes.extend(Note::of_findings(&read.findings, &further));
-            recorded.join(read, source, path)?;
+            recorded.join(read, source, readings.path())?;
         }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_rate_sd(recorded.rate_sd);
@@ -107,12 +102,12 @@ impl<'e> Task<'e> {
     ) -> Result<(Calibration, NoiseInHold)> {
         let problem = setup.problem(self.accelerometer, recorded)?;
         let (calibration, noise) = problem.calibrate(&self.settings, report);
-        Ok((calibration.map_err(|error| error.in_recording(&source.recording))?, noise))
+        Ok((calibration.map_err(|error| error.in_recording(source.path()))?, noise))
     }
 
     fn validations(
         &self,
-        options: &PipelineOptions,
+        options: &SessionOptions,
         calibration: &Calibration,
         (recorded, setup): (&Recorded, &Setup<'_>),
         notes: &mut Vec<Note>,
@@ -137,7 +132,7 @@ impl<'e> Task<'e> {
         source: &Source,
         notes: &mut Vec<Note>,
     ) -> Result<Validation> {
-        let path = source.recording.as_path();
+        let path = source.path();
         let warning = |words: String| Note::Warning(format!("{}: {words}", file_name(path)));
         let mut other = self.reader.read_other(source, calibration.sensor_kinds())?;
         notes.extend(Note::of_findings(&other.findings, source));
@@ -146,7 +141,7 @@ impl<'e> Task<'e> {
         notes.extend(outliers.iter().map(|found| warning(message(found))));
         for &sensor_kind in calibration.sensor_kinds() {
             let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
-            refuse_duplicate(sensor_kind, &one, &two, source.file_of(sensor_kind))?;
+            refuse_duplicate(sensor_kind, &one, &two, source.path_of(sensor_kind))?;
         }
         let problem = setup.problem(self.accelerometer, &other)?;
         let mut validation = problem.validate(calibration).map_err(|error| error.in_recording(path))?;

@@ -6,19 +6,18 @@ use super::duplicates::refuse_duplicate;
 use super::machine_datasheet::beyond_datasheets;
 use super::machine_log::LogFile;
 use super::note::Note;
-use super::options::PipelineOptions;
+use super::options::SessionOptions;
 use super::outcome::Outcome;
+use super::prepared::log_options;
 use super::reader::Reader;
 use super::recorded::Recorded;
 use super::report::about;
 use super::source::Source;
 use super::validation::unless_too_few;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{
-    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, Sensor, SensorKind, SensorModel,
-};
-use calibrant_io::{Experiment, ImuPlan, MachineLogInput, MachinePlan, ReferenceLogOptions, file_name};
+use calibrant_core::error::Result;
+use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind};
+use calibrant_io::{Experiment, MachineLogInput, MachinePlan, file_name};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MachineValidation,
@@ -26,17 +25,14 @@ use calibrant_machine::estimate::{
     cross_validate_on_machine,
 };
 use calibrant_machine::log::ReferenceLog;
-use nalgebra::{Matrix3, Vector3};
 
 /// What all recordings on a machine share.
 pub(crate) struct MachineTask<'e> {
-    accelerometer: &'e Sensor,
-    imu: Option<&'e ImuPlan>,
+    experiment: &'e Experiment,
     plan: &'e MachinePlan,
-    chain: Option<KinematicChain>,
+    chain: Option<&'e KinematicChain>,
     /// The log that the options name. Without it, each recording's file has one.
-    log: Option<LogFile>,
-    log_options: ReferenceLogOptions,
+    log: Option<&'e LogFile>,
     reader: Reader<'e>,
 }
 
@@ -48,44 +44,37 @@ struct Moved {
     log_input: MachineLogInput,
 }
 
-fn calibrated(problem: &MachineProblem<'_>, source: &Source) -> Result<MachineCalibration> {
-    calibrate_on_machine(problem, &MachineSettings::default())
-        .map_err(|error| error.in_recording(&source.recording))
+fn calibrated(
+    problem: &MachineProblem<'_>,
+    settings: &MachineSettings,
+    source: &Source,
+) -> Result<MachineCalibration> {
+    calibrate_on_machine(problem, settings).map_err(|error| error.in_recording(source.path()))
 }
 
 impl<'e> MachineTask<'e> {
-    /// Reads the machine, and the log that the options name.
     pub(crate) fn new(
         experiment: &'e Experiment,
         plan: &'e MachinePlan,
-        options: &PipelineOptions,
-        notes: &mut Vec<Note>,
-    ) -> Result<Self> {
-        let log_options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
-        let motion = options.motion.as_deref();
-        Ok(Self {
-            accelerometer: &experiment.sensor,
-            imu: experiment.imu.as_ref(),
-            plan,
-            chain: plan.source.as_ref().map(|source| source.chain()).transpose()?,
-            log: motion.map(|path| LogFile::read(path, &log_options, notes)).transpose()?,
-            log_options,
-            reader: Reader::of(experiment, options),
-        })
+        (chain, log): (Option<&'e KinematicChain>, Option<&'e LogFile>),
+        options: &SessionOptions,
+    ) -> Self {
+        Self { experiment, plan, chain, log, reader: Reader::of(experiment, options) }
     }
 
     /// Calibrates from one recording.
     pub(crate) fn run(
         &self,
         source: &Source,
-        options: &PipelineOptions,
+        options: &SessionOptions,
         notes: &mut Vec<Note>,
     ) -> Result<Outcome> {
         let recorded = self.reader.read(source)?;
         let setup = self.setup();
-        let moved = self.moved(source, recorded, (self.log.as_ref(), "--motion"), notes)?;
-        let nominal = self.nominal()?;
-        let quantities = self.quantities(&moved.recorded.recording);
+        let moved = self.moved(source, recorded, (self.log, "--motion"), notes)?;
+        let nominal = self.experiment.nominal()?;
+        let quantities = self.experiment.quantities(&moved.recorded.recording);
+        let settings = &options.machine_settings();
         let problem = self.problem(&moved, &setup, &nominal, &quantities);
         // what is wrong with the options is said before the calibration takes its time
         if let Some(folds) = options.folds {
@@ -94,26 +83,26 @@ impl<'e> MachineTask<'e> {
         let other = (options.validate.as_ref())
             .map(|other| self.other(other, options, &moved, notes).map(|second| (other, second)))
             .transpose()?;
-        let mut calibration = calibrated(&problem, source)?;
+        let mut calibration = calibrated(&problem, settings, source)?;
         calibration.warnings.splice(0..0, moved.outliers.iter().cloned());
-        let beyond = beyond_datasheets(self.accelerometer, self.imu, &calibration);
+        let Experiment { sensor: accelerometer, imu, .. } = self.experiment;
+        let beyond = beyond_datasheets(accelerometer, imu.as_ref(), &calibration);
         calibration.warnings.extend(beyond);
         let mut validations = Vec::new();
         if let Some((other, second)) = &other {
-            let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), other)?;
-            let name = file_name(&other.recording);
+            let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), settings, other)?;
+            let name = file_name(other.path());
             let source = MachineValidationSource::Recording { name };
             validations
                 .push(MachineValidation { source, ..compare_on_machine(&calibration, &second, &setup) });
         }
         if let Some(folds) = options.folds {
-            let outcome =
-                cross_validate_on_machine(&problem, &calibration, &MachineSettings::default(), folds);
+            let outcome = cross_validate_on_machine(&problem, &calibration, settings, folds);
             validations.extend(unless_too_few(outcome, notes)?);
         }
         let Moved { recorded, log_input, .. } = moved;
         let origin = recorded.origin(source);
-        let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
+        let what = if imu.is_none() { "an accelerometer" } else { "an IMU" };
         let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
         let about = about(&format!("{what} on a machine"), facts, &recorded, &origin.inputs, options);
         let outcome = MachineOutcome { calibration, setup, log: log_input, validations };
@@ -134,8 +123,8 @@ impl<'e> MachineTask<'e> {
 
     /// What is known beforehand.
     fn setup(&self) -> MachineSetup {
-        let joints = self.chain.as_ref().map_or(0, |chain| chain.joints.len());
-        self.plan.setup(self.accelerometer, self.imu, joints)
+        let joints = self.chain.map_or(0, |chain| chain.joints.len());
+        self.plan.setup(&self.experiment.sensor, self.experiment.imu.as_ref(), joints)
     }
 
     /// A recording beside its log: the given one, or that in its own file. An option gives it.
@@ -152,11 +141,11 @@ impl<'e> MachineTask<'e> {
         let log = match log {
             Some(log) => log,
             None => {
-                beside = LogFile::read_beside(&source.recording, &self.log_options, option, notes)?;
+                beside = LogFile::read_beside(&source.recording, &log_options(self.plan), option, notes)?;
                 &beside
             }
         };
-        let (log, log_input) = log.for_recording(self.chain.as_ref(), recorded.counted_from_ns, notes)?;
+        let (log, log_input) = log.for_recording(self.chain, recorded.counted_from_ns, notes)?;
         Ok(Moved { recorded, outliers, log, log_input })
     }
 
@@ -164,12 +153,12 @@ impl<'e> MachineTask<'e> {
     fn other(
         &self,
         other: &Source,
-        options: &PipelineOptions,
+        options: &SessionOptions,
         moved: &Moved,
         notes: &mut Vec<Note>,
     ) -> Result<Moved> {
-        let log = options.validate_motion.as_deref();
-        let log = log.map(|path| LogFile::read(path, &self.log_options, notes)).transpose()?;
+        let log = options.validate_motion.as_ref();
+        let log = log.map(|log| LogFile::read(log, &log_options(self.plan), notes)).transpose()?;
         let calibrated: Vec<_> = (SensorKind::ALL.into_iter())
             .filter(|sensor_kind| moved.recorded.recording.sensor(*sensor_kind).is_some())
             .collect();
@@ -177,7 +166,7 @@ impl<'e> MachineTask<'e> {
         let second = self.moved(other, read, (log.as_ref(), "--validate-motion"), notes)?;
         for sensor_kind in calibrated {
             let [one, two] = [moved, &second].map(|of| of.recorded.readings(sensor_kind));
-            refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
+            refuse_duplicate(sensor_kind, &one, &two, other.path_of(sensor_kind))?;
         }
         Ok(second)
     }
@@ -192,51 +181,10 @@ impl<'e> MachineTask<'e> {
         MachineProblem {
             recording: &moved.recorded.recording,
             log: &moved.log,
-            chain: self.chain.as_ref(),
+            chain: self.chain,
             setup,
             nominal,
             quantities,
         }
-    }
-
-    /// The sensors of the datasheets, where the search begins.
-    fn nominal(&self) -> Result<ImuParameters> {
-        let missing = |key: &str| {
-            let message = "counts need a nominal gain on a machine: the search begins with it";
-            Error::experiment(InputError::new(Refusal::KeyMissing, message, "add it").about_key(key))
-        };
-        let mut nominal = ImuParameters::identity();
-        let Sensor { gain, offset, .. } = self.accelerometer;
-        let gain = gain.ok_or_else(|| missing("sensor.gain_counts_per_mps2"))?;
-        nominal.accelerometer.matrix = Matrix3::from_diagonal(&gain);
-        nominal.accelerometer.bias = offset.unwrap_or_default();
-        if let Some(gyroscope) = self.imu.map(|imu| &imu.gyroscope) {
-            let in_si = gyroscope.unit == SensorKind::Gyroscope.stimulus_unit();
-            let gain = gyroscope.gain.or(in_si.then(|| Vector3::repeat(1.0)));
-            let gain = gain.ok_or_else(|| missing("gyroscope.gain_counts_per_radps"))?;
-            nominal.gyroscope.matrix = Matrix3::from_diagonal(&gain);
-        }
-        Ok(nominal)
-    }
-
-    /// The parameters of the sensors that were recorded.
-    fn quantities(&self, recording: &ImuRecording) -> Vec<ImuQuantity> {
-        let of = |kind: SensorKind, model: SensorModel| {
-            let list = ParameterList::new(3, model);
-            let quantities = list.quantities().iter().map(|quantity| ImuQuantity::Of(kind, *quantity));
-            quantities.collect::<Vec<_>>()
-        };
-        let mut quantities = Vec::new();
-        if recording.accelerometer.is_some() {
-            quantities.extend(of(SensorKind::Accelerometer, self.accelerometer.model));
-        }
-        if let (Some(imu), Some(_)) = (self.imu, &recording.gyroscope) {
-            quantities.extend(of(SensorKind::Gyroscope, imu.gyroscope.model));
-            if imu.gyroscope.g_sensitivity {
-                let entries = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));
-                quantities.extend(entries.map(|(row, column)| ImuQuantity::GSensitivity(row, column)));
-            }
-        }
-        quantities
     }
 }

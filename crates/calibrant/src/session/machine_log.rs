@@ -1,14 +1,14 @@
 //! The log of a machine's motion: its joints in the order of the chain, or its poses.
 
+use super::motion_source::MotionSource;
 use super::note::Note;
+use super::source::Readings;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_io::{
-    MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log, read_reference_log,
-};
+use calibrant_io::{MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::log::{ReferenceLog, recover_interpolated};
 use calibrant_report::number_format::{counted, significant};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A log as its file holds it.
 pub(crate) struct LogFile {
@@ -18,8 +18,12 @@ pub(crate) struct LogFile {
 
 impl LogFile {
     /// Reads a log.
-    pub(crate) fn read(path: &Path, options: &ReferenceLogOptions, notes: &mut Vec<Note>) -> Result<Self> {
-        let file = read_reference_log(path, options)?;
+    pub(crate) fn read(
+        source: &MotionSource,
+        options: &ReferenceLogOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Self> {
+        let (file, path) = (source.logged(options)?, source.path());
         notes.extend(
             file.findings
                 .iter()
@@ -30,13 +34,13 @@ impl LogFile {
 
     /// Reads the log that lies in the file of the recording, as in a bag. Where it does not, the `option` names a file.
     pub(crate) fn read_beside(
-        recording: &Path,
+        recording: &Readings,
         options: &ReferenceLogOptions,
         option: &str,
         notes: &mut Vec<Note>,
     ) -> Result<Self> {
-        if is_reference_log(recording, options) {
-            return Self::read(recording, options, notes);
+        if recording.is_file() && is_reference_log(recording.path(), options) {
+            return Self::read(&MotionSource::File(recording.path().into()), options, notes);
         }
         Err(Error::experiment(InputError::new(
             Refusal::KeyMissing,

@@ -1,6 +1,6 @@
 //! The head of a report: where the calibration comes from.
 
-use super::options::PipelineOptions;
+use super::options::SessionOptions;
 use super::recorded::Recorded;
 use calibrant_io::Input;
 use calibrant_report::About;
@@ -12,7 +12,7 @@ pub(crate) fn about(
     further: impl IntoIterator<Item = (&'static str, String)>,
     recorded: &Recorded,
     inputs: &[Input],
-    options: &PipelineOptions,
+    options: &SessionOptions,
 ) -> About {
     let files = joined(inputs, |input| input.file.clone());
     let mut facts = vec![

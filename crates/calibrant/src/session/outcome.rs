@@ -32,8 +32,8 @@ pub struct Outcome {
     pub limits: Vec<CheckedLimit>,
     /// Codes of what the reader noticed in the recording.
     pub(crate) findings: Vec<Code>,
-    /// The recording without outliers.
-    pub(crate) recording: ImuRecording,
+    /// The recording, cleaned: without spikes and invalid readings.
+    pub recording: ImuRecording,
     /// Diagnostics that the files mark as allowed.
     pub(crate) allowed: Vec<Code>,
     /// What a sheet says beside the calibration.
@@ -105,7 +105,8 @@ impl Outcome {
     /// # Errors
     /// [`Error::Output`](crate::Error::Output) where a file cannot be written.
     pub fn write(&self, directory: &Path) -> Result<()> {
-        let (json, report) = rayon::join(|| self.write_json(directory), || self.report_html());
+        let (json, report) =
+            rayon::join(|| self.write_json(directory), || self.with_page.then(|| self.report_html()));
         json?;
         match report {
             Some(html) => {
@@ -152,8 +153,9 @@ impl Outcome {
         }
     }
 
-    /// The text of `report.html`, where one is written.
-    fn report_html(&self) -> Option<String> {
-        self.with_page.then(|| self.sheet().html())
+    /// The text of `report.html`.
+    #[must_use]
+    pub fn report_html(&self) -> String {
+        self.sheet().html()
     }
 }

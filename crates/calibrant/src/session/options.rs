@@ -1,24 +1,28 @@
-//! What the caller of a pipeline chooses, for all recordings.
+//! What the caller of a session chooses, for all recordings.
 
+use super::motion_source::MotionSource;
 use super::source::Source;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Code;
+use calibrant_core::interruption::Interruption;
+use calibrant_core::progress::Progress;
 use calibrant_io::{ImuReadOptions, SensorNaming};
+use calibrant_machine::estimate::MachineSettings;
 use std::path::PathBuf;
 
-/// What is said of all recordings of a pipeline beside the experiment.
+/// What is said of all recordings of a session beside the experiment.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PipelineOptions {
+pub struct SessionOptions {
     /// The experiment file, as the report and errors name it.
     pub experiment_file: PathBuf,
-    /// The commanded motion; a `[motion]` experiment needs one.
-    pub motion: Option<PathBuf>,
+    /// The commanded motion, which a `[motion]` experiment needs, or the log of a machine's motion.
+    pub motion: Option<MotionSource>,
     /// What the recordings' files do not say themselves. It counts before `[columns]` of the experiment.
     pub reading: ImuReadOptions,
     /// Another recording of the sensor, on which the calibration is tried.
     pub validate: Option<Source>,
     /// The log of the machine's motion in that recording; on a machine it needs one, or has it in its own file.
-    pub validate_motion: Option<PathBuf>,
+    pub validate_motion: Option<MotionSource>,
     /// Number of blocks of holds (on a machine: of time), each predicted by a calibration from the others.
     pub folds: Option<usize>,
     /// The limits that a result must keep; `None`: those of the experiment.
@@ -29,9 +33,21 @@ pub struct PipelineOptions {
     pub naming: SensorNaming,
     /// Is `report.html` written?
     pub report: bool,
+    /// Ends a calibration on a machine without a result.
+    pub interruption: Interruption,
+    /// Is told how far a calibration on a machine is.
+    pub progress: Progress,
 }
 
-impl Default for PipelineOptions {
+impl SessionOptions {
+    /// How a calibration on a machine is solved.
+    pub(crate) fn machine_settings(&self) -> MachineSettings {
+        let (interruption, progress) = (self.interruption.clone(), self.progress.clone());
+        MachineSettings { interruption, progress, ..MachineSettings::default() }
+    }
+}
+
+impl Default for SessionOptions {
     fn default() -> Self {
         Self {
             experiment_file: PathBuf::new(),
@@ -44,6 +60,8 @@ impl Default for PipelineOptions {
             allowed: Vec::new(),
             naming: SensorNaming::default(),
             report: true,
+            interruption: Interruption::default(),
+            progress: Progress::default(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Reads the recordings of an experiment, whatever the sensors.
 
-use super::options::PipelineOptions;
+use super::options::SessionOptions;
 use super::read_imu::ImuReader;
 use super::recorded::Recorded;
 use super::source::Source;
@@ -17,7 +17,7 @@ pub(crate) enum Reader<'e> {
 }
 
 impl<'e> Reader<'e> {
-    pub(crate) fn of(experiment: &'e Experiment, options: &PipelineOptions) -> Self {
+    pub(crate) fn of(experiment: &'e Experiment, options: &SessionOptions) -> Self {
         match &experiment.imu {
             Some(plan) => Self::Imu(Box::new(ImuReader::new(experiment, plan, options))),
             None => {

@@ -1,4 +1,4 @@
-//! The pipeline gives what its stages give one by one, and writes it.
+//! The session gives what its stages give one by one, and writes it.
 
 use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{
@@ -7,8 +7,8 @@ use calibrant::estimate::{
 };
 use calibrant::io::{Experiment, preset, write_imu_recording, write_motion, write_recording};
 use calibrant::motion::{CommandedMotion, Gravity, KnownEnds, Limits, Trust};
-use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use calibrant::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::session::{MotionSource, Note, Outcome, Session, SessionOptions, Source};
 use calibrant::simulate::{
     HoldsSimulation, ImuSimulation, Purpose, draw_sensor, initial_motion, sample_times, simulate_holds,
     simulate_imu, simulate_recording, stream,
@@ -22,8 +22,8 @@ fn experiment(name: &str) -> Experiment {
     Experiment::parse(preset(name).expect("a preset"), None).expect("valid")
 }
 
-fn run(experiment: &Experiment, options: PipelineOptions, file: &Path) -> calibrant::Result<Outcome> {
-    Pipeline::from_experiment(experiment, options)?.run(&Source::from_file(file))
+fn run(experiment: &Experiment, options: SessionOptions, file: &Path) -> calibrant::Result<Outcome> {
+    Session::with(experiment.clone(), options)?.calibrate(&Source::from_file(file))
 }
 
 /// An accelerometer held still in 24 orientations.
@@ -52,10 +52,10 @@ fn an_accelerometer_is_calibrated_from_holds_and_validated() {
     write_recording(&path("other.csv"), &held(2)).expect("written");
 
     let experiment = experiment("static-poses");
-    let options = PipelineOptions {
+    let options = SessionOptions {
         validate: Some(Source::from_file(path("other.csv"))),
         folds: Some(4),
-        ..PipelineOptions::default()
+        ..SessionOptions::default()
     };
     let outcome = run(&experiment, options, &path("one.csv")).expect("calibrated");
     let calibration = outcome.calibration().expect("of sensors");
@@ -101,13 +101,16 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     write_recording(&path("recording.csv"), &recording).expect("written");
     write_motion(&path("motion.csv"), &motion, 3).expect("written");
 
-    let without = run(&experiment, PipelineOptions::default(), &path("recording.csv"));
+    let without = run(&experiment, SessionOptions::default(), &path("recording.csv"));
     assert!(without.expect_err("no motion").is_invalid_experiment());
-    let options =
-        PipelineOptions { motion: Some(path("motion.csv")), report: false, ..PipelineOptions::default() };
-    let pipeline = Pipeline::from_experiment(&experiment, options).expect("prepared");
-    assert!(matches!(pipeline.notes(), [Note::Remark(words)] if words.contains("12 intervals")));
-    let outcome = pipeline.run(&Source::from_file(path("recording.csv"))).expect("calibrated");
+    let options = SessionOptions {
+        motion: Some(path("motion.csv").into()),
+        report: false,
+        ..SessionOptions::default()
+    };
+    let session = Session::with(experiment.clone(), options).expect("prepared");
+    assert!(matches!(session.notes(), [Note::Remark(words)] if words.contains("12 intervals")));
+    let outcome = session.calibrate(&Source::from_file(path("recording.csv"))).expect("calibrated");
     let calibration = outcome.calibration().expect("of sensors");
 
     let command =
@@ -118,6 +121,16 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     assert_eq!(calibration.covariance, expected.covariance);
     outcome.write(directory.path()).expect("written");
     assert!(path("calibration.json").exists() && !path("report.html").exists());
+
+    // motion and recording in memory give the same
+    let options = SessionOptions {
+        motion: Some(MotionSource::Commanded(command.motion.clone())),
+        ..SessionOptions::default()
+    };
+    let in_memory = Session::with(experiment.clone(), options).expect("prepared");
+    let in_memory = in_memory.calibrate(&Source::from_recording("recording", recording)).expect("calibrated");
+    assert_eq!(in_memory.calibration().expect("of sensors").values, expected.values);
+    assert_eq!(in_memory.origin.motion.as_ref().map(|motion| motion.sha256.len()), Some(64));
 }
 
 /// A whole IMU by hand.
@@ -136,9 +149,9 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
     write_imu_recording(&path("other.csv"), &imu_recording(2)).expect("written");
 
     let experiment = experiment("imu");
-    let on = |name: &str| PipelineOptions {
+    let on = |name: &str| SessionOptions {
         validate: Some(Source::from_file(path(name))),
-        ..PipelineOptions::default()
+        ..SessionOptions::default()
     };
     let outcome = run(&experiment, on("other.csv"), &path("one.csv")).expect("calibrated");
     let calibration = outcome.calibration().expect("of sensors");
@@ -183,9 +196,9 @@ fn notes_are_there_where_the_run_fails() {
     recording.accelerometer.iter_mut().chain(&mut recording.gyroscope).for_each(few);
     write_imu_recording(&file, &recording).expect("written");
     let experiment = experiment("imu");
-    let pipeline = Pipeline::from_experiment(&experiment, PipelineOptions::default()).expect("prepared");
+    let session = Session::with(experiment.clone(), SessionOptions::default()).expect("prepared");
     let mut notes = Vec::new();
-    let outcome = pipeline.run_noting(&Source::from_file(&file), &mut notes);
+    let outcome = session.calibrate_noting(&Source::from_file(&file), &mut notes);
     assert!(outcome.expect_err("too few holds").is_not_identifiable());
     assert!(matches!(notes.as_slice(), [Note::Finding { file, .. }] if file == "recording.csv"), "{notes:?}");
 }

@@ -5,7 +5,7 @@ use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{ImuSetup, Turn};
 use calibrant_core::sensor::ImuRecording;
-use calibrant_io::{HoldsPlan, ImuPlan, Section, SectionKind, read_sections};
+use calibrant_io::{HoldsPlan, ImuPlan, Section, SectionKind};
 
 /// The setup of this recording.
 pub(crate) fn setup_of(
@@ -16,9 +16,9 @@ pub(crate) fn setup_of(
     notes: &mut Vec<Note>,
 ) -> Result<ImuSetup> {
     let mut setup = plan.setup(holds);
-    if let Some(path) = &source.sections {
+    if let Some(list) = &source.sections {
         let times = recording.accelerometer.as_ref().map_or(&[][..], |recording| recording.times_s());
-        let sections = read_sections(path)?;
+        let (sections, path) = list.read()?;
         if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
             let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());
             let input_error = InputError::new(

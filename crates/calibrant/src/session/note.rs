@@ -1,4 +1,4 @@
-//! What a pipeline notices on its way.
+//! What a session notices on its way.
 
 use super::source::Source;
 use calibrant_io::Finding;

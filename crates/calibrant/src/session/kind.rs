@@ -1,0 +1,65 @@
+//! The kinds of calibrations: what an experiment says of the motion in every recording.
+
+use super::note::Note;
+use super::sections::{setup_of, unused_face_sd};
+use super::setup::{Faces, Setup};
+use super::source::Source;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::error::Result;
+use calibrant_core::motion::CommandedMotion;
+use calibrant_core::sensor::ImuRecording;
+use calibrant_io::{HoldsPlan, ImuPlan};
+
+/// A kind of calibration.
+pub(crate) enum Kind<'e> {
+    /// An accelerometer on a commanded motion.
+    Motion(&'e CommandedMotion),
+    /// An accelerometer that is held still.
+    Holds(&'e HoldsPlan),
+    /// An IMU that is held still and turned.
+    Imu(&'e ImuPlan, &'e HoldsPlan),
+}
+
+impl<'e> Kind<'e> {
+    /// That of a sensor which is held still.
+    pub(crate) fn held(holds: &'e HoldsPlan, imu: Option<&'e ImuPlan>) -> Self {
+        imu.map_or(Self::Holds(holds), |imu| Self::Imu(imu, holds))
+    }
+
+    /// What the recording lacks of this kind.
+    pub(crate) fn missing(&self, recording: &ImuRecording) -> Vec<Diagnostic> {
+        let without = matches!(self, Self::Imu(..)) && recording.gyroscope.is_none();
+        without.then_some(Diagnostic::GyroscopeMissing {}).into_iter().collect()
+    }
+
+    /// What is known of one recording.
+    pub(crate) fn setup(
+        &self,
+        source: &Source,
+        recording: &ImuRecording,
+        notes: &mut Vec<Note>,
+    ) -> Result<Setup<'e>> {
+        Ok(match self {
+            Self::Motion(command) => Setup::Motion((*command).clone()),
+            Self::Holds(plan) => held(plan, notes),
+            // it cannot be lost unnoticed: the calibration gets a diagnostic
+            Self::Imu(_, plan) if recording.gyroscope.is_none() => held(plan, notes),
+            Self::Imu(plan, holds) => {
+                Setup::Imu(&plan.gyroscope, Box::new(setup_of(plan, holds, source, recording, notes)?))
+            }
+        })
+    }
+}
+
+/// An accelerometer that is held still.
+fn held<'e>(plan: &'e HoldsPlan, notes: &mut Vec<Note>) -> Setup<'e> {
+    match &plan.directions {
+        Some(directions) => {
+            Setup::Faces(Faces { holds: plan.setup(), directions, face_sd_rad: plan.face_sd_rad })
+        }
+        None => {
+            notes.extend(unused_face_sd(plan.face_sd_rad));
+            Setup::Holds(plan.setup())
+        }
+    }
+}

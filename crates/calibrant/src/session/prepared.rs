@@ -1,0 +1,79 @@
+//! What all recordings of a session share beside the experiment: the commanded motion, or the machine and its log.
+
+use super::machine_log::LogFile;
+use super::note::Note;
+use super::options::SessionOptions;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::motion::CommandedMotion;
+use calibrant_io::{Experiment, MachinePlan, MotionPlan, Plan, ReferenceLogOptions};
+use calibrant_machine::chain::KinematicChain;
+
+/// What is read once.
+pub(crate) enum Prepared {
+    /// Nothing: the sensor is held still.
+    Held,
+    /// The commanded motion.
+    Moved(CommandedMotion),
+    /// The machine, and the log that the options name. Without it, each recording's file has one.
+    OnMachine { chain: Option<KinematicChain>, log: Option<LogFile> },
+}
+
+impl Prepared {
+    pub(crate) fn read(
+        experiment: &Experiment,
+        options: &SessionOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Self> {
+        match &experiment.plan {
+            Plan::Motion(plan) if experiment.imu.is_none() => {
+                Ok(Self::Moved(commanded(plan, experiment, options, notes)?))
+            }
+            Plan::Motion(_) => Err(unsuited()),
+            Plan::Holds(_) => Ok(Self::Held),
+            Plan::Machine(plan) => {
+                let log = options.motion.as_ref();
+                Ok(Self::OnMachine {
+                    chain: plan.source.as_ref().map(|source| source.chain()).transpose()?,
+                    log: log.map(|log| LogFile::read(log, &log_options(plan), notes)).transpose()?,
+                })
+            }
+        }
+    }
+}
+
+/// The error about a plan that is not of the sensors.
+pub(crate) fn unsuited() -> Error {
+    let (message, help) = ("an IMU needs [holds]", "see `calibrant init imu`");
+    Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help))
+}
+
+/// How the logs of a machine are read.
+pub(crate) fn log_options(plan: &MachinePlan) -> ReferenceLogOptions {
+    ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() }
+}
+
+/// The commanded motion of a `[motion]` experiment.
+fn commanded(
+    plan: &MotionPlan,
+    experiment: &Experiment,
+    options: &SessionOptions,
+    notes: &mut Vec<Note>,
+) -> Result<CommandedMotion> {
+    let source = options.motion.as_ref().ok_or_else(|| {
+        Error::experiment(InputError::new(
+            Refusal::KeyMissing,
+            "a [motion] experiment needs the commanded motion",
+            "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
+        ))
+    })?;
+    let motion = source.commanded(experiment.sensor.axes)?;
+    if motion.intervals() != plan.intervals {
+        notes.push(Note::Remark(format!(
+            "{} has {} intervals, the experiment file {}: the former counts",
+            source.path().display(),
+            motion.intervals(),
+            plan.intervals
+        )));
+    }
+    Ok(plan.command(motion))
+}

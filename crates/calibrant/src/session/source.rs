@@ -1,0 +1,175 @@
+//! Where a recording is: in files, or in memory.
+
+use calibrant_core::error::Result;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
+use calibrant_io::{
+    ImuFile, ImuReadOptions, Section, file_name, imu_from_columns, imu_pair_of, read_imu_pair,
+    read_imu_recording, read_sections,
+};
+use std::path::{Path, PathBuf};
+
+/// The readings of a recording: a file of any format, a table of columns, or a recording that is made already.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Readings {
+    path: PathBuf,
+    content: Content,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Content {
+    File,
+    Columns(Vec<(String, Vec<f64>)>),
+    Recording(Box<ImuRecording>),
+}
+
+impl Readings {
+    /// A file.
+    #[must_use]
+    pub fn file(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into(), content: Content::File }
+    }
+
+    /// A table in memory, as [`imu_from_columns`] takes it. Results and errors call it by this name, as they would a file.
+    #[must_use]
+    pub fn columns(name: impl Into<PathBuf>, columns: &[(&str, &[f64])]) -> Self {
+        let columns = columns.iter().map(|(name, values)| ((*name).to_owned(), values.to_vec()));
+        Self { path: name.into(), content: Content::Columns(columns.collect()) }
+    }
+
+    /// A recording that was made, or read, elsewhere. Results and errors call it by this name, as they would a file.
+    #[must_use]
+    pub fn recording(name: impl Into<PathBuf>, recording: impl Into<ImuRecording>) -> Self {
+        Self { path: name.into(), content: Content::Recording(Box::new(recording.into())) }
+    }
+
+    /// The path of the file, or the name of what is in memory.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Is it in a file?
+    #[must_use]
+    pub fn is_file(&self) -> bool {
+        self.content == Content::File
+    }
+
+    /// Reads it, with the options of a file.
+    pub(crate) fn read(&self, options: &ImuReadOptions) -> Result<ImuFile> {
+        match &self.content {
+            Content::File => read_imu_recording(&self.path, options),
+            Content::Columns(columns) => {
+                let columns: Vec<(&str, &[f64])> =
+                    columns.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
+                imu_from_columns(&columns, options).map_err(|error| error.in_recording(&self.path))
+            }
+            Content::Recording(recording) => Ok(ImuFile::of_recording(match options.accelerometer_only {
+                None => recording.as_ref().clone(),
+                Some(only) => {
+                    let accelerometer = recording.accelerometer.clone();
+                    let accelerometer = accelerometer.map(|recording| recording.with_axes(only.axes));
+                    ImuRecording { accelerometer, gyroscope: None, ..recording.as_ref().clone() }
+                }
+            })),
+        }
+    }
+}
+
+impl<P: Into<PathBuf>> From<P> for Readings {
+    fn from(path: P) -> Self {
+        Self::file(path)
+    }
+}
+
+/// The sections of a Ferraris session: faces and turns.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SectionList {
+    /// In a file, as imucal writes it.
+    File(PathBuf),
+    /// In memory.
+    InMemory(Vec<Section>),
+}
+
+impl SectionList {
+    /// The list, and what errors call it.
+    pub(crate) fn read(&self) -> Result<(Vec<Section>, &Path)> {
+        match self {
+            Self::File(path) => Ok((read_sections(path)?, path)),
+            Self::InMemory(sections) => Ok((sections.clone(), Path::new("sections"))),
+        }
+    }
+}
+
+/// A recording: one for both sensors of an IMU or for an accelerometer, or one for each sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Source {
+    /// The recording, or the accelerometer's of a pair.
+    pub recording: Readings,
+    /// The gyroscope's of a pair.
+    pub gyroscope: Option<Readings>,
+    /// The sections of a Ferraris session: faces and turns.
+    pub sections: Option<SectionList>,
+    /// Further recordings of the same accelerometer, which are calibrated together with the first.
+    pub further: Vec<Readings>,
+}
+
+impl Source {
+    /// A recording in one piece.
+    #[must_use]
+    pub fn new(recording: impl Into<Readings>) -> Self {
+        Self { recording: recording.into(), gyroscope: None, sections: None, further: Vec::new() }
+    }
+
+    /// A recording in one file.
+    #[must_use]
+    pub fn from_file(recording: impl Into<PathBuf>) -> Self {
+        Self::new(Readings::file(recording))
+    }
+
+    /// A table in memory ([`Readings::columns`]).
+    #[must_use]
+    pub fn from_columns(name: impl Into<PathBuf>, columns: &[(&str, &[f64])]) -> Self {
+        Self::new(Readings::columns(name, columns))
+    }
+
+    /// A recording in memory ([`Readings::recording`]).
+    #[must_use]
+    pub fn from_recording(name: impl Into<PathBuf>, recording: impl Into<ImuRecording>) -> Self {
+        Self::new(Readings::recording(name, recording))
+    }
+
+    /// The path of the recording, or its name.
+    pub(crate) fn path(&self) -> &Path {
+        self.recording.path()
+    }
+
+    /// Reads both sensors of an IMU, from one recording or from two.
+    pub(crate) fn read_imu(&self, options: &ImuReadOptions) -> Result<ImuFile> {
+        match &self.gyroscope {
+            None => self.recording.read(options),
+            Some(gyroscope) if self.recording.is_file() && gyroscope.is_file() => {
+                read_imu_pair(self.recording.path(), gyroscope.path(), options)
+            }
+            Some(gyroscope) => Ok(imu_pair_of(self.recording.read(options)?, gyroscope.read(options)?)),
+        }
+    }
+
+    /// The paths of its readings, in the order of the sensors.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
+        std::iter::once(self.path()).chain(self.gyroscope.as_ref().map(Readings::path))
+    }
+
+    /// The path of its readings of a sensor.
+    pub(crate) fn path_of(&self, sensor_kind: SensorKind) -> &Path {
+        match (sensor_kind, &self.gyroscope) {
+            (SensorKind::Gyroscope, Some(gyroscope)) => gyroscope.path(),
+            _ => self.path(),
+        }
+    }
+
+    /// The name of the file that something was found in: the gyroscope's, or the other.
+    pub(crate) fn name(&self, of_gyroscope: bool) -> String {
+        let gyroscope = self.gyroscope.as_ref().filter(|_| of_gyroscope);
+        file_name(gyroscope.unwrap_or(&self.recording).path())
+    }
+}

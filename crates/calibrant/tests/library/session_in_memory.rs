@@ -1,0 +1,68 @@
+//! A session gives the same from arrays as from files.
+
+use calibrant::estimate::Calibration;
+use calibrant::io::{Experiment, preset, write_imu_recording};
+use calibrant::sensor::{ImuParameters, ImuRecording, Recording};
+use calibrant::session::{Outcome, Readings, Session, SessionOptions, Source};
+use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
+
+fn experiment(name: &str) -> Experiment {
+    Experiment::parse(preset(name).expect("it exists"), None).expect("valid")
+}
+
+fn estimates(outcome: &Outcome) -> (&[f64], Vec<f64>) {
+    let calibration: &Calibration = outcome.calibration().expect("of sensors");
+    (&calibration.values, calibration.sd().as_slice().to_vec())
+}
+
+/// The columns of a sensor.
+fn columns(recording: &Recording) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|axis| recording.readings().iter().map(|reading| reading[axis]).collect())
+}
+
+#[test]
+fn an_imu_in_memory_is_that_of_its_file() {
+    let simulation = ImuSimulation { poses: 20, ..ImuSimulation::default() };
+    let recording = simulate_imu(&ImuParameters::identity(), &simulation, &mut stream(5, Purpose::Sensor, 0));
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("recording.csv");
+    write_imu_recording(&path, &recording).expect("written");
+    let ImuRecording { accelerometer: Some(force), gyroscope: Some(rate), .. } = &recording else {
+        panic!("both sensors")
+    };
+    let ([ax, ay, az], [gx, gy, gz]) = (columns(force), columns(rate));
+    let table: [(&str, &[f64]); 7] = [
+        ("t_s", force.times_s()),
+        ("ax_mps2", &ax),
+        ("ay_mps2", &ay),
+        ("az_mps2", &az),
+        ("gx_radps", &gx),
+        ("gy_radps", &gy),
+        ("gz_radps", &gz),
+    ];
+    let session = Session::new(experiment("imu")).expect("prepared");
+    let of = |source: &Source| session.calibrate(source).expect("calibrated");
+    let from_file = of(&Source::from_file(&path));
+    let from_columns = of(&Source::from_columns("recording.csv", &table));
+    let from_recording = of(&Source::from_recording("recording.csv", recording.clone()));
+    assert_eq!(estimates(&from_file), estimates(&from_columns));
+    assert_eq!(estimates(&from_file), estimates(&from_recording));
+    let inputs = [&from_file, &from_columns].map(|outcome| &outcome.origin.inputs[0]);
+    assert_eq!(inputs[0].file, inputs[1].file);
+    assert_eq!((inputs[0].samples, inputs[0].rate_hz), (inputs[1].samples, inputs[1].rate_hz));
+    assert!(inputs[1].sha256.len() == 64 && inputs[0].sha256 != inputs[1].sha256);
+    assert!(from_columns.report_html().contains("columns in memory"));
+    // one sensor in each table
+    let [times, other] = [force.times_s(), rate.times_s()];
+    let mut pair = Source::from_columns("a.csv", &table[..4]);
+    assert_eq!(times, other);
+    let of_gyroscope: Vec<(&str, &[f64])> =
+        [table[0]].into_iter().chain(table[4..].iter().copied()).collect();
+    pair.gyroscope = Some(Readings::columns("g.csv", &of_gyroscope));
+    assert_eq!(estimates(&from_file), estimates(&of(&pair)));
+    // the data that were calibrated from are refused in memory, too
+    let options = SessionOptions { validate: Some(pair), ..SessionOptions::default() };
+    let refused = Session::with(experiment("imu"), options).expect("prepared");
+    let refused = refused.calibrate(&Source::from_file(&path)).expect_err("the same data").to_string();
+    assert!(refused.contains("calibrated from"), "{refused}");
+}
