@@ -1,7 +1,8 @@
 //! An interior-point method for quadratic programs on chains, one for each axis, that a few forms tie together.
 //!
-//! `minimise Σ slope·z + ½ Σ square s² + ½ Σ_k (b_k·a − o_k)²` subject to `c·z ≤ bound` for the rows of each
-//! stage, with the stages of [`super::chain_factor`]. The forms `b_k` are dense, but few.
+//! `minimise Σ slope·z + ½ Σ square s² + ½ Σ_k (b_k·a − o_k)² − t` subject to `c·z ≤ bound` for the rows of each
+//! stage, with the stages of [`super::chain_factor`]. The forms `b_k` are dense, but few. Where there is a matrix,
+//! t is its smallest eigenvalue ([`super::eigenvalue_cone`]).
 //!
 //! # Method
 //! Mehrotra's predictor and corrector. The start is inside all rows, and stays there, so the equations are
@@ -14,13 +15,16 @@
 //!
 //! `[[K, Gᵀ], [G, −Δ]]`, `Δ = 1` for a form and 0 for a condition,
 //!
-//! and are eliminated by their Schur complement `Δ + G K⁻¹ Gᵀ`. An iteration takes O(N) for each form.
+//! and are eliminated by their Schur complement `Δ + G K⁻¹ Gᵀ`. An iteration takes O(N) for each form. The cone of a
+//! matrix adds forms to the border, and the unknown t to its Schur complement.
 //!
 //! # References
 //! `mehrotra1992`, `rao1998`, `wright1997`
 
 use super::chain_factor::{ChainFactor, Stage, StageWeight, Transition};
+use super::eigenvalue_cone::{AffineMatrix, Cone, ConeStep, Scaling, triangle};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
+use std::borrow::Cow;
 
 /// The condition `c·z ≤ bound` on a stage.
 #[derive(Debug, Clone)]
@@ -55,6 +59,8 @@ pub(crate) struct Form {
 pub(crate) struct ChainProgram {
     pub(crate) chains: Vec<Chain>,
     pub(crate) forms: Vec<Form>,
+    /// Its smallest eigenvalue is maximised.
+    pub(crate) matrix: Option<AffineMatrix>,
     /// An objective that is reached already: a solution need not be better than a share of what it gains.
     pub(crate) reached: f64,
 }
@@ -66,7 +72,7 @@ pub(crate) type Stages = Vec<Vec<Stage>>;
 const GAP: (f64, f64) = (1e-10, 1e-2);
 /// Share of the way to the boundary.
 const BOUNDARY: f64 = 0.995;
-/// Largest share of the first residual of the gradient that may remain.
+/// Largest share of the first residual of the gradient that may remain; with a cone, that of the gap.
 const RESIDUAL: f64 = 1e-7;
 /// Weight of the accelerations in the factorisation, against singular matrices.
 const REGULAR: f64 = 1e-13;
@@ -85,6 +91,9 @@ pub(crate) struct ChainSolution {
     /// Number of iterations.
     #[cfg(test)]
     pub(crate) iterations: usize,
+    /// The multiplier of the matrix.
+    #[cfg(test)]
+    pub(crate) multiplier: Option<DMatrix<f64>>,
 }
 
 impl ChainProgram {
@@ -94,61 +103,87 @@ impl ChainProgram {
         let mut x = start;
         let mut slack = self.rows(&x);
         slack.iter_mut().zip(self.bounds()).for_each(|(t, bound)| *t = bound - *t);
-        let count = slack.len() as f64;
+        let size = self.matrix.as_ref().map_or(0, AffineMatrix::size);
+        let count = (slack.len() + size) as f64;
         if slack.iter().any(|&t| t.is_nan() || t <= 0.0) {
             return None;
         }
         let mut multipliers: Vec<f64> = slack.iter().map(|t| gap / count / t).collect();
+        let mut cone = match &self.matrix {
+            Some(matrix) => Some(Cone::new(matrix, &x, gap / count)?),
+            None => None,
+        };
         let mut residual = 1.0;
         for iterations in 0.. {
-            let gap = dot(&slack, &multipliers);
+            let gap = dot(&slack, &multipliers) + cone.as_ref().map_or(0.0, Cone::gap);
             let mean = gap / count;
             let forms = self.forms_at(&x);
-            let gained = self.reached - self.objective(&x, &forms);
+            let eigenvalue = cone.as_ref().map_or(0.0, |cone| cone.t);
+            let gained = self.reached - self.objective(&x, &forms) + eigenvalue;
             let ended = |stages| ChainSolution {
                 stages,
                 gained,
                 gap: gap + residual,
                 #[cfg(test)]
                 iterations,
+                #[cfg(test)]
+                multiplier: cone.as_ref().map(|cone| cone.multiplier().clone()),
             };
-            let done = residual <= RESIDUAL && gap <= GAP.0 + GAP.1 * gained.max(0.0);
-            let newton =
-                if done || iterations == ITERATIONS { None } else { self.newton(&slack, &multipliers) };
+            let remains = if cone.is_some() { GAP.0 } else { RESIDUAL };
+            let done = residual <= remains && gap <= GAP.0 + GAP.1 * gained.max(0.0);
+            let newton = if done || iterations == ITERATIONS {
+                None
+            } else {
+                self.newton(&slack, &multipliers, cone.as_ref())
+            };
             let Some(newton) = newton else {
                 return Some(ended(x));
             };
             let gradient = self.gradient(&x, &forms);
-            let direction = |centre: &dyn Fn(usize) -> f64| {
+            let direction = |centre: &dyn Fn(usize) -> f64, cone: Option<(f64, &ConeStep)>| {
                 let mut step = gradient.clone();
                 step.iter_mut().flatten().for_each(|g| *g = -*g);
                 let pull: Vec<f64> = slack.iter().enumerate().map(|(k, t)| centre(k) / t).collect();
                 self.add_rows(&mut step, &pull, -1.0);
-                newton.solve(&mut step);
+                let cone = newton.solve(&mut step, cone);
                 let along = self.rows(&step);
                 let rise: Vec<f64> = (0..slack.len())
                     .map(|k| pull[k] - multipliers[k] + multipliers[k] / slack[k] * along[k])
                     .collect();
                 let fall: Vec<f64> = along.iter().map(|along| -along).collect();
-                (step, fall, rise)
+                Direction { step, fall, rise, cone }
             };
-            let (_, fall, rise) = direction(&|_| 0.0);
-            let most = furthest(&slack, &fall).min(furthest(&multipliers, &rise)).min(1.0);
+            let furthest = |direction: &Direction| {
+                let cone = newton.scaling().zip(direction.cone.as_ref());
+                let cone = cone.map_or(f64::INFINITY, |(scaling, step)| scaling.furthest(step));
+                furthest(&slack, &direction.fall).min(furthest(&multipliers, &direction.rise)).min(cone)
+            };
+            let predictor = direction(&|_| 0.0, None);
+            let most = furthest(&predictor).min(1.0);
+            let Direction { fall, rise, cone: of_cone, .. } = &predictor;
             let after: f64 = (0..slack.len())
                 .map(|k| (slack[k] + most * fall[k]) * (multipliers[k] + most * rise[k]))
                 .sum();
+            let of_cone = newton.scaling().zip(of_cone.as_ref());
+            let after = after + of_cone.map_or(0.0, |(scaling, step)| scaling.gap_after(step, most));
             let centre = (after / count / mean).powi(3) * mean;
-            let (step, fall, rise) = direction(&|k| centre - fall[k] * rise[k]);
-            let most = (BOUNDARY * furthest(&slack, &fall).min(furthest(&multipliers, &rise))).min(1.0);
+            let of_cone = predictor.cone.as_ref().map(|step| (centre, step));
+            let corrected = direction(&|k| centre - fall[k] * rise[k], of_cone);
+            let most = (BOUNDARY * furthest(&corrected)).min(1.0);
             if most.is_nan() || most < STUCK {
                 return Some(ended(x));
             }
-            for (x, step) in x.iter_mut().flatten().zip(step.iter().flatten()) {
+            for (x, step) in x.iter_mut().flatten().zip(corrected.step.iter().flatten()) {
                 *x += step * most;
             }
             for k in 0..slack.len() {
-                slack[k] += most * fall[k];
-                multipliers[k] += most * rise[k];
+                slack[k] += most * corrected.fall[k];
+                multipliers[k] += most * corrected.rise[k];
+            }
+            if let (Some(cone), Some(matrix)) = (&mut cone, &self.matrix)
+                && let Some((scaling, step)) = newton.scaling().zip(corrected.cone.as_ref())
+            {
+                cone.advance(scaling, step, most, matrix, &x);
             }
             residual *= 1.0 - most;
         }
@@ -207,7 +242,7 @@ impl ChainProgram {
     }
 
     /// The factor of `H + Cᵀ diag(y/t) C` with the conditions on the last states.
-    fn newton(&self, slack: &[f64], multipliers: &[f64]) -> Option<Newton<'_>> {
+    fn newton(&self, slack: &[f64], multipliers: &[f64], cone: Option<&Cone>) -> Option<Newton<'_>> {
         let mut at = 0;
         let mut factors = Vec::new();
         for chain in &self.chains {
@@ -229,8 +264,18 @@ impl ChainProgram {
             }
             factors.push(ChainFactor::new(&chain.transitions, &weights, chain.free)?);
         }
-        let mut newton = Newton { factors, border: Vec::new(), schur: DMatrix::identity(0, 0).cholesky()? };
-        newton.border.extend(self.forms.iter().map(Row::Form));
+        let scaled = match (cone, &self.matrix) {
+            (Some(cone), Some(matrix)) => Some(ScaledMatrix::new(cone.scaling()?, matrix)),
+            _ => None,
+        };
+        let schur = DMatrix::identity(0, 0).cholesky()?;
+        let mut newton = Newton { factors, border: Vec::new(), schur, cone: None };
+        newton.border.extend(self.forms.iter().map(|form| Row::Form(Cow::Borrowed(form))));
+        let first = newton.border.len();
+        newton.cone = scaled.map(|ScaledMatrix { scaling, metric, forms }| {
+            newton.border.extend(forms.into_iter().map(|form| Row::Form(Cow::Owned(form))));
+            BorderedCone { scaling, metric, first }
+        });
         for (number, chain) in self.chains.iter().enumerate() {
             newton.border.extend(chain.held.iter().map(|held| Row::Held(number, *held)));
         }
@@ -267,9 +312,47 @@ impl Form {
     }
 }
 
+/// A direction: of the stages, the slacks, the multipliers and the cone.
+struct Direction {
+    step: Stages,
+    fall: Vec<f64>,
+    rise: Vec<f64>,
+    cone: Option<ConeStep>,
+}
+
+/// A matrix in the scaling of the cone: its entries are forms of the accelerations.
+struct ScaledMatrix {
+    scaling: Scaling,
+    metric: Vec<f64>,
+    forms: Vec<Form>,
+}
+
+impl ScaledMatrix {
+    fn new(scaling: Scaling, matrix: &AffineMatrix) -> Self {
+        let metric = scaling.entries(&matrix.metric);
+        let b: Vec<Vec<f64>> = matrix.changes.iter().map(|changes| vec![0.0; changes.len()]).collect();
+        let mut forms = vec![Form { b, offset: 0.0 }; metric.len()];
+        for (k, changes) in matrix.changes.iter().enumerate() {
+            for (i, change) in changes.iter().enumerate() {
+                for (form, entry) in forms.iter_mut().zip(scaling.entries(change)) {
+                    form.b[k][i] = entry;
+                }
+            }
+        }
+        Self { scaling, metric, forms }
+    }
+}
+
+/// The cone on the border, from row `first` on, with the scaled entries of its metric.
+struct BorderedCone {
+    scaling: Scaling,
+    metric: Vec<f64>,
+    first: usize,
+}
+
 /// A row of the border.
 enum Row<'a> {
-    Form(&'a Form),
+    Form(Cow<'a, Form>),
     Held(usize, Vector3<f64>),
 }
 
@@ -301,6 +384,7 @@ struct Newton<'a> {
     /// The rows `G`.
     border: Vec<Row<'a>>,
     schur: Cholesky<f64, Dyn>,
+    cone: Option<BorderedCone>,
 }
 
 impl Newton<'_> {
@@ -308,13 +392,38 @@ impl Newton<'_> {
         self.factors.iter().zip(r).for_each(|(factor, r)| factor.solve(r));
     }
 
-    fn solve(&self, r: &mut Stages) {
+    fn scaling(&self) -> Option<&Scaling> {
+        self.cone.as_ref().map(|cone| &cone.scaling)
+    }
+
+    /// The step for a right-hand side, in its place, and that of the cone: towards its boundary, or with a centre after
+    /// the predictor.
+    fn solve(&self, r: &mut Stages, centre: Option<(f64, &ConeStep)>) -> Option<ConeStep> {
+        let pull = self.cone.as_ref().map(|cone| cone.scaling.pull(centre));
+        if let (Some(cone), Some(pull)) = (&self.cone, &pull) {
+            let rows = &self.border[cone.first..];
+            rows.iter().zip(triangle(pull)).for_each(|(row, pull)| row.add_to(r, pull));
+        }
         let mut alone = r.clone();
         self.chains(&mut alone);
         let mut y = DVector::from_iterator(self.border.len(), self.border.iter().map(|row| row.at(&alone)));
         self.schur.solve_mut(&mut y);
+        let mut step = None;
+        if let (Some(cone), Some(pull)) = (&self.cone, &pull) {
+            // the multiplier keeps ⟨N, Z⟩ = 1
+            let own = cone.first..cone.first + cone.metric.len();
+            let mut along = DVector::zeros(y.len());
+            own.clone().zip(&cone.metric).for_each(|(row, metric)| along[row] = *metric);
+            let metric = along.clone();
+            self.schur.solve_mut(&mut along);
+            let wanted = dot(&cone.metric, &triangle(pull)) - 1.0;
+            let t = (metric.dot(&y) - wanted) / metric.dot(&along);
+            y.axpy(-t, &along, 1.0);
+            step = Some(cone.scaling.step(t, &y.as_slice()[own], pull));
+        }
         self.border.iter().zip(y.iter()).for_each(|(row, y)| row.add_to(r, -y));
         self.chains(r);
+        step
     }
 }
 

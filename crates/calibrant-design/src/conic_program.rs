@@ -1,7 +1,8 @@
-//! A convex program in this crate's terms, which Clarabel solves. No other file knows Clarabel's form.
+//! A convex program in this crate's terms, which Clarabel solves. But for the linear programs of the certificate, no
+//! other file knows Clarabel's form.
 //!
 //! `minimise ½ xᵀ P x + qᵀ x` subject to conditions on rows `row(x) = constant + Σ terms · x`. A row is zero,
-//! not negative, in a second-order cone or part of a positive semidefinite matrix.
+//! not negative, or in a second-order cone.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -45,8 +46,6 @@ pub(crate) struct ConicProgram {
     zero: Vec<Row>,
     nonnegative: Vec<Row>,
     second_order: Vec<[Row; 3]>,
-    /// Upper triangles, column by column. Off-diagonal entries are not scaled.
-    semidefinite: Vec<(usize, Vec<Row>)>,
 }
 
 /// Its solution.
@@ -100,11 +99,6 @@ impl ConicProgram {
         self.second_order.push([sum, difference, b.times(2.0)]);
     }
 
-    /// The symmetric matrix with this upper triangle, column by column, is positive semidefinite.
-    pub(crate) fn semidefinite(&mut self, size: usize, upper: Vec<Row>) {
-        self.semidefinite.push((size, upper));
-    }
-
     /// Solves it; `None` where Clarabel finds no solution, or not even an approximate one.
     pub(crate) fn solve(&self) -> Option<ConicSolution> {
         let n = self.variables;
@@ -122,23 +116,6 @@ impl ConicProgram {
         for cone in &self.second_order {
             cones.push(SupportedConeT::SecondOrderConeT(3));
             rows.extend(cone);
-        }
-        let mut scaled = Vec::new();
-        for (size, upper) in &self.semidefinite {
-            let mut at = 0;
-            for column in 0..*size {
-                for row in 0..=column {
-                    let factor = if row == column { 1.0 } else { std::f64::consts::SQRT_2 };
-                    scaled.push(upper[at].clone().times(factor));
-                    at += 1;
-                }
-            }
-        }
-        let mut from = 0;
-        for (size, upper) in &self.semidefinite {
-            cones.push(semidefinite_cone(*size));
-            rows.extend(&scaled[from..from + upper.len()]);
-            from += upper.len();
         }
         let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
         for (number, row) in rows.iter().enumerate() {
@@ -181,8 +158,4 @@ impl ConicProgram {
             multipliers: solver.solution.z[first..first + self.nonnegative.len()].to_vec(),
         })
     }
-}
-
-fn semidefinite_cone(size: usize) -> SupportedConeT<f64> {
-    SupportedConeT::PSDTriangleConeT(size)
 }

@@ -1,8 +1,7 @@
-//! The convex program of one iteration for the criteria E and M, which are not smooth.
+//! The convex program of one iteration for criterion M, which is not smooth.
 //!
 //! Every criterion of the linearised information is a convex upper bound of the criterion ([`super::long_program`]).
 //! M is the largest of several smooth pieces, and so is the program's objective: a variable above all of them.
-//! E has no second-order model: its convex bound is minimised exactly, `maximise t: F_lin ⪰ t diag(s)⁻²`.
 //!
 //! # References
 //! `boyd2004`, `pukelsheim2006`
@@ -12,7 +11,6 @@ use super::conic_program::{ConicProgram, Row};
 use super::criterion_model::Curvature;
 use super::model_bend::ModelBend;
 use super::part::{Nodes, Part};
-use calibrant_core::information::Criterion;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// Relative size of an eigenvalue that adds nothing to the rank.
@@ -41,13 +39,8 @@ impl<const D: usize> EpigraphProgram<D> {
         part: &Part<D, P>,
         a: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, f64)> {
-        let mut model = part.pieces(a, &self.weights, self.bend.factor())?;
-        let found = part.epigraph_step(a, &model, &mut self.watch, &mut self.weights);
-        if found.is_none() && model.matrix.take().is_some() {
-            // matrix entries of too different size: the slope alone still gives the direction
-            return part.epigraph_step(a, &model, &mut self.watch, &mut self.weights);
-        }
-        found
+        let model = part.pieces(a, &self.weights, self.bend.factor())?;
+        part.epigraph_step(a, &model, &mut self.watch, &mut self.weights)
     }
 }
 
@@ -62,7 +55,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
             self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
         };
         let pieces = super::criterion_model::pieces(&self.criterion, &c, self.floor_of_d());
-        let mut model = Model { pieces: Vec::new(), bends: Vec::new(), matrix: None };
+        let mut model = Model { pieces: Vec::new(), bends: Vec::new() };
         let total: f64 = weights.iter().take(pieces.len()).sum();
         for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {
             let derivative = self.information.derivative(&at, &fixed(&first));
@@ -76,20 +69,6 @@ impl<const D: usize, const P: usize> Part<D, P> {
                         .map(|form| along(form).into_iter().map(|row| row * share).collect::<Nodes<D>>()),
                 );
             }
-        }
-        if let Criterion::E(e) = &self.criterion {
-            // S F_lin S, entry by entry
-            let f = self.inverse_covariance(&at);
-            let mut entries = Vec::new();
-            for j in 0..P {
-                for i in 0..=j {
-                    let mut omega = DMatrix::zeros(P, P);
-                    omega[(i, j)] += 0.5 * e.scale[i] * e.scale[j];
-                    omega[(j, i)] += 0.5 * e.scale[i] * e.scale[j];
-                    entries.push((f[(i, j)] * e.scale[i] * e.scale[j], along(&omega)));
-                }
-            }
-            model.matrix = Some(entries);
         }
         reduce(&mut model.bends);
         Some(model)
@@ -154,25 +133,6 @@ impl<const D: usize, const P: usize> Part<D, P> {
             row
         };
         let scale = 1.0 / self.reach(model);
-        if let Some(entries) = &model.matrix {
-            let t = program.add_variables(1);
-            let largest = entries.iter().map(|(value, _)| value.abs()).fold(0.0, f64::max);
-            // t counts from the present smallest eigenvalue, 1/Φ
-            let smallest = 1.0 / model.pieces[0].0;
-            let unit = smallest.max(1e-12 * largest);
-            let mut upper = Vec::new();
-            for (at, (value, slope)) in entries.iter().enumerate() {
-                let (i, j) = triangle(at);
-                let mut row = Row::new(value / unit, []).plus(&along(slope, 1.0 / unit));
-                if i == j {
-                    row.terms.push((t, -1.0));
-                }
-                upper.push(row);
-            }
-            program.semidefinite(P, upper);
-            program.add_linear(t, -1.0);
-            return (program, None);
-        }
         let z = program.add_variables(model.bends.len());
         for (k, bend) in model.bends.iter().enumerate() {
             program.add_square(z + k, 1.0);
@@ -210,25 +170,8 @@ impl<const D: usize, const P: usize> Part<D, P> {
             .map(|(value, slope)| value - best + along(slope))
             .fold(f64::NEG_INFINITY, f64::max);
         let bend: f64 = model.bends.iter().map(|bend| along(bend).powi(2) / 2.0).sum();
-        if let Some(entries) = &model.matrix {
-            // relative growth of the smallest eigenvalue
-            let matrix = DMatrix::from_fn(P, P, |i, j| {
-                let (value, slope) = &entries[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-                value + along(slope)
-            });
-            return matrix.symmetric_eigenvalues().min() * model.pieces[0].0 - 1.0;
-        }
         -(linear + bend) / reach
     }
-}
-
-/// Row and column of entry `at` of an upper triangle, column by column.
-fn triangle(at: usize) -> (usize, usize) {
-    let mut column = 0;
-    while (column + 1) * (column + 2) / 2 <= at {
-        column += 1;
-    }
-    (at - column * (column + 1) / 2, column)
 }
 
 /// A convex model of the criterion around a motion.
@@ -237,8 +180,6 @@ struct Model<const D: usize> {
     pieces: Vec<(f64, Nodes<D>)>,
     /// Half the sum of the squares of these forms is the bend.
     bends: Vec<Nodes<D>>,
-    /// For E: value and slope of each entry of the scaled information, upper triangle.
-    matrix: Option<Vec<(f64, Nodes<D>)>>,
 }
 
 /// The same sum of squares with as few forms as its rank.

@@ -11,36 +11,24 @@
 //! `boyd2004`, `pukelsheim2006`
 
 use super::chain_factor::Stage;
-use super::chain_program::{ChainProgram, Form, StageRow};
+use super::chain_program::{ChainProgram, Form, StageRow, Stages};
+use super::chain_rounds::Rounds;
 use super::criterion_model::{Curvature, pieces};
 use super::model_bend::ModelBend;
 use super::part::{Nodes, Part};
-use super::random_starts::mix;
 use super::stage_rows::Peaks;
 use calibrant_core::information::InformationDerivative;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
-/// Rounds of limits between the nodes.
-const ROUNDS: usize = 12;
-/// A breach between the nodes that may remain, absolute and relative to what is gained.
-const BREACH: (f64, f64) = (1e-9, 0.3);
-/// Share of the way to the motion inside all limits at which the interior-point method starts: from a motion far from
-/// the solution, and from the solution of the last round.
-const START: f64 = 0.1;
-const AGAIN: f64 = 0.01;
-/// Its gap there, relative to that share.
-const GAP: f64 = 10.0;
 /// Margin of the size of an increment at the start.
 const MARGIN: f64 = 0.1;
 
 /// What one iteration leaves for the next.
 pub(super) struct LongProgram<const D: usize> {
-    peaks: [Peaks; D],
+    rounds: Rounds<D>,
     pub(super) bend: ModelBend,
-    /// What the last model promised.
-    promise: f64,
 }
 
 /// A convex model of the criterion around a motion.
@@ -56,7 +44,7 @@ struct Model<const D: usize> {
 
 impl<const D: usize> LongProgram<D> {
     pub(super) fn new() -> Self {
-        Self { peaks: std::array::from_fn(|_| Peaks::default()), bend: ModelBend::full(), promise: 1.0 }
+        Self { rounds: Rounds::new(), bend: ModelBend::full() }
     }
 
     /// The admissible motion that minimises the model around a motion, and what it promises: the decrease of the model from
@@ -68,38 +56,12 @@ impl<const D: usize> LongProgram<D> {
         a: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, f64)> {
         let model = part.model(around, self.bend.factor())?;
-        let own =
-            |nodes: &[SVector<f64, D>], k: usize| nodes.iter().map(|node| node[k]).collect::<Vec<f64>>();
-        let near = (10.0 * self.promise).clamp(AGAIN / 10.0, START);
-        let mut start = mix(&part.inside, a, 1.0 - near);
-        let mut gap = GAP * near;
-        for round in 1.. {
-            let program = part.chain_program(around, a, &model, &self.peaks);
-            let mut stages: Vec<Vec<Stage>> =
-                part.regions.iter().enumerate().map(|(k, region)| region.stages(&own(&start, k))).collect();
+        let complete = |stages: &mut Stages| {
             if !model.noise.is_empty() {
                 stages.iter_mut().flatten().for_each(|z| z[4] = z[3].abs() + MARGIN);
             }
-            let found = program.solve(stages, gap)?;
-            let next: Nodes<D> = (0..a.len())
-                .map(|i| SVector::from_fn(|k, _| part.regions[k].size * found.stages[k][i][0]))
-                .collect();
-            let mut breach = 0.0_f64;
-            for (k, region) in part.regions.iter().enumerate() {
-                breach = breach.max(region.breach(&own(&next, k)));
-                self.peaks[k].update(region, &own(&next, k));
-            }
-            self.promise = found.gained.max(found.gap);
-            if round == ROUNDS || breach <= BREACH.0 + BREACH.1 * found.gained {
-                for (k, region) in part.regions.iter().enumerate() {
-                    self.peaks[k].forget(region, &found.stages[k]);
-                }
-                return Some((next, self.promise));
-            }
-            start = mix(&part.inside, &part.restored(next), 1.0 - AGAIN);
-            gap = GAP * AGAIN;
-        }
-        None
+        };
+        self.rounds.solve(part, a, |peaks| part.chain_program(around, a, &model, peaks), complete)
     }
 }
 
@@ -183,7 +145,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
             form.offset = form.at(&here);
             form
         });
-        let mut program = ChainProgram { forms: forms.collect(), chains, reached: 0.0 };
+        let mut program = ChainProgram { forms: forms.collect(), chains, matrix: None, reached: 0.0 };
         let own = stages(a);
         program.reached = program.objective(&own, &program.forms_at(&own));
         program

@@ -60,8 +60,12 @@ impl<const D: usize, const P: usize> Part<D, P> {
 
     /// The inverse of [`covariance`](Self::covariance).
     pub(super) fn inverse_covariance(&self, at: &Linearised<D, P>) -> SMatrix<f64, P, P> {
-        let f = at.information + self.prior;
-        self.gravity.as_ref().map_or(f, |gravity| gravity.inverse.transpose() * f * gravity.inverse)
+        self.on_inverse_covariance(&(at.information + self.prior))
+    }
+
+    /// A change of the information as one of the inverse covariance.
+    pub(super) fn on_inverse_covariance(&self, f: &SMatrix<f64, P, P>) -> SMatrix<f64, P, P> {
+        self.gravity.as_ref().map_or(*f, |gravity| gravity.inverse.transpose() * f * gravity.inverse)
     }
 
     /// Value of the criterion at this covariance.

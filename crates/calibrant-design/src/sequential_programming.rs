@@ -7,8 +7,8 @@
 //! - Short motions with a smooth criterion have the positive part of the exact second derivative for a model
 //!   ([`super::criterion_hessian`]). Their program is dense, and keeps its active rows from one iteration to
 //!   the next ([`super::short_program`]).
-//! - Long motions, E and M have a model without the curvature of the information
-//!   ([`super::long_program`]).
+//! - Long motions have a model without the curvature of the information ([`super::long_program`]), and so have the
+//!   criteria that are not smooth, E ([`super::eigenvalue_program`]) and M ([`super::epigraph_program`]).
 //!
 //! A model without that curvature underrates what lies further on the same way, and a start of 1000 intervals crept.
 //! So after a full step, the model of a long motion is taken around the point that another such step would reach. The
@@ -18,6 +18,7 @@
 //! # References
 //! `phan2018`
 
+use super::eigenvalue_program::EigenvalueProgram;
 use super::epigraph_program::EpigraphProgram;
 use super::long_program::LongProgram;
 use super::part::{Nodes, Part};
@@ -51,6 +52,7 @@ pub(super) const SHORT: usize = 160;
 enum Model<const D: usize> {
     Short(Box<ShortProgram<D>>),
     Long(LongProgram<D>),
+    Eigenvalue(EigenvalueProgram<D>),
     Epigraph(EpigraphProgram<D>),
 }
 
@@ -65,6 +67,7 @@ impl<const D: usize> Model<D> {
         match self {
             Self::Short(program) => program.step(part, a),
             Self::Long(program) => program.step(part, around, a),
+            Self::Eigenvalue(program) => program.step(part, a),
             Self::Epigraph(program) => program.step(part, a),
         }
     }
@@ -78,6 +81,7 @@ impl<const D: usize> Model<D> {
         match self {
             Self::Short(program) => program.moved(fraction),
             Self::Long(program) => program.bend.moved(fraction),
+            Self::Eigenvalue(_) => (),
             Self::Epigraph(program) => program.bend.moved(fraction),
         }
     }
@@ -86,6 +90,8 @@ impl<const D: usize> Model<D> {
         match self {
             Self::Short(program) => program.blocked(),
             Self::Long(program) => program.bend.blocked(),
+            // its bound is minimised as it is
+            Self::Eigenvalue(_) => false,
             Self::Epigraph(program) => program.bend.blocked(),
         }
     }
@@ -114,13 +120,12 @@ impl<const D: usize, const P: usize> Part<D, P> {
             iterations,
             status,
         };
-        let smooth = !matches!(self.criterion, Criterion::E(_) | Criterion::M(_));
-        let mut model = if smooth && a.len() * D <= SHORT && self.information.trust() != Trust::Unknown {
-            Model::Short(Box::new(ShortProgram::new(&self.regions)))
-        } else if smooth {
-            Model::Long(LongProgram::new())
-        } else {
-            Model::Epigraph(EpigraphProgram::new(P))
+        let short = a.len() * D <= SHORT && self.information.trust() != Trust::Unknown;
+        let mut model = match &self.criterion {
+            Criterion::E(_) => Model::Eigenvalue(EigenvalueProgram::new()),
+            Criterion::M(_) => Model::Epigraph(EpigraphProgram::new(P)),
+            _ if short => Model::Short(Box::new(ShortProgram::new(&self.regions))),
+            _ => Model::Long(LongProgram::new()),
         };
         // the motion before, where it leads further
         let mut last: Option<Nodes<D>> = None;

@@ -74,8 +74,8 @@ const ROUNDING: f64 = 1e-12;
 const NEAR_ENOUGH: f64 = 0.02;
 
 impl MomentProgram {
-    /// Solves the program with this objective by Clarabel and bounds it. `None` where the solver refused to start,
-    /// or must not.
+    /// Solves the program with this objective by Clarabel and bounds it; its rows are linear. `None` where the solver
+    /// refused to start, or must not.
     pub(super) fn bound_of(&self, objective: &Row, patience: Patience<'_>) -> Option<DualBound> {
         if patience.interruption.is_asked() {
             return None;
@@ -92,7 +92,6 @@ impl MomentProgram {
             tol_gap_rel: 1e-6,
             tol_feas: 1e-8,
             max_threads: 1,
-            chordal_decomposition_enable: false,
             presolve_enable: false,
             ..DefaultSettings::default()
         };
@@ -150,31 +149,21 @@ impl MomentProgram {
         DualBound { value: value + correction, correction, solved }
     }
 
-    /// `A y + s = b`, s in the cones: zero, not negative, then the matrices as scaled triangles.
+    /// `A y + s = b`, s in the cones: zero, then not negative.
     fn standard_form(&self) -> (CscMatrix<f64>, Vec<f64>, Vec<SupportedConeT<f64>>) {
         let (mut rows, mut columns, mut values, mut b) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut push = |row: &Row, scale: f64| {
+        for row in self.zero.iter().chain(&self.nonnegative) {
             for &(column, coefficient) in &row.terms {
                 rows.push(b.len());
                 columns.push(column);
-                values.push(-scale * coefficient);
+                values.push(-coefficient);
             }
-            b.push(scale * row.constant);
-        };
-        self.zero.iter().chain(&self.nonnegative).for_each(|row| push(row, 1.0));
-        let mut cones = vec![
+            b.push(row.constant);
+        }
+        let cones = vec![
             SupportedConeT::ZeroConeT(self.zero.len()),
             SupportedConeT::NonnegativeConeT(self.nonnegative.len()),
         ];
-        for (size, triangle) in &self.semidefinite {
-            let mut entries = triangle.iter();
-            for j in 0..*size {
-                for (i, row) in entries.by_ref().take(j + 1).enumerate() {
-                    push(row, if i == j { 1.0 } else { std::f64::consts::SQRT_2 });
-                }
-            }
-            cones.push(SupportedConeT::PSDTriangleConeT(*size));
-        }
         let a = CscMatrix::new_from_triplets(b.len(), self.columns, rows, columns, values);
         (a, b, cones)
     }

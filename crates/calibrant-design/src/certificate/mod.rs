@@ -39,9 +39,6 @@ mod variances;
 pub(crate) use axis_chain::{AxisChain, States};
 pub(super) use variances::{LowerBound, lower_bound};
 
-// Clarabel's semidefinite cone calls BLAS and LAPACK by their Fortran names: the linker finds them here
-use lapack_over_nalgebra as _;
-
 #[cfg(test)]
 mod design_tests;
 #[cfg(test)]

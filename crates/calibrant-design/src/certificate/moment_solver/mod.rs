@@ -60,6 +60,9 @@ struct Iteration<'a> {
 pub(super) struct Solved {
     pub(super) bound: DualBound,
     pub(super) iterations: u32,
+    /// The moments at the end.
+    #[cfg(test)]
+    pub(super) moments: Vec<f64>,
 }
 
 /// Solves a program whose columns belong to the cliques of a chain, to this relative accuracy. `None` where it
@@ -90,7 +93,12 @@ pub(super) fn solve(program: &MomentProgram, tolerance: f64, patience: Patience<
         return None;
     }
     program.project(&mut z);
-    Some(Solved { bound: program.dual_value(&program.objective, &z), iterations })
+    Some(Solved {
+        bound: program.dual_value(&program.objective, &z),
+        iterations,
+        #[cfg(test)]
+        moments: iteration.cliques.iter().flat_map(|clique| clique.y.iter().copied()).collect(),
+    })
 }
 
 impl<'a> Iteration<'a> {

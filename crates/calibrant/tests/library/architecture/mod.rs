@@ -15,7 +15,7 @@ use modules::Modules;
 
 /// The crates from the lowest layer up; each uses crates of lower layers only.
 const LAYERS: &[&[&str]] = &[
-    &["calibrant-core", "lapack-over-nalgebra"],
+    &["calibrant-core"],
     &["calibrant-design", "calibrant-machine"],
     &["calibrant-study"],
     &["calibrant-io", "calibrant-report"],
