@@ -8,7 +8,7 @@ use super::hold_information::HoldInformation;
 use super::problem::PoseProblem;
 use super::result::PoseBound;
 use super::spectral_projected_gradient::{Descent, Poses};
-use crate::smooth_criterion::SmoothCriterion;
+use crate::criterion::smooth_criterion::SmoothCriterion;
 use calibrant_core::information::Criterion;
 use nalgebra::Vector3;
 

@@ -1,7 +1,7 @@
 //! The bound that no set of n allowed poses can beat.
 //!
 //! For `M′ = M₀ + Σ m(u_k)` with n allowed directions `tr(Ω M′) ≤ tr(Ω M₀) + n max_u d(u)`. The tangent of the
-//! criterion ([`crate::tangent_bound`]) makes that a bound of it. At the optimal approximate design both sides
+//! criterion ([`crate::criterion::tangent_bound`]) makes that a bound of it. At the optimal approximate design both sides
 //! are equal (`kiefer1960`).
 //!
 //! # The maximum of d over the sphere
@@ -11,8 +11,8 @@
 //! taken in place of 4, since gains differ a little.
 
 use super::hold_information::{Gain, HoldInformation};
-use crate::smooth_criterion::SmoothCriterion;
-use crate::tangent_bound::Tangent;
+use crate::criterion::smooth_criterion::SmoothCriterion;
+use crate::criterion::tangent_bound::Tangent;
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 

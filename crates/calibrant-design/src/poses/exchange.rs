@@ -4,7 +4,7 @@
 //! after a round without a change.
 
 use super::hold_information::{HoldInformation, OnEntries};
-use crate::smooth_criterion::SmoothCriterion;
+use crate::criterion::smooth_criterion::SmoothCriterion;
 use calibrant_core::information::covariance;
 use nalgebra::Vector3;
 

@@ -17,7 +17,7 @@ use super::problem::PoseProblem;
 use super::result::PoseDesign;
 use super::search::{design_poses, relaxed};
 use crate::DesignSettings;
-use crate::goal::{Goal, first_that_passes};
+use crate::problem::goal::{Goal, first_that_passes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::COptimality;

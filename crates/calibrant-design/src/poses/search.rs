@@ -15,7 +15,7 @@ use super::order::best_order;
 use super::problem::PoseProblem;
 use super::result::PoseDesign;
 use super::spectral_projected_gradient::{Descent, Poses};
-use crate::smooth_criterion::SmoothCriterion;
+use crate::criterion::smooth_criterion::SmoothCriterion;
 use crate::{AT_BEST, DesignSettings};
 use calibrant_core::error::Result;
 use calibrant_core::information::Criterion;

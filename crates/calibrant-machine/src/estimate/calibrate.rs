@@ -1,16 +1,18 @@
 //! The stages of a calibration on a machine.
 
-use super::assembly::assembled;
-use super::gauss_newton::minimise;
-use super::initial::Initial;
-use super::knot_choice::initial;
-use super::noise_search::noise_search;
-use super::pass::Pass;
-use super::posterior::Posterior;
-use super::stream::white_noise;
-use super::trusted::trusted;
-use super::unsolved::unsolved;
-use super::{MachineCalibration, MachineProblem, MachineSettings, MachineTrust, checks, undetermined};
+use crate::estimate::begin::initial::Initial;
+use crate::estimate::begin::knot_choice::initial;
+use crate::estimate::begin::trusted::trusted;
+use crate::estimate::least_squares::gauss_newton::minimise;
+use crate::estimate::least_squares::pass::Pass;
+use crate::estimate::least_squares::stream::white_noise;
+use crate::estimate::noise::noise_search::noise_search;
+use crate::estimate::noise::posterior::Posterior;
+use crate::estimate::problem::unsolved::unsolved;
+use crate::estimate::result::assembly::assembled;
+use crate::estimate::result::checks;
+use crate::estimate::result::undetermined;
+use crate::estimate::{MachineCalibration, MachineProblem, MachineSettings, MachineTrust};
 use calibrant_core::error::Result;
 
 /// Steps with a trusted motion, and samples of each sensor, that bring the parameters near.

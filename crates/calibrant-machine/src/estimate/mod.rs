@@ -1,57 +1,25 @@
 //! Calibrates a sensor that a machine carries.
 
-mod activity;
-mod assembly;
-mod budget;
+mod begin;
 mod calibrate;
-mod checks;
-mod covered;
-mod cross_validation;
-#[cfg(test)]
-mod derivative_tests;
-mod equations;
-mod front;
-mod gauss_newton;
-mod initial;
-mod knot_choice;
-mod layout;
-mod log_equations;
-mod model;
-mod moments;
-mod noise_search;
-mod parameters;
-mod pass;
-mod placement;
-mod posterior;
+mod covariance;
+mod least_squares;
+mod noise;
 mod problem;
-mod quantity;
-mod reference_fit;
 mod result;
-mod robust;
-mod sample_rows;
-mod sandwich;
-mod scaled;
-mod second_order;
-mod second_recording;
-mod setup;
-mod shift;
-mod spectrum;
-mod start;
-mod stream;
-mod trusted;
-mod undetermined;
-mod unsolved;
 mod validation;
 
+pub(crate) use begin::reference_fit::{ReferenceFit, fitted};
 pub use calibrate::calibrate_on_machine;
-pub use cross_validation::{check_folds, cross_validate_on_machine};
-pub use parameters::MachineParameters;
-pub(crate) use parameters::TiltedGravity;
-pub use problem::{MachineProblem, MachineSettings};
-pub use quantity::{MachineQuantity, Source};
-pub(crate) use reference_fit::{ReferenceFit, fitted};
-pub use result::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
-pub use second_recording::compare_on_machine;
-pub use setup::{MachineSetup, MachineTrust, MountingPrior};
-pub use spectrum::ResidualSpectrum;
-pub use validation::{FailedBlock, LargestShift, MachineValidation, MachineValidationSource, ParameterShift};
+pub use problem::machine_problem::{MachineProblem, MachineSettings};
+pub use problem::parameters::MachineParameters;
+pub(crate) use problem::parameters::TiltedGravity;
+pub use problem::quantity::{MachineQuantity, Source};
+pub use problem::setup::{MachineSetup, MachineTrust, MountingPrior};
+pub use result::machine_calibration::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
+pub use result::spectrum::ResidualSpectrum;
+pub use validation::cross_validation::{check_folds, cross_validate_on_machine};
+pub use validation::machine_validation::{
+    FailedBlock, LargestShift, MachineValidation, MachineValidationSource, ParameterShift,
+};
+pub use validation::second_recording::compare_on_machine;

@@ -1,0 +1,116 @@
+//! The assessment of a user's own motion beside the best one, the bound and the limits.
+
+use crate::{Design, DesignProblem, Evaluation, LimitUse, evaluate, limit_use};
+use calibrant_core::error::Result;
+use calibrant_core::information::Criterion;
+use calibrant_core::motion::{JerkControlledMotion, Limits};
+use calibrant_core::sensor::Parameter;
+
+/// A motion, the information that it gives, and how that compares.
+#[derive(Debug, Clone)]
+pub struct Assessment {
+    /// The criterion that is minimised.
+    pub criterion: Criterion,
+    /// Name, unit, nominal value and spread of each parameter.
+    pub parameters: Vec<Parameter>,
+    /// The information that a recording of the motion will give.
+    pub evaluation: Evaluation,
+    /// How far the motion goes towards each limit, and beyond, at all times.
+    pub limits: Vec<LimitUse>,
+    /// The best motion found for the experiment, or the reason in words why there is none.
+    pub optimum: std::result::Result<Design, String>,
+    /// Duration and number of intervals of the motion where they differ from those of the experiment. The
+    /// optimum is for those of the experiment.
+    pub other_setting: Option<OtherSetting>,
+}
+
+/// A motion whose duration or intervals are not those of the experiment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherSetting {
+    /// Number of intervals of the motion.
+    pub intervals: usize,
+    /// Its duration, s.
+    pub duration_s: f64,
+    /// Number of intervals of the experiment.
+    pub experiment_intervals: usize,
+    /// Duration of the experiment, s.
+    pub experiment_duration_s: f64,
+}
+
+impl Assessment {
+    /// Efficiency against the best motion found: the share of the recordings that the best motion would need
+    /// for the same value of the criterion. 1 is as good, ½ needs twice as many. For D per parameter,
+    /// `exp((Φ_best − Φ)/p)`. `None` where either does not determine the parameters.
+    #[must_use]
+    pub fn efficiency(&self) -> Option<f64> {
+        let design = self.optimum.as_ref().ok()?;
+        self.against(design.optimal.value)
+    }
+
+    /// Efficiency against the lower bound. No admissible motion with the experiment's duration and intervals
+    /// makes it less than this.
+    #[must_use]
+    pub fn certain_efficiency(&self) -> Option<f64> {
+        let certificate = self.optimum.as_ref().ok()?.certificate.as_ref()?;
+        self.against(certificate.lower_bound)
+    }
+
+    fn against(&self, best: f64) -> Option<f64> {
+        let floor = self.optimum.as_ref().map_or(0.0, |design| design.floor);
+        let value = self.evaluation.value;
+        let efficiency = match self.criterion {
+            Criterion::D(_) => ((best - value) / self.parameters.len() as f64).exp(),
+            _ => (best - floor) / (value - floor),
+        };
+        (efficiency.is_finite() && value.is_finite() && best.is_finite()).then_some(efficiency)
+    }
+
+    /// The limits that the motion breaks, the worst first.
+    #[must_use]
+    pub fn violations(&self) -> Vec<LimitUse> {
+        let mut broken: Vec<_> = self.limits.iter().filter(|found| found.is_violated()).copied().collect();
+        broken.sort_by(|one, other| other.violation.total_cmp(&one.violation));
+        broken
+    }
+}
+
+/// Assesses a motion beside the optimum of the experiment.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn assess(
+    problem: &DesignProblem<'_>,
+    motion: &JerkControlledMotion,
+    optimum: std::result::Result<Design, String>,
+) -> Result<Assessment> {
+    let times = motion.times_s();
+    let duration_s = times[motion.intervals()] - times[0];
+    let experiment_duration_s = problem.intervals as f64 * problem.interval_s;
+    let close = |one: f64, other: f64| (one - other).abs() <= 1e-6 * experiment_duration_s;
+    let same = motion.intervals() == problem.intervals
+        && (0..=motion.intervals()).all(|i| close(times[i] - times[0], i as f64 * problem.interval_s));
+    Ok(Assessment {
+        criterion: problem.criterion.clone(),
+        parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
+        evaluation: evaluate(problem, motion)?,
+        limits: limits_of(problem, motion)?,
+        optimum,
+        other_setting: (!same).then_some(OtherSetting {
+            intervals: motion.intervals(),
+            duration_s,
+            experiment_intervals: problem.intervals,
+            experiment_duration_s,
+        }),
+    })
+}
+
+/// Use of the limits. A sensor's range holds for what it senses, gravity among it, which a design keeps by symmetric limits.
+fn limits_of(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Vec<LimitUse>> {
+    let axes = problem.sensor.axes;
+    let (Some(gravity), Some(range)) = (problem.gravity, problem.sensor.range_mps2) else {
+        return Ok(limit_use(&problem.effective_limits(), axes, motion));
+    };
+    let range = Limits::default().within_range(Some(range));
+    let sensed = limit_use(&range, axes, &motion.plus(&gravity.force_mps2)?);
+    Ok(limit_use(problem.limits, axes, motion).into_iter().chain(sensed).collect())
+}

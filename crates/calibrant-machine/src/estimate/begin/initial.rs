@@ -1,0 +1,114 @@
+//! Where the iteration begins: splines through the log, the parameters, and a first guess of the noise.
+
+use crate::estimate::begin::covered::covered;
+use crate::estimate::begin::placement::Placement;
+use crate::estimate::begin::reference_fit::ReferenceFit;
+use crate::estimate::least_squares::log_equations::WeighedLog;
+use crate::estimate::least_squares::model::{Model, State};
+use crate::estimate::least_squares::stream::{Stream, white_noise};
+use crate::estimate::problem::layout::Layout;
+use crate::estimate::problem::parameters::TiltedGravity;
+use crate::estimate::problem::unsolved::refused;
+use crate::estimate::{MachineParameters, MachineProblem, MountingPrior};
+use crate::log::ReferenceLog;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::{Recording, SensorKind};
+
+/// Model and state before the first step.
+pub(crate) struct Initial<'a> {
+    pub(crate) model: Model<'a>,
+    pub(crate) state: State,
+    /// Outliers of each component of the log.
+    pub(crate) outliers: Vec<usize>,
+}
+
+impl<'a> Initial<'a> {
+    /// On splines through the log. Without parameters to begin `from`, they are those of the setup, with the coarse delay.
+    pub(crate) fn on(
+        problem: &MachineProblem<'a>,
+        fit: ReferenceFit,
+        from: Option<&MachineParameters>,
+    ) -> Result<Self> {
+        let setup = problem.setup;
+        let sensors: Vec<SensorKind> =
+            SensorKind::ALL.into_iter().filter(|kind| problem.recording.sensor(*kind).is_some()).collect();
+        let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
+            return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
+        };
+        let ReferenceFit { motion, sd, outliers } = fit;
+        let knots = motion.knots();
+        let covered = covered(problem.log, &knots);
+        let gravity = TiltedGravity::new(&setup.up);
+        let mut nominal = MachineParameters::nominal(setup, *problem.nominal, motion.joints());
+        let placement = Placement::new(problem, &motion, &covered, gravity.vector(&nominal));
+        let mut parameters = match from {
+            Some(parameters) => parameters.clone(),
+            None => MachineParameters { delays_s: [placement.delay_s()?; 2], ..nominal.clone() },
+        };
+        if setup.mounting == MountingPrior::Unknown {
+            // a matrix that was found with other knots belongs to their mounting
+            nominal.mount.tip_from_sensor = placement.mounting(&parameters);
+            parameters.mount.tip_from_sensor = nominal.mount.tip_from_sensor;
+            parameters.imu = nominal.imu;
+        }
+        let layout = Layout::new(setup, &sensors, problem.quantities, nominal);
+        let streams: Vec<Stream<'_>> = sensors
+            .iter()
+            .filter_map(|&sensor| {
+                let recording = problem.recording.sensor(sensor)?;
+                let sd = white_noise(recording);
+                Some(Stream { sensor, recording, sd, growth: Vec::new() })
+            })
+            .collect();
+        let middle_s = middle_s(main);
+        let sd = setup.reference_noise.clone().unwrap_or(sd).iter().map(|sd| sd.max(1e-12)).collect();
+        let log = WeighedLog { log: problem.log, sd, growth: Vec::new() };
+        let model = Model { streams, log, layout, gravity, trust: setup.trust, middle_s, covered };
+        Ok(Self { model, state: State { motion, parameters }, outliers })
+    }
+}
+
+/// Middle of a recording, s.
+pub(crate) fn middle_s(recording: &Recording) -> f64 {
+    0.5 * (recording.times_s()[0] + recording.times_s()[recording.len() - 1])
+}
+
+/// The log has the joints of the chain, and samples.
+pub(crate) fn check_log(problem: &MachineProblem<'_>) -> Result<()> {
+    let bad = |message: String, help: &str| {
+        Err(Error::experiment(InputError::new(Refusal::MachineUnsuited, message, help)))
+    };
+    if let ReferenceLog::Joints(log) = problem.log {
+        let Some(chain) = problem.chain else {
+            return bad(
+                "the log is of joints, and no machine is given".into(),
+                "give [machine] urdf, base and tip",
+            );
+        };
+        let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+        if log.names.len() != names.len() {
+            let message = format!(
+                "the log has {} joints, the machine {}: {}",
+                log.names.len(),
+                names.len(),
+                names.join(", ")
+            );
+            return bad(message, "log every joint between base and tip");
+        }
+    }
+    let noise = problem.setup.reference_noise.as_ref().map_or(0, Vec::len);
+    let components = problem
+        .chain
+        .filter(|_| matches!(problem.log, ReferenceLog::Joints(_)))
+        .map_or(6, |chain| chain.joints.len());
+    if noise != 0 && noise != components {
+        return bad(
+            format!("reference_noise has {noise} values, the log {components} components"),
+            "give one for each",
+        );
+    }
+    if problem.log.times_s().len() < 8 {
+        return Err(refused("the log has fewer than 8 samples", "log the whole motion"));
+    }
+    Ok(())
+}

@@ -1,0 +1,137 @@
+//! The values of all unknowns but the motion.
+
+use crate::chain::{ChainCorrections, SensorMount};
+use crate::estimate::{MachineQuantity, MachineSetup};
+use calibrant_core::sensor::{Axis, ImuParameters, SensorKind};
+use nalgebra::{Matrix3x2, UnitQuaternion, Vector2, Vector3};
+
+/// The sensor, its mount, gravity, clocks and joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MachineParameters {
+    /// The sensor.
+    pub imu: ImuParameters,
+    /// Where it is on the tip.
+    pub mount: SensorMount,
+    /// Tilt of gravity against the base, rad.
+    pub tilt_rad: Vector2<f64>,
+    /// Magnitude of gravity, m/s².
+    pub gravity_mps2: f64,
+    /// Delay of the accelerometer and of the gyroscope, s.
+    pub delays_s: [f64; 2],
+    /// Rate of the reference's clock against the IMU's, less 1.
+    pub clock_rate: f64,
+    /// Corrections of the joints.
+    pub corrections: ChainCorrections,
+}
+
+/// The place of a sensor in pairs.
+pub(crate) fn place(sensor: SensorKind) -> usize {
+    match sensor {
+        SensorKind::Accelerometer => 0,
+        SensorKind::Gyroscope => 1,
+    }
+}
+
+impl MachineParameters {
+    /// What is known beforehand.
+    pub(crate) fn nominal(setup: &MachineSetup, imu: ImuParameters, joints: usize) -> Self {
+        Self {
+            imu,
+            mount: SensorMount { lever_m: setup.lever_m, tip_from_sensor: setup.tip_from_sensor },
+            tilt_rad: Vector2::zeros(),
+            gravity_mps2: setup.gravity_mps2,
+            delays_s: [setup.delay_s; 2],
+            clock_rate: 0.0,
+            corrections: ChainCorrections::none(joints),
+        }
+    }
+
+    /// Moves one unknown.
+    pub(crate) fn add(&mut self, quantity: MachineQuantity, step: f64) {
+        match quantity {
+            MachineQuantity::Imu(of) => of.add_to(&mut self.imu, step),
+            MachineQuantity::Lever(axis) => self.mount.lever_m[axis.index()] += step,
+            MachineQuantity::Mounting(axis) => {
+                let mut turn = Vector3::zeros();
+                turn[axis.index()] = step;
+                self.mount.tip_from_sensor *= UnitQuaternion::from_scaled_axis(turn);
+            }
+            MachineQuantity::Tilt(k) => self.tilt_rad[k] += step,
+            MachineQuantity::Gravity => self.gravity_mps2 += step,
+            MachineQuantity::Delay(sensor) => self.delays_s[place(sensor)] += step,
+            MachineQuantity::ClockRate => self.clock_rate += step,
+            MachineQuantity::Zero(j) => self.corrections.joints[j].zero += step,
+            MachineQuantity::Geometry(j, k) if k < 3 => self.corrections.joints[j].translation_m[k] += step,
+            MachineQuantity::Geometry(j, k) => self.corrections.joints[j].rotation_rad[k - 3] += step,
+        }
+    }
+
+    /// The value of an unknown; the mounting's is its turn against `nominal`.
+    pub(crate) fn value(&self, quantity: MachineQuantity, nominal: &Self) -> f64 {
+        match quantity {
+            MachineQuantity::Imu(of) => of.value(&self.imu),
+            MachineQuantity::Lever(axis) => self.mount.lever_m[axis.index()],
+            MachineQuantity::Mounting(axis) => self.turn(nominal)[axis.index()],
+            MachineQuantity::Tilt(k) => self.tilt_rad[k],
+            MachineQuantity::Gravity => self.gravity_mps2,
+            MachineQuantity::Delay(sensor) => self.delays_s[place(sensor)],
+            MachineQuantity::ClockRate => self.clock_rate,
+            MachineQuantity::Zero(j) => self.corrections.joints[j].zero,
+            MachineQuantity::Geometry(j, k) if k < 3 => self.corrections.joints[j].translation_m[k],
+            MachineQuantity::Geometry(j, k) => self.corrections.joints[j].rotation_rad[k - 3],
+        }
+    }
+
+    /// Rotation of the sensor against the nominal mounting, rad.
+    #[must_use]
+    pub fn turn(&self, nominal: &Self) -> Vector3<f64> {
+        (nominal.mount.tip_from_sensor.inverse() * self.mount.tip_from_sensor).scaled_axis()
+    }
+
+    /// Time of the motion at which a sensor took a sample, s. `middle_s` is that of the recording, about which the clock's rate counts.
+    #[must_use]
+    pub fn motion_time(&self, sensor: SensorKind, time_s: f64, middle_s: f64) -> f64 {
+        time_s + self.clock_rate * (time_s - middle_s) + self.delays_s[place(sensor)]
+    }
+}
+
+/// Gravity in the base frame, tilted about two axes perpendicular to the direction up.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TiltedGravity {
+    up: Vector3<f64>,
+    /// The axes of the tilt.
+    axes: Matrix3x2<f64>,
+}
+
+impl TiltedGravity {
+    /// For this direction up. Tilts are about the axes of the base where up is one of them.
+    pub(crate) fn new(up: &Vector3<f64>) -> Self {
+        let up = up.normalize();
+        let largest = up.iamax();
+        let mut first = Vector3::zeros();
+        first[(largest + 1) % 3] = 1.0;
+        let first = (first - up * up.dot(&first)).normalize();
+        Self { up, axes: Matrix3x2::from_columns(&[first, up.cross(&first)]) }
+    }
+
+    /// `γ = −g exp(tilt) up`.
+    pub(crate) fn vector(&self, parameters: &MachineParameters) -> Vector3<f64> {
+        self.direction(parameters) * -parameters.gravity_mps2
+    }
+
+    fn direction(&self, parameters: &MachineParameters) -> Vector3<f64> {
+        UnitQuaternion::from_scaled_axis(self.axes * parameters.tilt_rad) * self.up
+    }
+
+    /// Derivative of `γ` by the two tilts (exact at none, and of second order in them otherwise) and by the magnitude.
+    pub(crate) fn derivatives(&self, parameters: &MachineParameters) -> [Vector3<f64>; 3] {
+        let gravity = self.vector(parameters);
+        let tilt = self.axes * parameters.tilt_rad;
+        let left = crate::spline::right_jacobian(&tilt).transpose();
+        let by = |k: usize| (left * self.axes.column(k)).cross(&gravity);
+        [by(0), by(1), -self.direction(parameters)]
+    }
+}
+
+/// The axes, for lists of quantities.
+pub(crate) const AXES: [Axis; 3] = Axis::ALL;

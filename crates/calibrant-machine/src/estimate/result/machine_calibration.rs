@@ -1,0 +1,166 @@
+//! The result of a calibration on a machine.
+
+use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
+use crate::reference::Motion;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::estimate::{CalibrationStatus, FitStatistics};
+use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, ReadingUnit, SensorKind};
+use nalgebra::{DMatrix, Vector3};
+
+/// Parameters of a sensor on a machine, of the machine, and everything needed to judge them.
+#[derive(Debug, Clone)]
+pub struct MachineCalibration {
+    /// How the iteration ended.
+    pub status: CalibrationStatus,
+    /// Gauss–Newton steps, once the noise was known.
+    pub iterations: usize,
+    /// Length of the last step, in standard deviations.
+    pub gradient_norm: f64,
+    /// Trust in the log.
+    pub trust: MachineTrust,
+    /// Names of the joints; none for poses.
+    pub joints: Vec<String>,
+    /// The quantities that were estimated: those of the sensor first.
+    pub quantities: Vec<MachineQuantity>,
+    /// Estimates, in their order. A mounting is a turn against the nominal one.
+    pub values: Vec<f64>,
+    /// Covariance of the estimates. Correlated residuals are taken into account ([`inflation`](Self::inflation)), and what a turn of the mounting
+    /// does to a matrix beyond first order.
+    pub covariance: DMatrix<f64>,
+    /// The same for independent residuals, and without second-order effects of the mounting.
+    pub linear_covariance: DMatrix<f64>,
+    /// The factor by which correlation in time widens the standard deviation of each estimate; 1 where residuals are independent.
+    pub inflation: Vec<f64>,
+    /// All parameters, those that were held included.
+    pub parameters: MachineParameters,
+    /// What was expected beforehand: where delay and mounting begin.
+    pub nominal: MachineParameters,
+    /// Unit of the accelerometer's and of the gyroscope's readings; `None` without that sensor.
+    pub units: [Option<ReadingUnit>; 2],
+    /// χ² and its degrees of freedom. The probability is stated where all noise was given.
+    pub fit: FitStatistics,
+    /// Noise of each sensor.
+    pub noise: Vec<SensorResidual>,
+    /// Noise of the log: of each joint, or of position and orientation.
+    pub reference_noise: Vec<ReferenceNoise>,
+    /// The motion: smoothed, or estimated.
+    pub motion: Motion,
+    /// Where each variance comes from.
+    pub budget: Vec<BudgetRow>,
+    /// Part of the sensor's samples that lie in the log's time and in none of its gaps, 0 to 1.
+    pub used_share: f64,
+    /// Warnings for the user.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// The residuals of a sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SensorResidual {
+    /// The sensor.
+    pub sensor: SensorKind,
+    /// Noise of one sample at rest, per axis, in the unit of the readings: given, or from the residuals.
+    pub noise: Vector3<f64>,
+    /// The part of it that neighbouring samples do not share, from second differences: what the sensor alone would have.
+    pub white_noise: Vector3<f64>,
+    /// `κ` of the variance `σ² (1 + κ a)`, with the activity `a` of the motion. `None` where it does not grow.
+    pub growth: Option<f64>,
+    /// Root mean square of the residuals, in the unit of the readings.
+    pub rms: Vector3<f64>,
+    /// Times of the motion, s, and residuals of the samples used.
+    pub residuals: Vec<(f64, Vector3<f64>)>,
+}
+
+/// The noise of a part of the log.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReferenceNoise {
+    /// `shoulder_pan_joint`, `position.x`, `orientation.z`.
+    pub name: String,
+    /// Its unit: m or rad.
+    pub unit: &'static str,
+    /// Standard deviation of one sample.
+    pub sd: f64,
+    /// `κ` of the variance `σ² (1 + κ a)`.
+    pub growth: Option<f64>,
+    /// Samples that are outliers.
+    pub outliers: usize,
+    /// Number of samples.
+    pub samples: usize,
+}
+
+/// The variance of one of the sensor's parameters, by its sources.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BudgetRow {
+    /// The parameter.
+    pub quantity: ImuQuantity,
+    /// Its variance.
+    pub variance: f64,
+    /// Parts of it, in the order of [`Source::ALL`]. Their sum is the variance.
+    pub parts: [f64; Source::ALL.len()],
+}
+
+impl MachineCalibration {
+    /// The sensors that were calibrated.
+    #[must_use]
+    pub fn sensors(&self) -> Vec<SensorKind> {
+        self.noise.iter().map(|of| of.sensor).collect()
+    }
+
+    /// Standard deviation of each estimate.
+    #[must_use]
+    pub fn sd(&self) -> Vec<f64> {
+        self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
+    }
+
+    /// Name of each quantity.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.quantities.iter().map(|quantity| quantity.name(&self.joints)).collect()
+    }
+
+    /// The place of a quantity.
+    #[must_use]
+    pub fn position(&self, quantity: MachineQuantity) -> Option<usize> {
+        self.quantities.iter().position(|of| *of == quantity)
+    }
+
+    /// Value and standard deviation of a quantity that was estimated.
+    #[must_use]
+    pub fn estimate(&self, quantity: MachineQuantity) -> Option<(f64, f64)> {
+        let place = self.position(quantity)?;
+        Some((self.values[place], self.covariance[(place, place)].max(0.0).sqrt()))
+    }
+
+    /// The true frame, in words: a matrix that has the form of a gauge defines it.
+    fn frame(&self) -> String {
+        let gauge =
+            self.noise.first().and_then(|of| Gauge::of(&self.parameters.imu.sensor(of.sensor).matrix));
+        match gauge {
+            Some(gauge) => format!(
+                "that of the gauge `{}`: its orientation on the tip is in `machine.mount`",
+                gauge.name()
+            ),
+            None => "the axes of the machine's tip, turned by the mounting".to_owned(),
+        }
+    }
+
+    /// The sensor in the form that other programs exchange.
+    #[must_use]
+    pub fn calibrated(&self) -> CalibratedImu {
+        let imu: Vec<(usize, ImuQuantity)> = (self.quantities.iter().enumerate())
+            .filter_map(|(place, quantity)| match quantity {
+                MachineQuantity::Imu(of) => Some((place, *of)),
+                _ => None,
+            })
+            .collect();
+        let n = imu.len();
+        CalibratedImu {
+            parameters: self.parameters.imu,
+            accelerometer_unit: self.units[0],
+            gyroscope_unit: self.units[1],
+            quantities: imu.iter().map(|(_, quantity)| *quantity).collect(),
+            covariance: Some(DMatrix::from_fn(n, n, |i, j| self.covariance[(imu[i].0, imu[j].0)])),
+            degrees_of_freedom: None,
+            frame: self.frame(),
+        }
+    }
+}
