@@ -35,6 +35,7 @@ mod design;
 mod diagnostics;
 mod earlier_calibration;
 mod evaluation;
+mod exact_number;
 mod experiment;
 mod experiment_presets;
 mod ferraris_sections;

@@ -1,6 +1,7 @@
 //! Writes `summary.csv`: one row for each of several recordings.
 
 use super::atomic_output::write_atomically;
+use super::exact_number;
 use super::json::to_json;
 use super::machine_calibration::MachineResult;
 use calibrant_core::acceptance::{CheckedLimit, Decision};
@@ -9,6 +10,8 @@ use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus};
 use calibrant_core::sensor::Parameter;
 use calibrant_machine::estimate::MachineQuantity;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::io;
 use std::path::Path;
 
@@ -70,7 +73,7 @@ pub fn calibrations_json<'a>(
 }
 
 /// The part of a calibration that is kept in memory until `summary.csv` is written.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Summary {
     pub(super) verdict: Verdict,
     /// Names of the figures that break a limit.
@@ -82,14 +85,35 @@ pub struct Summary {
 }
 
 /// A parameter in a summary.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SummaryParameter {
-    /// Name, unit, nominal value and datasheet spread.
-    pub parameter: Parameter,
+    /// Its name.
+    pub name: String,
+    /// Unit of its numbers.
+    #[serde(deserialize_with = "known_unit")]
+    pub unit: KnownUnit,
     /// The estimate.
+    #[serde(with = "exact_number")]
     pub value: f64,
     /// Its standard deviation.
+    #[serde(with = "exact_number")]
     pub sd: f64,
+    /// Nominal value, where the datasheet gives it.
+    #[serde(with = "exact_number::optional")]
+    pub nominal: Option<f64>,
+    /// Datasheet spread, where the datasheet gives it.
+    #[serde(with = "exact_number::optional")]
+    pub spread: Option<f64>,
+}
+
+/// The symbol of a unit that parameters have.
+// a name of its own, since the text of the file cannot be borrowed for it
+type KnownUnit = &'static str;
+
+fn known_unit<'de, D: Deserializer<'de>>(deserializer: D) -> std::result::Result<&'static str, D::Error> {
+    let symbol = String::deserialize(deserializer)?;
+    let known = ENDINGS.iter().find(|(of, _)| *of == symbol).map(|(unit, _)| *unit);
+    known.ok_or_else(|| D::Error::custom(format!("`{symbol}` is no unit of a parameter")))
 }
 
 impl Summary {
@@ -118,10 +142,9 @@ impl Summary {
         quality.push(("degrees_of_freedom", fit.degrees_of_freedom.to_string()));
         quality.push(("p_value", number(fit.p_value)));
         let estimates = calibration.values.iter().zip(calibration.sd());
-        let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| SummaryParameter {
-            parameter: parameter.clone(),
-            value: *value,
-            sd,
+        let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| {
+            let Parameter { name, unit, nominal, spread } = parameter.clone();
+            SummaryParameter { name, unit, value: *value, sd, nominal, spread }
         };
         let parameters: Vec<SummaryParameter> =
             calibration.parameters.iter().zip(estimates).map(estimate).collect();
@@ -144,9 +167,12 @@ impl Summary {
         let fit = &calibration.fit;
         let estimate = |(k, quantity): (usize, &MachineQuantity)| {
             matches!(quantity, MachineQuantity::Imu(_)).then(|| SummaryParameter {
-                parameter: Parameter { name: names[k].clone(), unit: units[k], nominal: None, spread: None },
+                name: names[k].clone(),
+                unit: units[k],
                 value: calibration.values[k],
                 sd: sd[k],
+                nominal: None,
+                spread: None,
             })
         };
         let parameters: Vec<SummaryParameter> =
@@ -203,16 +229,16 @@ fn worst_sd(parameters: &[SummaryParameter]) -> [(&'static str, String); 3] {
         let finite = ratios.filter(|(_, ratio)| ratio.is_finite());
         finite.max_by(|one, other| one.1.total_cmp(&other.1))
     };
-    let over_spread = |k: usize| Some(parameters[k].sd / parameters[k].parameter.spread?);
+    let over_spread = |k: usize| Some(parameters[k].sd / parameters[k].spread?);
     let over_value = |k: usize| {
-        let SummaryParameter { parameter, value, sd } = &parameters[k];
-        parameter.name.contains(".scale.").then(|| sd / value.abs())
+        let SummaryParameter { name, value, sd, .. } = &parameters[k];
+        name.contains(".scale.").then(|| sd / value.abs())
     };
     let found = match largest(&over_spread) {
         Some(found) => Some((found, "datasheet")),
         None => largest(&over_value).map(|found| (found, "value")),
     };
-    let name = found.map_or_else(String::new, |((k, _), _)| parameters[k].parameter.name.clone());
+    let name = found.map_or_else(String::new, |((k, _), _)| parameters[k].name.clone());
     [
         ("worst_sd_parameter", name),
         ("worst_sd_ratio", number(found.map(|((_, ratio), _)| ratio))),
@@ -237,7 +263,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
         let mut header = first.map(String::from).to_vec();
         if let Some(named) = named {
             header.extend(named.quality.iter().map(|(name, _)| name.clone()));
-            for SummaryParameter { parameter: Parameter { name, unit, .. }, .. } in &named.parameters {
+            for SummaryParameter { name, unit, .. } in &named.parameters {
                 let ending = unit_ending(unit);
                 header.extend([format!("{name}{ending}"), format!("{name}_sd{ending}")]);
             }
@@ -274,8 +300,7 @@ impl Summary {
         ];
         fields.extend(self.quality.iter().map(|(_, text)| text.clone()));
         for column in &named.parameters {
-            let found =
-                self.parameters.iter().find(|estimate| estimate.parameter.name == column.parameter.name);
+            let found = self.parameters.iter().find(|estimate| estimate.name == column.name);
             fields.push(number(found.map(|estimate| estimate.value)));
             fields.push(number(found.map(|estimate| estimate.sd)));
         }
@@ -317,9 +342,4 @@ const ENDINGS: [(&str, &str); 15] = [
 #[must_use]
 pub fn unit_ending(unit: &str) -> &'static str {
     ENDINGS.iter().find(|(of, _)| *of == unit).map_or("", |(_, ending)| ending)
-}
-
-/// The unit of a parameter that has this symbol.
-pub(super) fn unit_of(symbol: &str) -> Option<&'static str> {
-    ENDINGS.iter().find(|(of, _)| *of == symbol).map(|(unit, _)| *unit)
 }

@@ -1,9 +1,11 @@
 //! What was told of a recording, as it is kept beside its result.
 
 use calibrant_core::diagnostic::Code;
+use calibrant_core::json_name;
+use serde::{Deserialize, Serialize};
 
 /// A sentence on a recording or its result.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Told {
     /// Who says it.
     pub kind: ToldKind,
@@ -33,7 +35,7 @@ impl ToldKind {
     const ALL: [Self; 4] = [Self::Diagnostic, Self::Finding, Self::Warning, Self::Remark];
 
     /// As files state it.
-    pub(super) fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Self::Diagnostic => "diagnostic",
             Self::Finding => "finding",
@@ -41,9 +43,6 @@ impl ToldKind {
             Self::Remark => "remark",
         }
     }
-
-    /// The kind of this name.
-    pub(super) fn parse(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
-    }
 }
+
+json_name!(ToldKind, ToldKind::ALL);

@@ -25,15 +25,16 @@ fn datasheet(sensor: &Sensor) -> Vec<Parameter> {
 }
 
 fn parameter(of: &SummaryParameter, datasheet: &[Parameter], limits: &[AcceptanceLimit]) -> BatchParameter {
-    let is_same = |one: &&Parameter| one.name == of.parameter.name && one.unit == of.parameter.unit;
-    let of_datasheet = datasheet.iter().find(is_same).filter(|_| of.parameter.spread.is_none());
-    let parameter = of_datasheet.unwrap_or(&of.parameter);
-    let ranges = limits.iter().filter(|limit| limit.names(&parameter.name)).filter_map(|limit| limit.range);
+    let is_same = |one: &&Parameter| one.name == of.name && one.unit == of.unit;
+    let of_datasheet = datasheet.iter().find(is_same).filter(|_| of.spread.is_none());
+    let (nominal, spread) =
+        of_datasheet.map_or((of.nominal, of.spread), |known| (known.nominal, known.spread));
+    let ranges = limits.iter().filter(|limit| limit.names(&of.name)).filter_map(|limit| limit.range);
     BatchParameter {
-        name: parameter.name.clone(),
-        unit: parameter.unit,
-        nominal: parameter.nominal,
-        spread: parameter.spread,
+        name: of.name.clone(),
+        unit: of.unit,
+        nominal,
+        spread,
         // all limits are to be kept
         accepted: ranges.reduce(|one, other| (one.0.max(other.0), one.1.min(other.1))),
     }
@@ -52,7 +53,7 @@ fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryPara
         Ok(kept) => {
             let (summary, file) = (&kept.finished.summary, job.arguments.main_file());
             let estimate = |column: &SummaryParameter| {
-                let found = summary.parameters().iter().find(|of| of.parameter.name == column.parameter.name);
+                let found = summary.parameters().iter().find(|of| of.name == column.name);
                 found.map_or((f64::NAN, f64::NAN), |of| (of.value, of.sd))
             };
             let deciding = recorded

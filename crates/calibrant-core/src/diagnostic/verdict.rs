@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Code, Severity};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// May a result be used?
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,7 +59,7 @@ crate::json_name!(Usability, Usability::ALL);
 /// assert_eq!(Verdict::on(codes, &[Code::ScaleNegative]).usability, Usability::Doubtful);
 /// assert_eq!(Verdict::on([], &[]).to_string(), "ok");
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Verdict {
     /// May it be used?
     pub usability: Usability,

@@ -26,6 +26,9 @@ pub enum CalibrationStatus {
 }
 
 impl CalibrationStatus {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Converged, Self::IterationLimit, Self::Stalled];
+
     /// As written in results: `converged`, `iteration_limit`, `stalled`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -36,6 +39,8 @@ impl CalibrationStatus {
         }
     }
 }
+
+crate::json_name!(CalibrationStatus, CalibrationStatus::ALL);
 
 /// A calibration of an accelerometer or of an IMU: parameters, their one covariance, and everything needed to judge them.
 ///

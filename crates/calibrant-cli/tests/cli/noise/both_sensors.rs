@@ -44,7 +44,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
         assert!(outcome.stdout.contains(text), "{text}\n{}", outcome.stdout);
     }
     let json = bench.json("both/noise.json");
-    assert_eq!(json["schema"], 1);
+    assert_eq!(json["schema"], 2);
     let names: Vec<&str> =
         json["sensors"].as_array().expect("sensors").iter().filter_map(|it| it["sensor"].as_str()).collect();
     assert_eq!(names, ["accelerometer", "gyroscope"]);

@@ -13,8 +13,8 @@ use crate::sensor::{ImuFields, ParameterKnowledge};
 json_object! {
     /// A calibration of an accelerometer or of an IMU.
     Calibration as of {
-        /// `converged`, `iteration_limit` or `stalled`.
-        status: of.status.name(),
+        /// How the iteration ended.
+        status: of.status,
         iterations: of.iterations,
         /// Length of the remaining step, in standard deviations.
         gradient_norm: of.gradient_norm,
