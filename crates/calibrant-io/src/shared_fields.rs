@@ -3,7 +3,7 @@
 use calibrant_core::estimate::{FitStatistics, Whiteness};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::{Axis, ReadingUnit};
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, Vector3};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -38,11 +38,6 @@ pub(super) fn per_axis(vector: &Vector3<f64>, axes: usize) -> Vec<f64> {
 /// A row for each vector.
 pub(super) fn rows(vectors: &[Vector3<f64>], axes: usize) -> Vec<Vec<f64>> {
     vectors.iter().map(|vector| per_axis(vector, axes)).collect()
-}
-
-/// The upper left block of a 3×3 matrix, row by row.
-pub(super) fn block(matrix: &Matrix3<f64>, axes: usize) -> Vec<Vec<f64>> {
-    (0..axes).map(|row| (0..axes).map(|column| matrix[(row, column)]).collect()).collect()
 }
 
 /// A matrix, row by row.

@@ -4,8 +4,8 @@ use super::aging::{QuantityAging, SensorChange, SensorDrift, SensorHistory};
 use super::database::KeptRecord;
 use super::fleet::{Fleet, FleetParameter, LeftOut};
 use calibrant_core::estimate::OverallDifference;
-use calibrant_core::sensor::Gauge;
-use calibrant_io::{HashedFile, ImuCore, SCHEMA, UtcTime, to_json};
+use calibrant_core::sensor::{Gauge, ImuFields};
+use calibrant_io::{HashedFile, SCHEMA, UtcTime, to_json};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -70,7 +70,7 @@ struct CalibrationFields<'a> {
     #[serde(flatten)]
     record: RecordFields<'a>,
     #[serde(flatten)]
-    core: ImuCore,
+    core: ImuFields,
 }
 
 /// A record as calibrant JSON of schema 2, which [`read_calibrated_imu`](calibrant_io::read_calibrated_imu) reads.
@@ -81,7 +81,7 @@ pub fn record_json(kept: &KeptRecord) -> String {
         kind: "calibration",
         program: &kept.record.program,
         record: RecordFields::of(kept),
-        core: ImuCore::of(&kept.record.imu, 3, &[]).without_inputs(),
+        core: ImuFields::of(kept.record.imu.clone()),
     })
 }
 

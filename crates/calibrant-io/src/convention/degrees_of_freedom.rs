@@ -4,10 +4,10 @@ use super::words::input_error;
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::CovarianceDegrees;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Those behind each part of the covariance; `null` where its size is known.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Deserialize)]
 pub(super) struct DegreesCore {
     accelerometer: Option<f64>,
     gyroscope_at_rest: Option<f64>,
@@ -15,15 +15,6 @@ pub(super) struct DegreesCore {
 }
 
 impl DegreesCore {
-    pub(super) fn of(degrees: &CovarianceDegrees) -> Self {
-        let finite = |degrees: f64| degrees.is_finite().then_some(degrees);
-        Self {
-            accelerometer: finite(degrees.accelerometer),
-            gyroscope_at_rest: finite(degrees.gyroscope_at_rest),
-            gyroscope_matrix: finite(degrees.gyroscope_matrix),
-        }
-    }
-
     pub(super) fn into_degrees(self) -> Checked<CovarianceDegrees> {
         let stated = |degrees: Option<f64>| match degrees {
             None => Ok(f64::INFINITY),

@@ -1,4 +1,4 @@
-//! The core of our JSON files: the fields that describe a calibrated IMU. They are direction, frame, gauge,
+//! Reads the core of our JSON files: the fields that describe a calibrated IMU. They are direction, frame, gauge,
 //! the unit of each sensor, the named quantities with their covariance, and the recordings.
 //!
 //! Numbers carry their unit in the field's name. Values stand twice. The sensors' matrices are complete. The
@@ -6,143 +6,68 @@
 //! each other.
 
 use super::super::input::Input;
-use super::arrays::{Rows, matrix3, missing, rows, vector3};
+use super::arrays::{Rows, matrix3, missing, vector3};
 use super::degrees_of_freedom::DegreesCore;
 use super::temperature::TemperatureCore;
 use super::words::input_error;
-use crate::shared_fields::{block, matrix_rows, per_axis};
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
+use calibrant_core::form::block;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
-    SensorParameters,
+    SensorParameters, correction_name,
 };
 use nalgebra::{DMatrix, Matrix3};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-/// The fields of a calibrated IMU, to be flattened into a file. All fields are optional for the reader, so that it can name what is missing.
-#[derive(Debug, Serialize, Deserialize)]
+/// The fields of a calibrated IMU in a file. All are optional, so that the reader can name what is missing.
+#[derive(Debug, Deserialize)]
 pub struct ImuCore {
     direction: Option<String>,
     frame: Option<String>,
     gauge: Option<String>,
     accelerometer: Option<SensorCore>,
     gyroscope: Option<SensorCore>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     temperature: Option<TemperatureCore>,
     parameters: Option<Vec<ParameterCore>>,
-    covariance_of: Option<String>,
     covariance: Option<Vec<Vec<Option<f64>>>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     covariance_degrees_of_freedom: Option<DegreesCore>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     inputs: Option<Vec<Input>>,
 }
 
-/// The words of the field `direction`.
-const DIRECTION: &str =
-    "true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f; matrix is S, g_sensitivity is G";
-
 /// One sensor. Each quantity has the field in its unit.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 struct SensorCore {
     reading_unit: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_mps2: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_radps: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_counts: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     matrix: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     matrix_counts_per_mps2: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     matrix_counts_per_radps: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     g_sensitivity_radps_per_mps2: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     g_sensitivity_counts_per_mps2: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     correction: Option<CorrectionCore>,
 }
 
 /// Raw → true, for readers of the file; our reader checks that it is the inverse.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 struct CorrectionCore {
-    #[serde(default)]
-    direction: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
     matrix: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     matrix_mps2_per_count: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     matrix_radps_per_count: Option<Rows>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Deserialize)]
 struct ParameterCore {
     name: Option<String>,
     unit: Option<String>,
     value: Option<f64>,
     sd: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
-    nominal: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
-    spread_sd: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
-    prior_share: Option<f64>,
 }
 
 impl ImuCore {
-    /// The fields of a calibrated IMU, or of an accelerometer with this number of axes.
-    #[must_use]
-    pub fn of(imu: &CalibratedImu, axes: usize, inputs: &[Input]) -> Self {
-        // a fit that did not converge has a covariance of zeros, and no sd
-        let sd = |k: usize| {
-            imu.covariance
-                .as_ref()
-                .map(|sigma| sigma[(k, k)])
-                .filter(|variance| *variance > 0.0)
-                .map(f64::sqrt)
-        };
-        let parameter = |(k, &quantity): (usize, &ImuQuantity)| ParameterCore {
-            name: Some(quantity.name()),
-            unit: Some(quantity.unit(unit_of(imu, quantity.sensor_kind())).into()),
-            value: Some(quantity.value(&imu.parameters)),
-            sd: sd(k),
-            nominal: None,
-            spread_sd: None,
-            prior_share: None,
-        };
-        let optional = |rows: Rows| rows.into_iter().map(|row| row.into_iter().map(Some).collect()).collect();
-        let sensor_kind = |sensor_kind| {
-            imu.unit(sensor_kind).map(|unit| SensorCore::of(sensor_kind, unit, &imu.parameters, axes))
-        };
-        Self {
-            direction: Some(DIRECTION.into()),
-            frame: Some(imu.frame.clone()),
-            gauge: imu.gauge().map(|gauge| gauge.name().into()),
-            accelerometer: sensor_kind(SensorKind::Accelerometer),
-            gyroscope: sensor_kind(SensorKind::Gyroscope),
-            temperature: TemperatureCore::of(imu),
-            parameters: Some(imu.quantities.iter().enumerate().map(parameter).collect()),
-            covariance_of: Some(
-                "the parameters in their order; entry (i, j) in the unit of parameter i times that of parameter j".into(),
-            ),
-            covariance: imu.covariance.as_ref().map(|sigma| optional(matrix_rows(sigma))),
-            covariance_degrees_of_freedom: imu.degrees_of_freedom.as_ref().map(DegreesCore::of),
-            inputs: Some(inputs.to_vec()),
-        }
-    }
-
-    /// The same without recordings.
-    #[must_use]
-    pub fn without_inputs(self) -> Self {
-        Self { inputs: None, ..self }
-    }
-
     /// Is the accelerometer one of a single axis?
     pub(super) fn has_one_axis(&self) -> bool {
         let is_one = |bias: &Option<Vec<f64>>| bias.as_ref().is_some_and(|bias| bias.len() == 1);
@@ -221,30 +146,6 @@ impl ImuCore {
 }
 
 impl SensorCore {
-    fn of(sensor_kind: SensorKind, unit: ReadingUnit, imu: &ImuParameters, axes: usize) -> Self {
-        let sensor = imu.sensor(sensor_kind);
-        let (bias, matrix) = (Some(per_axis(&sensor.bias, axes)), Some(block(&sensor.matrix, axes)));
-        let g_sensitivity = (sensor_kind == SensorKind::Gyroscope).then(|| rows(&imu.g_sensitivity));
-        let mut fields = Self { reading_unit: unit.symbol().into(), ..Self::default() };
-        match unit {
-            ReadingUnit::MetrePerSecondSquared => fields.bias_mps2 = bias,
-            ReadingUnit::RadianPerSecond => fields.bias_radps = bias,
-            ReadingUnit::Counts => fields.bias_counts = bias,
-        }
-        match (unit, sensor_kind) {
-            (ReadingUnit::Counts, SensorKind::Accelerometer) => fields.matrix_counts_per_mps2 = matrix,
-            (ReadingUnit::Counts, SensorKind::Gyroscope) => fields.matrix_counts_per_radps = matrix,
-            _ => fields.matrix = matrix,
-        }
-        match unit {
-            ReadingUnit::Counts => fields.g_sensitivity_counts_per_mps2 = g_sensitivity,
-            _ => fields.g_sensitivity_radps_per_mps2 = g_sensitivity,
-        }
-        fields.correction =
-            Correction::of(sensor).map(|correction| CorrectionCore::of(sensor_kind, unit, &correction, axes));
-        fields
-    }
-
     fn into_sensor(self, sensor_kind: SensorKind) -> Checked<(ReadingUnit, SensorParameters, Matrix3<f64>)> {
         let unit = [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
             .into_iter()
@@ -290,7 +191,7 @@ impl SensorCore {
             _ => Matrix3::zeros(),
         };
         if let (Some(stated), Some(correction)) = (&self.correction, Correction::of(&sensor))
-            && !stated.is_near(&CorrectionCore::of(sensor_kind, unit, &correction, bias.len()))
+            && !stated.is_near(correction_name(unit, sensor_kind), &block(&correction.matrix, bias.len()))
         {
             return Err(input_error(
                 Refusal::CalibrationInvalid,
@@ -310,41 +211,24 @@ fn of_one_axis(bias: f64, scale: f64) -> SensorParameters {
 }
 
 impl CorrectionCore {
-    /// Is each matrix that this file states the computed one, to the digits that people keep?
-    fn is_near(&self, computed: &Self) -> bool {
-        let matrices = |of: &Self| {
-            [&of.matrix, &of.matrix_mps2_per_count, &of.matrix_radps_per_count]
-                .map(|rows| rows.clone().map(|rows| rows.concat()))
-        };
-        matrices(self).into_iter().zip(matrices(computed)).all(|pair| match pair {
-            (Some(stated), Some(computed)) => {
-                let largest = computed.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-                stated.len() == computed.len()
-                    && stated.iter().zip(&computed).all(|(one, other)| (one - other).abs() <= 1e-4 * largest)
-            }
-            (stated, _) => stated.is_none(),
-        })
+    /// Does the file state no other matrix than the computed one of this name, to the digits that people keep?
+    fn is_near(&self, name: &str, computed: &[Vec<f64>]) -> bool {
+        let stated = [
+            ("matrix", &self.matrix),
+            ("matrix_mps2_per_count", &self.matrix_mps2_per_count),
+            ("matrix_radps_per_count", &self.matrix_radps_per_count),
+        ];
+        stated
+            .into_iter()
+            .all(|(key, rows)| rows.as_ref().is_none_or(|rows| key == name && near(rows, computed)))
     }
+}
 
-    fn of(sensor_kind: SensorKind, unit: ReadingUnit, correction: &Correction, axes: usize) -> Self {
-        let matrix = Some(block(&correction.matrix, axes));
-        let direction = match sensor_kind {
-            SensorKind::Accelerometer => "raw to true: f = C (y_a - b_a); matrix is C, the inverse of S",
-            SensorKind::Gyroscope => "raw to true: w = C (y_g - b_g - G f); matrix is C, the inverse of S",
-        };
-        let mut fields = Self {
-            direction: direction.into(),
-            matrix: None,
-            matrix_mps2_per_count: None,
-            matrix_radps_per_count: None,
-        };
-        match (unit, sensor_kind) {
-            (ReadingUnit::Counts, SensorKind::Accelerometer) => fields.matrix_mps2_per_count = matrix,
-            (ReadingUnit::Counts, SensorKind::Gyroscope) => fields.matrix_radps_per_count = matrix,
-            _ => fields.matrix = matrix,
-        }
-        fields
-    }
+fn near(stated: &[Vec<f64>], computed: &[Vec<f64>]) -> bool {
+    let (stated, computed) = (stated.concat(), computed.concat());
+    let largest = computed.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    stated.len() == computed.len()
+        && stated.iter().zip(&computed).all(|(one, other)| (one - other).abs() <= 1e-4 * largest)
 }
 
 impl ParameterCore {
@@ -373,7 +257,7 @@ impl ParameterCore {
                 "correct it",
             ));
         }
-        let wanted = quantity.unit(unit_of(imu, quantity.sensor_kind()));
+        let wanted = imu.unit_of(quantity);
         if unit != wanted {
             return Err(input_error(
                 Refusal::CalibrationInvalid,
@@ -430,10 +314,6 @@ pub(super) fn covariance_of(rows: &[Vec<Option<f64>>], size: usize) -> Checked<D
         ));
     }
     Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j].unwrap_or(f64::NAN)))
-}
-
-fn unit_of(imu: &CalibratedImu, sensor_kind: SensorKind) -> ReadingUnit {
-    imu.unit(sensor_kind).unwrap_or(sensor_kind.stimulus_unit())
 }
 
 /// Returns an error for a field that states another direction than that of our own files.

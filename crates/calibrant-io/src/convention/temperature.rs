@@ -1,4 +1,4 @@
-//! The temperature model of an IMU in our JSON files: the object `temperature`.
+//! Reads the temperature model of an IMU in our JSON files: the object `temperature`.
 //!
 //! The bias of each sensor has the fields in its unit. Fields that are not there are zero.
 
@@ -6,60 +6,32 @@ use super::arrays::{missing, vector3};
 use super::words::input_error;
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
-use calibrant_core::sensor::{CalibratedImu, ReadingUnit, SensorKind, SensorThermal, Thermal};
+use calibrant_core::sensor::{ReadingUnit, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Deserialize)]
 pub(super) struct TemperatureCore {
-    formula: Option<String>,
     reference_c: Option<f64>,
     range_c: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     accelerometer: Option<TermsCore>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope: Option<TermsCore>,
 }
 
-/// The formula that the file states.
-const FORMULA: &str = "with t = T - reference_c: b(T) = b + bias_per_k t + bias_per_k2 t^2, S(T) = diag(1 + scale_per_k t + scale_per_k2 t^2) S";
-
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 struct TermsCore {
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_mps2_per_k: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_mps2_per_k2: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_radps_per_k: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_radps_per_k2: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_counts_per_k: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     bias_counts_per_k2: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     scale_per_k: Option<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     scale_per_k2: Option<Vec<f64>>,
 }
 
 impl TemperatureCore {
-    /// The fields of an IMU that follows temperature.
-    pub(super) fn of(imu: &CalibratedImu) -> Option<Self> {
-        let thermal = &imu.parameters.thermal;
-        let terms =
-            |sensor_kind| imu.unit(sensor_kind).map(|unit| TermsCore::of(unit, thermal.sensor(sensor_kind)));
-        imu.follows_temperature().then(|| Self {
-            formula: Some(FORMULA.into()),
-            reference_c: Some(thermal.reference_c),
-            range_c: thermal.range_c.map(|range| range.to_vec()),
-            accelerometer: terms(SensorKind::Accelerometer),
-            gyroscope: terms(SensorKind::Gyroscope),
-        })
-    }
-
     /// The temperature model of the fields; units are those of the sensors.
     pub(super) fn into_thermal(self, units: [Option<ReadingUnit>; 2]) -> Checked<Thermal> {
         let Some(reference_c) = self.reference_c else {
@@ -99,18 +71,6 @@ impl TemperatureCore {
 }
 
 impl TermsCore {
-    fn of(unit: ReadingUnit, terms: &SensorThermal) -> Self {
-        let list = |vector: &Vector3<f64>| Some(vector.iter().copied().collect());
-        let mut fields = Self {
-            scale_per_k: list(&terms.scale[0]),
-            scale_per_k2: list(&terms.scale[1]),
-            ..Self::default()
-        };
-        let [first, second] = fields.bias(unit);
-        (*first, *second) = (list(&terms.bias[0]), list(&terms.bias[1]));
-        fields
-    }
-
     fn bias(&mut self, unit: ReadingUnit) -> [&mut Option<Vec<f64>>; 2] {
         match unit {
             ReadingUnit::MetrePerSecondSquared => [&mut self.bias_mps2_per_k, &mut self.bias_mps2_per_k2],

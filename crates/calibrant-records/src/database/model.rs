@@ -2,7 +2,7 @@
 //!
 //! It is calibrant JSON with zero in place of each estimate. Added to zero, the estimates come back to the last bit.
 
-use calibrant_core::sensor::{CalibratedImu, CovarianceDegrees, Thermal};
+use calibrant_core::sensor::{CalibratedImu, CovarianceDegrees, ImuFields, Thermal};
 use calibrant_io::{ImuCore, to_json};
 use nalgebra::DMatrix;
 
@@ -15,7 +15,7 @@ pub(super) fn text_of(imu: &CalibratedImu) -> String {
     let none = Thermal::none();
     (model.parameters.thermal.reference_c, model.parameters.thermal.range_c) =
         (none.reference_c, none.range_c);
-    to_json(&ImuCore::of(&model, 3, &[]).without_inputs())
+    to_json(&ImuFields::of(model))
 }
 
 /// The IMU of a model's text; all its estimates are zero.
