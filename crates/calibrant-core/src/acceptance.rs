@@ -7,6 +7,7 @@
 //! A standard deviation is decided without a guard band: it passes up to the largest that is accepted.
 
 use crate::diagnostic::{Diagnostic, LimitMiss};
+use crate::form::finite;
 use crate::json::if_some;
 
 /// Standard deviations of the guard band: 95 % on one side.
@@ -147,10 +148,6 @@ crate::json_object! {
         largest_sd: if_some(limit.largest_sd),
         decision: limit.decision,
     }
-}
-
-fn finite(number: f64) -> Option<f64> {
-    number.is_finite().then_some(number)
 }
 
 impl CheckedLimit {

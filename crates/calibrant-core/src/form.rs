@@ -33,6 +33,12 @@ pub fn block(matrix: &Matrix3<f64>, axes: usize) -> Vec<Vec<f64>> {
     (0..axes).map(|row| (0..axes).map(|column| matrix[(row, column)]).collect()).collect()
 }
 
+/// A number; `None` where it is not finite.
+#[must_use]
+pub fn finite(number: f64) -> Option<f64> {
+    number.is_finite().then_some(number)
+}
+
 /// Writes a field in the form `T`.
 ///
 /// # Examples
@@ -109,7 +115,7 @@ impl Form<[f64; 4]> for UnitQuaternion<f64> {
 /// `None` where it is no finite number.
 impl Form<Option<f64>> for f64 {
     fn form(&self) -> Option<f64> {
-        self.is_finite().then_some(*self)
+        finite(*self)
     }
 }
 

@@ -5,13 +5,15 @@ use super::program::program;
 use calibrant_core::json_object;
 
 /// The first fields of a JSON file: to be flattened into it.
-pub(super) struct Heading {
+#[derive(Debug, Clone, Copy)]
+pub struct Heading {
     kind: &'static str,
 }
 
 impl Heading {
     /// Of a file of this kind.
-    pub(super) fn of(kind: &'static str) -> Self {
+    #[must_use]
+    pub fn of(kind: &'static str) -> Self {
         Self { kind }
     }
 }

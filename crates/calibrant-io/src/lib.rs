@@ -101,6 +101,7 @@ pub use experiment_presets::{PRESETS, Preset, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use finished::Finished;
 pub use hashed_file::HashedFile;
+pub use heading::Heading;
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use json::{SCHEMA, to_json, write_json};

@@ -40,7 +40,7 @@ pub use aging::{
 pub use database::{Inserted, KeptRecord, RecordFilter, Records};
 pub use export::ExportFormat;
 pub use fleet::{Distribution, Fleet, FleetParameter, LeftOut};
-pub use json::{drifts_json, fleet_json, history_json, record_json, records_json};
+pub use json::RecordFile;
 pub use record::Record;
 
 #[cfg(test)]

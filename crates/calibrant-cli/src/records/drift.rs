@@ -4,8 +4,9 @@ use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::ComparedQuantity;
+use calibrant::io::to_json;
 use calibrant::records::QuantityAging;
-use calibrant::records::{Records, SensorChange, SensorDrift, SensorHistory, drifts_json, history_json};
+use calibrant::records::{Records, SensorChange, SensorDrift, SensorHistory};
 use calibrant::report::number_format;
 use std::path::PathBuf;
 
@@ -42,7 +43,7 @@ impl Arguments {
                     return Err(Error::experiment(error));
                 }
                 if self.json {
-                    console::print_always(&history_json(&history));
+                    console::print_always(&to_json(&history));
                 } else {
                     console::print(&of_sensor(&history));
                 }
@@ -50,7 +51,7 @@ impl Arguments {
             None => {
                 let drifts = records.drifts()?;
                 if self.json {
-                    console::print_always(&drifts_json(&drifts));
+                    console::print_always(&to_json(&drifts));
                 } else {
                     console::print(&of_all(&drifts));
                 }

@@ -1,7 +1,8 @@
 //! `calibrant records fleet`: how the parameters differ from sensor to sensor.
 
 use crate::{Exit, console};
-use calibrant::records::{Fleet, FleetParameter, Records, fleet_json};
+use calibrant::io::to_json;
+use calibrant::records::{Fleet, FleetParameter, Records};
 use calibrant::report::number_format::{counted, rounded_to, short, signed, significant};
 use std::path::PathBuf;
 
@@ -24,7 +25,7 @@ impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let fleet = Records::open_existing(&self.records)?.fleet()?;
         if self.json {
-            console::print_always(&fleet_json(&fleet));
+            console::print_always(&to_json(&fleet));
             return Ok(Exit::DONE);
         }
         let header = [

@@ -2,7 +2,8 @@
 
 use super::selection::Selection;
 use crate::{Exit, console};
-use calibrant::records::{KeptRecord, Records, records_json};
+use calibrant::io::to_json;
+use calibrant::records::{KeptRecord, Records};
 use std::path::PathBuf;
 
 /// List calibrations: by sensor, and by date.
@@ -21,7 +22,7 @@ impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let records = Records::open_existing(&self.records)?.list(&self.selection.filter())?;
         if self.json {
-            console::print_always(&records_json(&records));
+            console::print_always(&to_json(&records));
             return Ok(Exit::DONE);
         }
         let header = [

@@ -3,7 +3,8 @@
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::records::{KeptRecord, Records, record_json};
+use calibrant::io::to_json;
+use calibrant::records::{KeptRecord, RecordFile, Records};
 use calibrant::report::number_format;
 use std::path::PathBuf;
 
@@ -30,7 +31,7 @@ impl Arguments {
             return Err(Error::experiment(error));
         };
         if self.json {
-            console::print_always(&record_json(&kept));
+            console::print_always(&to_json(&RecordFile(&kept)));
         } else {
             console::print(&in_words(&kept));
         }

@@ -12,7 +12,7 @@
 
 use super::effective_degrees;
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
-use crate::form::{As, Form};
+use crate::form::{As, finite};
 use crate::sensor::{
     CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
 };
@@ -83,7 +83,7 @@ crate::json_object! {
         difference_sd: row.sd,
         difference_in_sd: row.in_sd,
         /// None where the sd is known.
-        degrees_of_freedom: Form::<Option<f64>>::form(&row.degrees_of_freedom),
+        degrees_of_freedom: finite(row.degrees_of_freedom),
         p_value: row.p_value,
     }
 }

@@ -6,7 +6,7 @@ use super::thermal_json::ThermalOf;
 use super::{
     CalibratedImu, Correction, CovarianceDegrees, Gauge, ImuQuantity, Quantity, ReadingUnit, SensorKind,
 };
-use crate::form::{Form, block, per_axis};
+use crate::form::{Form, block, finite, per_axis};
 use crate::json::{if_some, named, with_ending};
 use crate::json_object;
 
@@ -182,10 +182,6 @@ json_object! {
         gyroscope_at_rest: finite(degrees.gyroscope_at_rest),
         gyroscope_matrix: finite(degrees.gyroscope_matrix),
     }
-}
-
-fn finite(degrees: f64) -> Option<f64> {
-    degrees.is_finite().then_some(degrees)
 }
 
 impl CalibratedImu {

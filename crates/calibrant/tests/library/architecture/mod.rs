@@ -29,7 +29,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
     ("budget", &["error"]),
     ("diagnostic", &["json", "error", "sensor", "motion"]),
-    ("acceptance", &["json", "diagnostic"]),
+    ("acceptance", &["form", "json", "diagnostic"]),
     ("arrowhead", &[]),
     ("form", &[]),
     ("json", &[]),
