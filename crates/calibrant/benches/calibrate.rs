@@ -58,7 +58,7 @@ fn holds(criterion: &mut Criterion) {
         };
         let (recording, _) =
             simulate_holds(&truth, &Vector3::repeat(0.01), sensor.unit, &simulation, &mut rng);
-        let setup = HoldsSetup::default();
+        let setup = HoldsSetup { bias_drift_sd_mps2: 0.0, ..HoldsSetup::default() };
         let problem =
             CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Holds(&setup) };
         group.bench_function(name, |bencher| {

@@ -66,6 +66,7 @@ pub(crate) fn imu_case(holds: usize, seed: u64) -> ImuCase {
             gravity: GRAVITY,
             gauge: Gauge::Upper,
             intervals_s: Some(intervals_s),
+            bias_drift_sd_mps2: 0.0,
             ..HoldsSetup::default()
         },
         turns,

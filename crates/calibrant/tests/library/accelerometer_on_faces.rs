@@ -1,5 +1,6 @@
 //! An accelerometer alone in known directions: its matrix in their frame, with honest intervals; wrong directions are refused.
 
+use crate::common::steady_holds;
 use crate::common::normal;
 use calibrant::Error;
 use calibrant::error::Refusal;
@@ -48,7 +49,7 @@ fn record(
     let imu = ImuParameters { accelerometer: *truth, ..ImuParameters::identity() };
     let recording = simulate_table(&imu, &steps, &simulation, rng).accelerometer.expect("recorded");
     let intervals_s = Some((0..steps.len()).map(|k| (start_s(k), start_s(k) + 3.99)).collect());
-    (recording, HoldsSetup { intervals_s, ..HoldsSetup::default() })
+    (recording, HoldsSetup { intervals_s, ..steady_holds() })
 }
 
 fn run(

@@ -3,6 +3,7 @@
 //! Sensors are simulated in the poses of a design, in its order, with a drift of the biases and a scatter
 //! between holds. The scatter of the estimates about the truth is compared with the promised one.
 
+use crate::common::steady_holds;
 use crate::common::normal;
 use calibrant::design::DesignSettings;
 use calibrant::design::poses::{
@@ -85,7 +86,7 @@ fn holds(poses: usize, start_s: impl Fn(usize) -> f64) -> HoldsSetup {
         gauge: Gauge::Upper,
         intervals_s: Some((0..poses).map(hold).collect()),
         bias_drift_sd_mps2: DRIFT,
-        ..HoldsSetup::default()
+        ..steady_holds()
     }
 }
 

@@ -1,9 +1,10 @@
 //! A bias that drifts over the recording: it hides in no parameter, and costs little where it is not there.
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, run_imu};
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuSetup, Stimulus,
+    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, ImuSetup, Stimulus,
     calibrate,
 };
 use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
@@ -63,7 +64,7 @@ fn calibrated(number: u64, drift: &Vector3<f64>, in_order: bool, allowed: f64) -
         rand::seq::SliceRandom::shuffle(order.as_mut_slice(), &mut rng);
     }
     let recording = record(&sensor, &order, drift, &mut rng);
-    let setup = HoldsSetup { bias_drift_sd_mps2: allowed, ..HoldsSetup::default() };
+    let setup = HoldsSetup { bias_drift_sd_mps2: allowed, ..steady_holds() };
     let model = Sensor::triaxial(SensorModel::Full);
     let problem =
         CalibrationProblem { sensor: &model, recording: &recording, stimulus: Stimulus::Holds(&setup) };
@@ -140,10 +141,10 @@ fn the_parameters_of_an_imu_are_within_their_uncertainty_with_a_drift() {
             for (k, reading) in accelerometer.readings_mut().iter_mut().enumerate() {
                 *reading += Vector3::new(0.3, -0.5, 0.8) * (drift_mps2 * (k as f64 / count - 0.5));
             }
-            let holds = HoldsSetup { bias_drift_sd_mps2: allowed, ..HoldsSetup::default() };
-            let setup = ImuSetup { holds, ..ImuSetup::default() };
+            let holds = HoldsSetup { bias_drift_sd_mps2: allowed, ..steady_holds() };
+            let setup = ImuSetup { holds, ..steady_imu() };
             let unit = ReadingUnit::MetrePerSecondSquared;
-            let found = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+            let found = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
             let sd = found.sd();
             let z = |k: usize| (found.values[k] - found.quantities[k].value(&imu)) / sd[k];
             ((0..sd.len()).map(z).map(|z| z * z).sum::<f64>() / sd.len() as f64, sd[0])

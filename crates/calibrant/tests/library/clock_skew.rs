@@ -1,6 +1,7 @@
 //! Tests of sensors whose times are not of one clock: the warning names it, and other sensors get no such
 //! warning.
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
 use crate::common::{messages, retimed};
@@ -20,7 +21,7 @@ const SAID: &str = "he gyroscope shows movements ";
 
 fn run(recording: &ImuRecording) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
-    let (gyroscope, setup) = (Gyroscope::default(), ImuSetup::default());
+    let (gyroscope, setup) = (unfeeling_gyroscope(), steady_imu());
     let problem =
         ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup: &setup };
     calibrate_imu(&problem, &CalibrationSettings::default())
@@ -143,10 +144,10 @@ fn clocks_of_different_rates_are_told_on_long_arms_and_make_folds_doubtful() {
     assert!(reported.len() as u64 >= count - 2, "{reported:?}");
     assert!(reported.iter().all(|z| z.abs() < 4.5), "{reported:?}");
 
-    let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
+    let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), unfeeling_gyroscope());
     for (rate, expected) in [(0.0, None), (1e-3, Some("clocks"))] {
         let (_, recording) = pair(3, |t| t * (1.0 + rate));
-        let setup = ImuSetup::default();
+        let setup = steady_imu();
         let problem = ImuProblem {
             accelerometer: &accelerometer,
             gyroscope: &gyroscope,
@@ -167,9 +168,9 @@ fn clocks_of_different_rates_are_told_on_long_arms_and_make_folds_doubtful() {
 #[test]
 fn the_xsens_pair_is_not_accused() {
     let Some((recording, gravity)) = crate::common::xsens() else { return };
-    let setup = ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() };
+    let setup = ImuSetup { holds: HoldsSetup { gravity, ..steady_holds() }, ..steady_imu() };
     let unit = calibrant::sensor::ReadingUnit::Counts;
-    let gyroscope = Gyroscope { unit, ..Gyroscope::default() };
+    let gyroscope = Gyroscope { unit, ..unfeeling_gyroscope() };
     let accelerometer = Sensor { unit, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
     let calibrate = |recording: &ImuRecording| {
         let problem =

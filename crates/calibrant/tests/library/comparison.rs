@@ -1,5 +1,6 @@
 //! Two calibrations of one sensor differ by as much as their standard deviations say, however few holds there were.
 
+use crate::common::steady_holds;
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, Comparison, HoldsSetup, Stimulus, calibrate,
 };
@@ -24,7 +25,7 @@ fn calibrated(sensor: &Sensor, truth: &SensorParameters, poses: usize, rng: &mut
     let noise = Vector3::repeat(2e-3);
     let (recording, _) = simulate_holds(truth, &noise, sensor.unit, &simulation, rng);
     let gravity = Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 };
-    let setup = HoldsSetup { gravity, ..HoldsSetup::default() };
+    let setup = HoldsSetup { gravity, ..steady_holds() };
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Holds(&setup) };
     calibrate(&problem, &CalibrationSettings::default()).expect("determined").calibrated()
 }

@@ -1,9 +1,10 @@
 //! Tests of given holds, turns and directions that the recording contradicts.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::draw_imu;
 use crate::common::messages;
 use calibrant::estimate::{
-    Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, Turn, calibrate_imu,
+    Calibration, CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
@@ -11,7 +12,7 @@ use nalgebra::Vector3;
 
 fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
-    let gyroscope = Gyroscope::default();
+    let gyroscope = unfeeling_gyroscope();
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
     calibrate_imu(&problem, &CalibrationSettings::default())
 }
@@ -19,7 +20,7 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibrat
 /// Six faces, and a turn about each axis.
 fn table() -> (ImuParameters, ImuRecording, ImuSetup) {
     let mut steps = Vec::new();
-    let mut setup = ImuSetup::default();
+    let mut setup = steady_imu();
     let (mut intervals, mut directions) = (Vec::new(), Vec::new());
     for axis in 0..3 {
         let (up, from_s) = (Vector3::ith(axis, 1.0), 22.0 * axis as f64);

@@ -1,6 +1,7 @@
 //! Tests of Earth's rate under the sensor. About the vertical it looks like g-sensitivity; about the north
 //! its heading is unknown.
 
+use crate::common::{steady_holds, steady_imu};
 use crate::common::{draw_imu, messages};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuProblem,
@@ -31,7 +32,7 @@ impl Bench {
         Self {
             accelerometer: Sensor::triaxial(SensorModel::Full),
             gyroscope: Gyroscope { g_sensitivity, ..Gyroscope::default() },
-            setup: ImuSetup { latitude_deg, holds: holds(), ..ImuSetup::default() },
+            setup: ImuSetup { latitude_deg, holds: holds(), ..steady_imu() },
         }
     }
 
@@ -49,7 +50,7 @@ impl Bench {
 /// of a good gyroscope.
 fn holds() -> HoldsSetup {
     let hold = |k: usize| (4.5 * k as f64 + 0.02, 4.5 * k as f64 + 2.46);
-    HoldsSetup { intervals_s: Some((0..24).map(hold).collect()), ..HoldsSetup::default() }
+    HoldsSetup { intervals_s: Some((0..24).map(hold).collect()), ..steady_holds() }
 }
 
 /// A good gyroscope and accelerometer, turned by hand under this Earth's rate.
@@ -248,7 +249,7 @@ fn where_a_rotation_cannot_be_followed_another_heading_begins() {
 /// Holds on faces and whole turns with the axis up, as on a turntable.
 fn table(number: u64, simulation: &ImuSimulation) -> (ImuParameters, ImuRecording, ImuSetup) {
     let (mut steps, mut setup, mut intervals, mut faces) =
-        (Vec::new(), ImuSetup::default(), Vec::new(), Vec::new());
+        (Vec::new(), steady_imu(), Vec::new(), Vec::new());
     let mut start_s = 0.0;
     for axis in 0..3 {
         for sign in [1.0, -1.0] {

@@ -1,6 +1,7 @@
 //! Tests of static multi-position calibration: against another program on a real recording, and on difficult
 //! recordings.
 
+use crate::common::steady_holds;
 use crate::common::{messages, read_accelerometer, shared_data};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
@@ -59,7 +60,7 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
     let sensor =
         Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
     let setup =
-        HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 }, ..HoldsSetup::default() };
+        HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 }, ..steady_holds() };
     let calibration = run(&sensor, &recording, &setup).expect("identifiable");
     assert_eq!(calibration.status, CalibrationStatus::Converged);
     let found = holds(&calibration);
@@ -104,7 +105,7 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
 fn every_gauge_describes_the_same_sensor() {
     let (_, recording) = simulate(24, 1);
     let results = [Gauge::Lower, Gauge::Upper, Gauge::Symmetric].map(|gauge| {
-        let setup = HoldsSetup { gauge, ..HoldsSetup::default() };
+        let setup = HoldsSetup { gauge, ..steady_holds() };
         (gauge, run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable"))
     });
     for (_, one) in &results {
@@ -125,7 +126,7 @@ fn every_gauge_describes_the_same_sensor() {
 fn scale_bias_is_the_full_model_without_cross_axis_terms() {
     let (_, recording) = simulate(24, 2);
     let calibration =
-        run(&sensor(SensorModel::ScaleBias), &recording, &HoldsSetup::default()).expect("identifiable");
+        run(&sensor(SensorModel::ScaleBias), &recording, &steady_holds()).expect("identifiable");
     assert_eq!(calibration.parameters.len(), 6);
     assert_eq!(
         calibration.imu.accelerometer.matrix,
@@ -136,7 +137,7 @@ fn scale_bias_is_the_full_model_without_cross_axis_terms() {
 #[test]
 fn bad_holds_are_found_and_left_out_with_a_word() {
     let (truth, clean) = simulate(24, 3);
-    let reference = run(&sensor(SensorModel::Full), &clean, &HoldsSetup::default()).expect("identifiable");
+    let reference = run(&sensor(SensorModel::Full), &clean, &steady_holds()).expect("identifiable");
     let spans: Vec<_> =
         find_holds(&clean, 1.0).expect("fine").iter().map(|hold| (hold.first, hold.end)).collect();
     for (size, bad) in [(0.02, vec![5]), (0.5, vec![5, 11, 17]), (-3.0, vec![0, 23])] {
@@ -152,7 +153,7 @@ fn bad_holds_are_found_and_left_out_with_a_word() {
             }
         }
         let calibration =
-            run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+            run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
         let left_out: Vec<usize> = (0..24).filter(|&k| !holds(&calibration).holds[k].used).collect();
         assert_eq!(left_out, bad, "size {size}");
         for &hold in &bad {
@@ -176,7 +177,7 @@ fn clean_recordings_rarely_lose_a_hold() {
         .map(|seed| {
             let (_, recording) = simulate(20, 100 + seed);
             let calibration =
-                run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+                run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
             usize::from(holds(&calibration).holds.iter().any(|hold| !hold.used))
         })
         .sum();
@@ -188,7 +189,7 @@ fn clean_recordings_rarely_lose_a_hold() {
 fn holds_that_do_not_spread_are_named() {
     // few holds
     let (_, recording) = simulate(6, 4);
-    let error = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default())
+    let error = run(&sensor(SensorModel::Full), &recording, &steady_holds())
         .expect_err("six holds, nine parameters");
     assert!(error.is_not_identifiable());
     assert!(error.to_string().contains("6 holds give 6 equations"), "{error}");
@@ -201,7 +202,7 @@ fn holds_that_do_not_spread_are_named() {
             * (1.0 + 0.1 * (0.1 * k as f64).sin());
     }
     let error =
-        run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect_err("always moving");
+        run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect_err("always moving");
     assert!(error.is_not_identifiable(), "{error}");
 
     // many holds on one circle: gravity never leaves the x-y plane
@@ -214,7 +215,7 @@ fn holds_that_do_not_spread_are_named() {
     }
     let mut flat =
         Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared).expect("samples in order");
-    let error = run(&sensor(SensorModel::Full), &flat, &HoldsSetup::default()).expect_err("one circle");
+    let error = run(&sensor(SensorModel::Full), &flat, &steady_holds()).expect_err("one circle");
     assert!(error.is_not_identifiable(), "{error}");
     let text = error.to_string();
     assert!(text.contains("do not spread enough") && text.contains("scale.z"), "{text}");
@@ -223,7 +224,7 @@ fn holds_that_do_not_spread_are_named() {
     flat.readings_mut()
         .iter_mut()
         .for_each(|reading| *reading = Vector3::new(reading.z, reading.z, 9.81) + *reading * 1e-4);
-    let error = run(&sensor(SensorModel::ScaleBias), &flat, &HoldsSetup::default()).expect_err("one point");
+    let error = run(&sensor(SensorModel::ScaleBias), &flat, &steady_holds()).expect_err("one point");
     assert!(error.to_string().contains("all are in the same orientation"), "{error}");
 }
 
@@ -232,14 +233,14 @@ fn poor_spread_is_a_warning_with_the_missing_side_named() {
     // the upper half of the sphere only
     let (_, recording) = simulate(60, 6);
     let calibration =
-        run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+        run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
     let up: Vec<(f64, f64)> = holds(&calibration)
         .holds
         .iter()
         .filter(|hold| hold.force_mps2.z > 4.0)
         .map(|hold| (hold.hold.start_s, hold.hold.end_s))
         .collect();
-    let setup = HoldsSetup { intervals_s: Some(up), ..HoldsSetup::default() };
+    let setup = HoldsSetup { intervals_s: Some(up), ..steady_holds() };
     let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable");
     assert!(!holds(&calibration).detected);
     let words = messages(&calibration.warnings).join("\n");
@@ -250,7 +251,7 @@ fn poor_spread_is_a_warning_with_the_missing_side_named() {
 #[test]
 fn one_hold_more_than_parameters_is_said_so() {
     let (_, recording) = simulate(10, 3);
-    let setup = HoldsSetup::default();
+    let setup = steady_holds();
     let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("determined");
     let words = messages(&calibration.warnings).join("\n");
     assert_eq!(calibration.fit.degrees_of_freedom, 1);
@@ -262,15 +263,15 @@ fn given_holds_are_used_as_given_and_checked() {
     let (_, recording) = simulate(24, 7);
     let found = find_holds(&recording, 1.0).expect("fine");
     let intervals: Vec<_> = found.iter().map(|hold| (hold.start_s, hold.end_s)).collect();
-    let setup = HoldsSetup { intervals_s: Some(intervals.clone()), ..HoldsSetup::default() };
+    let setup = HoldsSetup { intervals_s: Some(intervals.clone()), ..steady_holds() };
     let given = run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable");
-    let detected = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+    let detected = run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
     assert_eq!(given.values, detected.values);
     for (intervals, word) in [
         (vec![(1e6, 2e6)], "hold 1 from 1000000 to 2000000 s has 0 samples"),
         (vec![(0.5, 3.0), (2.0, 3.5)], "holds 1 and 2 overlap"),
     ] {
-        let setup = HoldsSetup { intervals_s: Some(intervals), ..HoldsSetup::default() };
+        let setup = HoldsSetup { intervals_s: Some(intervals), ..steady_holds() };
         let error = run(&sensor(SensorModel::Full), &recording, &setup).expect_err("nonsense");
         assert!(error.to_string().contains(word), "{error}");
     }
@@ -281,7 +282,7 @@ fn the_uncertainty_of_gravity_is_a_common_scale() {
     let (_, recording) = simulate(24, 8);
     let at = |sd_mps2| {
         let setup =
-            HoldsSetup { gravity: Gravity { magnitude_mps2: 9.80665, sd_mps2 }, ..HoldsSetup::default() };
+            HoldsSetup { gravity: Gravity { magnitude_mps2: 9.80665, sd_mps2 }, ..steady_holds() };
         run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable")
     };
     let (exact, uncertain) = (at(0.0), at(0.01));
@@ -400,12 +401,12 @@ fn six_faces_do_not_determine_cross_axis_terms() {
     }
     let recording =
         Recording::new(times_s, readings, 3, ReadingUnit::MetrePerSecondSquared).expect("samples in order");
-    let error = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect_err("faces only");
+    let error = run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect_err("faces only");
     assert!(error.is_not_identifiable(), "{error}");
     let text = error.to_string();
     assert!(text.contains("matrix.x") && text.contains("use model = \"scale-bias\""), "{text}");
     let calibration =
-        run(&sensor(SensorModel::ScaleBias), &recording, &HoldsSetup::default()).expect("identifiable");
+        run(&sensor(SensorModel::ScaleBias), &recording, &steady_holds()).expect("identifiable");
     for k in 0..3 {
         assert!((calibration.values[3 + k] - truth.matrix[(k, k)]).abs() < 5.0 * calibration.sd()[3 + k]);
     }
@@ -417,6 +418,6 @@ fn a_gyroscope_is_not_calibrated_as_an_accelerometer() {
     let recording = read_accelerometer(&path, 3, ReadingUnit::Counts);
     let sensor =
         Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
-    let error = run(&sensor, &recording, &HoldsSetup::default()).expect_err("no gravity in there");
+    let error = run(&sensor, &recording, &steady_holds()).expect_err("no gravity in there");
     assert!(error.is_not_identifiable() || error.is_invalid_recording(), "{error}");
 }

@@ -1,5 +1,6 @@
 //! Tests of a whole IMU: against other programs on real recordings, and against the truth on simulated ones.
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{Calibration, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, Turn};
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_recording, read_sections};
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 fn xsens(g_sensitivity: bool) -> Option<Calibration> {
     let (recording, gravity) = crate::common::xsens()?;
     let unit = ReadingUnit::Counts;
-    let setup = ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() };
+    let setup = ImuSetup { holds: HoldsSetup { gravity, ..steady_holds() }, ..steady_imu() };
     let gyroscope = Gyroscope { unit, g_sensitivity, ..Gyroscope::default() };
     Some(run_imu(&recording, &gyroscope, &setup, unit).expect("determined"))
 }
@@ -72,7 +73,7 @@ fn a_ferraris_session_agrees_with_imucal() {
     };
     let recording = read_imu_recording(&path, &options).expect("readable").recording;
     let times = recording.accelerometer.as_ref().expect("there").times_s().to_vec();
-    let mut setup = ImuSetup::default();
+    let mut setup = steady_imu();
     setup.holds.gravity.magnitude_mps2 = 9.81;
     let (mut intervals, mut directions) = (Vec::new(), Vec::new());
     for section in read_sections(&list).expect("readable") {
@@ -98,7 +99,7 @@ fn a_ferraris_session_agrees_with_imucal() {
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(directions);
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
     let sd = |name: &str| {
         let place = calibration.quantities.iter().position(|quantity| quantity.name() == name).expect(name);
         calibration.sd()[place]
@@ -143,7 +144,7 @@ fn a_ferraris_session_agrees_with_imucal() {
 #[test]
 fn intervals_of_2000_simulated_imus_cover_the_truth() {
     let simulation = ImuSimulation { earth_rate_radps: earth_rate(48.1), ..ImuSimulation::default() };
-    let setup = ImuSetup { latitude_deg: Some(48.1), ..ImuSetup::default() };
+    let setup = ImuSetup { latitude_deg: Some(48.1), ..steady_imu() };
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let (count, unit) = (2000, ReadingUnit::MetrePerSecondSquared);
     let inside: Vec<Vec<f64>> = (0..count)

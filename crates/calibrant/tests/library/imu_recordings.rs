@@ -1,5 +1,6 @@
 //! Tests of faulty recordings of an IMU, whose fault is named, and of known quantities, which are used.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_feeling_imu, normal, run_imu};
 use calibrant::diagnostic::RotationReason;
@@ -17,7 +18,7 @@ fn small() -> (ImuParameters, ImuRecording) {
 }
 
 fn fails(recording: &ImuRecording, gyroscope: &Gyroscope) -> Error {
-    run_imu(recording, gyroscope, &ImuSetup::default(), ReadingUnit::MetrePerSecondSquared)
+    run_imu(recording, gyroscope, &steady_imu(), ReadingUnit::MetrePerSecondSquared)
         .expect_err("refused")
 }
 
@@ -26,7 +27,7 @@ fn degrees_that_are_called_radians_are_named() {
     let (_, mut recording) = small();
     let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|reading| *reading *= 180.0 / std::f64::consts::PI);
-    let message = fails(&recording, &Gyroscope::default()).to_string();
+    let message = fails(&recording, &unfeeling_gyroscope()).to_string();
     assert!(message.contains("in deg/s, not rad/s"), "{message}");
 }
 
@@ -36,9 +37,9 @@ fn counts_of_an_unknown_gain_and_axes_in_another_order_are_found() {
     let order = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0) * 1000.0;
     let gyroscope = recording.gyroscope.as_mut().expect("there");
     *gyroscope = gyroscope.mapped(ReadingUnit::Counts, |reading| order * reading + Vector3::repeat(32768.0));
-    let model = Gyroscope { unit: ReadingUnit::Counts, ..Gyroscope::default() };
+    let model = Gyroscope { unit: ReadingUnit::Counts, ..unfeeling_gyroscope() };
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &model, &ImuSetup::default(), unit).expect("found");
+    let calibration = run_imu(&recording, &model, &steady_imu(), unit).expect("found");
     let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
     assert!(error < 5.0, "{error} of 1000");
     assert!(
@@ -55,7 +56,7 @@ fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
     let gyroscope = recording.gyroscope.as_mut().expect("there");
     gyroscope.readings_mut().iter_mut().for_each(|reading| *reading = order * *reading);
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
     let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
     assert!(error < 5e-3, "{error}");
     let warning = "along x, y and z of the accelerometer lie y, -x and -z of the gyroscope";
@@ -84,7 +85,7 @@ fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
             > 2
     };
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
     let cut: Vec<bool> = calibration.rotations().iter().map(|r| is_cut(r.start_s, r.end_s)).collect();
     let cuts = cut.iter().filter(|cut| **cut).count();
     assert!((5..18).contains(&cuts), "{cuts} of {}: the test needs both kinds", cut.len());
@@ -130,7 +131,7 @@ fn an_axis_about_which_nothing_turns_is_named() {
         gyroscope: Some(noisy(&rates, 2e-3, ReadingUnit::RadianPerSecond)),
         temperature_c: None,
     };
-    let error = fails(&recording, &Gyroscope::default());
+    let error = fails(&recording, &unfeeling_gyroscope());
     assert!(error.is_not_identifiable(), "{error}");
     let message = error.to_string();
     assert!(message.contains("gyroscope.scale.z") && !message.contains("gyroscope.scale.x"), "{message}");
@@ -141,7 +142,7 @@ fn an_axis_that_is_not_connected_is_named() {
     let (_, mut recording) = small();
     let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|reading| reading.y = 0.0);
-    let message = fails(&recording, &Gyroscope::default()).to_string();
+    let message = fails(&recording, &unfeeling_gyroscope()).to_string();
     assert!(message.contains("axis y of the gyroscope never changes"), "{message}");
 }
 
@@ -154,7 +155,7 @@ fn a_gyroscope_of_another_recording_is_refused() {
         &mut stream(9, Purpose::Sensor, 1),
     );
     recording.gyroscope = other.gyroscope;
-    let message = fails(&recording, &Gyroscope::default()).to_string();
+    let message = fails(&recording, &unfeeling_gyroscope()).to_string();
     assert!(message.contains("do not fit the accelerometer's"), "{message}");
 }
 
@@ -164,7 +165,7 @@ fn a_gyroscope_that_ends_early_leaves_named_parameters_undetermined() {
     // it ends in the second hold
     let gyroscope = recording.gyroscope.as_mut().expect("there");
     *gyroscope = gyroscope.only(|k| k < 690);
-    let error = fails(&recording, &Gyroscope::default());
+    let error = fails(&recording, &unfeeling_gyroscope());
     assert!(error.is_not_identifiable(), "{error}");
     assert!(error.to_string().contains("gyroscope.scale"), "{error}");
 }
@@ -183,7 +184,7 @@ fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
         let gyroscope = recording.gyroscope.as_mut().expect("there");
         *gyroscope = gyroscope.only(|k| covered.contains(&k));
         let calibration =
-            run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
+            run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
         let holds = &calibration.hold_results();
         let (from_s, to_s) = (covered.start as f64 / 100.0, covered.end as f64 / 100.0);
         let mut left_out = 0;
@@ -222,10 +223,10 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     };
     let setup = ImuSetup {
         known: vec![known("gyroscope.bias.x", None), known("gyroscope.scale.y", Some(1e-6))],
-        ..ImuSetup::default()
+        ..steady_imu()
     };
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
     assert_eq!(calibration.quantities.len(), 20);
     assert_eq!(calibration.imu.gyroscope.bias.x, truth.gyroscope.bias.x);
     let place =
@@ -235,14 +236,14 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
 
     // a value that the data contradict is kept, with a warning
     let fixed = KnownTerm { quantity: quantity("gyroscope.scale.x"), value: 0.9, sd: None };
-    let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
-    let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let setup = ImuSetup { known: vec![fixed], ..steady_imu() };
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
     assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
     let message = messages(&calibration.warnings).join("; ");
     assert!(message.contains("gyroscope.scale.x in [known]: the given value is 0.9"), "{message}");
     let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 0.1, sd: Some(1e-4) };
-    let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
-    let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let setup = ImuSetup { known: vec![prior], ..steady_imu() };
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
     let message = messages(&calibration.warnings).join("; ");
     assert!(
         message.contains("the recording contradicts gyroscope.bias.x in [known]: the given value is 0.1"),
@@ -264,8 +265,8 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
             for sd in [None, Some(1e-9)] {
                 let fixed = quantity(name);
                 let known = KnownTerm { quantity: fixed, value: fixed.value(&truth) + share * absurd, sd };
-                let setup = ImuSetup { known: vec![known], ..ImuSetup::default() };
-                let found = run_imu(&recording, &Gyroscope::default(), &setup, unit);
+                let setup = ImuSetup { known: vec![known], ..steady_imu() };
+                let found = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit);
                 let says = format!(
                     "the recording contradicts {name} in [known]: the given value is {:?}",
                     known.value
@@ -299,9 +300,9 @@ fn a_turn_that_was_not_made_is_named() {
         angle_rad: std::f64::consts::TAU,
         angle_sd_rad: 0.01,
     };
-    let setup = ImuSetup { turns: vec![turn], ..ImuSetup::default() };
+    let setup = ImuSetup { turns: vec![turn], ..steady_imu() };
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
     let message = messages(&calibration.warnings).join("; ");
     assert!(
         message.contains("turn 1 (10.0 to 14.0 s) is given as 360.0° about x, but the gyroscope shows"),
@@ -314,17 +315,17 @@ fn the_noise_of_a_sample_is_the_datasheets_then_that_of_a_long_hold_then_the_sca
     let (_, recording) = small();
     let unit = ReadingUnit::MetrePerSecondSquared;
     let white = WhiteNoise { sd: Vector3::repeat(1.9e-3), hold: 3, duration_s: 42.0 };
-    let examined = ImuSetup { white_noise: Some(white), ..ImuSetup::default() };
-    let given = Gyroscope { noise: Some(Vector3::repeat(2.1e-3)), ..Gyroscope::default() };
+    let examined = ImuSetup { white_noise: Some(white), ..steady_imu() };
+    let given = Gyroscope { noise: Some(Vector3::repeat(2.1e-3)), ..unfeeling_gyroscope() };
     let still = |gyroscope: &Gyroscope, setup: &ImuSetup| {
         run_imu(&recording, gyroscope, setup, unit).expect("determined").gyroscope.expect("an IMU").still
     };
     let found = still(&given, &examined);
     assert_eq!((found.noise, found.noise_source), (Vector3::repeat(2.1e-3), NoiseSource::Datasheet));
-    let found = still(&Gyroscope::default(), &examined);
+    let found = still(&unfeeling_gyroscope(), &examined);
     assert_eq!(found.noise, Vector3::repeat(1.9e-3));
     assert_eq!(found.noise_source.to_string(), "Allan deviation of hold 4 (42.0 s)");
-    let found = still(&Gyroscope::default(), &ImuSetup::default());
+    let found = still(&unfeeling_gyroscope(), &steady_imu());
     assert_eq!(found.noise_source, NoiseSource::ScatterWithinHolds);
     // 24 holds of 250 samples determine it to 1 %: four standard deviations
     assert!(found.noise.iter().all(|sd| (0.96..1.04).contains(&(sd / 2e-3))), "{}", found.noise);
@@ -337,6 +338,6 @@ fn a_turned_gyroscope_is_found_in_the_accelerometers_frame() {
     let recording = simulate_imu(&truth, &ImuSimulation::default(), &mut stream(4, Purpose::Sensor, 7));
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let unit = ReadingUnit::MetrePerSecondSquared;
-    let calibration = run_imu(&recording, &gyroscope, &ImuSetup::default(), unit).expect("determined");
+    let calibration = run_imu(&recording, &gyroscope, &steady_imu(), unit).expect("determined");
     assert!((calibration.imu.gyroscope.matrix - truth.gyroscope.matrix).amax() < 3e-3);
 }

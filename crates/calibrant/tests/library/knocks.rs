@@ -1,8 +1,9 @@
 //! Knocks where a sensor is set down are real motion: nothing is cut out, and the uncertainty holds.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, run_imu};
-use calibrant::estimate::{Calibration, Gyroscope, ImuSetup};
+use calibrant::estimate::{Calibration, Gyroscope, };
 use calibrant::sensor::{ImuParameters, ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
 use rand::RngExt;
@@ -18,7 +19,7 @@ fn calibrated(setup: &ByHand, count: u64) -> Vec<(ImuParameters, Calibration)> {
         let mut rng = stream(91, Purpose::Sensor, number);
         let imu = draw_imu(&mut rng);
         let recording = setup.record(&imu, &mut rng);
-        let (gyroscope, setup) = (Gyroscope::default(), ImuSetup::default());
+        let (gyroscope, setup) = (unfeeling_gyroscope(), steady_imu());
         let found = run_imu(&recording, &gyroscope, &setup, ReadingUnit::MetrePerSecondSquared);
         (imu, found.expect("determined"))
     };

@@ -1,5 +1,6 @@
 //! Tests of faces of known directions with a tilt: the stated uncertainty of the accelerometer is right.
 
+use crate::common::steady_imu;
 use crate::common::draw_imu;
 use crate::common::messages;
 use calibrant::estimate::{
@@ -22,7 +23,7 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibrat
 
 /// Each of these directions for five seconds, and a turn about each axis, exact to half a degree.
 fn session(directions: &[Vector3<f64>]) -> (Vec<TableStep>, ImuSetup) {
-    let (mut steps, mut setup, mut intervals) = (Vec::new(), ImuSetup::default(), Vec::new());
+    let (mut steps, mut setup, mut intervals) = (Vec::new(), steady_imu(), Vec::new());
     let mut start_s = 0.0;
     for direction in directions {
         let action = TableAction::Hold(*direction);

@@ -1,8 +1,9 @@
 //! Tests of rotation errors of more than a right angle: near 180° the part of gravity across the direction
 //! found is small again.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
-use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
+use calibrant::estimate::{Calibration, CalibrationSettings, ImuProblem, calibrate_imu};
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{
     ImuSimulation, Purpose, TableAction, TableStep, simulate_imu, simulate_table, stream,
@@ -11,12 +12,12 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 fn calibrate(recording: &ImuRecording, model: SensorModel) -> Calibration {
-    let (accelerometer, gyroscope) = (Sensor::triaxial(model), Gyroscope::default());
+    let (accelerometer, gyroscope) = (Sensor::triaxial(model), unfeeling_gyroscope());
     let problem = ImuProblem {
         accelerometer: &accelerometer,
         gyroscope: &gyroscope,
         recording,
-        setup: &ImuSetup::default(),
+        setup: &steady_imu(),
     };
     calibrate_imu(&problem, &CalibrationSettings::default()).expect("determined")
 }

@@ -1,15 +1,16 @@
 //! Tests of the mounting: a gyroscope may be turned against the accelerometer by any angle.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
-use calibrant::estimate::{Calibration, Gyroscope, ImuSetup};
+use calibrant::estimate::{Calibration, Gyroscope, };
 use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector4};
 
 fn run(recording: &ImuRecording, unit: ReadingUnit) -> calibrant::Result<Calibration> {
-    let gyroscope = Gyroscope { unit, ..Gyroscope::default() };
-    run_imu(recording, &gyroscope, &ImuSetup::default(), ReadingUnit::MetrePerSecondSquared)
+    let gyroscope = Gyroscope { unit, ..unfeeling_gyroscope() };
+    run_imu(recording, &gyroscope, &steady_imu(), ReadingUnit::MetrePerSecondSquared)
 }
 
 /// An IMU whose gyroscope's matrix has this factor.

@@ -1,5 +1,6 @@
 //! A sample rate that nobody measured is uncertain, and with it the gains of the gyroscope.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, retimed, run_imu};
 use calibrant::estimate::{Gyroscope, ImuSetup};
@@ -18,8 +19,8 @@ fn the_gains_of_the_gyroscope_carry_the_uncertainty_of_the_rate() {
         for sensor in [&mut recording.accelerometer, &mut recording.gyroscope] {
             *sensor = sensor.take().map(|sensor| retimed(&sensor, |t| t * faster));
         }
-        let setup = ImuSetup { rate_sd: RATE_SD, ..ImuSetup::default() };
-        let found = run_imu(&recording, &Gyroscope::default(), &setup, ReadingUnit::MetrePerSecondSquared);
+        let setup = ImuSetup { rate_sd: RATE_SD, ..steady_imu() };
+        let found = run_imu(&recording, &unfeeling_gyroscope(), &setup, ReadingUnit::MetrePerSecondSquared);
         let found = found.expect("determined");
         let z = |k: usize| (found.values[k] - found.quantities[k].value(&imu)) / found.sd()[k];
         let scales = (0..found.values.len()).filter(|&k| {

@@ -1,5 +1,6 @@
 //! A prior only adds information: no standard deviation grows by it, a weak one changes nothing, and what the data leave open follows it.
 
+use crate::common::{steady_holds, steady_imu};
 use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuSetup, KnownTerm,
@@ -82,7 +83,7 @@ fn run(
 fn a_prior_makes_no_holds_worse() {
     for seed in 0..12 {
         let recording = in_poses(10 + 2 * seed as usize, seed);
-        let setup = HoldsSetup::default();
+        let setup = steady_holds();
         let without = run(&sensor(1.0), &recording, &setup, false).expect("identifiable");
         let with = run(&sensor(1.0), &recording, &setup, true).expect("identifiable");
         for (k, (with, without)) in with.sd().into_iter().zip(without.sd()).enumerate() {
@@ -106,7 +107,7 @@ fn a_prior_gives_what_holds_about_one_axis_leave_open() {
     const RECORDINGS: u64 = 100;
     for seed in 0..RECORDINGS {
         let (recording, intervals) = about_x(14, seed);
-        let setup = HoldsSetup { intervals_s: Some(intervals), ..HoldsSetup::default() };
+        let setup = HoldsSetup { intervals_s: Some(intervals), ..steady_holds() };
         assert!(run(&sensor(1.0), &recording, &setup, false).is_err(), "nothing points along x");
         let with = run(&sensor(1.0), &recording, &setup, true).expect("the datasheet says the rest");
         let truth = truth(seed);
@@ -158,7 +159,7 @@ fn a_prior_makes_no_imu_worse() {
         let simulation = ImuSimulation { poses: 12 + seed as usize, ..ImuSimulation::default() };
         let recording = simulate_imu(&truth, &simulation, &mut rng);
         let run = |known: Vec<KnownTerm>| {
-            let setup = ImuSetup { known, latitude_deg: Some(48.1), ..ImuSetup::default() };
+            let setup = ImuSetup { known, latitude_deg: Some(48.1), ..steady_imu() };
             run_imu(&recording, &gyroscope, &setup, unit).expect("determined")
         };
         let without = run(Vec::new());

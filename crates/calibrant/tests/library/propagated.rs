@@ -1,8 +1,8 @@
 //! Derived figures carry the uncertainty of all parameters that they are made from.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, run_imu};
-use calibrant::estimate::{Gyroscope, ImuSetup};
 use calibrant::sensor::{ImuParameters, ReadingUnit};
 use calibrant::simulate::{Purpose, stream};
 use nalgebra::DVector;
@@ -16,7 +16,7 @@ fn a_derived_figure_scatters_as_its_parameters_do() {
     let setup = ByHand { poses: 14, gyroscope_noise: 0.05, ..ByHand::default() };
     let recording = setup.record(&imu, &mut rng);
     let found =
-        run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), ReadingUnit::MetrePerSecondSquared)
+        run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), ReadingUnit::MetrePerSecondSquared)
             .expect("determined");
     let over_the_gain = |imu: &ImuParameters| imu.gyroscope.bias.x / imu.gyroscope.matrix.row(0).norm();
     let (value, sd) = found.propagated(over_the_gain);

@@ -1,5 +1,6 @@
 //! Tests of readings in steps coarser than their noise: more samples do not help, and a warning says so.
 
+use crate::common::steady_imu;
 use crate::common::messages;
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
@@ -33,7 +34,7 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibrat
 /// Six faces, and a turn there and back about each axis.
 fn table() -> (Vec<TableStep>, ImuSetup) {
     let mut steps = Vec::new();
-    let mut setup = ImuSetup { directions: Some(Vec::new()), ..ImuSetup::default() };
+    let mut setup = ImuSetup { directions: Some(Vec::new()), ..steady_imu() };
     let mut intervals = Vec::new();
     for axis in 0..3 {
         let (up, from_s) = (Vector3::ith(axis, 1.0), 26.0 * axis as f64);
@@ -71,7 +72,7 @@ fn coverage(count: u64, step: f64, on_table: bool) -> [f64; 3] {
                 false => simulate_imu(&truth, &simulation, &mut rng),
             };
             round(&mut recording, step);
-            let setup = if on_table { table.clone() } else { ImuSetup::default() };
+            let setup = if on_table { table.clone() } else { steady_imu() };
             let calibration = run(&recording, &setup).expect("determined");
             assert_eq!(calibration.status, CalibrationStatus::Converged, "{number}");
             let pairs = calibration.quantities.iter().zip(calibration.values.iter().zip(calibration.sd()));

@@ -1,12 +1,13 @@
 //! Tests of an accelerometer that stops at the end of its range: its readings there are not used, and a
 //! warning says so.
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::{WORDS, messages};
 use crate::common::{draw_imu, normal};
 use calibrant::diagnostic::RotationReason;
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldResult,
-    HoldsSetup, ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
+    ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
 };
 use calibrant::io::{CalibrationFile, Input, Origin, to_json};
 use calibrant::sensor::{
@@ -46,7 +47,7 @@ fn coverage(count: u64, limit: f64) -> (Vec<f64>, Vec<f64>) {
             let simulation = ImuSimulation { poses: 36, ..ImuSimulation::default() };
             let mut recording = simulate_imu(&truth, &simulation, &mut rng);
             clip(&mut recording, limit);
-            let calibration = run(&recording, &gyroscope, &ImuSetup::default()).expect("determined");
+            let calibration = run(&recording, &gyroscope, &steady_imu()).expect("determined");
             assert_eq!(calibration.status, CalibrationStatus::Converged, "{number}");
             let pairs = calibration.quantities.iter().zip(calibration.values.iter().zip(calibration.sd()));
             pairs.map(|(quantity, (value, sd))| (value - quantity.value(&truth)) / sd).collect()
@@ -86,7 +87,7 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
     let whole = recording.accelerometer.clone().expect("there");
     clip(&mut recording, limit);
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
-    let calibration = run(&recording, &gyroscope, &ImuSetup::default()).expect("determined");
+    let calibration = run(&recording, &gyroscope, &steady_imu()).expect("determined");
     let mut left_out = 0;
     for (number, result) in (1..).zip(calibration.hold_results()) {
         let cut = is_cut(&whole, (result.hold.start_s, result.hold.end_s), limit);
@@ -111,7 +112,7 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
     }
     assert!(calibration.rotations().iter().filter(|rotation| is_named(&rotation.reason)).count() > 5);
     // a gyroscope without g-sensitivity is not affected: the rotations stay
-    let calibration = run(&recording, &Gyroscope::default(), &ImuSetup::default()).expect("determined");
+    let calibration = run(&recording, &unfeeling_gyroscope(), &steady_imu()).expect("determined");
     assert!(calibration.rotations().iter().all(|rotation| !is_named(&rotation.reason)));
 }
 
@@ -121,7 +122,7 @@ fn too_few_holds_that_are_not_cut_off_are_an_error_that_says_so() {
     let mut recording =
         simulate_imu(&draw(&mut rng), &ImuSimulation { poses: 14, ..ImuSimulation::default() }, &mut rng);
     clip(&mut recording, 3.0);
-    let error = run(&recording, &Gyroscope::default(), &ImuSetup::default()).expect_err("too few holds");
+    let error = run(&recording, &unfeeling_gyroscope(), &steady_imu()).expect_err("too few holds");
     assert!(error.is_not_identifiable(), "{error}");
     let message = error.to_string();
     assert!(
@@ -132,7 +133,7 @@ fn too_few_holds_that_are_not_cut_off_are_an_error_that_says_so() {
 
     // the accelerometer alone
     let sensor = Sensor::triaxial(SensorModel::Full);
-    let setup = HoldsSetup::default();
+    let setup = steady_holds();
     let accelerometer = recording.accelerometer.expect("there");
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &accelerometer, stimulus: Stimulus::Holds(&setup) };
@@ -163,7 +164,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
             steps.push(TableStep { start_s: start_s + 3.0, end_s: start_s + 6.0, action });
         }
     }
-    let mut setup = ImuSetup { directions: Some(directions), ..ImuSetup::default() };
+    let mut setup = ImuSetup { directions: Some(directions), ..steady_imu() };
     let mut intervals = Vec::new();
     for TableStep { start_s, end_s, action } in &steps {
         match *action {
@@ -183,7 +184,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
     setup.holds.intervals_s = Some(intervals);
     let mut recording = simulate_table(&truth, &steps, &ImuSimulation::default(), &mut rng);
     clip(&mut recording, 8.0);
-    let calibration = run(&recording, &Gyroscope::default(), &setup).expect("determined");
+    let calibration = run(&recording, &unfeeling_gyroscope(), &setup).expect("determined");
     let used: Vec<bool> = calibration.hold_results().iter().map(|hold| hold.used).collect();
     assert_eq!(used, [false, false, true, true, true, true, true, true, true, true]);
     let error = (calibration.imu.accelerometer.matrix - truth.accelerometer.matrix).amax();
@@ -246,7 +247,7 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
         simulate_imu(&truth, &ImuSimulation { poses: 30, ..ImuSimulation::default() }, &mut rng);
     clip(&mut recording, 7.84);
     let sensor = Sensor::triaxial(SensorModel::Full);
-    let setup = HoldsSetup::default();
+    let setup = steady_holds();
     let accelerometer = recording.accelerometer.expect("there");
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &accelerometer, stimulus: Stimulus::Holds(&setup) };

@@ -1,6 +1,7 @@
 //! Tests of a sensor that changes within a recording: the change is reported. No change is reported of other
 //! sensors.
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
 use calibrant::estimate::{
@@ -21,7 +22,7 @@ fn simulated(seed: u64, number: u64, simulation: &ImuSimulation) -> ImuRecording
 
 fn run(recording: &ImuRecording, gyroscope: &Gyroscope) -> Calibration {
     let unit = ReadingUnit::MetrePerSecondSquared;
-    run_imu(recording, gyroscope, &ImuSetup::default(), unit).expect("determined")
+    run_imu(recording, gyroscope, &steady_imu(), unit).expect("determined")
 }
 
 /// From a time on, one axis of a sensor reads `gain` times as much and `bias` more.
@@ -66,7 +67,7 @@ fn a_sensor_that_does_not_change_is_not_accused() {
         for (t, reading) in accelerometer.samples_mut() {
             *reading += pushes[((t / 4.5) as usize).min(poses - 1)];
         }
-        let gyroscope = Gyroscope { noise: noise_radps.map(Vector3::repeat), ..Gyroscope::default() };
+        let gyroscope = Gyroscope { noise: noise_radps.map(Vector3::repeat), ..unfeeling_gyroscope() };
         run(&recording, &gyroscope).changes.first().copied()
     };
     let accused: Vec<Change> = (0..400).into_par_iter().filter_map(accused).collect();
@@ -89,7 +90,7 @@ fn a_step_is_found_and_its_sensor_its_kind_and_its_time_are_told() {
             // in the turn after hold 14, or after hold 22
             let last = [13, 21][(number / 3 % 2) as usize];
             from(&mut recording, 4.5 * last as f64 + 3.5, sensor_kind, axis, by);
-            let calibration = run(&recording, &Gyroscope::default());
+            let calibration = run(&recording, &unfeeling_gyroscope());
             let change = calibration
                 .changes
                 .iter()
@@ -127,7 +128,7 @@ fn a_bias_that_comes_and_goes_is_an_episode() {
         for (hold, step) in [(11.0, 0.05), (23.0, -0.05)] {
             from(&mut recording, 4.5 * hold + 3.5, SensorKind::Accelerometer, axis, (1.0, step));
         }
-        let calibration = run(&recording, &Gyroscope::default());
+        let calibration = run(&recording, &unfeeling_gyroscope());
         let change = calibration.changes.first().copied();
         if let Some(change) = change.filter(|change| matches!(change.course, Course::Episode { .. })) {
             let message = &messages(&calibration.warnings)[0];
@@ -161,7 +162,7 @@ fn holds_that_are_left_out_in_a_row_are_a_change() {
     for number in 0..6 {
         let mut recording = simulated(404, number, &simulation);
         from(&mut recording, 4.5 * 23.0 + 3.5, SensorKind::Accelerometer, 0, (1.0, 0.3));
-        let calibration = run(&recording, &Gyroscope::default());
+        let calibration = run(&recording, &unfeeling_gyroscope());
         let says =
             |words: &str| messages(&calibration.warnings).iter().any(|message| message.contains(words));
         assert!(
@@ -184,7 +185,7 @@ fn a_drift_is_told_and_temperature_pointed_at() {
     for (t, reading) in accelerometer.samples_mut() {
         reading.y += 0.04 * t / end_s;
     }
-    let with_temperature = run(&recording, &Gyroscope::default());
+    let with_temperature = run(&recording, &unfeeling_gyroscope());
     let drift = with_temperature.changes[0];
     assert_eq!((drift.sensor_kind, drift.course), (SensorKind::Accelerometer, Course::Drift));
     assert!((drift.amount.y - 0.04).abs() < 5.0 * drift.sd.y, "{drift:?}");
@@ -194,7 +195,7 @@ fn a_drift_is_told_and_temperature_pointed_at() {
         messages(&with_temperature.warnings)[0]
     );
     recording.temperature_c = None;
-    let without = run(&recording, &Gyroscope::default());
+    let without = run(&recording, &unfeeling_gyroscope());
     assert!(messages(&without.warnings)[0].contains("warm up"), "{}", messages(&without.warnings)[0]);
 }
 
@@ -202,7 +203,7 @@ fn a_drift_is_told_and_temperature_pointed_at() {
 fn an_accelerometer_alone_is_told_too() {
     let simulation = ImuSimulation { poses: 24, ..ImuSimulation::default() };
     let sensor = Sensor::triaxial(SensorModel::Full);
-    let setup = HoldsSetup::default();
+    let setup = steady_holds();
     for (step, changes) in [(0.0, false), (0.05, true)] {
         let mut recording = simulated(406, 1, &simulation);
         from(&mut recording, 4.5 * 11.0 + 3.5, SensorKind::Accelerometer, 2, (1.0, step));
@@ -223,7 +224,7 @@ fn an_accelerometer_alone_is_told_too() {
 fn folds_of_a_sensor_that_changes_are_not_believed() {
     let simulation = ImuSimulation { poses: 28, ..ImuSimulation::default() };
     let accelerometer = Sensor::triaxial(SensorModel::Full);
-    let (gyroscope, setup) = (Gyroscope::default(), ImuSetup::default());
+    let (gyroscope, setup) = (unfeeling_gyroscope(), steady_imu());
     let cases = [
         (None, &[][..]),
         (Some((SensorKind::Accelerometer, (1.0, 0.05))), &[ErrorKind::Magnitude, ErrorKind::Rotation]),
@@ -266,7 +267,7 @@ fn the_xsens_is_the_same_throughout() {
     let Some((recording, gravity)) = crate::common::xsens() else { return };
     let unit = ReadingUnit::Counts;
     let accelerometer = Sensor { unit, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
-    let setup = ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() };
+    let setup = ImuSetup { holds: HoldsSetup { gravity, ..steady_holds() }, ..steady_imu() };
     for g_sensitivity in [false, true] {
         let gyroscope = Gyroscope { unit, g_sensitivity, ..Gyroscope::default() };
         let problem = ImuProblem {

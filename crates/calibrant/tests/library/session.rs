@@ -1,5 +1,6 @@
 //! The session gives what its stages give one by one, and writes it.
 
+use crate::common::{steady_holds, steady_imu};
 use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, NoiseSource,
@@ -64,7 +65,7 @@ fn an_accelerometer_is_calibrated_from_holds_and_validated() {
         gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
         gauge: Gauge::Upper,
         bias_drift_sd_mps2: 0.02,
-        ..HoldsSetup::default()
+        ..steady_holds()
     };
     let problem = CalibrationProblem {
         sensor: &experiment.sensor,
@@ -161,9 +162,9 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
         gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
         gauge: Gauge::Lower,
         bias_drift_sd_mps2: 0.02,
-        ..HoldsSetup::default()
+        ..steady_holds()
     };
-    let setup = ImuSetup { holds, ..ImuSetup::default() };
+    let setup = ImuSetup { holds, ..steady_imu() };
     let expected =
         run_imu(&recording, &gyroscope, &setup, ReadingUnit::MetrePerSecondSquared).expect("calibrated");
     assert_eq!(experiment.sensor.model, Sensor::triaxial(SensorModel::Full).model);

@@ -1,9 +1,10 @@
 //! Tests of spikes and invalid samples, and of the magnitudes of holds in the table.
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_imu, normal, xsens};
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuProblem, ImuSetup,
+    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup,
     Recovered, Stimulus, calibrate, calibrate_imu, find_imu_holds,
 };
 use calibrant::sensor::{
@@ -22,7 +23,7 @@ fn simulated(number: u64) -> ImuRecording {
 
 fn run(recording: &ImuRecording, setup: &ImuSetup) -> Calibration {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
-    let gyroscope = &Gyroscope::default();
+    let gyroscope = &unfeeling_gyroscope();
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope, recording, setup };
     calibrate_imu(&problem, &CalibrationSettings::default()).expect("determined")
 }
@@ -102,7 +103,7 @@ fn invalid_samples_in_a_row_are_a_gap_and_are_named_with_time_and_value() {
 fn spikes_divide_no_hold_and_shift_no_estimate() {
     let recording = simulated(2);
     let simulation = ImuSimulation::default();
-    let clean = run(&recording, &ImuSetup::default());
+    let clean = run(&recording, &steady_imu());
     for every in [200.0, 2000.0] {
         let mut damaged = recording.clone();
         let of_accelerometer = add_spikes(
@@ -114,7 +115,7 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
         let of_gyroscope =
             add_spikes(sensor(&mut damaged, SensorKind::Gyroscope), every, simulation.gyroscope_noise, 2);
         assert!(of_accelerometer > 3 && of_gyroscope > 3);
-        let found = run(&damaged, &ImuSetup::default());
+        let found = run(&damaged, &steady_imu());
         assert_eq!(found.hold_results().len(), 24, "1 in {every}");
         let message: Vec<String> = messages(&found.warnings)
             .into_iter()
@@ -131,7 +132,7 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
 #[test]
 fn a_spike_of_the_gyroscope_in_a_rotation_is_replaced() {
     let recording = simulated(3);
-    let clean = run(&recording, &ImuSetup::default());
+    let clean = run(&recording, &steady_imu());
     let rotation = &clean.rotations()[4];
     let middle = 0.5 * (rotation.start_s + rotation.end_s);
     let mut damaged = recording.clone();
@@ -142,7 +143,7 @@ fn a_spike_of_the_gyroscope_in_a_rotation_is_replaced() {
     let (without, spikes) = gyroscope.without_spikes(SensorKind::Gyroscope);
     assert_eq!(spikes.expect("one").samples, [sample]);
     assert!((without.readings()[sample].y - read).abs() < 6.0 * ImuSimulation::default().gyroscope_noise);
-    assert!(worst_shift(&run(&damaged, &ImuSetup::default()), &clean) < 0.1);
+    assert!(worst_shift(&run(&damaged, &steady_imu()), &clean) < 0.1);
 }
 
 #[test]
@@ -186,7 +187,7 @@ fn neither_heavy_tails_nor_coarse_steps_nor_brief_turns_are_spikes() {
 /// The magnitude of a hold in the table is that of its mean after the correction in the file.
 #[test]
 fn the_magnitude_of_a_hold_is_what_the_correction_gives() {
-    let calibration = run(&simulated(4), &ImuSetup::default());
+    let calibration = run(&simulated(4), &steady_imu());
     let correction = ImuCorrection::of(&calibration.calibrated()).expect("regular");
     for result in calibration.hold_results() {
         let force = correction.force(&result.hold.mean).expect("an accelerometer");
@@ -214,7 +215,7 @@ fn as_many_holds_as_parameters_leave_nothing_to_check() {
     };
     let truth = draw_imu(&mut rng).accelerometer;
     let (recording, _) = simulate_holds(&truth, &Vector3::repeat(0.01), unit, &simulation, &mut rng);
-    let (sensor, setup) = (Sensor::triaxial(SensorModel::Full), HoldsSetup::default());
+    let (sensor, setup) = (Sensor::triaxial(SensorModel::Full), steady_holds());
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Holds(&setup) };
     let calibration = calibrate(&problem, &CalibrationSettings::default()).expect("determined");

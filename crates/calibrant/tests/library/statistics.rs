@@ -4,6 +4,7 @@
 //! coverage of 95 % to √(0.95·0.05/n). √n times the Kolmogorov–Smirnov distance of uniform p-values exceeds
 //! 1.95 once in a thousand.
 
+use crate::common::steady_holds;
 use crate::common::messages;
 use calibrant::design::{DesignProblem, DesignSettings, design};
 use calibrant::estimate::{
@@ -227,7 +228,7 @@ fn static_holds_deliver_the_promised_covariance() {
                 let setup = HoldsSetup {
                     gravity: Gravity { magnitude_mps2: 9.81, sd_mps2: g_sd },
                     gauge,
-                    ..HoldsSetup::default()
+                    ..steady_holds()
                 };
                 let problem = CalibrationProblem {
                     sensor: &sensor,

@@ -1,6 +1,7 @@
 //! Tests of an IMU whose bias and gain follow temperature: against the truth on simulated ones, and where the
 //! data do not determine it.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::WORDS;
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuProblem, ImuSetup,
@@ -47,13 +48,13 @@ fn draw(model: &ThermalModel, rng: &mut Rng) -> ImuParameters {
 }
 
 fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
-    let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
+    let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), unfeeling_gyroscope());
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
     calibrate_imu(&problem, &CalibrationSettings::default())
 }
 
 fn setup(model: ThermalModel) -> ImuSetup {
-    ImuSetup { thermal: ThermalModel { reference_c: Some(32.0), ..model }, ..ImuSetup::default() }
+    ImuSetup { thermal: ThermalModel { reference_c: Some(32.0), ..model }, ..steady_imu() }
 }
 
 fn ramp(poses: usize) -> ImuSimulation {
@@ -308,7 +309,7 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
         holds.filter_map(|(j, hold)| (!hold.used).then_some(j)).collect()
     };
     // the warm ones do not fit a calibration without terms
-    let blind = run(&recording, &ImuSetup::default()).expect("determined");
+    let blind = run(&recording, &steady_imu()).expect("determined");
     assert_eq!(left_out(&blind), [24, 25, 26, 27, 28, 29]);
     let clean = run(&recording, &setup(model)).expect("determined");
     assert!(clean.hold_results().iter().all(|hold| hold.used));
@@ -348,10 +349,10 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     let error = parse_calibrated_imu(message.as_bytes(), &ConventionOptions::default()).expect_err("hot");
     assert!(error.to_string().contains("not between -273.15 and 1000"), "{error}");
 
-    let other = run(&recording, &ImuSetup { thermal: linear, ..ImuSetup::default() }).expect("determined");
+    let other = run(&recording, &ImuSetup { thermal: linear, ..steady_imu() }).expect("determined");
     assert_eq!(other.imu.thermal.reference_c, 33.0, "the mean over the holds, to the degree");
     let other = ThermalModel { reference_c: Some(25.0), ..linear };
-    let other = run(&recording, &ImuSetup { thermal: other, ..ImuSetup::default() })
+    let other = run(&recording, &ImuSetup { thermal: other, ..steady_imu() })
         .expect("determined")
         .calibrated();
     let comparison = Comparison::of(&calibration.calibrated(), &other);

@@ -20,13 +20,19 @@ pub struct HoldsSetup {
     pub found: Option<Vec<Hold>>,
 }
 
+impl HoldsSetup {
+    /// Usual drift of a bias over a recording, m/s²: 2 mg, as while a MEMS sensor warms up.
+    pub const USUAL_DRIFT_SD_MPS2: f64 = 0.02;
+}
+
+/// As in the preset `static-poses`.
 impl Default for HoldsSetup {
     fn default() -> Self {
         Self {
             gravity: Gravity { magnitude_mps2: 9.806_65, sd_mps2: 0.0 },
             gauge: Gauge::Upper,
             intervals_s: None,
-            bias_drift_sd_mps2: 0.0,
+            bias_drift_sd_mps2: Self::USUAL_DRIFT_SD_MPS2,
             minimum_hold_s: 1.0,
             found: None,
         }

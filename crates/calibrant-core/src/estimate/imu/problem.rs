@@ -6,7 +6,7 @@ use crate::estimate::holds::HoldsSetup;
 use crate::estimate::problem::FacesProblem;
 use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{
-    ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
+    Gauge, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
 };
 use nalgebra::Vector3;
 
@@ -51,10 +51,11 @@ pub struct Gyroscope {
     pub gain: Option<Vector3<f64>>,
     /// Standard deviation of one sample's noise, in the unit of the readings. `None`: it comes from the recording.
     pub noise: Option<Vector3<f64>>,
-    /// Is the g-sensitivity estimated?
+    /// Is the g-sensitivity estimated? Where it is not and the sensor has one, the biases' standard deviations are many times wider.
     pub g_sensitivity: bool,
 }
 
+/// As in the preset `imu`: all errors of the model, the g-sensitivity among them.
 impl Default for Gyroscope {
     fn default() -> Self {
         Self {
@@ -62,13 +63,13 @@ impl Default for Gyroscope {
             model: SensorModel::Full,
             gain: None,
             noise: None,
-            g_sensitivity: false,
+            g_sensitivity: true,
         }
     }
 }
 
 /// Facts of the recording of an IMU.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ImuSetup {
     /// The holds.
     pub holds: HoldsSetup,
@@ -90,6 +91,23 @@ pub struct ImuSetup {
     pub rate_sd: f64,
     /// White noise of the gyroscope from a long hold of this recording. It is used if the datasheet gives no noise.
     pub white_noise: Option<WhiteNoise>,
+}
+
+/// As in the preset `imu`: nothing is known of the recording, and the true frame is that of Kalibr.
+impl Default for ImuSetup {
+    fn default() -> Self {
+        Self {
+            holds: HoldsSetup { gauge: Gauge::Lower, ..HoldsSetup::default() },
+            latitude_deg: None,
+            directions: None,
+            face_sd_rad: None,
+            turns: Vec::new(),
+            known: Vec::new(),
+            thermal: ThermalModel::default(),
+            rate_sd: 0.0,
+            white_noise: None,
+        }
+    }
 }
 
 impl ImuSetup {

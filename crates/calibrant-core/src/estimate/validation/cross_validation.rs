@@ -171,7 +171,8 @@ mod tests {
     /// Gyroscope's and accelerometer's noise twice as large as the calibrations of the folds believe.
     #[test]
     fn standard_deviations_that_are_half_of_what_they_should_be_are_found_by_folds() {
-        let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
+        let gyroscope = Gyroscope { g_sensitivity: false, ..Gyroscope::default() };
+        let accelerometer = Sensor::triaxial(SensorModel::Full);
         let mut found = [0; 2];
         let count = 20;
         for number in 0..count {
@@ -191,7 +192,11 @@ mod tests {
             let intervals: Vec<(f64, f64)> =
                 (0..36).map(|k| 4.5 * f64::from(k)).map(|t| (t + 0.02, t + 2.48)).collect();
             let setup = ImuSetup {
-                holds: HoldsSetup { intervals_s: Some(intervals), ..HoldsSetup::default() },
+                holds: HoldsSetup {
+                    intervals_s: Some(intervals),
+                    bias_drift_sd_mps2: 0.0,
+                    ..HoldsSetup::default()
+                },
                 ..ImuSetup::default()
             };
             let problem = ImuProblem {

@@ -4,6 +4,7 @@ mod coverage;
 mod defects;
 mod good;
 
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
 use calibrant::estimate::{
@@ -34,13 +35,13 @@ impl Session {
         write_imu_recording(&path, &recording).expect("written");
         let file = read_imu_recording(&path, &ImuReadOptions::default()).expect("read");
         // as experiment files have it
-        let holds = HoldsSetup { bias_drift_sd_mps2: 0.02, ..HoldsSetup::default() };
+        let holds = HoldsSetup { bias_drift_sd_mps2: 0.02, ..steady_holds() };
         Self {
             imu,
             recording: file.recording,
             accelerometer: Sensor::triaxial(SensorModel::Full),
-            gyroscope: Gyroscope::default(),
-            setup: ImuSetup { holds, ..ImuSetup::default() },
+            gyroscope: unfeeling_gyroscope(),
+            setup: ImuSetup { holds, ..steady_imu() },
         }
     }
 

@@ -1,6 +1,6 @@
 //! Simulated and recorded IMUs that several tests share.
 
-use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
+use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, calibrate_imu};
 use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
@@ -44,6 +44,21 @@ pub(crate) fn draw_imu(rng: &mut Rng) -> ImuParameters {
 pub(crate) fn draw_feeling_imu(rng: &mut Rng) -> ImuParameters {
     let imu = draw_imu(rng);
     ImuParameters { g_sensitivity: Matrix3::from_fn(|_, _| 2e-4 * normal(rng)), ..imu }
+}
+
+/// A gyroscope whose g-sensitivity is not estimated.
+pub(crate) fn unfeeling_gyroscope() -> Gyroscope {
+    Gyroscope { g_sensitivity: false, ..Gyroscope::default() }
+}
+
+/// Holds of a sensor whose biases do not drift, in the upper gauge.
+pub(crate) fn steady_holds() -> HoldsSetup {
+    HoldsSetup { bias_drift_sd_mps2: 0.0, gauge: Gauge::Upper, ..HoldsSetup::default() }
+}
+
+/// A recording of an IMU whose biases do not drift, in the upper gauge.
+pub(crate) fn steady_imu() -> ImuSetup {
+    ImuSetup { holds: steady_holds(), ..ImuSetup::default() }
 }
 
 /// A triaxial accelerometer with cross-axis terms. In counts, its gain is not known.

@@ -9,6 +9,9 @@ mod messages;
 mod retimed;
 
 pub(crate) use data::shared_data;
-pub(crate) use imu::{draw_feeling_imu, draw_imu, normal, read_accelerometer, run_imu, xsens};
+pub(crate) use imu::{
+    draw_feeling_imu, draw_imu, normal, read_accelerometer, run_imu, steady_holds, steady_imu,
+    unfeeling_gyroscope, xsens,
+};
 pub(crate) use messages::{WORDS, messages};
 pub(crate) use retimed::retimed;

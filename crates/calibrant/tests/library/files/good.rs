@@ -5,6 +5,7 @@ use calibrant::io::{
     CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Preset, Prior, ScaleBy,
     preset,
 };
+use calibrant::estimate::{Gyroscope, ImuSetup};
 use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
@@ -255,4 +256,13 @@ fn a_variant_takes_what_it_does_not_say_from_the_motion() {
     assert_eq!(study.noisy.as_ref().map(|noisy| noisy.limits.is_none()), Some(true));
     let none = parse(&format!("{head}[study]\nstarts = 3\n")).study;
     assert_eq!((none.starts, none.surface, none.unknown, none.noisy), (Some(3), None, None, None));
+}
+
+#[test]
+fn the_default_problem_of_the_library_is_that_of_the_preset() {
+    let experiment = parse(preset("imu").expect("known"));
+    let (plan, imu) = (holds(&experiment), experiment.imu.as_ref().expect("an IMU"));
+    assert_eq!(experiment.sensor, Sensor::triaxial(SensorModel::Full));
+    assert_eq!(imu.gyroscope, Gyroscope::default());
+    assert_eq!(imu.setup(plan), ImuSetup::default());
 }

@@ -1,6 +1,7 @@
 //! The bench of the validation tests: a simulated IMU, calibrated from one recording and validated on
 //! another.
 
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::normal;
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, GyroscopeCalibration,
@@ -21,8 +22,8 @@ impl Bench {
     pub(crate) fn new() -> Self {
         Self {
             accelerometer: Sensor::triaxial(SensorModel::Full),
-            gyroscope: Gyroscope::default(),
-            setup: ImuSetup::default(),
+            gyroscope: unfeeling_gyroscope(),
+            setup: steady_imu(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Tests of validation on real recordings.
 
+use crate::common::{steady_holds, steady_imu};
 use crate::validation::bench::{Bench, KINDS};
 use calibrant::estimate::{CovarianceVerdict, Gyroscope, HoldsSetup, ImuSetup};
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
@@ -12,7 +13,7 @@ fn the_standard_deviations_on_the_xsens_recording_are_to_be_believed() {
     let bench = Bench {
         accelerometer: Sensor { unit, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) },
         gyroscope: Gyroscope { unit, g_sensitivity: true, ..Gyroscope::default() },
-        setup: ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() },
+        setup: ImuSetup { holds: HoldsSetup { gravity, ..steady_holds() }, ..steady_imu() },
     };
     let whole = bench.calibrate(&recording);
     let holds = &whole.hold_results();

@@ -1,8 +1,9 @@
 //! Tests of inputs that cannot be validated.
 
+use crate::common::steady_imu;
 use crate::common::draw_imu;
 use crate::validation::bench::bench;
-use calibrant::estimate::{CalibrationSettings, ImuProblem, ImuSetup, cross_validate_imu, validate_imu};
+use calibrant::estimate::{CalibrationSettings, ImuProblem, cross_validate_imu, validate_imu};
 use calibrant::sensor::ImuRecording;
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
@@ -37,7 +38,7 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
     let message = cross_validate_imu(&calibration, &known, &settings, 5).expect_err("refused").to_string();
     assert!(message.contains("how well the sensor was placed"), "{message}");
 
-    let anywhere = ImuSetup::default();
+    let anywhere = steady_imu();
     let refused = |recording: &ImuRecording| {
         let problem = ImuProblem { setup: &anywhere, ..bench.problem(recording) };
         let error = validate_imu(&calibration, &problem).expect_err("refused");
