@@ -93,9 +93,10 @@ pub use diagnostics::DiagnosticWords;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, LogNoise, MachinePlan,
-    MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, PoseOptions, Prior, ScaleBy,
-    StudyOptions, UnknownVariant, UrdfSource, nearest, read_acceptance, read_columns,
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
+    LogNoise, MachinePlan, MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy,
+    StudyOptions, UnknownVariant, UrdfSource, experiment_keys, nearest, read_acceptance, read_columns,
+    sections as experiment_sections,
 };
 pub use experiment_presets::{PRESETS, Preset, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};

@@ -2,6 +2,7 @@
 
 use super::{JerkControlledMotion, MotionGravity};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// How far the commanded motion is trusted. The thesis's problems (5), (6) and (3) are one problem with three
 /// answers to this question.
@@ -45,7 +46,8 @@ impl InputNoise {
 }
 
 /// Which ends of the motion have a known acceleration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum KnownEnds {
     /// Only the start.
     Start,

@@ -1,9 +1,11 @@
 //! The arm's limits (`[limits]`): acceleration, jerk, velocity, displacement and rest. Plain data, per axis.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Where the arm is at rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Rest {
     /// No rest is prescribed.
     #[default]

@@ -6,9 +6,11 @@
 
 use super::{Axis, Quantity, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// The convention that fixes the true frame of a static calibration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Gauge {
     /// Lower triangular: the true x axis lies along the sensor's x axis (Kalibr).
     Lower,

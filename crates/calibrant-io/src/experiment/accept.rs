@@ -1,13 +1,30 @@
-//! Reads `[accept]`: the limits that a result must keep.
+//! `[accept]`: the limits that a result must keep.
 
-use super::known_keys::nearest;
-use super::number_range::Bounds;
-use super::toml_document::{Entry, Section};
+use super::number::Within;
+use super::ranges::{SdLimit, Value};
+use super::refused_key::refused;
+use super::remedies::remedy;
+use super::similar_word::nearest;
 use calibrant_core::acceptance::AcceptanceLimit;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
     Axis, Gauge, HIGHEST_ORDER, ImuQuantity, ParameterList, SensorKind, SensorModel, ThermalPart, ThermalTerm,
 };
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// `[accept]`: limits of figures, by their names.
+pub type AcceptSection = BTreeMap<String, AcceptEntry>;
+
+/// The limits of a figure.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AcceptEntry {
+    /// The least and the largest accepted value.
+    pub range: Option<Vec<Within<Value>>>,
+    /// The largest accepted standard deviation.
+    pub sd: Option<Within<SdLimit>>,
+}
 
 /// Figures that follow from the parameters, or from the fit.
 const DERIVED: [&str; 6] = [
@@ -18,56 +35,49 @@ const DERIVED: [&str; 6] = [
     "repeatability_mps2",
     "validation_ratio",
 ];
-/// Range of a limit of a value.
-const VALUE: Bounds = Bounds::from(-1e12, 1e12, "");
-/// Range of a limit of a standard deviation.
-const SD: Bounds = Bounds::above(0.0, 1e12, "");
-/// How a limit is written.
-const HELP: &str = "for example { range = [-0.05, 0.05], sd = 1e-3 }";
-
-/// Reads `[accept]`.
-pub(super) fn read(section: &Section<'_>) -> Result<Vec<AcceptanceLimit>> {
+/// The limits that the section names.
+pub(super) fn acceptance_limits(section: &AcceptSection) -> Result<Vec<AcceptanceLimit>> {
     let known = names();
     section
-        .entries()
+        .iter()
         .map(|(name, entry)| {
-            if !known.iter().any(|known| known == name) {
-                let near = nearest(name, known.iter().map(String::as_str));
-                let help = near.map_or_else(
-                    || format!("a parameter of calibration.json, or one of {}", DERIVED.join(", ")),
-                    |near| format!("did you mean `{near}`?"),
-                );
-                return Err(section.unknown(name, &help));
+            let key = format!("accept.{name}");
+            if known.contains(name) {
+                return entry.limit(name, key);
             }
-            limit(name, &entry)
+            let near = nearest(name, known.iter().map(String::as_str));
+            let help = near.map_or_else(
+                || format!("a parameter of calibration.json, or one of {}", DERIVED.join(", ")),
+                |near| format!("did you mean `{near}`?"),
+            );
+            Err(Error::experiment(InputError::new(Refusal::KeyUnknown, "unknown key", help).about_key(key)))
         })
         .collect()
 }
 
-fn limit(name: &str, entry: &Entry<'_>) -> Result<AcceptanceLimit> {
-    if !entry.is_table() {
-        return Err(entry.wrong_type("a table", HELP));
+impl AcceptEntry {
+    fn limit(&self, name: &str, key: String) -> Result<AcceptanceLimit> {
+        let range = self.range.as_deref().map(|range| limits(range, &key)).transpose()?;
+        let sd = self.sd.map(f64::from);
+        if range.is_none() && sd.is_none() {
+            let help = remedy(&key);
+            return Err(refused(key, "this limit limits nothing", help));
+        }
+        Ok(AcceptanceLimit { name: name.to_owned(), range, sd })
     }
-    let section = Section::item(entry, "accept.limit")?;
-    let range = section.get("range").map(|entry| range(&entry)).transpose()?;
-    let sd = section.get("sd").map(|entry| entry.number(&SD)).transpose()?;
-    if range.is_none() && sd.is_none() {
-        return Err(entry.reject("this limit limits nothing", HELP));
-    }
-    Ok(AcceptanceLimit { name: name.to_owned(), range, sd })
 }
 
-fn range(entry: &Entry<'_>) -> Result<(f64, f64)> {
+fn limits(range: &[Within<Value>], key: &str) -> Result<(f64, f64)> {
     let help = "the least and the largest accepted value: [-0.05, 0.05]";
-    let items = entry.items(help)?;
-    let [least, most] = items.as_slice() else {
-        return Err(entry.reject("two numbers are needed here", help));
-    };
-    let (least, most) = (least.number(&VALUE)?, most.number(&VALUE)?);
-    if least > most {
-        return Err(entry.reject(format!("the least value {least:?} is above the largest, {most:?}"), help));
+    let reject = |message: &str| Err(refused(format!("{key}.range"), message, help));
+    match range {
+        [least, most] if least.get() <= most.get() => Ok((least.get(), most.get())),
+        [least, most] => {
+            let (least, most) = (least.get(), most.get());
+            reject(&format!("the least value {least:?} is above the largest, {most:?}"))
+        }
+        _ => reject("two numbers are needed here"),
     }
-    Ok((least, most))
 }
 
 /// The names of all figures, and those of their groups.

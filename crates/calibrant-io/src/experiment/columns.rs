@@ -1,85 +1,110 @@
-//! Reads `[columns]`: what a recording's file does not state itself.
+//! `[columns]`: what a recording's file does not state itself.
 
-use super::number_range::Bounds;
-use super::toml_document::{Entry, Section};
+use super::fault::unknown_word;
+use super::number::Within;
+use super::ranges::{FileRate, RateSd};
+use super::refused_key::refused;
+use super::remedies::{COLUMN, remedy};
 use crate::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::SensorKind;
+use serde::{Deserialize, Serialize};
 
-/// Range of a sample rate.
-const RATE: Bounds = Bounds::from(1e-6, 1e9, "Hz");
-
-/// Range of a sample rate's standard deviation.
-const RATE_SD: Bounds = Bounds::from(0.0, 1e5, "ppm");
-
-/// Reads `[columns]`.
-pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
-    let formats = FileFormat::ALL.map(|format| (format.name(), format));
-    let times = [
-        ("s", TimeUnit::Second),
-        ("ms", TimeUnit::Millisecond),
-        ("0.1 ms", TimeUnit::TenthMillisecond),
-        ("us", TimeUnit::Microsecond),
-        ("µs", TimeUnit::Microsecond),
-        ("ns", TimeUnit::Nanosecond),
-        ("samples", TimeUnit::Sample),
-    ];
-    let choices = SampleTimes::ALL.map(|times| (times.name(), times));
-    let name = |key: &str| section.get(key).map(|entry| column(&entry)).transpose();
-    let sensor_kind = |key: &str| section.get(key).map(|entry| three(&entry)).transpose();
-    let columns = ColumnMapping {
-        time: name("time")?,
-        accelerometer: sensor_kind("accelerometer")?,
-        gyroscope: sensor_kind("gyroscope")?,
-        temperature: name("temperature")?,
-    };
-    no_column_twice(section, &columns)?;
-    Ok(ImuReadOptions {
-        format: section.get("format").map(|entry| entry.word(&formats)).transpose()?,
-        time_unit: section.get("time_unit").map(|entry| entry.word(&times)).transpose()?,
-        accelerometer_unit: unit(section, "accelerometer_unit", SensorKind::Accelerometer)?,
-        gyroscope_unit: unit(section, "gyroscope_unit", SensorKind::Gyroscope)?,
-        rate_hz: section.get("rate_hz").map(|entry| entry.number(&RATE)).transpose()?,
-        rate_sd_ppm: section.get("rate_sd_ppm").map(|entry| entry.number(&RATE_SD)).transpose()?,
-        topic: name("topic")?,
-        times: section.get("times").map(|entry| entry.word(&choices)).transpose()?,
-        columns,
-        ..ImuReadOptions::default()
-    })
+/// `[columns]`: what a recording's file does not state itself.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColumnsSection {
+    /// The format.
+    pub format: Option<FileFormat>,
+    /// Name of the column of times.
+    pub time: Option<String>,
+    /// Unit of the times.
+    pub time_unit: Option<TimeUnit>,
+    /// Even times, or the logged ones.
+    pub times: Option<SampleTimes>,
+    /// Sample rate, for files without times.
+    pub rate_hz: Option<Within<FileRate>>,
+    /// Standard deviation of that rate.
+    pub rate_sd_ppm: Option<Within<RateSd>>,
+    /// Names of the columns of the accelerometer, x to z.
+    pub accelerometer: Option<Vec<String>>,
+    /// Their unit.
+    pub accelerometer_unit: Option<String>,
+    /// Names of the columns of the gyroscope, x to z.
+    pub gyroscope: Option<Vec<String>>,
+    /// Their unit.
+    pub gyroscope_unit: Option<String>,
+    /// Name of the column of temperatures.
+    pub temperature: Option<String>,
+    /// Topic of a bag with several.
+    pub topic: Option<String>,
 }
 
-fn column(entry: &Entry<'_>) -> Result<String> {
-    /// The remedy for a wrong name of a column.
-    const HELP: &str = "the name as it is in the file, in quotes; without a header, its number from \"1\"";
-    match entry.text() {
-        Some("") => Err(entry.reject("this name is empty", HELP)),
-        Some(name) => Ok(name.to_owned()),
-        None => Err(entry.wrong_type("a string", HELP)),
+impl ColumnsSection {
+    /// The options of a reader.
+    pub(super) fn options(&self) -> Result<ImuReadOptions> {
+        let columns = ColumnMapping {
+            time: column("columns.time", self.time.as_ref())?,
+            accelerometer: three("columns.accelerometer", self.accelerometer.as_ref())?,
+            gyroscope: three("columns.gyroscope", self.gyroscope.as_ref())?,
+            temperature: column("columns.temperature", self.temperature.as_ref())?,
+        };
+        no_column_twice(&columns)?;
+        let unit = |key, text: Option<&String>, sensor_kind| {
+            text.map(|text| unit(key, text, sensor_kind)).transpose()
+        };
+        Ok(ImuReadOptions {
+            format: self.format,
+            time_unit: self.time_unit,
+            accelerometer_unit: unit(
+                "columns.accelerometer_unit",
+                self.accelerometer_unit.as_ref(),
+                SensorKind::Accelerometer,
+            )?,
+            gyroscope_unit: unit(
+                "columns.gyroscope_unit",
+                self.gyroscope_unit.as_ref(),
+                SensorKind::Gyroscope,
+            )?,
+            rate_hz: self.rate_hz.map(f64::from),
+            rate_sd_ppm: self.rate_sd_ppm.map(f64::from),
+            topic: column("columns.topic", self.topic.as_ref())?,
+            times: self.times,
+            columns,
+            ..ImuReadOptions::default()
+        })
     }
 }
 
-fn three(entry: &Entry<'_>) -> Result<[String; 3]> {
-    /// The remedy for a wrong list of columns.
-    const HELP: &str = "the columns of x, y and z: [\"acc_x\", \"acc_y\", \"acc_z\"]";
-    let names = entry.items(HELP)?.iter().map(column).collect::<Result<Vec<_>>>()?;
+fn column(key: &str, name: Option<&String>) -> Result<Option<String>> {
+    match name {
+        Some(name) if name.is_empty() => Err(refused(key, "this name is empty", COLUMN)),
+        name => Ok(name.cloned()),
+    }
+}
+
+fn three(key: &str, names: Option<&Vec<String>>) -> Result<Option<[String; 3]>> {
+    let Some(names) = names else { return Ok(None) };
     let count = names.len();
-    names.try_into().map_err(|_| entry.reject(format!("{count} columns for 3 axes"), HELP))
-}
-
-fn unit(section: &Section<'_>, key: &str, sensor_kind: SensorKind) -> Result<Option<ImuUnit>> {
-    let Some(entry) = section.get(key) else { return Ok(None) };
-    if let Some(unit) = entry.text().and_then(ImuUnit::parse).filter(|unit| unit.suits(sensor_kind)) {
-        return Ok(Some(unit));
+    for (number, name) in names.iter().enumerate() {
+        column(&format!("{key}[{number}]"), Some(name))?;
     }
-    let words: Vec<(&str, ImuUnit)> = ImuUnit::ALL
-        .into_iter()
-        .filter(|unit| unit.suits(sensor_kind))
-        .map(|unit| (unit.symbol(), unit))
-        .collect();
-    entry.word(&words).map(Some)
+    let three = names.clone().try_into();
+    three.map(Some).map_err(|_| refused(key, format!("{count} columns for 3 axes"), remedy(key)))
 }
 
-fn no_column_twice(section: &Section<'_>, columns: &ColumnMapping) -> Result<()> {
+fn unit(key: &str, text: &str, sensor_kind: SensorKind) -> Result<ImuUnit> {
+    if let Some(unit) = ImuUnit::parse(text).filter(|unit| unit.suits(sensor_kind)) {
+        return Ok(unit);
+    }
+    let suited = ImuUnit::ALL.into_iter().filter(|unit| unit.suits(sensor_kind));
+    let words: Vec<&str> = suited.map(ImuUnit::symbol).collect();
+    let said = unknown_word(text, &words);
+    let (message, help) = said.split_once('\n').unwrap_or((&said, ""));
+    Err(refused(key, message, help))
+}
+
+fn no_column_twice(columns: &ColumnMapping) -> Result<()> {
     let mut seen: Vec<&str> = Vec::new();
     let sensor_kinds = SensorKind::ALL.into_iter().flat_map(|sensor_kind| {
         columns.sensor(sensor_kind).into_iter().flatten().map(move |name| (sensor_kind.name(), name))
@@ -89,10 +114,7 @@ fn no_column_twice(section: &Section<'_>, columns: &ColumnMapping) -> Result<()>
     for (key, name) in singles.chain(sensor_kinds) {
         if seen.contains(&name.as_str()) {
             let message = format!("the column `{name}` is named twice");
-            return Err(section.get(key).map_or_else(
-                || section.reject(&message, "", key),
-                |entry| entry.reject(message.clone(), "each column holds one thing"),
-            ));
+            return Err(refused(format!("columns.{key}"), message, "each column holds one thing"));
         }
         seen.push(name);
     }

@@ -1,57 +1,51 @@
-//! Reads gravity: its magnitude, or the latitude and the height that give it.
+//! Gravity: its magnitude, or the latitude and the height that give it.
 
-use super::number_range::Bounds;
-use super::toml_document::Section;
+use super::number::Within;
+use super::ranges::{GravitySd, Height, Latitude};
+use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 
-/// Least and largest magnitude of gravity, m/s².
-pub(super) const LEAST: f64 = 0.1;
-pub(super) const LARGEST: f64 = 100.0;
-/// Range of gravity.
-const GRAVITY: Bounds = Bounds::from(LEAST, LARGEST, "m/s²");
-/// Range of the standard uncertainty of gravity.
-pub(super) const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
-/// Range of the latitude.
-pub(super) const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
-/// Range of the height above the sea.
-const HEIGHT: Bounds = Bounds::from(-12_000.0, 100_000.0, "m");
+/// The keys of gravity in a section.
+pub(super) struct GravityKeys {
+    pub(super) section: &'static str,
+    pub(super) gravity_mps2: Option<f64>,
+    pub(super) gravity_sd_mps2: Option<Within<GravitySd>>,
+    pub(super) latitude_deg: Option<Within<Latitude>>,
+    pub(super) height_m: Option<Within<Height>>,
+}
 
-/// Reads the magnitude of gravity and says where it is from. Beside a value a latitude may serve for the Earth's rate.
-pub(super) fn read_gravity(section: &Section<'_>, with_earth_rate: bool) -> Result<(Gravity, String)> {
-    /// The remedy for missing or contradictory gravity.
-    const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
-    let sd = section.get("gravity_sd_mps2").map(|entry| entry.number(&GRAVITY_SD)).transpose()?;
-    let (given, latitude, height) =
-        (section.get("gravity_mps2"), section.get("latitude_deg"), section.get("height_m"));
-    match (given, latitude, height) {
-        (Some(_), Some(entry), _) if !with_earth_rate => {
-            Err(entry.reject("gravity is given twice", format!("{HELP}, not both")))
-        }
-        (Some(_), _, Some(entry)) => {
-            let help = if with_earth_rate {
-                "; latitude_deg alone may stand beside it, for the Earth's rate"
-            } else {
-                ""
-            };
-            Err(entry.reject("gravity is given twice", format!("{HELP}, not both{help}")))
-        }
-        (Some(entry), _, None) => {
-            let gravity = Gravity { magnitude_mps2: entry.number(&GRAVITY)?, sd_mps2: sd.unwrap_or(0.0) };
-            Ok((gravity, "given".into()))
-        }
-        (None, Some(latitude), Some(height)) => {
-            let (latitude, height) = (latitude.number(&LATITUDE)?, height.number(&HEIGHT)?);
-            let mut gravity = Gravity::from_latitude(latitude, height);
-            if let Some(sd) = sd {
-                gravity.sd_mps2 = sd;
+impl GravityKeys {
+    /// The magnitude of gravity and, in words, where it is from. Beside a value a latitude may serve for the
+    /// Earth's rate.
+    pub(super) fn magnitude(&self, with_earth_rate: bool) -> Result<(Gravity, String)> {
+        /// The remedy for missing or contradictory gravity.
+        const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
+        let key = |key: &str| format!("{}.{key}", self.section);
+        let sd = self.gravity_sd_mps2.map(f64::from);
+        let (latitude, height) = (self.latitude_deg.map(f64::from), self.height_m.map(f64::from));
+        let twice = |at: &str, more: &str| {
+            Err(refused(key(at), "gravity is given twice", format!("{HELP}, not both{more}")))
+        };
+        match (self.gravity_mps2, latitude, height) {
+            (Some(_), Some(_), _) if !with_earth_rate => twice("latitude_deg", ""),
+            (Some(_), _, Some(_)) if with_earth_rate => {
+                twice("height_m", "; latitude_deg alone may stand beside it, for the Earth's rate")
             }
-            Ok((gravity, format!("from latitude {latitude}°, height {height} m")))
+            (Some(_), _, Some(_)) => twice("height_m", ""),
+            (Some(magnitude_mps2), _, None) => {
+                Ok((Gravity { magnitude_mps2, sd_mps2: sd.unwrap_or(0.0) }, "given".into()))
+            }
+            (None, Some(latitude), Some(height)) => {
+                let gravity = Gravity::from_latitude(latitude, height);
+                let gravity = Gravity { sd_mps2: sd.unwrap_or(gravity.sd_mps2), ..gravity };
+                Ok((gravity, format!("from latitude {latitude}°, height {height} m")))
+            }
+            (None, Some(_), None) => Err(missing(key("height_m"), "latitude_deg and height_m go together")),
+            (None, None, Some(_)) => {
+                Err(missing(key("latitude_deg"), "latitude_deg and height_m go together"))
+            }
+            (None, None, None) => Err(missing(key("gravity_mps2"), HELP)),
         }
-        (None, Some(_), None) => Err(section.missing("height_m", "latitude_deg and height_m go together")),
-        (None, None, Some(_)) => {
-            Err(section.missing("latitude_deg", "latitude_deg and height_m go together"))
-        }
-        (None, None, None) => Err(section.missing("gravity_mps2", HELP)),
     }
 }

@@ -1,32 +1,102 @@
-//! Reads `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and known quantities.
+//! `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and known quantities.
 
 use super::HoldsPlan;
-use super::direction::direction;
-use super::number_range::Bounds;
-use super::toml_document::{Entry, Section};
+use super::direction::{Direction, unit_vector};
+use super::number::{Either, PerAxis, Within};
+use super::ranges::{GyroscopeGain, NoiseCounts, NoiseRadps, PriorSd, Time, TurnAngle, TurnSd, Value};
+use super::refused_key::refused;
+use super::remedies::remedy;
+use super::sensor::per_axis;
+use super::similar_word::nearest;
+use super::temperature::TemperatureSection;
 use crate::ImuUnit;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, Turn};
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
-use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
-/// Range of the nominal gain.
-const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(rad/s)");
-/// Range of the noise of a sample in rad/s.
-const NOISE_RADPS: Bounds = Bounds::from(1e-9, 1e3, "rad/s");
-/// Range of the noise of a sample in counts.
-const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
-/// Range of a time.
-const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
-/// Range of the angle of a turn.
-const ANGLE: Bounds = Bounds::from(-1e6, 1e6, "degrees");
-/// Range of the standard uncertainty of a turn's angle. It is above 0: no turn is exact, and nothing in the
-/// recording shows its error.
-const ANGLE_SD: Bounds = Bounds::above(0.0, 360.0, "degrees");
-/// Range of a known value.
-const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
-/// Range of the standard deviation of a prior. A smaller one leaves the other data no digits.
-const PRIOR_SD: Bounds = Bounds::from(1e-12, 1e12, "");
+/// `[gyroscope]`: the datasheet of an IMU's gyroscope, and its turns.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GyroscopeSection {
+    /// Unit of the readings, where the file does not state it.
+    pub unit: Option<GyroscopeUnit>,
+    /// Which errors the model has; all without it.
+    pub model: Option<SensorModel>,
+    /// Nominal gain.
+    pub gain_counts_per_radps: Option<PerAxis<GyroscopeGain>>,
+    /// Noise of one sample, rad/s.
+    pub noise_radps: Option<PerAxis<NoiseRadps>>,
+    /// Noise of one sample, counts.
+    pub noise_counts: Option<PerAxis<NoiseCounts>>,
+    /// Is the g-sensitivity estimated? Not without it.
+    pub g_sensitivity: Option<bool>,
+    /// Turns of known angle.
+    pub turns: Option<Vec<TurnSection>>,
+    /// Angle of the turns of a list of sections.
+    pub turn_angle_deg: Option<Within<TurnAngle>>,
+    /// Standard uncertainty of that angle and of its axis.
+    pub turn_sd_deg: Option<Within<TurnSd>>,
+}
+
+/// The unit of a gyroscope's readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GyroscopeUnit {
+    /// rad/s.
+    Radps,
+    /// deg/s.
+    Degps,
+    /// mdeg/s.
+    Mdps,
+    /// Counts.
+    Counts,
+}
+
+impl From<GyroscopeUnit> for ImuUnit {
+    fn from(unit: GyroscopeUnit) -> Self {
+        match unit {
+            GyroscopeUnit::Radps => Self::RadianPerSecond,
+            GyroscopeUnit::Degps => Self::DegreePerSecond,
+            GyroscopeUnit::Mdps => Self::MilliDegreePerSecond,
+            GyroscopeUnit::Counts => Self::Counts,
+        }
+    }
+}
+
+/// A turn of known angle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TurnSection {
+    /// Its start.
+    pub start_s: Within<Time>,
+    /// Its end.
+    pub end_s: Within<Time>,
+    /// Its axis.
+    pub axis: Direction,
+    /// Its angle, right-handed about the axis.
+    pub angle_deg: Within<TurnAngle>,
+    /// Standard uncertainty of the angle.
+    pub angle_sd_deg: Option<Within<TurnSd>>,
+}
+
+/// `[known]`: quantities by their names; a number fixes a quantity, a table is a prior.
+pub type KnownSection = BTreeMap<String, Either<Within<Value>, KnownPrior>>;
+
+/// A prior of a quantity; fixed without a standard deviation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnownPrior {
+    /// Its value.
+    pub value: Within<Value>,
+    /// Its standard deviation.
+    pub sd: Option<Within<PriorSd>>,
+}
+
+/// Usual standard uncertainty of the angle of a turn by hand, degrees.
+const TURN_SD_DEG: f64 = 0.5;
+
 /// The second sensor of an IMU and what both sensors share, as `[gyroscope]`, `[known]` and `[temperature]`
 /// describe it.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,142 +134,127 @@ impl ImuPlan {
     }
 }
 
-/// Reads `[gyroscope]`, `[known]` and `[temperature]`.
-pub(super) fn read(
-    section: &Section<'_>,
-    known: Option<&Section<'_>>,
-    temperature: Option<&Section<'_>>,
-) -> Result<ImuPlan> {
-    let thermal = temperature.map_or(Ok(ThermalModel::default()), super::temperature::read)?;
-    let file_unit = match section.get("unit") {
-        None => None,
-        Some(entry) => Some(entry.word(&[
-            ("radps", ImuUnit::RadianPerSecond),
-            ("degps", ImuUnit::DegreePerSecond),
-            ("mdps", ImuUnit::MilliDegreePerSecond),
-            ("counts", ImuUnit::Counts),
-        ])?),
-    };
-    let unit =
-        if file_unit == Some(ImuUnit::Counts) { ReadingUnit::Counts } else { ReadingUnit::RadianPerSecond };
-    let model = section.get("model").map_or(Ok(SensorModel::Full), |entry| {
-        entry.word(&[("scale-bias", SensorModel::ScaleBias), ("full", SensorModel::Full)])
-    })?;
-    let counts = ["gain_counts_per_radps", "noise_counts"];
-    if unit != ReadingUnit::Counts
-        && let Some(entry) = counts.iter().find_map(|key| section.get(key))
-    {
-        return Err(entry.reject(
-            "readings in rad/s or deg/s have no counts",
-            "write unit = \"counts\" in [gyroscope], or leave this key away",
-        ));
+impl GyroscopeSection {
+    /// The plan of such an IMU.
+    pub(super) fn plan(
+        &self,
+        known: Option<&KnownSection>,
+        temperature: Option<&TemperatureSection>,
+    ) -> Result<ImuPlan> {
+        let thermal = temperature.map(TemperatureSection::model).unwrap_or_default();
+        let file_unit = self.unit.map(ImuUnit::from);
+        let is_counts = file_unit == Some(ImuUnit::Counts);
+        let of_counts = [
+            ("gyroscope.gain_counts_per_radps", self.gain_counts_per_radps.is_some()),
+            ("gyroscope.noise_counts", self.noise_counts.is_some()),
+        ];
+        if let Some((key, _)) = of_counts.iter().find(|(_, is_there)| *is_there && !is_counts) {
+            let help = "write unit = \"counts\" in [gyroscope], or leave this key away";
+            return Err(refused(*key, "readings in rad/s or deg/s have no counts", help));
+        }
+        if is_counts && self.noise_radps.is_some() {
+            return Err(refused("gyroscope.noise_radps", "the readings are counts", "noise_counts = …"));
+        }
+        let noise = match is_counts {
+            true => per_axis("gyroscope.noise_counts", self.noise_counts.as_ref(), 3)?,
+            false => per_axis("gyroscope.noise_radps", self.noise_radps.as_ref(), 3)?,
+        };
+        let angle = self.turn_angle_deg.map(|angle| turned_by("gyroscope.turn_angle_deg", angle));
+        Ok(ImuPlan {
+            gyroscope: Gyroscope {
+                unit: if is_counts { ReadingUnit::Counts } else { ReadingUnit::RadianPerSecond },
+                model: self.model.unwrap_or(SensorModel::Full),
+                gain: per_axis("gyroscope.gain_counts_per_radps", self.gain_counts_per_radps.as_ref(), 3)?,
+                noise,
+                g_sensitivity: self.g_sensitivity.unwrap_or(false),
+            },
+            file_unit,
+            turns: self.turns()?,
+            section_angle_rad: angle.transpose()?.unwrap_or_else(|| (-360.0_f64).to_radians()),
+            section_angle_sd_rad: self.turn_sd_deg.map_or(TURN_SD_DEG, f64::from).to_radians(),
+            known: known.map_or(Ok(Vec::new()), |section| known_terms(section, &thermal))?,
+            thermal,
+        })
     }
-    if let (ReadingUnit::Counts, Some(entry)) = (unit, section.get("noise_radps")) {
-        return Err(entry.reject("the readings are counts", "noise_counts = …"));
+
+    /// The keys about turns by hand, and which are there.
+    pub(super) fn turn_keys(&self) -> [(&'static str, bool); 3] {
+        [
+            ("gyroscope.turns", self.turns.is_some()),
+            ("gyroscope.turn_angle_deg", self.turn_angle_deg.is_some()),
+            ("gyroscope.turn_sd_deg", self.turn_sd_deg.is_some()),
+        ]
     }
-    let per_axis = |key: &str, bounds: &Bounds| -> Result<Option<Vector3<f64>>> {
-        section.get(key).map(|entry| entry.per_axis(3, bounds)).transpose()
-    };
-    let noise = match unit {
-        ReadingUnit::Counts => per_axis("noise_counts", &NOISE_COUNTS)?,
-        _ => per_axis("noise_radps", &NOISE_RADPS)?,
-    };
-    Ok(ImuPlan {
-        gyroscope: Gyroscope {
-            unit,
-            model,
-            gain: per_axis("gain_counts_per_radps", &GAIN)?,
-            noise,
-            g_sensitivity: section.get("g_sensitivity").map_or(Ok(false), |entry| entry.flag())?,
-        },
-        file_unit,
-        turns: section.get("turns").map_or(Ok(Vec::new()), |entry| turns(&entry))?,
-        section_angle_rad: section
-            .get("turn_angle_deg")
-            .map_or(Ok((-360.0_f64).to_radians()), |entry| turned_by(&entry))?,
-        section_angle_sd_rad: section
-            .get("turn_sd_deg")
-            .map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?
-            .to_radians(),
-        known: known.map_or(Ok(Vec::new()), |section| read_known(section, &thermal))?,
-        thermal,
-    })
+
+    fn turns(&self) -> Result<Vec<Turn>> {
+        let mut turns: Vec<Turn> = Vec::new();
+        for (number, of) in self.turns.iter().flatten().enumerate() {
+            let key = format!("gyroscope.turns[{number}]");
+            let turn = of.turn(&key)?;
+            if let Some(before) = turns.iter().position(|before| turn.repeats(before)) {
+                let [one, other] =
+                    [&turns[before], &turn].map(|turn| format!("{} to {} s", turn.start_s, turn.end_s));
+                let message =
+                    format!("turn {} ({other}) is turn {} ({one}) once more", number + 1, before + 1);
+                return Err(refused(key, message, "give each turn once: it would count twice"));
+            }
+            turns.push(turn);
+        }
+        Ok(turns)
+    }
 }
 
-/// Reads `[gyroscope]` of an IMU on a machine, which has no turns by hand.
-pub(super) fn read_without_turns(section: &Section<'_>) -> Result<ImuPlan> {
-    match ["turns", "turn_angle_deg", "turn_sd_deg"].iter().find_map(|key| section.get(key)) {
-        Some(entry) => Err(entry.reject("turns are not read with [machine]", "take this key out")),
-        None => read(section, None, None),
+impl TurnSection {
+    fn turn(&self, key: &str) -> Result<Turn> {
+        let (start_s, end_s) = (self.start_s.get(), self.end_s.get());
+        if end_s <= start_s {
+            let message = format!("the turn ends at {end_s} s, not after its start at {start_s} s");
+            return Err(refused(key, message, remedy(key)));
+        }
+        Ok(Turn {
+            name: None,
+            start_s,
+            end_s,
+            angle_rad: turned_by(&format!("{key}.angle_deg"), self.angle_deg)?,
+            axis: unit_vector(&format!("{key}.axis"), &self.axis)?,
+            angle_sd_rad: self.angle_sd_deg.map_or(TURN_SD_DEG, f64::from).to_radians(),
+        })
     }
 }
 
 /// The angle of a turn, rad.
-fn turned_by(entry: &Entry<'_>) -> Result<f64> {
-    match entry.number(&ANGLE)?.to_radians() {
-        0.0 => Err(entry.reject("a turn by nothing", "its angle in degrees, right-handed about its axis")),
+fn turned_by(key: &str, angle: Within<TurnAngle>) -> Result<f64> {
+    match angle.get().to_radians() {
+        0.0 => Err(refused(key, "a turn by nothing", "its angle in degrees, right-handed about its axis")),
         angle_rad => Ok(angle_rad),
     }
 }
 
-fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
-    /// The remedy for a wrong turn.
-    const HELP: &str = "turns = [{ start_s = 10.0, end_s = 14.0, axis = \"x\", angle_deg = 360.0 }]";
-    let mut turns: Vec<Turn> = Vec::new();
-    for item in &entry.items(HELP)? {
-        let turn = Section::item(item, "gyroscope.turns")?;
-        let number = |key: &str, bounds: &Bounds| turn.need(key, HELP)?.number(bounds);
-        let (start_s, end_s) = (number("start_s", &TIME)?, number("end_s", &TIME)?);
-        if end_s <= start_s {
-            let message = format!("the turn ends at {end_s} s, not after its start at {start_s} s");
-            return Err(item.reject(message, HELP));
-        }
-        let angle = turn.need("angle_deg", HELP)?;
-        let angle_rad = turned_by(&angle)?;
-        let sd = turn.get("angle_sd_deg").map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?;
-        let axis = direction(&turn.need("axis", HELP)?)?;
-        let turn = Turn { name: None, start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() };
-        if let Some(before) = turns.iter().position(|before| turn.repeats(before)) {
-            let [one, other] =
-                [&turns[before], &turn].map(|turn| format!("{} to {} s", turn.start_s, turn.end_s));
-            let message =
-                format!("turn {} ({other}) is turn {} ({one}) once more", turns.len() + 1, before + 1);
-            return Err(item.reject(message, "give each turn once: it would count twice"));
-        }
-        turns.push(turn);
-    }
-    Ok(turns)
-}
-
-fn read_known(section: &Section<'_>, thermal: &ThermalModel) -> Result<Vec<KnownTerm>> {
+fn known_terms(section: &KnownSection, thermal: &ThermalModel) -> Result<Vec<KnownTerm>> {
     let mut all = ImuQuantity::full_list(true, true, true);
     all.extend(ImuQuantity::all_thermal(true, true));
     section
-        .entries()
-        .map(|(name, entry)| {
-            /// The remedy for a wrong known value.
-            const HELP: &str = "a number fixes it; { value = 0.0, sd = 0.01 } is a prior";
-            let Some(&quantity) = all.iter().find(|quantity| quantity.name() == name) else {
+        .iter()
+        .map(|(name, value)| {
+            let key = format!("known.{name}");
+            let Some(&quantity) = all.iter().find(|quantity| quantity.name() == *name) else {
                 let names: Vec<String> = all.iter().map(|quantity| quantity.name()).collect();
-                let near = super::known_keys::nearest(name, names.iter().map(String::as_str));
+                let near = nearest(name, names.iter().map(String::as_str));
                 let help = near.map_or_else(
                     || "names are gyroscope.bias.x, accelerometer.scale.y, gyroscope.matrix.xy, …".into(),
                     |near| format!("did you mean \"{near}\"?"),
                 );
-                return Err(entry.reject(format!("no quantity is named \"{name}\""), help));
+                return Err(refused(key, format!("no quantity is named \"{name}\""), help));
             };
             if matches!(quantity, ImuQuantity::Thermal(..)) && !thermal.quantities().contains(&quantity) {
-                return Err(entry.reject(
-                    format!("\"{name}\" is known, and no such term is asked for"),
-                    "raise its order in [temperature]: gyroscope_bias = 1, for example",
-                ));
+                let message = format!("\"{name}\" is known, and no such term is asked for");
+                let help = "raise its order in [temperature]: gyroscope_bias = 1, for example";
+                return Err(refused(key, message, help));
             }
-            if !entry.is_table() {
-                return Ok(KnownTerm { quantity, value: entry.number(&NUMBER)?, sd: None });
-            }
-            let term = Section::item(&entry, "known.term")?;
-            let value = term.need("value", HELP)?.number(&NUMBER)?;
-            let sd = term.get("sd").map(|entry| entry.number(&PRIOR_SD)).transpose()?;
+            let (value, sd) = match value {
+                Either::Single(value) => (value.get(), None),
+                Either::Compound(prior) => (prior.value.get(), prior.sd.map(f64::from)),
+            };
             Ok(KnownTerm { quantity, value, sd })
         })
         .collect()

@@ -1,22 +1,51 @@
-//! Reads `[holds]`: static calibration in several poses.
+//! `[holds]`: static calibration in several poses.
 
-use super::direction::direction;
-use super::gravity::{LATITUDE, read_gravity};
-use super::motion::RATE_HZ;
-use super::number_range::Bounds;
-use super::toml_document::{Entry, Section};
+use super::direction::{Direction, unit_vectors};
+use super::gravity::GravityKeys;
+use super::number::{Count, Within};
+use super::ranges::{Duration, GravityMps2, GravitySd, Height, HoldSd, Latitude, Rate, SmallTilt, Time};
+use super::refused_key::refused;
+use super::remedies::remedy;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::HoldsSetup;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::Gauge;
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-/// Range of the face alignment. Faces with a larger tilt are not faces.
-const TILT: Bounds = Bounds::from(0.0, 10.0, "degrees");
-/// Range of a time.
-const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
-/// Range of a duration.
-const DURATION: Bounds = Bounds::above(0.0, 1e6, "s");
+/// `[holds]`: the sensor is held still in several orientations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HoldsSection {
+    /// Magnitude of gravity. Latitude and height may stand in its place.
+    pub gravity_mps2: Option<Within<GravityMps2>>,
+    /// Its standard uncertainty.
+    pub gravity_sd_mps2: Option<Within<GravitySd>>,
+    /// Geographic latitude. It determines Earth's rate, too.
+    pub latitude_deg: Option<Within<Latitude>>,
+    /// Height above the sea.
+    pub height_m: Option<Within<Height>>,
+    /// Convention that fixes the true frame.
+    pub gauge: Gauge,
+    /// Start and end of each hold, in order. Without it the program searches for them.
+    pub intervals_s: Option<Vec<Vec<Within<Time>>>>,
+    /// Direction of the specific force (up) in each of these holds, where it is known.
+    pub directions: Option<Vec<Direction>>,
+    /// Face alignment of these directions about each axis. Without it, the scatter of the holds determines it.
+    pub face_sd_deg: Option<Within<SmallTilt>>,
+    /// Standard deviation of the drift of each bias from the first hold to the last.
+    pub bias_drift_sd_mps2: Option<Within<HoldSd>>,
+    /// Scatter between holds that the noise does not explain.
+    pub between_holds_sd_mps2: Option<Within<HoldSd>>,
+    /// Shortest stationary interval that counts as a hold.
+    pub minimum_hold_s: Option<Within<Duration>>,
+    /// Number of poses of a simulated recording or a design.
+    pub poses: Option<Count<1, 1_000_000>>,
+    /// Duration of each of these holds.
+    pub hold_s: Option<Within<Duration>>,
+    /// Sample rate of a simulated recording.
+    pub rate_hz: Option<Within<Rate>>,
+}
 
 /// A static calibration, as `[holds]` describes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,84 +95,74 @@ impl HoldsPlan {
     }
 }
 
-/// Usual drift of a bias over a recording, m/s².
-const BIAS_DRIFT_SD_MPS2: f64 = 0.02;
-/// Range of it, and of the scatter between holds.
-const BIAS_DRIFT: Bounds = Bounds::from(0.0, 100.0, "m/s²");
-
-/// Reads `[holds]`. The gyroscope of an IMU senses Earth's rate: a latitude beside a value of gravity serves
-/// for that.
-pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
-    let (gravity, gravity_source) = read_gravity(section, is_imu)?;
-    let latitude_deg = section.get("latitude_deg").map(|entry| entry.number(&LATITUDE)).transpose()?;
-    let gauge = section
-        .need("gauge", "gauge = \"upper\" (as imu_tk), \"lower\" (as Kalibr) or \"symmetric\"")?
-        .word(&[("lower", Gauge::Lower), ("upper", Gauge::Upper), ("symmetric", Gauge::Symmetric)])?;
-    let number = |key: &str, bounds: &Bounds, otherwise: f64| {
-        section.get(key).map_or(Ok(otherwise), |entry| entry.number(bounds))
-    };
-    let poses = section.get("poses").map_or(Ok(24), |entry| entry.size(1, 1_000_000))?;
-    let hold_s = number("hold_s", &DURATION, 5.0)?;
-    let rate_hz = number("rate_hz", &RATE_HZ, 100.0)?;
-    if hold_s * rate_hz < 1.0 - 1e-9 {
-        let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
-        return Err(section.reject(&message, "raise rate_hz or hold_s", ""));
-    }
-    let intervals_s = section.get("intervals_s").map(|entry| read_intervals(&entry)).transpose()?;
-    let directions =
-        section.get("directions").map(|entry| read_directions(&entry, intervals_s.as_deref())).transpose()?;
-    let face_sd = section.get("face_sd_deg").map(|entry| entry.number(&TILT)).transpose()?;
-    Ok(HoldsPlan {
-        gravity,
-        latitude_deg,
-        gravity_source,
-        gauge,
-        intervals_s,
-        directions,
-        face_sd_rad: face_sd.map(f64::to_radians),
-        bias_drift_sd_mps2: number("bias_drift_sd_mps2", &BIAS_DRIFT, BIAS_DRIFT_SD_MPS2)?,
-        between_holds_sd_mps2: number("between_holds_sd_mps2", &BIAS_DRIFT, 0.0)?,
-        minimum_hold_s: number("minimum_hold_s", &DURATION, 1.0)?,
-        poses,
-        hold_s,
-        rate_hz,
-    })
-}
-
-fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Result<Vec<Vector3<f64>>> {
-    /// The remedy for wrong directions.
-    const HELP: &str =
-        "one for each of intervals_s, in the same order: [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]";
-    let directions: Vec<Vector3<f64>> = entry.items(HELP)?.iter().map(direction).collect::<Result<_>>()?;
-    if intervals.map_or(0, <[_]>::len) == directions.len() {
-        return Ok(directions);
-    }
-    let message = format!("{} directions for {} holds", directions.len(), intervals.map_or(0, <[_]>::len));
-    Err(entry.reject(message, HELP))
-}
-
-fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {
-    /// The remedy for wrong intervals.
-    const HELP: &str = "start and end of each hold in seconds: [[0.0, 50.0], [52.0, 57.0]]";
-    let mut intervals: Vec<(f64, f64)> = Vec::new();
-    let items = entry.items(HELP)?;
-    if items.is_empty() {
-        return Err(entry.reject("no hold is given", format!("{HELP}; without this key they are looked for")));
-    }
-    for item in items {
-        let pair = item.items(HELP)?;
-        let [start, end] = pair.as_slice() else {
-            return Err(item.reject(format!("a hold has two numbers, this has {}", pair.len()), HELP));
+impl HoldsSection {
+    /// The plan of such a calibration. The gyroscope of an IMU senses Earth's rate: a latitude beside a value
+    /// of gravity serves for that.
+    pub(super) fn plan(&self, is_imu: bool) -> Result<HoldsPlan> {
+        let keys = GravityKeys {
+            section: "holds",
+            gravity_mps2: self.gravity_mps2.map(f64::from),
+            gravity_sd_mps2: self.gravity_sd_mps2,
+            latitude_deg: self.latitude_deg,
+            height_m: self.height_m,
         };
-        let (start, end) = (start.number(&TIME)?, end.number(&TIME)?);
+        let (gravity, gravity_source) = keys.magnitude(is_imu)?;
+        let otherwise = HoldsSetup::default();
+        let hold_s = self.hold_s.map_or(5.0, f64::from);
+        let rate_hz = self.rate_hz.map_or(100.0, f64::from);
+        if hold_s * rate_hz < 1.0 - 1e-9 {
+            let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
+            return Err(refused("holds", message, "raise rate_hz or hold_s"));
+        }
+        let intervals_s = self.intervals_s.as_deref().map(intervals).transpose()?;
+        Ok(HoldsPlan {
+            gravity,
+            latitude_deg: self.latitude_deg.map(f64::from),
+            gravity_source,
+            gauge: self.gauge,
+            directions: self.directions_of(intervals_s.as_ref().map_or(0, Vec::len))?,
+            intervals_s,
+            face_sd_rad: self.face_sd_deg.map(|sd| sd.get().to_radians()),
+            bias_drift_sd_mps2: self.bias_drift_sd_mps2.map_or(otherwise.bias_drift_sd_mps2, f64::from),
+            between_holds_sd_mps2: self.between_holds_sd_mps2.map_or(0.0, f64::from),
+            minimum_hold_s: self.minimum_hold_s.map_or(otherwise.minimum_hold_s, f64::from),
+            poses: self.poses.map_or(24, Count::size),
+            hold_s,
+            rate_hz,
+        })
+    }
+
+    fn directions_of(&self, holds: usize) -> Result<Option<Vec<Vector3<f64>>>> {
+        let Some(directions) = &self.directions else { return Ok(None) };
+        let vectors = unit_vectors("holds.directions", directions)?;
+        if vectors.len() == holds {
+            return Ok(Some(vectors));
+        }
+        let message = format!("{} directions for {holds} holds", vectors.len());
+        Err(refused("holds.directions", message, remedy("holds.directions")))
+    }
+}
+
+fn intervals(given: &[Vec<Within<Time>>]) -> Result<Vec<(f64, f64)>> {
+    let help = remedy("holds.intervals_s");
+    let mut intervals: Vec<(f64, f64)> = Vec::new();
+    if given.is_empty() {
+        let help = format!("{help}; without this key they are looked for");
+        return Err(refused("holds.intervals_s", "no hold is given", help));
+    }
+    for (number, pair) in given.iter().enumerate() {
+        let reject =
+            |message: String, help: &str| Err(refused(format!("holds.intervals_s[{number}]"), message, help));
+        let [start, end] = pair.as_slice() else {
+            return reject(format!("a hold has two numbers, this has {}", pair.len()), help);
+        };
+        let (start, end) = (start.get(), end.get());
         if end <= start {
-            return Err(
-                item.reject(format!("the hold ends at {end} s, not after its start at {start} s"), HELP)
-            );
+            return reject(format!("the hold ends at {end} s, not after its start at {start} s"), help);
         }
         if let Some(&(_, before)) = intervals.last().filter(|(_, before)| *before > start) {
             let message = format!("the hold starts at {start} s, before the one above ends at {before} s");
-            return Err(item.reject(message, "sort the holds by time; they must not overlap"));
+            return reject(message, "sort the holds by time; they must not overlap");
         }
         intervals.push((start, end));
     }

@@ -1,228 +1,44 @@
-//! The keys that an experiment file may have: one list, which decides what is unknown and what is suggested.
+//! The keys that an experiment file may have, as serde lists the fields of its types, and those that somebody meant.
 
-/// Each section and its keys; the first is the top of the file.
-const KEYS: &[(&str, &[&str])] = &[
-    (
-        "",
-        &[
-            "schema",
-            "sensor",
-            "motion",
-            "holds",
-            "machine",
-            "gyroscope",
-            "known",
-            "temperature",
-            "columns",
-            "calibrate",
-            "accept",
-            "limits",
-            "design",
-            "study",
-        ],
-    ),
-    (
-        "sensor",
-        &[
-            "kind",
-            "axes",
-            "model",
-            "unit",
-            "gain_counts_per_mps2",
-            "offset_counts",
-            "noise_mps2",
-            "noise_counts",
-            "bias_sd_mps2",
-            "scale_sd",
-            "cross_axis_sd",
-            "range_mps2",
-        ],
-    ),
-    (
-        "motion",
-        &[
-            "intervals",
-            "interval_s",
-            "rate_hz",
-            "trust",
-            "known_ends",
-            "input_noise",
-            "gravity",
-            "gravity_mps2",
-            "gravity_sd_mps2",
-            "latitude_deg",
-            "height_m",
-            "tilt_sd_deg",
-        ],
-    ),
-    ("motion.input_noise", &["floor_mps3", "ratio"]),
-    (
-        "holds",
-        &[
-            "gravity_mps2",
-            "gravity_sd_mps2",
-            "latitude_deg",
-            "height_m",
-            "gauge",
-            "intervals_s",
-            "directions",
-            "face_sd_deg",
-            "bias_drift_sd_mps2",
-            "between_holds_sd_mps2",
-            "minimum_hold_s",
-            "poses",
-            "hold_s",
-            "rate_hz",
-        ],
-    ),
-    (
-        "machine",
-        &[
-            "urdf",
-            "base",
-            "tip",
-            "packages",
-            "trust",
-            "up",
-            "gravity_mps2",
-            "gravity_sd_mps2",
-            "latitude_deg",
-            "height_m",
-            "tilt_sd_deg",
-            "sensor_noise",
-            "mount",
-            "clock",
-            "geometry",
-            "log",
-            "simulate",
-        ],
-    ),
-    ("machine.mount", &["lever_m", "lever_sd_m", "rotation", "rotation_sd_deg"]),
-    ("machine.clock", &["delay_s", "delay_sd_s", "delay_difference_sd_s", "rate_sd_ppm"]),
-    ("machine.geometry", &["translation_sd_m", "rotation_sd_rad", "zero_sd"]),
-    ("machine.log", &["noise", "position_noise_m", "orientation_noise_rad", "knot_step_s", "topic"]),
-    (
-        "machine.simulate",
-        &["duration_s", "rate_hz", "log_rate_hz", "acceleration", "resolution", "vibration"],
-    ),
-    (
-        "gyroscope",
-        &[
-            "unit",
-            "model",
-            "gain_counts_per_radps",
-            "noise_radps",
-            "noise_counts",
-            "g_sensitivity",
-            "turns",
-            "turn_angle_deg",
-            "turn_sd_deg",
-        ],
-    ),
-    ("gyroscope.turns", &["start_s", "end_s", "axis", "angle_deg", "angle_sd_deg"]),
-    ("known.term", &["value", "sd"]),
-    (
-        "temperature",
-        &["reference_c", "accelerometer_bias", "accelerometer_scale", "gyroscope_bias", "gyroscope_scale"],
-    ),
-    (
-        "columns",
-        &[
-            "format",
-            "time",
-            "time_unit",
-            "times",
-            "rate_hz",
-            "rate_sd_ppm",
-            "accelerometer",
-            "accelerometer_unit",
-            "gyroscope",
-            "gyroscope_unit",
-            "temperature",
-            "topic",
-        ],
-    ),
-    ("calibrate", &["prior"]),
-    ("accept.limit", &["range", "sd"]),
-    (
-        "limits",
-        &[
-            "acceleration_mps2",
-            "jerk_mps3",
-            "intercept_mps2",
-            "velocity_mps",
-            "displacement_m",
-            "rest",
-            "start_acceleration_mps2",
-            "end_acceleration_mps2",
-        ],
-    ),
-    (
-        "design",
-        &[
-            "criterion",
-            "weights",
-            "range_mps2",
-            "scale_by",
-            "starts",
-            "seed",
-            "certificate",
-            "directions",
-            "allowed",
-            "within_deg",
-        ],
-    ),
-    ("study", &["sensors", "seed", "motions", "starts", "surface", "unknown", "noisy"]),
-    ("study.surface", &["jerk_mps3", "points", "start_acceleration_mps2", "interval_s", "rate_hz"]),
-    (
-        "study.unknown",
-        &[
-            "sensors",
-            "intervals",
-            "interval_s",
-            "rate_hz",
-            "detail_rate_hz",
-            "acceleration_mps2",
-            "jerk_mps3",
-            "intercept_mps2",
-            "velocity_mps",
-            "displacement_m",
-            "rest",
-            "start_acceleration_mps2",
-            "end_acceleration_mps2",
-        ],
-    ),
-    (
-        "study.noisy",
-        &[
-            "input_noise",
-            "acceleration_mps2",
-            "jerk_mps3",
-            "intercept_mps2",
-            "velocity_mps",
-            "displacement_m",
-            "rest",
-            "start_acceleration_mps2",
-            "end_acceleration_mps2",
-        ],
-    ),
-    ("study.noisy.input_noise", &["floor_mps3", "ratio"]),
-];
+use super::file::ExperimentFile;
+use super::similar_word::nearest;
+use serde::de::value::StrDeserializer;
+use serde::de::{
+    Deserialize, DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor,
+};
+use std::fmt;
 
 /// The keys of a section.
-pub(super) fn allowed(section: &str) -> &'static [&'static str] {
-    KEYS.iter().find(|(name, _)| *name == section).map_or(&[], |(_, keys)| keys)
+type Keys = &'static [&'static str];
+
+/// All sections and their keys; the first is the top of the file.
+#[must_use]
+pub fn sections() -> Vec<(String, Keys)> {
+    fn add(path: &mut Vec<&'static str>, all: &mut Vec<(String, Keys)>) {
+        let Err(Found(Some(keys))) = ExperimentFile::deserialize(Probe(path)) else { return };
+        all.push((path.join("."), keys));
+        for key in keys {
+            path.push(key);
+            add(path, all);
+            path.pop();
+        }
+    }
+    let mut all = Vec::new();
+    add(&mut Vec::new(), &mut all);
+    all
 }
 
 /// The help for an unknown key: the section where it belongs, the nearest key, or all keys.
-pub(super) fn suggest(section: &str, unknown: &str) -> String {
-    let unknown = shorten(unknown);
-    let near = nearest(&unknown, allowed(section).iter().copied());
-    if let Some(key) = near.filter(|key| strsim::damerau_levenshtein(key, &unknown) <= 2) {
+pub(super) fn suggest(section: &str, unknown: &str, known: Keys) -> String {
+    let near = nearest(unknown, known.iter().copied());
+    if let Some(key) = near.filter(|key| strsim::damerau_levenshtein(key, unknown) <= 2) {
         return format!("did you mean `{key}`?");
     }
+    if section.starts_with("known.") {
+        return "the name of a quantity has dots and needs quotes: \"gyroscope.bias.x\" = 0.0".into();
+    }
     if let Some((home, _)) =
-        KEYS.iter().find(|(name, keys)| *name != section && keys.contains(&unknown.as_str()))
+        sections().iter().find(|(name, keys)| *name != section && keys.contains(&unknown))
     {
         return if home.is_empty() {
             format!("`{unknown}` belongs at the top of the file, before the first [section]")
@@ -232,28 +48,82 @@ pub(super) fn suggest(section: &str, unknown: &str) -> String {
     }
     match near {
         Some(key) => format!("did you mean `{key}`?"),
-        None => format!("the keys here are {}", allowed(section).join(", ")),
+        None => format!("the keys here are {}", known.join(", ")),
     }
 }
 
-/// The word most like this one, if any is.
-#[must_use]
-pub fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
-    const ALIKE: f64 = 0.75; // least Jaro–Winkler similarity: 1 is equal, 0 nothing in common
-    let unknown = shorten(unknown).to_lowercase();
-    words
-        .map(|word| (strsim::jaro_winkler(&word.to_lowercase(), &unknown), word))
-        .filter(|(alike, _)| *alike >= ALIKE)
-        .max_by(|one, other| one.0.total_cmp(&other.0))
-        .map(|(_, word)| word)
+/// The keys that were looked for; `None` where there are none.
+#[derive(Debug)]
+struct Found(Option<Keys>);
+
+impl Error for Found {
+    fn custom<T: fmt::Display>(_: T) -> Self {
+        Self(None)
+    }
 }
 
-/// The beginning of a text that may be very long.
-pub(crate) fn shorten(text: &str) -> String {
-    /// Longest shortened text, characters.
-    const LONGEST: usize = 60;
-    if text.chars().count() <= LONGEST {
-        return text.to_owned();
+impl std::error::Error for Found {}
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.0)
     }
-    text.chars().take(LONGEST).chain(['…']).collect()
+}
+
+/// Follows a path through the types and returns the keys of the table at its end, as an error.
+struct Probe<'p>(&'p [&'static str]);
+
+impl<'de> Deserializer<'de> for Probe<'_> {
+    type Error = Found;
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Found> {
+        Err(Found(None))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        keys: Keys,
+        visitor: V,
+    ) -> Result<V::Value, Found> {
+        match self.0 {
+            [] => Err(Found(Some(keys))),
+            _ => visitor.visit_map(self),
+        }
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Found> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Found> {
+        visitor.visit_seq(self)
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
+        newtype_struct tuple tuple_struct map enum identifier ignored_any
+    }
+}
+
+impl<'de> SeqAccess<'de> for Probe<'_> {
+    type Error = Found;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Found> {
+        seed.deserialize(Probe(self.0)).map(Some)
+    }
+}
+
+impl<'de> MapAccess<'de> for Probe<'_> {
+    type Error = Found;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Found> {
+        let Some(key) = self.0.first() else { return Ok(None) };
+        let key: StrDeserializer<'_, Found> = key.into_deserializer();
+        seed.deserialize(key).map(Some)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Found> {
+        seed.deserialize(Probe(&self.0[1..]))
+    }
 }

@@ -1,46 +1,72 @@
-//! Reads `[limits]`: the limits of the arm.
+//! `[limits]`: the limits of the arm. Sections that vary a motion have the same keys.
 
-use super::known_keys;
-use super::number_range::Bounds;
-use super::toml_document::Section;
+use super::number::PerAxis;
+use super::ranges::{Acceleration, Displacement, Jerk, SignedAcceleration, Velocity};
+use super::sensor::per_axis;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{Limits, Rest};
-use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-/// Range of an acceleration limit.
-const ACCELERATION: Bounds = Bounds::above(0.0, 1e9, "m/s²");
-/// Range of a jerk limit.
-const JERK: Bounds = Bounds::above(0.0, 1e9, "m/s³");
-/// Range of a velocity limit.
-const VELOCITY: Bounds = Bounds::above(0.0, 1e9, "m/s");
-/// Range of a prescribed acceleration: of either sign, or zero.
-const END: Bounds = Bounds::from(-1e9, 1e9, "m/s²");
-/// Range of a displacement limit.
-const DISPLACEMENT: Bounds = Bounds::above(0.0, 1e9, "m");
+/// A section with keys of its own and those of limits.
+macro_rules! section_with_limits {
+    ($(#[$doc:meta])* $name:ident { $($own:tt)* }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct $name {
+            $($own)*
+            /// Largest acceleration at the nodes.
+            pub acceleration_mps2: Option<PerAxis<Acceleration>>,
+            /// Largest jerk.
+            pub jerk_mps3: Option<PerAxis<Jerk>>,
+            /// Bound on the line of each interval, extended to t = 0.
+            pub intercept_mps2: Option<PerAxis<Acceleration>>,
+            /// Largest velocity.
+            pub velocity_mps: Option<PerAxis<Velocity>>,
+            /// Largest displacement.
+            pub displacement_m: Option<PerAxis<Displacement>>,
+            /// Where the velocity is zero.
+            pub rest: Option<Rest>,
+            /// Prescribed acceleration at the start.
+            pub start_acceleration_mps2: Option<PerAxis<SignedAcceleration>>,
+            /// Prescribed acceleration at the end.
+            pub end_acceleration_mps2: Option<PerAxis<SignedAcceleration>>,
+        }
 
-/// Reads the limits of an experiment that varies another. They take the place of all limits of the other;
-/// `None` where the section has none.
-pub(super) fn read_instead(section: &Section<'_>, axes: usize) -> Result<Option<Limits>> {
-    let any = section.entries().any(|(key, _)| known_keys::allowed("limits").contains(&key));
-    any.then(|| read(section, axes)).transpose()
-}
-
-/// Reads `[limits]`.
-pub(super) fn read(section: &Section<'_>, axes: usize) -> Result<Limits> {
-    let limit = |key: &str, bounds: &Bounds| -> Result<Option<Vector3<f64>>> {
-        section.get(key).map(|entry| entry.per_axis(axes, bounds)).transpose()
+        impl $name {
+            /// The limits; `None` where there are none. `section` is its name in errors.
+            pub(super) fn limits(&self, section: &str, axes: usize) -> Result<Option<Limits>> {
+                let key = |key: &str| format!("{section}.{key}");
+                let limits = Limits {
+                    acceleration_mps2: per_axis(
+                        &key("acceleration_mps2"),
+                        self.acceleration_mps2.as_ref(),
+                        axes,
+                    )?,
+                    jerk_mps3: per_axis(&key("jerk_mps3"), self.jerk_mps3.as_ref(), axes)?,
+                    intercept_mps2: per_axis(&key("intercept_mps2"), self.intercept_mps2.as_ref(), axes)?,
+                    velocity_mps: per_axis(&key("velocity_mps"), self.velocity_mps.as_ref(), axes)?,
+                    displacement_m: per_axis(&key("displacement_m"), self.displacement_m.as_ref(), axes)?,
+                    rest: self.rest.unwrap_or_default(),
+                    start_acceleration_mps2: per_axis(
+                        &key("start_acceleration_mps2"),
+                        self.start_acceleration_mps2.as_ref(),
+                        axes,
+                    )?,
+                    end_acceleration_mps2: per_axis(
+                        &key("end_acceleration_mps2"),
+                        self.end_acceleration_mps2.as_ref(),
+                        axes,
+                    )?,
+                };
+                Ok((self.rest.is_some() || limits != Limits::default()).then_some(limits))
+            }
+        }
     };
-    let rest = section.get("rest").map_or(Ok(Rest::None), |entry| {
-        entry.word(&[("none", Rest::None), ("start", Rest::Start), ("both", Rest::Both)])
-    })?;
-    Ok(Limits {
-        acceleration_mps2: limit("acceleration_mps2", &ACCELERATION)?,
-        jerk_mps3: limit("jerk_mps3", &JERK)?,
-        intercept_mps2: limit("intercept_mps2", &ACCELERATION)?,
-        velocity_mps: limit("velocity_mps", &VELOCITY)?,
-        displacement_m: limit("displacement_m", &DISPLACEMENT)?,
-        rest,
-        start_acceleration_mps2: limit("start_acceleration_mps2", &END)?,
-        end_acceleration_mps2: limit("end_acceleration_mps2", &END)?,
-    })
+}
+pub(super) use section_with_limits;
+
+section_with_limits! {
+    /// `[limits]`: symmetric limits of the arm; a number, or one for each axis.
+    LimitsSection {}
 }

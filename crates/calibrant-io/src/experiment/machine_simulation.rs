@@ -1,33 +1,30 @@
-//! Reads `[machine.simulate]`: the settings that only a simulation needs.
+//! `[machine.simulate]`: the settings that only a simulation needs.
 
-use super::motion::RATE_HZ;
-use super::number_range::Bounds;
-use super::toml_document::Section;
-use calibrant_core::error::Result;
+use super::number::within;
+use super::ranges::{JointAcceleration, MachineDuration, Rate, Resolution, Vibration};
+use serde::{Deserialize, Serialize};
 
-/// Range of the duration. In a shorter time a machine hardly comes home.
-const DURATION: Bounds = Bounds::from(10.0, 1e5, "s");
-/// Range of the acceleration of a joint.
-const ACCELERATION: Bounds = Bounds::above(0.0, 1e3, "rad/s² or m/s²");
-/// Range of the step of an encoder.
-const RESOLUTION: Bounds = Bounds::from(0.0, 0.1, "rad or m");
-/// Range of the noise by vibration over the noise at rest.
-const VIBRATION: Bounds = Bounds::from(0.0, 1e3, "");
-
-/// A simulation on a machine.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// `[machine.simulate]`: a simulation on a machine. Only joints have encoders.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct MachineSimulation {
     /// Duration of the recording, s.
+    #[serde(deserialize_with = "within::<MachineDuration, _>")]
     pub duration_s: f64,
     /// Sample rate of the IMU, Hz.
+    #[serde(deserialize_with = "within::<Rate, _>")]
     pub rate_hz: f64,
     /// Sample rate of the log, Hz.
+    #[serde(deserialize_with = "within::<Rate, _>")]
     pub log_rate_hz: f64,
     /// Largest acceleration of each joint, rad/s² or m/s².
+    #[serde(deserialize_with = "within::<JointAcceleration, _>")]
     pub acceleration: f64,
     /// Step of the encoders, rad or m; 0 for none.
+    #[serde(deserialize_with = "within::<Resolution, _>")]
     pub resolution: f64,
     /// Noise that vibration adds in the mean, in parts of the noise at rest.
+    #[serde(deserialize_with = "within::<Vibration, _>")]
     pub vibration: f64,
 }
 
@@ -42,26 +39,4 @@ impl Default for MachineSimulation {
             vibration: 0.0,
         }
     }
-}
-
-/// Reads `[machine.simulate]`. Only joints have encoders.
-pub(super) fn read_simulation(section: &Section<'_>, has_joints: bool) -> Result<MachineSimulation> {
-    if let Some(entry) = section.get("resolution").filter(|_| !has_joints) {
-        let help = "take it out, or name the machine: urdf = … in [machine]";
-        return Err(entry.reject("without a urdf there are no encoders", help));
-    }
-    let mut simulation = MachineSimulation::default();
-    for (key, bounds, value) in [
-        ("duration_s", &DURATION, &mut simulation.duration_s),
-        ("rate_hz", &RATE_HZ, &mut simulation.rate_hz),
-        ("log_rate_hz", &RATE_HZ, &mut simulation.log_rate_hz),
-        ("acceleration", &ACCELERATION, &mut simulation.acceleration),
-        ("resolution", &RESOLUTION, &mut simulation.resolution),
-        ("vibration", &VIBRATION, &mut simulation.vibration),
-    ] {
-        if let Some(entry) = section.get(key) {
-            *value = entry.number(bounds)?;
-        }
-    }
-    Ok(simulation)
 }

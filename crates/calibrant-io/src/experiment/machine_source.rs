@@ -1,11 +1,11 @@
 //! Which machine carries the sensor: one that is built in, or a URDF file.
 
-use super::known_keys::nearest;
-use super::toml_document::{Entry, Section};
+use super::refused_key::refused;
+use super::similar_word::nearest;
 use crate::machine::{MACHINE_PRESETS, Urdf, machine_preset};
 use calibrant_core::error::Result;
 use calibrant_machine::chain::KinematicChain;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A machine, and the links between which its joints count.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,44 +43,21 @@ impl MachineSource {
     }
 }
 
-/// Reads `urdf`, `base`, `tip` and `packages`.
-pub(super) fn read_source(section: &Section<'_>) -> Result<Option<MachineSource>> {
-    let link = |key: &str| section.get(key).map(|entry| name(&entry)).transpose();
-    let (base, tip) = (link("base")?, link("tip")?);
-    let Some(entry) = section.get("urdf") else {
-        return match ["base", "tip", "packages"].iter().find_map(|key| section.get(key)) {
-            Some(entry) => {
-                Err(entry.reject("this needs a machine", "urdf = \"arm.urdf\" in [machine], for example"))
-            }
-            None => Ok(None),
-        };
-    };
-    /// The remedy for wrong directories.
-    const PACKAGES: &str = "a list of directories: [\"description\"]";
-    let packages = section.get("packages").map_or(Ok(Vec::new()), |entry| {
-        entry.items(PACKAGES)?.iter().map(|item| item.path(PACKAGES)).collect::<Result<_>>()
-    })?;
-    Ok(Some(MachineSource { urdf: urdf(&entry)?, base, tip, packages }))
-}
-
-fn name(entry: &Entry<'_>) -> Result<String> {
-    /// The remedy for a wrong link.
-    const HELP: &str = "the name of a link, in quotes; `calibrant inspect arm.urdf` lists the joints";
-    entry.text().map(str::to_owned).ok_or_else(|| entry.wrong_type("a string", HELP))
-}
-
-/// A name that is built in; else a path, which has an ending.
-fn urdf(entry: &Entry<'_>) -> Result<UrdfSource> {
-    let names = || MACHINE_PRESETS.iter().map(|(name, _)| *name);
-    let help = format!("the path of a URDF file, or one of {}", names().collect::<Vec<_>>().join(", "));
-    let path = entry.path(&help)?;
-    let text = entry.text().unwrap_or_default();
-    if let Some(preset) = names().find(|name| *name == text) {
-        return Ok(UrdfSource::Preset(preset));
+impl UrdfSource {
+    /// A name that is built in; else a path, which has an ending, relative to this directory.
+    pub(super) fn named(text: &str, directory: Option<&Path>) -> Result<Self> {
+        let names = || MACHINE_PRESETS.iter().map(|(name, _)| *name);
+        if let Some(preset) = names().find(|name| *name == text) {
+            return Ok(Self::Preset(preset));
+        }
+        if !text.contains(['.', '/', '\\']) {
+            let hint =
+                nearest(text, names()).map_or(String::new(), |name| format!("did you mean \"{name}\"? "));
+            let all = names().collect::<Vec<_>>().join(", ");
+            let help = format!("{hint}the path of a URDF file, or one of {all}");
+            return Err(refused("machine.urdf", format!("no machine \"{text}\" is built in"), help));
+        }
+        let path = PathBuf::from(text);
+        Ok(Self::File(directory.map_or_else(|| path.clone(), |directory| directory.join(&path))))
     }
-    if !text.contains(['.', '/', '\\']) {
-        let hint = nearest(text, names()).map_or(String::new(), |name| format!("did you mean \"{name}\"? "));
-        return Err(entry.reject(format!("no machine \"{text}\" is built in"), format!("{hint}{help}")));
-    }
-    Ok(UrdfSource::File(path))
 }

@@ -1,5 +1,9 @@
 //! The experiment file (TOML): the sensor's datasheet, the motion or the holds, the columns of recordings,
-//! and the options of each command. One file here reads each section.
+//! and the options of each command.
+//!
+//! [`ExperimentFile`] is its form: one tree of types, a file here for each section, which serde reads and writes.
+//! The types of numbers carry their ranges and units. Of it the [`Experiment`] is made, whose plans are in the
+//! units of the library.
 //!
 //! Unknown keys, wrong types and values out of range are errors that point at line and column. The error for
 //! an unknown key names the nearest known one. [`presets`](super::preset()) are commented examples of every
@@ -10,6 +14,9 @@ mod calibrate;
 mod columns;
 mod design;
 mod direction;
+mod document;
+mod fault;
+mod file;
 mod gravity;
 mod gyroscope;
 mod holds;
@@ -22,29 +29,53 @@ mod machine_simulation;
 mod machine_source;
 mod motion;
 mod motion_gravity;
-mod number_range;
+mod number;
 mod plan;
 mod pose_problem;
 mod poses;
 mod problem;
+pub mod ranges;
 mod read;
+mod refused_key;
+mod remedies;
 mod sensor;
+mod similar_word;
 mod spreads;
 mod study;
 mod temperature;
-mod toml_document;
+mod toml_value;
 
 pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};
+pub use file::ExperimentFile;
 pub use gyroscope::ImuPlan;
 pub use holds::HoldsPlan;
-pub use known_keys::nearest;
-pub(crate) use known_keys::shorten;
+pub use known_keys::sections as experiment_keys;
 pub use machine::{LogNoise, MachinePlan};
 pub use machine_simulation::MachineSimulation;
 pub use machine_source::{MachineSource, UrdfSource};
 pub use motion::MotionPlan;
 pub use plan::Plan;
-pub use poses::PoseOptions;
 pub use read::{Experiment, read_acceptance, read_columns};
+pub use similar_word::nearest;
+pub(crate) use similar_word::shorten;
 pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
+
+/// The sections of an [`ExperimentFile`], and the types of their values.
+pub mod sections {
+    pub use super::accept::{AcceptEntry, AcceptSection};
+    pub use super::columns::ColumnsSection;
+    pub use super::direction::Direction;
+    pub use super::gyroscope::{GyroscopeSection, GyroscopeUnit, KnownPrior, KnownSection, TurnSection};
+    pub use super::holds::HoldsSection;
+    pub use super::limits::LimitsSection;
+    pub use super::machine::{ClockSection, GeometrySection, LogSection, MachineSection, NoiseFrom};
+    pub use super::machine_mount::{MountSection, UnknownRotation};
+    pub use super::motion::{InputNoiseSection, Intervals, MotionSection, MotionTrust};
+    pub use super::number::{Bounds, Count, Either, PerAxis, Range, Within};
+    pub use super::poses::{AllowedDirections, CubeDirections, DirectionsAre};
+    pub use super::ranges;
+    pub use super::sensor::{AccelerometerUnit, SensorSection, SensorsKind};
+    pub use super::study::{NoisySection, StudySection, SurfaceSection, UnknownSection};
+    pub use super::temperature::TemperatureSection;
+}

@@ -1,23 +1,79 @@
-//! Reads `[motion]`: a commanded motion, its intervals and how far it is trusted.
+//! `[motion]`: a commanded motion, its intervals and how far it is trusted.
 
-use super::motion_gravity;
-use super::number_range::Bounds;
-use super::toml_document::Section;
+use super::direction::Direction;
+use super::number::{Count, PerAxis, Within};
+use super::ranges::{
+    Duration, GravityComponent, GravitySd, Height, JerkNoise, JerkRatio, Latitude, Rate, SmallTilt,
+};
+use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
 use calibrant_core::motion::{
     CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, MotionGravity, Trust,
 };
 use calibrant_core::sensor::Sensor;
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-/// Range of a sample rate.
-pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
-/// Range of the duration of an interval.
-const INTERVAL_S: Bounds = Bounds::above(0.0, 1e6, "s");
-/// Range of the constant part of the process noise.
-const FLOOR_MPS3: Bounds = Bounds::from(0.0, 1e9, "m/s³");
-/// Range of the process noise relative to the jerk.
-const RATIO: Bounds = Bounds::from(0.0, 1e3, "");
+/// A number of intervals.
+pub type Intervals = Count<1, 10_000_000>;
+
+/// `[motion]`: a commanded motion whose acceleration is linear within each interval.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionSection {
+    /// Number of intervals N.
+    pub intervals: Intervals,
+    /// Duration of an interval Δτ.
+    pub interval_s: Within<Duration>,
+    /// Sample rate f_s.
+    pub rate_hz: Within<Rate>,
+    /// How far the motion is trusted.
+    pub trust: MotionTrust,
+    /// Which ends have a known acceleration; the start without it, both where the motion is unknown.
+    pub known_ends: Option<KnownEnds>,
+    /// Process noise on the jerk, which `trust` may ask for.
+    pub input_noise: Option<InputNoiseSection>,
+    /// The direction up, where `gravity_mps2` is a magnitude or latitude and height give it.
+    pub gravity: Option<Direction>,
+    /// The specific force at rest in the sensor's axes, or its magnitude.
+    pub gravity_mps2: Option<PerAxis<GravityComponent>>,
+    /// Standard uncertainty of gravity.
+    pub gravity_sd_mps2: Option<Within<GravitySd>>,
+    /// Geographic latitude.
+    pub latitude_deg: Option<Within<Latitude>>,
+    /// Height above the sea.
+    pub height_m: Option<Within<Height>>,
+    /// Standard deviation of the arm's tilt about each axis.
+    pub tilt_sd_deg: Option<Within<SmallTilt>>,
+}
+
+/// How far a commanded motion is trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MotionTrust {
+    /// It is exact.
+    Known,
+    /// It has process noise.
+    Noisy,
+    /// Only its ends are known.
+    Unknown,
+}
+
+/// The process noise on the jerk: its standard deviation is floor + ratio |u|.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InputNoiseSection {
+    /// Noise at any jerk.
+    pub floor_mps3: Within<JerkNoise>,
+    /// Noise relative to the jerk.
+    pub ratio: Within<JerkRatio>,
+}
+
+impl From<InputNoiseSection> for InputNoise {
+    fn from(section: InputNoiseSection) -> Self {
+        Self { floor_mps3: section.floor_mps3.get(), ratio: section.ratio.get() }
+    }
+}
 
 /// A commanded motion of equal intervals, as `[motion]` describes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,106 +105,66 @@ impl MotionPlan {
         let range = sensor.range_mps2?;
         Some(self.gravity.map_or(range, |gravity| gravity.range_left(&range)))
     }
-}
 
-/// Reads `[motion]`.
-pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<MotionPlan> {
-    let (intervals, interval_s, rate_hz) = read_grid(section, None)?;
-    let (trust, known_ends) = read_trust(section)?;
-    let gravity = motion_gravity::read(section, sensor)?;
-    Ok(MotionPlan { intervals, interval_s, rate_hz, trust, known_ends, gravity })
-}
-
-/// Reads intervals, their duration and the sample rate. A section that varies another takes its missing keys
-/// from there.
-pub(super) fn read_grid(section: &Section<'_>, base: Option<&MotionPlan>) -> Result<(usize, f64, f64)> {
-    let given = |key: &str, help: &str| match base {
-        Some(_) => Ok(section.get(key)),
-        None => section.need(key, help).map(Some),
-    };
-    let intervals = match (given("intervals", "the number of intervals, for example intervals = 10")?, base) {
-        (None, Some(base)) => base.intervals,
-        (entry, _) => entry.map_or(Ok(1), |entry| entry.size(1, 10_000_000))?,
-    };
-    let help = "the duration of an interval in seconds, for example interval_s = 1.0";
-    let interval_s = match (given("interval_s", help)?, base) {
-        (None, Some(base)) => base.interval_s,
-        (entry, _) => entry.map_or(Ok(1.0), |entry| entry.number(&INTERVAL_S))?,
-    };
-    let rate = given("rate_hz", "the sample rate in Hz, for example rate_hz = 10.0")?;
-    let rate_hz = match (&rate, base) {
-        (None, Some(base)) => base.rate_hz,
-        (entry, _) => entry.as_ref().map_or(Ok(1.0), |entry| entry.number(&RATE_HZ))?,
-    };
-    check_samples(section, "rate_hz", intervals as f64 * interval_s, rate_hz)?;
-    Ok((intervals, interval_s, rate_hz))
-}
-
-/// Returns an error for a rate, under this key, at which a motion has no samples.
-pub(super) fn check_samples(section: &Section<'_>, key: &str, duration_s: f64, rate_hz: f64) -> Result<()> {
-    let reject = |message: String, help: String| match section.get(key) {
-        Some(entry) => entry.reject(message, help),
-        None => section.reject(&message, &help, key),
-    };
-    let samples = duration_s * rate_hz;
-    // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding
-    if samples < 1.0 - 1e-9 {
-        return Err(reject(
-            format!("the motion lasts {duration_s} s, less than one sample step of {} s", 1.0 / rate_hz),
-            "raise the rate, or lengthen the motion".into(),
-        ));
-    }
-    Ok(())
-}
-
-#[derive(Clone, Copy)]
-enum Word {
-    Known,
-    Noisy,
-    Unknown,
-}
-
-fn read_trust(section: &Section<'_>) -> Result<(Trust, KnownEnds)> {
-    let word = section
-        .need("trust", "how far the motion is trusted: \"known\", \"noisy\" or \"unknown\"")?
-        .word(&[("known", Word::Known), ("noisy", Word::Noisy), ("unknown", Word::Unknown)])?;
-    // read and checked whatever the trust: an experiment changes its trust by one word
-    let noise = read_noise(section, "motion.input_noise")?;
-    let ends = section.get("known_ends");
-    let known_ends = match &ends {
-        Some(entry) => Some(entry.word(&[("start", KnownEnds::Start), ("both", KnownEnds::Both)])?),
-        None => None,
-    };
-    match word {
-        Word::Known => Ok((Trust::Known, known_ends.unwrap_or(KnownEnds::Start))),
-        Word::Noisy => {
-            let noise = noise.ok_or_else(|| {
-                section.missing(
-                    "input_noise",
-                    "trust \"noisy\" needs it: input_noise = { floor_mps3 = 0.01, ratio = 0.01 }",
-                )
-            })?;
-            Ok((Trust::Noisy(noise), known_ends.unwrap_or(KnownEnds::Start)))
+    /// The same motion with these numbers in place of its own.
+    pub(super) fn with_grid(
+        &self,
+        intervals: Option<Intervals>,
+        interval_s: Option<Within<Duration>>,
+        rate_hz: Option<Within<Rate>>,
+    ) -> Self {
+        Self {
+            intervals: intervals.map_or(self.intervals, Count::size),
+            interval_s: interval_s.map_or(self.interval_s, f64::from),
+            rate_hz: rate_hz.map_or(self.rate_hz, f64::from),
+            ..self.clone()
         }
-        Word::Unknown => match (ends, known_ends) {
-            (Some(entry), Some(KnownEnds::Start)) => Err(entry.reject(
+    }
+
+    /// Returns an error about this key for a rate at which the motion has no samples.
+    pub(super) fn check_samples(&self, key: &str, rate_hz: f64) -> Result<()> {
+        let duration_s = self.intervals as f64 * self.interval_s;
+        // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding
+        if duration_s * rate_hz < 1.0 - 1e-9 {
+            let message =
+                format!("the motion lasts {duration_s} s, less than one sample step of {} s", 1.0 / rate_hz);
+            return Err(refused(key, message, "raise the rate, or lengthen the motion"));
+        }
+        Ok(())
+    }
+}
+
+impl MotionSection {
+    /// The plan of such a motion.
+    pub(super) fn plan(&self, sensor: &Sensor) -> Result<MotionPlan> {
+        let (trust, known_ends) = self.trust()?;
+        let plan = MotionPlan {
+            intervals: self.intervals.size(),
+            interval_s: self.interval_s.get(),
+            rate_hz: self.rate_hz.get(),
+            trust,
+            known_ends,
+            gravity: self.gravity_of(sensor)?,
+        };
+        plan.check_samples("motion.rate_hz", plan.rate_hz)?;
+        Ok(plan)
+    }
+
+    fn trust(&self) -> Result<(Trust, KnownEnds)> {
+        let ends = self.known_ends.unwrap_or(KnownEnds::Start);
+        match (self.trust, self.input_noise) {
+            (MotionTrust::Known, _) => Ok((Trust::Known, ends)),
+            (MotionTrust::Noisy, Some(noise)) => Ok((Trust::Noisy(noise.into()), ends)),
+            (MotionTrust::Noisy, None) => Err(missing(
+                "motion.input_noise",
+                "trust \"noisy\" needs it: input_noise = { floor_mps3 = 0.01, ratio = 0.01 }",
+            )),
+            (MotionTrust::Unknown, _) if self.known_ends == Some(KnownEnds::Start) => Err(refused(
+                "motion.known_ends",
                 "trust \"unknown\" needs the acceleration at both ends of the motion",
                 "known_ends = \"both\", or leave the key away",
             )),
-            _ => Ok((Trust::Unknown, KnownEnds::Both)),
-        },
+            (MotionTrust::Unknown, _) => Ok((Trust::Unknown, KnownEnds::Both)),
+        }
     }
-}
-
-/// Reads the process noise, where it is given; `name` is the full name of its section.
-pub(super) fn read_noise(section: &Section<'_>, name: &'static str) -> Result<Option<InputNoise>> {
-    section
-        .section(name)?
-        .map(|table| {
-            let floor = table.need("floor_mps3", "the noise at any jerk, m/s³")?.number(&FLOOR_MPS3)?;
-            let ratio =
-                table.need("ratio", "the noise relative to the jerk; 0.01 is one percent")?.number(&RATIO)?;
-            Ok(InputNoise { floor_mps3: floor, ratio })
-        })
-        .transpose()
 }

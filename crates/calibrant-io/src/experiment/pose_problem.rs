@@ -21,11 +21,11 @@ impl Experiment {
     /// [`design_problem`](Self::design_problem).
     pub fn pose_problem(&self, earlier: &[EarlierCalibration], poses: Option<usize>) -> Result<PoseProblem> {
         let plan = self.holds()?;
-        let list = self.pose_parameters(plan, self.design.poses.known);
+        let list = self.pose_parameters(plan, self.design.knows_directions());
         let (at, prior) = self.known_before(&list, earlier)?;
         let between = earlier.iter().filter_map(|earlier| earlier.between_holds_sd_mps2);
         let between = between.fold(plan.between_holds_sd_mps2, f64::max);
-        let directions = if self.design.poses.known {
+        let directions = if self.design.knows_directions() {
             DirectionKnowledge::Known { sd_rad: plan.face_sd_rad.unwrap_or(0.0) }
         } else {
             DirectionKnowledge::Unknown
@@ -33,12 +33,12 @@ impl Experiment {
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
             mean_sd: self.mean_sd(plan, &at, between)?,
-            nuisance: self.nuisance(plan, &at, self.design.poses.known),
+            nuisance: self.nuisance(plan, &at, self.design.knows_directions()),
             list,
             at,
             gravity_mps2: plan.gravity.magnitude_mps2,
             directions,
-            allowed: self.design.poses.allowed.clone(),
+            allowed: self.design.allowed_directions()?,
             prior,
             poses: poses.unwrap_or(plan.poses),
         };
@@ -75,7 +75,7 @@ impl Experiment {
             at,
             gravity_mps2: plan.gravity.magnitude_mps2,
             directions: known.unwrap_or(DirectionKnowledge::Unknown),
-            allowed: self.design.poses.allowed.clone(),
+            allowed: self.design.allowed_directions()?,
             prior: None,
             poses: directions.len(),
         };

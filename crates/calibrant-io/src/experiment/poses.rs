@@ -1,58 +1,55 @@
-//! Reads the keys of `[design]` that are about poses: what is known of their directions, and which are allowed.
+//! The keys of `[design]` that are about poses: what is known of their directions, and which are allowed.
 
-use super::direction::direction;
-use super::number_range::Bounds;
-use super::toml_document::{Entry, Section};
+use super::direction::{Direction, unit_vectors};
+use super::number::{Either, Within};
+use super::ranges::Cone;
+use super::refused_key::refused;
+use super::remedies::remedy;
 use calibrant_core::error::Result;
 use calibrant_design::poses::Allowed;
+use serde::{Deserialize, Serialize};
 
-/// Range of the angle around an allowed direction.
-const WITHIN: Bounds = Bounds::from(0.0, 90.0, "degrees");
-
-/// What a design of poses may choose from.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PoseOptions {
-    /// Will the directions of the holds be known when the sensor is calibrated?
-    pub known: bool,
-    /// The directions that a pose may have.
-    pub allowed: Allowed,
+/// What will be known of the directions of the holds when the sensor is calibrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DirectionsAre {
+    /// Only gravity.
+    Unknown,
+    /// The directions.
+    Known,
 }
 
-impl Default for PoseOptions {
-    fn default() -> Self {
-        Self { known: false, allowed: Allowed::Anywhere }
-    }
+/// Directions of a cube.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CubeDirections {
+    /// All directions.
+    Any,
+    /// Its 6 faces.
+    Faces,
+    /// 18, with the edges.
+    Edges,
+    /// 26, with the corners.
+    Corners,
 }
 
-/// Reads `directions`, `allowed` and `within_deg`.
-pub(super) fn read(section: &Section<'_>) -> Result<PoseOptions> {
-    let known = section
-        .get("directions")
-        .map_or(Ok(false), |entry| entry.word(&[("unknown", false), ("known", true)]))?;
-    let within = section.get("within_deg").map(|entry| entry.number(&WITHIN)).transpose()?;
-    let allowed = section.get("allowed").map_or(Ok(Allowed::Anywhere), |entry| read_allowed(&entry))?;
-    let allowed = match (allowed, within.filter(|degrees| *degrees > 0.0)) {
-        (Allowed::Of(list), Some(degrees)) => Allowed::Near(list, degrees.to_radians()),
-        (allowed, _) => allowed,
+/// The directions that a pose may have: a word, or a list.
+pub type AllowedDirections = Either<CubeDirections, Vec<Direction>>;
+
+/// The directions that a pose may have.
+pub(super) fn allowed(of: Option<&AllowedDirections>, within: Option<Within<Cone>>) -> Result<Allowed> {
+    let allowed = match of {
+        None | Some(Either::Single(CubeDirections::Any)) => Allowed::Anywhere,
+        Some(Either::Single(CubeDirections::Faces)) => Allowed::cube(false, false),
+        Some(Either::Single(CubeDirections::Edges)) => Allowed::cube(true, false),
+        Some(Either::Single(CubeDirections::Corners)) => Allowed::cube(true, true),
+        Some(Either::Compound(list)) if list.is_empty() => {
+            return Err(refused("design.allowed", "no direction is allowed", remedy("design.allowed")));
+        }
+        Some(Either::Compound(list)) => Allowed::Of(unit_vectors("design.allowed", list)?),
     };
-    Ok(PoseOptions { known, allowed })
-}
-
-fn read_allowed(entry: &Entry<'_>) -> Result<Allowed> {
-    /// The remedy for wrong directions.
-    const HELP: &str = "\"any\", \"faces\" (6 of a cube), \"edges\" (18, with the faces), \"corners\" (26, with both), or a list: [\"x\", \"-z\", [0.0, 0.6, 0.8]]";
-    if entry.text().is_some() {
-        let cube = entry.word(&[
-            ("any", None),
-            ("faces", Some((false, false))),
-            ("edges", Some((true, false))),
-            ("corners", Some((true, true))),
-        ])?;
-        return Ok(cube.map_or(Allowed::Anywhere, |(edges, corners)| Allowed::cube(edges, corners)));
-    }
-    let list = entry.items(HELP)?.iter().map(direction).collect::<Result<Vec<_>>>()?;
-    if list.is_empty() {
-        return Err(entry.reject("no direction is allowed", HELP));
-    }
-    Ok(Allowed::Of(list))
+    Ok(match (allowed, within.map_or(0.0, f64::from)) {
+        (Allowed::Of(list), degrees) if degrees > 0.0 => Allowed::Near(list, degrees.to_radians()),
+        (allowed, _) => allowed,
+    })
 }

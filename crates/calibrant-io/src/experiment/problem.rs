@@ -45,7 +45,7 @@ impl Experiment {
                 let mut weights = DVector::zeros(list.len());
                 for (name, weight) in &self.design.weights {
                     if let Some(place) = list.position(name) {
-                        weights[place] = weight / (scale[place] * scale[place]);
+                        weights[place] = weight.get() / (scale[place] * scale[place]);
                     }
                 }
                 if weights.amax() == 0.0 {
@@ -55,7 +55,7 @@ impl Experiment {
                 Criterion::C(COptimality { weights })
             }
             CriterionLetter::I => {
-                let range = self.design.range_mps2.ok_or_else(|| {
+                let range = self.design.range_mps2.map(f64::from).ok_or_else(|| {
                     reject(
                         "range_mps2",
                         "criterion I needs the operating range",
@@ -125,7 +125,7 @@ impl Experiment {
         let at = at.ok_or_else(|| {
             let input_error = InputError::new(Refusal::KeyMissing,
                 "the sensor's nominal gain and offset are not known, so a design has nothing to begin with",
-                "give gain_counts_per_mps2 and offset_counts in [sensor], or an earlier calibration (--from calibration.json)",
+                "give gain_counts_per_mps2 and offset_counts in [sensor], or an earlier calibration (option `from` calibration.json)",
             );
             Error::experiment(input_error.about_key("sensor.gain_counts_per_mps2"))
         })?;

@@ -1,20 +1,22 @@
-//! Reads an experiment file, section by section.
+//! Reads an experiment file, and makes the experiment of its sections.
 
-use super::toml_document::{Document, Section};
-use super::{
-    CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions, accept, calibrate, columns, design,
-    gyroscope, holds, limits, machine, motion, sensor, study,
-};
+use super::accept::{AcceptSection, acceptance_limits};
+use super::columns::ColumnsSection;
+use super::document::{Document, LARGEST};
+use super::file::ExperimentFile;
+use super::gyroscope::GyroscopeSection;
+use super::number::Count;
+use super::refused_key::{missing, refused};
+use super::spreads::need_spreads;
+use super::{CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions};
+use crate::experiment_presets::preset;
 use crate::{ImuReadOptions, text_decoding};
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{ReadingUnit, Sensor};
+use serde::Deserialize;
 use std::path::Path;
-use toml::de::DeTable;
-
-/// Largest experiment file, bytes.
-const LARGEST: u64 = 1 << 20;
 
 /// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +41,16 @@ pub struct Experiment {
     pub study: StudyOptions,
 }
 
+/// A file that may have one section alone.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SectionAlone {
+    #[serde(rename = "schema")]
+    _schema: Option<Count<0, { u64::MAX }>>,
+    columns: Option<ColumnsSection>,
+    accept: Option<AcceptSection>,
+}
+
 /// Reads `[columns]` of a file that may have nothing else. It is an experiment file, or one with this table
 /// alone (and optionally `schema = 1`).
 ///
@@ -47,23 +59,19 @@ pub struct Experiment {
 /// section, or an empty one.
 pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
     let text = read_text(path)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let document = Document { text, file: Some(path) };
-    let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
-    let root = Section::root(&document, table.get_ref())?;
-    let others = table.get_ref().keys().any(|key| !["schema", "columns"].contains(&key.get_ref().as_ref()));
-    let columns = match root.section("columns")? {
-        _ if others => Experiment::parse(text, Some(path))?.columns,
-        Some(section) => columns::read(&section)?,
-        None => ImuReadOptions::default(),
+    let document = Document::parse(&text, Some(path))?;
+    let columns = if document.has_others(&["schema", "columns"]) {
+        Experiment::parse(&text, Some(path))?.columns
+    } else {
+        let alone: SectionAlone = document.read()?;
+        options_of(alone.columns.as_ref()).map_err(|error| document.placed(error))?
     };
     if columns == ImuReadOptions::default() {
-        let input_error = InputError::new(
-            Refusal::KeyMissing,
+        return Err(nothing_there(
+            path,
             "there is no [columns] section",
-            "add one, or leave --columns away",
-        );
-        return Err(Error::experiment(input_error.in_file(path)));
+            "add one, or leave option `columns` away",
+        ));
     }
     Ok(columns)
 }
@@ -76,26 +84,33 @@ pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
 /// section, or an empty one.
 pub fn read_acceptance(path: &Path) -> Result<Vec<AcceptanceLimit>> {
     let text = read_text(path)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let document = Document { text, file: Some(path) };
-    let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
-    let root = Section::root(&document, table.get_ref())?;
-    let others = table.get_ref().keys().any(|key| !["schema", "accept"].contains(&key.get_ref().as_ref()));
-    let limits = match others {
-        true => Experiment::parse(text, Some(path))?.accept,
-        false => read_accept(&root)?,
+    let document = Document::parse(&text, Some(path))?;
+    let limits = if document.has_others(&["schema", "accept"]) {
+        Experiment::parse(&text, Some(path))?.accept
+    } else {
+        let alone: SectionAlone = document.read()?;
+        limits_of(alone.accept.as_ref()).map_err(|error| document.placed(error))?
     };
     if limits.is_empty() {
-        let (message, help) = ("there is no limit in [accept]", "add some, or leave --accept away");
-        let input_error = InputError::new(Refusal::KeyMissing, message, help);
-        return Err(Error::experiment(input_error.in_file(path)));
+        return Err(nothing_there(
+            path,
+            "there is no limit in [accept]",
+            "add some, or leave option `accept` away",
+        ));
     }
     Ok(limits)
 }
 
-fn read_accept(root: &Section<'_>) -> Result<Vec<AcceptanceLimit>> {
-    let section = root.get("accept").map(|entry| Section::open(&entry, "accept")).transpose()?;
-    section.map_or(Ok(Vec::new()), |section| accept::read(&section))
+fn nothing_there(path: &Path, message: &str, help: &str) -> Error {
+    Error::experiment(InputError::new(Refusal::KeyMissing, message, help).in_file(path))
+}
+
+fn options_of(section: Option<&ColumnsSection>) -> Result<ImuReadOptions> {
+    section.map_or(Ok(ImuReadOptions::default()), ColumnsSection::options)
+}
+
+fn limits_of(section: Option<&AcceptSection>) -> Result<Vec<AcceptanceLimit>> {
+    section.map_or(Ok(Vec::new()), acceptance_limits)
 }
 
 fn read_text(path: &Path) -> Result<String> {
@@ -104,6 +119,170 @@ fn read_text(path: &Path) -> Result<String> {
     let text =
         text_decoding::as_text(&bytes).map_err(|input_error| Error::experiment(input_error.in_file(path)))?;
     Ok(text.to_owned())
+}
+
+impl ExperimentFile {
+    /// The form of the preset of this name.
+    #[must_use]
+    pub fn preset(name: &str) -> Option<Self> {
+        Self::parse(preset(name)?, None).ok()
+    }
+
+    /// Reads the text of an experiment file: its keys, types and ranges. `file` serves only for its name in
+    /// errors.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] with line, column, key and excerpt. The TOML is invalid, a key is unknown or
+    /// missing, or a value has the wrong type or is out of range.
+    pub fn parse(text: &str, file: Option<&Path>) -> Result<Self> {
+        Self::of(&Document::parse(text, file)?)
+    }
+
+    /// Reads a document, which describes one plan.
+    fn of(document: &Document<'_>) -> Result<Self> {
+        let plans: Vec<&str> =
+            ["motion", "holds", "machine"].into_iter().filter(|section| document.has(section)).collect();
+        if let [one, other, ..] = plans.as_slice() {
+            let help = "an experiment is one or the other: take one of them out";
+            let error = refused(*other, format!("[{one}] and [{other}] are both there"), help);
+            return Err(document.placed(error));
+        }
+        document.read()
+    }
+
+    /// The text of such a file.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).unwrap_or_default()
+    }
+
+    /// The experiment that it describes. Paths are relative to the working directory.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] with the key, as [`Experiment::parse`], where a value is out of range or keys
+    /// contradict each other.
+    pub fn experiment(&self) -> Result<Experiment> {
+        Experiment::parse(&self.to_toml(), None).map_err(|error| match error {
+            // nobody has seen the text
+            Error::Experiment(input_error) => {
+                Error::experiment(InputError { line: None, column: None, excerpt: None, ..*input_error })
+            }
+            other => other,
+        })
+    }
+
+    /// The experiment, with the directory of the file.
+    fn made(&self, directory: Option<&Path>) -> Result<Experiment> {
+        if self.schema.get() != 1 {
+            let message = format!("schema {} is not known to this version", self.schema.get());
+            return Err(refused("schema", message, "schema = 1"));
+        }
+        let sensor = self.sensor.sensor()?;
+        let plan = self.plan(&sensor, directory)?;
+        let imu = self.imu(&plan)?;
+        let calibrate = self.calibrate.clone().unwrap_or_default();
+        if calibrate.prior == Prior::Datasheet {
+            need_spreads("calibrate.prior", &sensor)?;
+        }
+        if let Some(machine) = &self.machine {
+            machine.check_noise(&sensor, imu.as_ref())?;
+            if calibrate.prior == Prior::Datasheet {
+                let help = "take prior = \"datasheet\" out of [calibrate]";
+                return Err(refused("machine", "a prior of the sensor is not used with [machine]", help));
+            }
+        }
+        let list = match &plan {
+            Plan::Motion(_) | Plan::Machine(_) => sensor.parameter_list(),
+            Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
+        };
+        let limits = self.limits.as_ref().map(|limits| limits.limits("limits", sensor.axes)).transpose()?;
+        let design = self.design.clone().unwrap_or_default();
+        design.check(&sensor, &list)?;
+        let study = self.study.as_ref().map(|study| study.options(&plan, sensor.axes)).transpose()?;
+        Ok(Experiment {
+            limits: limits.flatten().unwrap_or_default(),
+            columns: options_of(self.columns.as_ref())?,
+            calibrate,
+            accept: limits_of(self.accept.as_ref())?,
+            design,
+            study: study.unwrap_or_default(),
+            sensor,
+            plan,
+            imu,
+        })
+    }
+
+    fn plan(&self, sensor: &Sensor, directory: Option<&Path>) -> Result<Plan> {
+        let three_axes = |section: &str| match sensor.axes {
+            3 => Ok(()),
+            _ => Err(refused(
+                section,
+                format!("[{section}] needs a sensor of three axes"),
+                "axes = 3, or [motion]",
+            )),
+        };
+        match (&self.motion, &self.holds, &self.machine) {
+            (Some(motion), _, _) => {
+                need_noise(sensor)?;
+                Ok(Plan::Motion(motion.plan(sensor)?))
+            }
+            (None, Some(holds), _) => {
+                three_axes("holds")?;
+                Ok(Plan::Holds(holds.plan(self.sensor.is_imu())?))
+            }
+            (None, None, Some(machine)) => {
+                three_axes("machine")?;
+                Ok(Plan::Machine(Box::new(machine.plan(sensor, directory)?)))
+            }
+            (None, None, None) => Err(refused(
+                "",
+                "neither [motion] nor [holds] nor [machine] is there",
+                "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses, [machine] for a machine whose motion is logged",
+            )),
+        }
+    }
+
+    /// The second sensor of an IMU: there if, and only if, the kind is "imu".
+    fn imu(&self, plan: &Plan) -> Result<Option<ImuPlan>> {
+        let is_imu = self.sensor.is_imu();
+        let kind = "kind = \"imu\" in [sensor]";
+        if self.temperature.is_some() && !is_imu {
+            return Err(refused("temperature", "[temperature] is read for an IMU only", kind));
+        }
+        match (&self.gyroscope, is_imu) {
+            (Some(gyroscope), true) => match plan {
+                Plan::Holds(_) => gyroscope.plan(self.known.as_ref(), self.temperature.as_ref()).map(Some),
+                Plan::Machine(_) => self.imu_on_a_machine(gyroscope).map(Some),
+                Plan::Motion(_) => Err(refused(
+                    "gyroscope",
+                    "an IMU is calibrated from holds and what lies between them, or on a machine",
+                    "[holds] or [machine] in place of [motion], or kind = \"accelerometer\"",
+                )),
+            },
+            (Some(_), false) => Err(refused("gyroscope", "only an IMU has a gyroscope", kind)),
+            (None, true) => Err(missing("gyroscope", "kind = \"imu\" needs [gyroscope]: its unit, at least")),
+            (None, false) if self.known.is_some() => {
+                Err(refused("known", "[known] is read for an IMU only", kind))
+            }
+            (None, false) => Ok(None),
+        }
+    }
+
+    /// On a machine nothing is read that only a calibration by holds needs.
+    fn imu_on_a_machine(&self, gyroscope: &GyroscopeSection) -> Result<ImuPlan> {
+        for (section, is_there) in
+            [("known", self.known.is_some()), ("temperature", self.temperature.is_some())]
+        {
+            if is_there {
+                let message = format!("[{section}] is not read with [machine]");
+                return Err(refused(section, message, "take it out"));
+            }
+        }
+        match gyroscope.turn_keys().into_iter().find_map(|(key, is_there)| is_there.then_some(key)) {
+            Some(key) => Err(refused(key, "turns are not read with [machine]", "take this key out")),
+            None => gyroscope.plan(None, None),
+        }
+    }
 }
 
 impl Experiment {
@@ -132,176 +311,23 @@ impl Experiment {
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn parse(text: &str, file: Option<&Path>) -> Result<Self> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let document = Document { text, file };
-        if text.len() as u64 > LARGEST {
-            return Err(Error::experiment(document.reject(
-                Refusal::FileUnreadable,
-                0..0,
-                "the experiment file is larger than 1 MiB".into(),
-                "this is hardly the file that you mean".into(),
-            )));
-        }
-        let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
-        let root = Section::root(&document, table.get_ref())?;
-        let schema = root.need("schema", "the first line of an experiment file is schema = 1")?;
-        let version = schema.whole(0, u64::MAX)?;
-        if version != 1 {
-            return Err(schema.reject(format!("schema {version} is not known to this version"), "schema = 1"));
-        }
-        let need =
-            |name| root.section(name)?.ok_or_else(|| root.missing(name, "the sensor's datasheet: [sensor]"));
-        let sensor = sensor::read(&need("sensor")?)?;
-        let plan = read_plan(&root, &sensor)?;
-        let imu = read_imu(&root, &plan)?;
-        let calibrate = root
-            .section("calibrate")?
-            .map_or(Ok(CalibrateOptions::default()), |section| calibrate::read(&section, &sensor))?;
-        if let (Plan::Machine(_), Some(section)) = (&plan, root.section("machine")?) {
-            machine::check_noise(&section, &sensor, imu.as_ref())?;
-            if calibrate.prior == Prior::Datasheet {
-                let help = "take prior = \"datasheet\" out of [calibrate]";
-                return Err(section.reject("a prior of the sensor is not used with [machine]", help, ""));
-            }
-        }
-        let list = match &plan {
-            Plan::Motion(_) | Plan::Machine(_) => sensor.parameter_list(),
-            Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
-        };
-        Ok(Self {
-            limits: root
-                .section("limits")?
-                .map_or(Ok(Limits::default()), |section| limits::read(&section, sensor.axes))?,
-            columns: root
-                .section("columns")?
-                .map_or(Ok(ImuReadOptions::default()), |section| columns::read(&section))?,
-            calibrate,
-            accept: read_accept(&root)?,
-            design: root
-                .section("design")?
-                .map_or(Ok(DesignOptions::default()), |section| design::read(&section, &sensor, &list))?,
-            study: root
-                .section("study")?
-                .map_or(Ok(StudyOptions::default()), |section| study::read(&section, &plan, sensor.axes))?,
-            sensor,
-            plan,
-            imu,
-        })
-    }
-}
-
-fn is_imu(root: &Section<'_>) -> Result<bool> {
-    Ok(root.section("sensor")?.and_then(|section| section.get("kind")?.text().map(|kind| kind == "imu"))
-        == Some(true))
-}
-
-/// The second sensor of an IMU: there if, and only if, the kind is \"imu\".
-fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
-    let is_imu = is_imu(root)?;
-    let known = root.get("known").map(|entry| Section::open(&entry, "known")).transpose()?;
-    let temperature = root.section("temperature")?;
-    if let Some(section) = temperature.as_ref().filter(|_| !is_imu) {
-        return Err(section.reject(
-            "[temperature] is read for an IMU only",
-            "kind = \"imu\" in [sensor]",
-            "",
-        ));
-    }
-    match (root.section("gyroscope")?, is_imu) {
-        (Some(section), true) => match plan {
-            Plan::Holds(_) => gyroscope::read(&section, known.as_ref(), temperature.as_ref()).map(Some),
-            Plan::Machine(_) => {
-                machine_has_none(known.as_ref(), "[known]")?;
-                machine_has_none(temperature.as_ref(), "[temperature]")?;
-                gyroscope::read_without_turns(&section).map(Some)
-            }
-            Plan::Motion(_) => Err(section.reject(
-                "an IMU is calibrated from holds and what lies between them, or on a machine",
-                "[holds] or [machine] in place of [motion], or kind = \"accelerometer\"",
-                "",
-            )),
-        },
-        (Some(section), false) => {
-            Err(section.reject("only an IMU has a gyroscope", "kind = \"imu\" in [sensor]", ""))
-        }
-        (None, true) => {
-            Err(root.missing("gyroscope", "kind = \"imu\" needs [gyroscope]: its unit, at least"))
-        }
-        (None, false) => match known {
-            Some(section) => {
-                Err(section.reject("[known] is read for an IMU only", "kind = \"imu\" in [sensor]", ""))
-            }
-            None => Ok(None),
-        },
-    }
-}
-
-/// Refuses a section that only a calibration by holds reads.
-fn machine_has_none(section: Option<&Section<'_>>, name: &str) -> Result<()> {
-    section.map_or(Ok(()), |section| {
-        Err(section.reject(&format!("{name} is not read with [machine]"), "take it out", ""))
-    })
-}
-
-fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
-    let [motion, holds, machine] =
-        [root.section("motion")?, root.section("holds")?, root.section("machine")?];
-    match (motion, holds, machine) {
-        (Some(section), None, None) => {
-            need_noise(root, sensor)?;
-            Ok(Plan::Motion(motion::read(&section, sensor)?))
-        }
-        (None, Some(section), None) => {
-            need_three_axes(&section, "[holds]", sensor)?;
-            Ok(Plan::Holds(holds::read(&section, is_imu(root)?)?))
-        }
-        (None, None, Some(section)) => {
-            need_three_axes(&section, "[machine]", sensor)?;
-            Ok(Plan::Machine(Box::new(machine::read(&section, sensor)?)))
-        }
-        (None, None, None) => Err(root.reject(
-            "neither [motion] nor [holds] nor [machine] is there",
-            "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses, [machine] for a machine whose motion is logged",
-            "",
-        )),
-        (Some(_), Some(section), None) => Err(two_plans(&section, "[motion] and [holds]")),
-        (motion, _, Some(section)) => Err(two_plans(
-            &section,
-            if motion.is_some() { "[motion] and [machine]" } else { "[holds] and [machine]" },
-        )),
-    }
-}
-
-fn two_plans(section: &Section<'_>, which: &str) -> Error {
-    let help = "an experiment is one or the other: take one of them out";
-    section.reject(&format!("{which} are both there"), help, "")
-}
-
-fn need_three_axes(section: &Section<'_>, name: &str, sensor: &Sensor) -> Result<()> {
-    match sensor.axes {
-        3 => Ok(()),
-        _ => {
-            let message = format!("{name} needs a sensor of three axes");
-            Err(section.reject(&message, "axes = 3, or [motion]", ""))
-        }
+        let document = Document::parse(text, file)?;
+        let form = ExperimentFile::of(&document)?;
+        form.made(document.directory()).map_err(|error| document.placed(error))
     }
 }
 
 /// A commanded motion needs the noise of the sensor.
-fn need_noise(root: &Section<'_>, sensor: &Sensor) -> Result<()> {
+fn need_noise(sensor: &Sensor) -> Result<()> {
     if sensor.noise_mps2.is_some() || sensor.noise_counts.is_some() {
         return Ok(());
     }
-    let help = match sensor.unit {
+    let (key, example) = match sensor.unit {
+        ReadingUnit::Counts => ("sensor.noise_counts", "noise_counts = 10.0"),
         ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {
-            "noise_mps2 = 2e-4, for example: the noise of one sample"
+            ("sensor.noise_mps2", "noise_mps2 = 2e-4")
         }
-        ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",
     };
-    let key = if sensor.unit == ReadingUnit::Counts { "noise_counts" } else { "noise_mps2" };
-    // [sensor] is there: it was read above
-    Err(root.section("sensor")?.map_or_else(
-        || root.missing(key, help),
-        |section| section.reject("this key is required with [motion]", help, key),
-    ))
+    let help = format!("{example}, for example: the noise of one sample");
+    Err(refused(key, "this key is required with [motion]", help))
 }

@@ -1,12 +1,12 @@
 //! The check that the datasheet gives spreads where an option needs them.
 
-use super::toml_document::Section;
+use super::refused_key::refused;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, Sensor, SensorModel};
 
 /// Returns an error where `key` needs the datasheet and a spread is missing there. A spread of zero is an
 /// error, too: it would leave nothing to estimate.
-pub(super) fn need_spreads(section: &Section<'_>, key: &str, sensor: &Sensor) -> Result<()> {
+pub(super) fn need_spreads(key: &str, sensor: &Sensor) -> Result<()> {
     let mut missing = Vec::new();
     let positive = |spread: Option<nalgebra::Vector3<f64>>| spread.is_some_and(|sd| sd.min() > 0.0);
     if !positive(sensor.bias_sd_mps2) {
@@ -30,8 +30,5 @@ pub(super) fn need_spreads(section: &Section<'_>, key: &str, sensor: &Sensor) ->
         return Ok(());
     }
     let message = format!("\"datasheet\" needs {} in [sensor] (spreads above 0)", missing.join(", "));
-    let help = "add what is missing, or write \"none\"";
-    Err(section
-        .get(key)
-        .map_or_else(|| section.reject(&message, help, key), |entry| entry.reject(&message, help)))
+    Err(refused(key, message, "add what is missing, or write \"none\""))
 }

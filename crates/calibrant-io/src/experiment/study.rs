@@ -1,21 +1,79 @@
-//! Reads `[study]`: which studies over many sensors are run.
+//! `[study]`: which studies over many sensors are run.
 
-use super::motion::{self, MotionPlan};
-use super::number_range::Bounds;
-use super::toml_document::Section;
-use super::{Plan, limits};
+use super::Plan;
+use super::limits::section_with_limits;
+use super::motion::{InputNoiseSection, Intervals, MotionPlan};
+use super::number::{Count, PerAxis, Within};
+use super::ranges::{Acceleration, Displacement, Duration, Jerk, Rate, SignedAcceleration, Velocity};
+use super::refused_key::{missing, refused};
+use super::sensor::per_axis;
 use calibrant_core::error::Result;
-use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Trust};
+use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
 use calibrant_design::SurfaceSettings;
+use serde::{Deserialize, Serialize};
 
-/// Range of the largest jerk of the surface.
-const JERK: Bounds = Bounds::above(0.0, 1e9, "m/s³");
-/// Range of the acceleration at the start.
-const ACCELERATION: Bounds = Bounds::from(-1e9, 1e9, "m/s²");
-/// Largest number of sensors.
-const MOST_SENSORS: u64 = 10_000_000;
-/// Largest number of jerks in each direction of the surface.
-const MOST_POINTS: u64 = 1001;
+/// A number of sensors.
+type Sensors = Count<1, 10_000_000>;
+
+/// `[study]`: which studies over many sensors are run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudySection {
+    /// Number of simulated sensors.
+    pub sensors: Option<Sensors>,
+    /// Seed of everything random.
+    pub seed: Option<Count<0, { u64::MAX }>>,
+    /// Number of the optimal motions that are shown together.
+    pub motions: Option<Sensors>,
+    /// Starts of each sensor's design; without it, as `[design]` says.
+    pub starts: Option<Count<1, 1_000_000>>,
+    /// The criterion over the jerks of two intervals.
+    pub surface: Option<SurfaceSection>,
+    /// A calibration without knowledge of the motion.
+    pub unknown: Option<UnknownSection>,
+    /// The experiment of `[motion]` with process noise.
+    pub noisy: Option<NoisySection>,
+}
+
+/// `[study.surface]`: one axis, two intervals, the motion known.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSection {
+    /// Largest jerk.
+    pub jerk_mps3: Option<Within<Jerk>>,
+    /// Number of jerks in each direction.
+    pub points: Option<Count<2, 1001>>,
+    /// Acceleration at the start.
+    pub start_acceleration_mps2: Option<Within<SignedAcceleration>>,
+    /// Duration of an interval; without it, that of `[motion]`.
+    pub interval_s: Option<Within<Duration>>,
+    /// Sample rate; without it, that of `[motion]`.
+    pub rate_hz: Option<Within<Rate>>,
+}
+
+section_with_limits! {
+    /// `[study.unknown]`: what is not there is as in `[motion]`; its limits replace all of `[limits]`.
+    UnknownSection {
+        /// Number of simulated sensors.
+        pub sensors: Option<Sensors>,
+        /// Number of intervals.
+        pub intervals: Option<Intervals>,
+        /// Duration of an interval.
+        pub interval_s: Option<Within<Duration>>,
+        /// Sample rate.
+        pub rate_hz: Option<Within<Rate>>,
+        /// Rate at which one of the sensors is recorded once more.
+        pub detail_rate_hz: Option<Within<Rate>>,
+    }
+}
+
+section_with_limits! {
+    /// `[study.noisy]`: its limits replace all of `[limits]`.
+    NoisySection {
+        /// Process noise; without it, that of `[motion]`.
+        pub input_noise: Option<InputNoiseSection>,
+    }
+}
 
 /// The options of `[study]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,77 +122,82 @@ pub struct NoisyVariant {
     pub limits: Option<Limits>,
 }
 
-/// Reads `[study]`.
-pub(super) fn read(section: &Section<'_>, plan: &Plan, axes: usize) -> Result<StudyOptions> {
-    let otherwise = StudyOptions::default();
-    let sensors =
-        section.get("sensors").map_or(Ok(otherwise.sensors), |entry| entry.size(1, MOST_SENSORS))?;
-    let mut options = StudyOptions {
-        sensors,
-        seed: section.get("seed").map_or(Ok(otherwise.seed), |entry| entry.whole(0, u64::MAX))?,
-        motions: section.get("motions").map_or(Ok(otherwise.motions), |entry| entry.size(1, MOST_SENSORS))?,
-        starts: section.get("starts").map(|entry| entry.size(1, 1_000_000)).transpose()?,
-        ..otherwise
-    };
-    let surface = section.section("study.surface")?;
-    let unknown = section.section("study.unknown")?;
-    let noisy = section.section("study.noisy")?;
-    let Plan::Motion(plan) = plan else {
-        return match surface.or(unknown).or(noisy) {
-            Some(variant) => {
-                Err(variant.reject("this needs a [motion]", "take it out, or describe a motion", ""))
-            }
-            None => Ok(options),
+impl StudySection {
+    /// The options of such a study.
+    pub(super) fn options(&self, plan: &Plan, axes: usize) -> Result<StudyOptions> {
+        let otherwise = StudyOptions::default();
+        let options = StudyOptions {
+            sensors: self.sensors.map_or(otherwise.sensors, Count::size),
+            seed: self.seed.map_or(otherwise.seed, Count::get),
+            motions: self.motions.map_or(otherwise.motions, Count::size),
+            starts: self.starts.map(Count::size),
+            ..otherwise
         };
-    };
-    options.surface = surface.map(|section| read_surface(&section, plan)).transpose()?;
-    options.unknown = unknown.map(|section| read_unknown(&section, plan, sensors, axes)).transpose()?;
-    options.noisy = noisy.map(|section| read_noisy(&section, plan, axes)).transpose()?;
-    Ok(options)
-}
-
-fn read_surface(section: &Section<'_>, plan: &MotionPlan) -> Result<SurfaceSettings> {
-    let (_, interval_s, rate_hz) =
-        motion::read_grid(section, Some(&MotionPlan { intervals: 2, ..plan.clone() }))?;
-    Ok(SurfaceSettings {
-        jerk_mps3: section.get("jerk_mps3").map_or(Ok(0.5), |entry| entry.number(&JERK))?,
-        points: section.get("points").map_or(Ok(41), |entry| entry.size(2, MOST_POINTS))?,
-        start_mps2: section
-            .get("start_acceleration_mps2")
-            .map_or(Ok(0.0), |entry| entry.number(&ACCELERATION))?,
-        interval_s,
-        rate_hz,
-    })
-}
-
-fn read_unknown(
-    section: &Section<'_>,
-    base: &MotionPlan,
-    sensors: usize,
-    axes: usize,
-) -> Result<UnknownVariant> {
-    let (intervals, interval_s, rate_hz) = motion::read_grid(section, Some(base))?;
-    let detail_rate_hz =
-        section.get("detail_rate_hz").map(|entry| entry.number(&motion::RATE_HZ)).transpose()?;
-    if let Some(rate_hz) = detail_rate_hz {
-        motion::check_samples(section, "detail_rate_hz", intervals as f64 * interval_s, rate_hz)?;
+        let variants = [
+            ("study.surface", self.surface.is_some()),
+            ("study.unknown", self.unknown.is_some()),
+            ("study.noisy", self.noisy.is_some()),
+        ];
+        let Plan::Motion(plan) = plan else {
+            return match variants.iter().find(|(_, is_there)| *is_there) {
+                Some((key, _)) => {
+                    Err(refused(*key, "this needs a [motion]", "take it out, or describe a motion"))
+                }
+                None => Ok(options),
+            };
+        };
+        let sensors = options.sensors;
+        Ok(StudyOptions {
+            surface: self.surface.as_ref().map(|of| of.settings(plan)).transpose()?,
+            unknown: self.unknown.as_ref().map(|of| of.variant(plan, sensors, axes)).transpose()?,
+            noisy: self.noisy.as_ref().map(|of| of.variant(plan, axes)).transpose()?,
+            ..options
+        })
     }
-    let (trust, known_ends) = (Trust::Unknown, KnownEnds::Both);
-    Ok(UnknownVariant {
-        sensors: section.get("sensors").map_or(Ok(sensors), |entry| entry.size(1, MOST_SENSORS))?,
-        plan: MotionPlan { intervals, interval_s, rate_hz, trust, known_ends, gravity: base.gravity },
-        detail_rate_hz,
-        limits: limits::read_instead(section, axes)?,
-    })
 }
 
-fn read_noisy(section: &Section<'_>, base: &MotionPlan, axes: usize) -> Result<NoisyVariant> {
-    let noise = match (motion::read_noise(section, "study.noisy.input_noise")?, base.trust) {
-        (Some(noise), _) | (None, Trust::Noisy(noise)) => noise,
-        (None, Trust::Known | Trust::Unknown) => {
-            let help = "write input_noise = { floor_mps3 = 0.01, ratio = 0.01 }";
-            return Err(section.missing("input_noise", help));
+impl SurfaceSection {
+    fn settings(&self, base: &MotionPlan) -> Result<SurfaceSettings> {
+        let plan = MotionPlan { intervals: 2, ..base.with_grid(None, self.interval_s, self.rate_hz) };
+        plan.check_samples("study.surface.rate_hz", plan.rate_hz)?;
+        Ok(SurfaceSettings {
+            jerk_mps3: self.jerk_mps3.map_or(0.5, f64::from),
+            points: self.points.map_or(41, Count::size),
+            start_mps2: self.start_acceleration_mps2.map_or(0.0, f64::from),
+            interval_s: plan.interval_s,
+            rate_hz: plan.rate_hz,
+        })
+    }
+}
+
+impl UnknownSection {
+    fn variant(&self, base: &MotionPlan, sensors: usize, axes: usize) -> Result<UnknownVariant> {
+        let (trust, known_ends) = (Trust::Unknown, KnownEnds::Both);
+        let plan = base.with_grid(self.intervals, self.interval_s, self.rate_hz);
+        plan.check_samples("study.unknown.rate_hz", plan.rate_hz)?;
+        let detail_rate_hz = self.detail_rate_hz.map(f64::from);
+        if let Some(rate_hz) = detail_rate_hz {
+            plan.check_samples("study.unknown.detail_rate_hz", rate_hz)?;
         }
-    };
-    Ok(NoisyVariant { noise, limits: limits::read_instead(section, axes)? })
+        Ok(UnknownVariant {
+            sensors: self.sensors.map_or(sensors, Count::size),
+            plan: MotionPlan { trust, known_ends, ..plan },
+            detail_rate_hz,
+            limits: self.limits("study.unknown", axes)?,
+        })
+    }
+}
+
+impl NoisySection {
+    fn variant(&self, base: &MotionPlan, axes: usize) -> Result<NoisyVariant> {
+        let noise = match (self.input_noise, base.trust) {
+            (Some(noise), _) => noise.into(),
+            (None, Trust::Noisy(noise)) => noise,
+            (None, Trust::Known | Trust::Unknown) => {
+                let help = "write input_noise = { floor_mps3 = 0.01, ratio = 0.01 }";
+                return Err(missing("study.noisy.input_noise", help));
+            }
+        };
+        Ok(NoisyVariant { noise, limits: self.limits("study.noisy", axes)? })
+    }
 }

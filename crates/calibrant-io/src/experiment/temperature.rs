@@ -1,22 +1,40 @@
-//! Reads `[temperature]`: which biases and gains of an IMU follow temperature, and by which polynomials.
+//! `[temperature]`: which biases and gains of an IMU follow temperature, and by which polynomials.
 
-use super::number_range::Bounds;
-use super::toml_document::Section;
-use calibrant_core::error::Result;
+use super::number::{Count, Within};
+use super::ranges::Celsius;
 use calibrant_core::estimate::ThermalModel;
-use calibrant_core::sensor::{HIGHEST_ORDER, WORKING_C};
+use calibrant_core::sensor::HIGHEST_ORDER;
+use serde::{Deserialize, Serialize};
 
-/// Range of a temperature.
-const CELSIUS: Bounds = Bounds::from(*WORKING_C.start(), *WORKING_C.end(), "°C");
+/// The order of a polynomial.
+type Order = Count<0, { HIGHEST_ORDER as u64 }>;
 
-/// Reads `[temperature]`; orders that are not there are 0.
-pub(super) fn read(section: &Section<'_>) -> Result<ThermalModel> {
-    let order = |key: &str| section.get(key).map_or(Ok(0), |entry| entry.size(0, HIGHEST_ORDER as u64));
-    Ok(ThermalModel {
-        reference_c: section.get("reference_c").map(|entry| entry.number(&CELSIUS)).transpose()?,
-        accelerometer_bias: order("accelerometer_bias")?,
-        accelerometer_scale: order("accelerometer_scale")?,
-        gyroscope_bias: order("gyroscope_bias")?,
-        gyroscope_scale: order("gyroscope_scale")?,
-    })
+/// `[temperature]`: the orders of polynomials in the temperature; 0 where they are not there.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TemperatureSection {
+    /// The reference; without it, the mean over the holds.
+    pub reference_c: Option<Within<Celsius>>,
+    /// Order of the accelerometer's bias.
+    pub accelerometer_bias: Option<Order>,
+    /// Order of the accelerometer's gains.
+    pub accelerometer_scale: Option<Order>,
+    /// Order of the gyroscope's bias.
+    pub gyroscope_bias: Option<Order>,
+    /// Order of the gyroscope's gains.
+    pub gyroscope_scale: Option<Order>,
+}
+
+impl TemperatureSection {
+    /// The model.
+    pub(super) fn model(&self) -> ThermalModel {
+        let order = |order: Option<Order>| order.map_or(0, Count::size);
+        ThermalModel {
+            reference_c: self.reference_c.map(f64::from),
+            accelerometer_bias: order(self.accelerometer_bias),
+            accelerometer_scale: order(self.accelerometer_scale),
+            gyroscope_bias: order(self.gyroscope_bias),
+            gyroscope_scale: order(self.gyroscope_scale),
+        }
+    }
 }

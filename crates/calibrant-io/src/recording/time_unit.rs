@@ -1,19 +1,27 @@
 //! The units in which files give times.
 
+use serde::{Deserialize, Serialize};
+
 /// Unit of a file's sample times.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TimeUnit {
     /// Seconds.
+    #[serde(rename = "s")]
     Second,
     /// Milliseconds.
+    #[serde(rename = "ms")]
     Millisecond,
     /// Tenths of a millisecond: the ticks of `SampleTimeFine` in MT Manager's exports.
+    #[serde(rename = "0.1 ms")]
     TenthMillisecond,
     /// Microseconds.
+    #[serde(rename = "us", alias = "µs")]
     Microsecond,
     /// Nanoseconds.
+    #[serde(rename = "ns")]
     Nanosecond,
     /// Samples: a counter, which the sample rate turns into times.
+    #[serde(rename = "samples")]
     Sample,
 }
 

@@ -5,9 +5,11 @@
 
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::number_format::plain;
+use serde::{Deserialize, Serialize};
 
 /// Which times the samples have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SampleTimes {
     /// Even ones: the line through the logged times.
     Even,

@@ -3,14 +3,16 @@
 use crate::estimate::MachineQuantity;
 use calibrant_core::sensor::{Gauge, SensorKind};
 use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// How far the log of the machine's motion is trusted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MachineTrust {
-    /// The smoothed log is exact.
-    Known,
     /// The log measures the motion with noise, and the sensor helps to find it.
     Noisy,
+    /// The smoothed log is exact.
+    Known,
 }
 
 /// What is known of the sensor's orientation on the tip.

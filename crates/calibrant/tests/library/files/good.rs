@@ -1,11 +1,11 @@
 //! Tests of good experiment files: their values arrive, and missing keys have their defaults.
 
 use calibrant::design::SurfaceSettings;
-use calibrant::io::{
-    CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Preset, Prior, ScaleBy,
-    preset,
-};
 use calibrant::estimate::{Gyroscope, ImuSetup};
+use calibrant::io::{
+    CriterionLetter, Experiment, ExperimentFile, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Preset,
+    Prior, ScaleBy, experiment_keys, preset,
+};
 use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
@@ -183,8 +183,9 @@ fn design_and_prior_arrive() {
     let experiment = parse(&text);
     let design = &experiment.design;
     assert_eq!((design.criterion, design.criterion.name()), (CriterionLetter::C, "c"));
-    assert_eq!(design.weights, [("bias.z".to_owned(), 0.5), ("matrix.xy".to_owned(), 2.0)]);
-    assert_eq!((design.scale_by, design.range_mps2), (ScaleBy::Datasheet, Some(20.0)));
+    let weights = [("bias.z".to_owned(), 0.5.into()), ("matrix.xy".to_owned(), 2.0.into())];
+    assert_eq!(design.weights, weights.into());
+    assert_eq!((design.scale_by, design.range_mps2), (ScaleBy::Datasheet, Some(20.0.into())));
     assert_eq!((design.starts, design.seed, design.certificate), (3, 9, false));
     assert_eq!(experiment.calibrate.prior, Prior::Datasheet);
 }
@@ -256,6 +257,37 @@ fn a_variant_takes_what_it_does_not_say_from_the_motion() {
     assert_eq!(study.noisy.as_ref().map(|noisy| noisy.limits.is_none()), Some(true));
     let none = parse(&format!("{head}[study]\nstarts = 3\n")).study;
     assert_eq!((none.starts, none.surface, none.unknown, none.noisy), (Some(3), None, None, None));
+}
+
+#[test]
+fn a_preset_that_is_written_again_is_the_same_experiment() {
+    for Preset { name, text, .. } in PRESETS {
+        let file = ExperimentFile::preset(name).expect("known");
+        let again = file.to_toml();
+        assert_eq!(ExperimentFile::parse(&again, None).expect(name), file, "{again}");
+        assert_eq!(file.experiment().expect(name), parse(text));
+    }
+}
+
+#[test]
+fn every_key_is_in_a_preset() {
+    // noise of poses goes together, and logged times are rare
+    let elsewhere = ["position_noise_m", "orientation_noise_rad", "times"];
+    let texts: String = PRESETS.iter().map(|preset| preset.text).collect();
+    let sections = experiment_keys();
+    let names: Vec<&str> = sections.iter().map(|(name, _)| name.as_str()).collect();
+    assert!(names.contains(&"machine.mount") && names.contains(&"study.noisy.input_noise"), "{names:?}");
+    assert_eq!((names[0], sections[0].1[0]), ("", "schema"));
+    for (section, keys) in &sections {
+        for key in keys.iter().filter(|key| !elsewhere.contains(key)) {
+            let as_section =
+                if section.is_empty() { format!("[{key}]") } else { format!("[{section}.{key}]") };
+            assert!(
+                texts.contains(&format!("{key} =")) || texts.contains(&as_section),
+                "`{section}.{key}` is in no preset"
+            );
+        }
+    }
 }
 
 #[test]

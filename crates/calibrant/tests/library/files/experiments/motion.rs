@@ -142,7 +142,7 @@ pub(super) const CASES: &[Case] = &[
     (
         r#"trust = "known""#,
         r#"trust = "known"⏎[design]⏎weights = { scale.x = 1.0 }"#,
-        r#"line 17, column 13: `design.weights.scale`: the name of a parameter has a dot and so needs quotes (write for example "scale.x" = 1.0)"#,
+        "line 17, column 13: `design.weights.scale`: a number is needed here, not a table: a name with a dot needs quotes (a number from 0, at most 1e30)",
     ),
     (
         r#"trust = "known""#,

@@ -1,0 +1,126 @@
+//! The text of an experiment file, and the places in it at which errors point.
+
+use super::fault::Fault;
+use super::known_keys::suggest;
+use super::similar_word::shorten;
+use super::toml_value::TomlValue;
+use crate::text_excerpt::error_at;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use serde::Deserialize;
+use std::ops::Range;
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// Largest experiment file, bytes.
+pub(super) const LARGEST: u64 = 1 << 20;
+
+/// The text of an experiment file, its origin and its values.
+pub(super) struct Document<'a> {
+    text: &'a str,
+    file: Option<&'a Path>,
+    root: DeValue<'a>,
+}
+
+impl<'a> Document<'a> {
+    /// Parses a text. `file` serves only for its name in errors.
+    pub(super) fn parse(text: &'a str, file: Option<&'a Path>) -> Result<Self> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut document = Self { text, file, root: DeValue::Table(DeTable::new()) };
+        if text.len() as u64 > LARGEST {
+            let (message, help) =
+                ("the experiment file is larger than 1 MiB", "this is hardly the file that you mean");
+            return Err(document.refuse(0..0, InputError::new(Refusal::FileUnreadable, message, help)));
+        }
+        let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
+        document.root = DeValue::Table(table.into_inner());
+        Ok(document)
+    }
+
+    /// The directory of the file.
+    pub(super) fn directory(&self) -> Option<&'a Path> {
+        self.file.and_then(Path::parent)
+    }
+
+    /// Has the top of the file this key?
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.root.as_table().is_some_and(|table| table.contains_key(key))
+    }
+
+    /// Has the top of the file other keys than these?
+    pub(super) fn has_others(&self, keys: &[&str]) -> bool {
+        self.root
+            .as_table()
+            .is_some_and(|table| table.keys().any(|key| !keys.contains(&key.get_ref().as_ref())))
+    }
+
+    /// The content, as a type that serde reads.
+    pub(super) fn read<'d, T: Deserialize<'d>>(&'d self) -> Result<T> {
+        T::deserialize(TomlValue { key: String::new(), value: &self.root }).map_err(|fault| self.of(fault))
+    }
+
+    fn of(&self, fault: Fault) -> Error {
+        let Fault { code, key, message, mut help, known, .. } = fault;
+        if code == Refusal::KeyUnknown {
+            let (section, unknown) = key.rsplit_once('.').unwrap_or(("", &key));
+            help = suggest(section, unknown, known);
+        }
+        self.placed(Error::experiment(InputError::new(code, message, help).about_key(key)))
+    }
+
+    /// The error at the place of its key: that of its value, or of the section that lacks it.
+    pub(super) fn placed(&self, error: Error) -> Error {
+        match error {
+            Error::Experiment(input_error) if input_error.line.is_none() => {
+                let key = input_error.key.as_deref().unwrap_or_default();
+                let span = place(&self.root, key, input_error.code == Refusal::KeyUnknown).unwrap_or(0..0);
+                self.refuse(span, *input_error)
+            }
+            other => other,
+        }
+    }
+
+    fn refuse(&self, span: Range<usize>, input_error: InputError) -> Error {
+        let input_error = error_at(self.text, span, input_error);
+        Error::experiment(InputError { file: self.file.map(Path::to_path_buf), ..input_error })
+    }
+
+    /// An error of the TOML parser.
+    fn syntax(&self, error: &toml::de::Error) -> Error {
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message().replace('\n', " ");
+        let input_error = match self.text.get(span.clone()) {
+            Some(key) if message == "duplicate key" => InputError::new(
+                Refusal::KeyRepeated,
+                format!("the key `{}` is there twice", shorten(key)),
+                "keep one of them",
+            ),
+            _ => InputError::new(
+                Refusal::SyntaxInvalid,
+                format!("not valid TOML: {message}"),
+                "see https://toml.io",
+            ),
+        };
+        self.refuse(span, input_error)
+    }
+}
+
+/// The bytes of the value of this key, or of the innermost value around it; of the key itself where it is not
+/// known. Names in a key may have dots themselves.
+fn place(value: &DeValue<'_>, key: &str, of_key: bool) -> Option<Range<usize>> {
+    if let Some(rest) = key.strip_prefix('[') {
+        let (place_of, rest) = rest.split_once(']')?;
+        let item = value.as_array()?.get(place_of.parse::<usize>().ok()?)?;
+        return place(item.get_ref(), rest, of_key).or(Some(item.span()));
+    }
+    let key = key.strip_prefix('.').unwrap_or(key);
+    value.as_table()?.iter().find_map(|(name, entry)| {
+        let shown = shorten(name.get_ref());
+        let rest = key.strip_prefix(shown.as_str())?;
+        match rest.as_bytes().first() {
+            None if of_key => Some(name.span()),
+            None => Some(entry.span()),
+            Some(b'.' | b'[') => place(entry.get_ref(), rest, of_key).or(Some(entry.span())),
+            Some(_) => None,
+        }
+    })
+}
