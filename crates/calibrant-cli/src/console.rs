@@ -1,9 +1,11 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
+mod flags;
 mod manner;
 mod table;
 mod width;
 
+pub(crate) use flags::as_flags;
 pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
 pub(crate) use table::table;
 
@@ -17,14 +19,15 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
 use std::path::Path;
 
-/// A text without control characters other than line ends and tabs: a name of a file must not command the terminal.
+/// A text for the terminal: options are flags, and there are no control characters other than line ends and tabs, since a name of a file must not
+/// command the terminal.
 pub(crate) fn harmless(text: &str) -> String {
     let shown = |sign: char| match sign {
         '\n' | '\t' => sign.to_string(),
         sign if sign.is_control() => sign.escape_default().to_string(),
         sign => sign.to_string(),
     };
-    text.chars().map(shown).collect()
+    as_flags(text).chars().map(shown).collect()
 }
 
 /// Prints a result to stdout, as wide as the terminal is.

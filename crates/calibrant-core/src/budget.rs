@@ -47,7 +47,11 @@ impl Budget {
             size(self.bytes),
             duration(self.seconds)
         );
-        Err(Box::new(InputError::new(Refusal::WorkTooLarge, message, format!("{less}, or add --force"))))
+        Err(Box::new(InputError::new(
+            Refusal::WorkTooLarge,
+            message,
+            format!("{less}, or add option `force`"),
+        )))
     }
 }
 
@@ -104,7 +108,7 @@ mod tests {
         assert_eq!(
             refused.to_string(),
             "1e9 samples would take about 93 GiB of memory and 1000 s of one processor, more than 8 GiB or 1 h \
-             (lower the rate, or add --force)"
+             (lower the rate, or add option `force`)"
         );
         let long = Budget { bytes: 0.0, seconds: 3e10 };
         assert!(

@@ -5,8 +5,10 @@
 //! iteration that does not converge is a [`CalibrationStatus`](crate::estimate::CalibrationStatus) in a
 //! complete result.
 
+mod answer;
 mod refusal;
 
+pub use answer::{Answer, TaskOption};
 pub use refusal::Refusal;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -61,8 +63,8 @@ pub struct InputError {
     pub message: String,
     /// What to do about it.
     pub help: String,
-    /// What the user may say, where the error is a question; `help` lists it.
-    pub answers: Vec<String>,
+    /// What the user may say, where the error is a question; `help` has it in words.
+    pub answers: Vec<Answer>,
     /// The text of the file and the range of bytes at fault, so that it can be shown underlined.
     pub excerpt: Option<(String, std::ops::Range<usize>)>,
 }
@@ -86,8 +88,16 @@ impl InputError {
 
     /// A question to the user, with the options that answer it.
     #[must_use]
-    pub fn question(code: Refusal, message: impl Into<String>, answers: Vec<String>) -> Self {
-        Self { answers: answers.clone(), ..Self::new(code, message, format!("say {}", answers.join("; "))) }
+    pub fn question(code: Refusal, message: impl Into<String>, answers: Vec<Answer>) -> Self {
+        let words: Vec<String> = answers.iter().map(Answer::to_string).collect();
+        Self { answers, ..Self::new(code, message, format!("say {}", words.join("; "))) }
+    }
+
+    /// The same error, which this option answers, with one of these values.
+    #[must_use]
+    pub fn answered_by<'v>(mut self, option: TaskOption, values: impl IntoIterator<Item = &'v str>) -> Self {
+        self.answers.push(Answer::new(option, values));
+        self
     }
 
     /// The same error, in this file.

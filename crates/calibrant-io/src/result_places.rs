@@ -55,7 +55,7 @@ impl ResultPlaces {
         let is_of_others = |(_, resolved): &&(PathBuf, PathBuf)| !replace && !is_ours(resolved);
         if let Some((result, _)) = there.par_iter().find_first(is_of_others) {
             let what = "this file is there already, and calibrant did not write it as it is";
-            return refuse(result, what, "choose another place, or add --force");
+            return refuse(result, what, "choose another place, or add option `force`");
         }
         let earlier = there.into_iter().map(|(result, _)| (result.clone(), version(&result))).collect();
         let mut claimed = ClaimedPlaces { earlier, made: Vec::new(), _lock: None };

@@ -2,6 +2,7 @@
 
 use super::job::Job;
 use super::recorded::Recorded;
+use crate::console;
 use calibrant::acceptance::AcceptanceLimit;
 use calibrant::diagnostic::{Code, Severity};
 use calibrant::io::SummaryParameter;
@@ -76,7 +77,7 @@ fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryPara
             verdict: Err(error.code()),
             codes,
             limits_failed: Vec::new(),
-            reasons: vec![error.to_string()],
+            reasons: vec![console::as_flags(&error.to_string())],
             estimates: Vec::new(),
         },
     }

@@ -27,7 +27,7 @@ fn an_axis_that_does_not_move() {
         4,
         &[
             "still/recording.csv: the data cannot determine the parameters",
-            "bias.y and scale.y cannot be separated: axis y does not move, its acceleration is 2 m/s² throughout",
+            "accelerometer.bias.y and accelerometer.scale.y cannot be separated: axis y does not move, its acceleration is 2 m/s² throughout",
             "move the sensor along axis y",
         ],
     );
@@ -46,7 +46,7 @@ fn equal_ends_of_an_unknown_motion() {
         "calibrate experiment.toml simulated/recording.csv --motion ends.csv -o result",
         4,
         &[
-            "bias.z and scale.z cannot be separated",
+            "accelerometer.bias.z and accelerometer.scale.z cannot be separated",
             "axis z has the same acceleration, 1.5 m/s², at both ends",
         ],
     );
@@ -62,8 +62,8 @@ fn a_full_matrix_from_an_unknown_motion() {
         "calibrate full.toml simulated/recording.csv --motion simulated/motion.csv -o result",
         4,
         &[
-            "2 combinations of bias.x, scale.x, matrix.xy, matrix.xz left free",
-            "2 combinations of bias.z, scale.z, matrix.zx, matrix.zy left free",
+            "2 combinations of accelerometer.bias.x, accelerometer.scale.x, accelerometer.matrix.xy, accelerometer.matrix.xz left free",
+            "2 combinations of accelerometer.bias.z, accelerometer.scale.z, accelerometer.matrix.zx, accelerometer.matrix.zy left free",
             "use model = \"scale-bias\"",
         ],
     );
@@ -80,8 +80,8 @@ fn too_few_holds() {
             4,
             &[
                 "combination",
-                "of bias.x, bias.y, bias.z, scale.x",
-                "matrix.yz left free",
+                "of accelerometer.bias.x, accelerometer.bias.y, accelerometer.bias.z, accelerometer.scale.x",
+                "accelerometer.matrix.yz left free",
                 says,
                 "at least 12",
             ],

@@ -69,7 +69,7 @@ refusals! {
         "Give the right file, or say its format.";
     FormatContradicted "format-contradicted"
         "A file is not of the format that was given."
-        "Leave --format away.";
+        "Leave option `format` away.";
     SyntaxInvalid "syntax-invalid"
         "A file breaks the rules of its format, such as TOML or JSON."
         "Correct it at the place that the message names.";
@@ -90,7 +90,7 @@ refusals! {
         "Leave one of them away.";
     WorkTooLarge "work-too-large"
         "The work would take more memory or time than it is worth."
-        "Ask for less, as the message says, or add --force.";
+        "Ask for less, as the message says, or add option `force`.";
     Interrupted "interrupted"
         "The work was ended before it had a result."
         "Begin it again.";
@@ -132,19 +132,19 @@ refusals! {
         "Correct the unit.";
     RateUnknown "rate-unknown"
         "A file has no sample times, and nothing says its sample rate."
-        "Give --rate-hz.";
+        "Give option `rate_hz`.";
     RateContradicted "rate-contradicted"
         "The sample rate that was given is not the one that the file states."
-        "Leave --rate-hz away.";
+        "Leave option `rate_hz` away.";
     SensorUnnamed "sensor-unnamed"
         "A file of one sensor does not say which sensor it is of."
-        "Give the gyroscope's file with --gyroscope, or name the columns in [columns].";
+        "Give the gyroscope's file with option `gyroscope`, or name the columns in [columns].";
     SensorMissing "sensor-missing"
         "A recording lacks a sensor that is needed, or an axis of it has no values."
         "Give a recording of that sensor.";
     TopicUnknown "topic-unknown"
         "A bag has no messages of an IMU on the topic, or such messages on several topics."
-        "Say --topic.";
+        "Say option `topic`.";
     GravityRemoved "gravity-removed"
         "Gravity has been removed from the acceleration."
         "Export the sensor's own readings.";

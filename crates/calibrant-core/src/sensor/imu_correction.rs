@@ -10,7 +10,7 @@ use super::{
     CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
     ImuQuantity, ImuRecording, Recording, SensorKind, Temperatures, ThermalPart, interpolated, times,
 };
-use crate::error::{Error, InputError, Refusal, Result};
+use crate::error::{Error, InputError, Refusal, Result, TaskOption};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::ptr;
 use std::sync::Arc;
@@ -260,7 +260,7 @@ impl ImuCorrection {
                         readings.unit.symbol(),
                         unit.symbol()
                     ),
-                    "give the recording that is in the calibration's unit, or say its unit with --unit",
+                    "give the recording that is in the calibration's unit, or say its unit with option `unit`",
                 )));
             }
         }
@@ -268,8 +268,10 @@ impl ImuCorrection {
             Some(Temperatures::of(recording)?.ok_or_else(|| {
                 Error::recording(InputError::new(Refusal::TemperatureMissing,
                     "the calibration follows temperature, and this recording has no temperature",
-                    "say the temperature with --temperature CELSIUS, or, where a column of the recording has it, which one with --columns EXPERIMENT",
-                ))
+                    "say the temperature with option `temperature` CELSIUS, or, where a column of the recording has it, which one with option `columns` EXPERIMENT",
+                )
+                .answered_by(TaskOption::Temperature, [])
+                .answered_by(TaskOption::Columns, []))
             })?)
         } else {
             None

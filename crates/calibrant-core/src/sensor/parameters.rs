@@ -2,9 +2,11 @@
 
 use super::{Axis, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// Which errors a sensor's model has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SensorModel {
     /// `S` is diagonal. Each axis has a bias and a scale factor, independent of the other axes.
     ScaleBias,
@@ -50,7 +52,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Its name everywhere: files, tables, errors and plots.
+    /// Its name among the parameters of one sensor, as in designs: `bias.x`.
     #[must_use]
     pub fn name(self) -> String {
         match self {
@@ -58,6 +60,12 @@ impl Quantity {
             Self::Scale(axis) => format!("scale.{axis}"),
             Self::CrossAxis(row, column) | Self::Symmetric(row, column) => format!("matrix.{row}{column}"),
         }
+    }
+
+    /// Its name as calibrations and errors have it, as a parameter of an accelerometer: `accelerometer.bias.x`.
+    #[must_use]
+    pub fn name_in_results(self) -> String {
+        format!("accelerometer.{}", self.name())
     }
 
     /// Its unit, for readings in this unit. The scale factor of readings in m/s² is a pure number, printed as `1`.
@@ -168,6 +176,12 @@ impl ParameterList {
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.quantities.iter().map(|quantity| quantity.name()).collect()
+    }
+
+    /// The names as calibrations have them: `accelerometer.bias.x`.
+    #[must_use]
+    pub fn names_in_results(&self) -> Vec<String> {
+        self.quantities.iter().map(|quantity| quantity.name_in_results()).collect()
     }
 
     /// Position of the parameter of this name: `bias.x`, or `accelerometer.bias.x` as calibrations have it.

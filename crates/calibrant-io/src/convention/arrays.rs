@@ -14,7 +14,7 @@ pub(super) fn missing(field: &str) -> Box<calibrant_core::error::InputError> {
     input_error(
         Refusal::CalibrationInvalid,
         format!("this is no calibration of an IMU: the field `{field}` is missing"),
-        "give a file that calibrant wrote, or name its format with --from",
+        "give a file that calibrant wrote, or name its format with option `from`",
     )
 }
 

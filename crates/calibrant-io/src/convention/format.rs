@@ -2,7 +2,7 @@
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
+use calibrant_core::error::{InputError, Refusal, TaskOption};
 use std::path::Path;
 
 /// A format of calibrations.
@@ -87,10 +87,10 @@ impl ImuFormat {
         if numbers && !first.is_empty() {
             return Ok(Self::ImuTk);
         }
-        Err(input_error(
-            Refusal::CalibrationInvalid,
-            "this is no calibration in a format that is known",
-            "name its format with --from: calibrant, kalibr, imu_tk, imucal, c",
-        ))
+        let formats = ["calibrant", "kalibr", "imu_tk", "imucal", "c"];
+        let help = format!("name its format with {}: {}", TaskOption::From, formats.join(", "));
+        let message = "this is no calibration in a format that is known";
+        let error = InputError::new(Refusal::CalibrationInvalid, message, help);
+        Err(error.answered_by(TaskOption::From, formats).into())
     }
 }

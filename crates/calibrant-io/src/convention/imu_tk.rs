@@ -15,7 +15,7 @@ use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
 use crate::delimited_text::Lines;
 use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::sensor::{
     CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -130,15 +130,14 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         return Err(input_error(
             Refusal::CalibrationInvalid,
             format!("the file says that it is of the {stated}, and it was given as that of the {given}"),
-            "are the two files exchanged, or is --sensor wrong?",
+            "are the two files exchanged, or is option `sensor` wrong?",
         ));
     }
     let Some(sensor_kind) = sensor_kind.or(options.sensor_kind) else {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            "is this the accelerometer's or the gyroscope's? The file does not say",
-            "say --sensor accelerometer or --sensor gyroscope, or give the pair NAME_acc.calib and NAME_gyro.calib as NAME.calib",
-        ));
+        let message = "is this the accelerometer's or the gyroscope's? The file does not say";
+        let help = "say option `sensor` accelerometer or option `sensor` gyroscope, or give the pair NAME_acc.calib and NAME_gyro.calib as NAME.calib";
+        let error = InputError::new(Refusal::CalibrationInvalid, message, help);
+        return Err(error.answered_by(TaskOption::Sensor, ["accelerometer", "gyroscope"]).into());
     };
     let stated = unit.as_deref().map(|stated| {
         [sensor_kind.stimulus_unit(), ReadingUnit::Counts].into_iter().find(|unit| unit.symbol() == stated)
@@ -161,15 +160,14 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
                 } else {
                     [sensor_kind.stimulus_unit().symbol(), "si"]
                 };
-                return Err(input_error(
-                    Refusal::UnitUnknown,
-                    format!(
-                        "in which unit are the readings of the {sensor_kind}? imu_tk's file does not say"
-                    ),
-                    &format!(
-                        "say --unit si or --unit counts; a scale of {scale} looks like {likely}: --unit {option}"
-                    ),
-                ));
+                let message = format!(
+                    "in which unit are the readings of the {sensor_kind}? imu_tk's file does not say"
+                );
+                let help = format!(
+                    "say option `unit` si or option `unit` counts; a scale of {scale} looks like {likely}: option `unit` {option}"
+                );
+                let error = InputError::new(Refusal::UnitUnknown, message, help);
+                return Err(error.answered_by(TaskOption::Unit, ["si", "counts"]).into());
             }
         },
     };
@@ -213,7 +211,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(SensorKind, String
         return Err(input_error(
             Refusal::ConversionImpossible,
             "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",
-            "choose another format, write the accelerometer alone with --sensor accelerometer, or leave it out on purpose with --drop-g-sensitivity",
+            "choose another format, write the accelerometer alone with option `sensor` accelerometer, or leave it out on purpose with option `drop_g_sensitivity`",
         ));
     }
     let there =
@@ -230,7 +228,7 @@ fn text(imu: &CalibratedImu, sensor_kind: SensorKind, unit: ReadingUnit) -> Chec
             format!(
                 "the correction of the {sensor_kind} has a zero on its diagonal, and imu_tk's T has none"
             ),
-            "turn the frame with --gauge upper",
+            "turn the frame with option `gauge` upper",
         ));
     };
     // + 0.0: no negative zeros

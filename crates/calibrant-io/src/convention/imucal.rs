@@ -17,7 +17,7 @@ use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::json;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
+use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::sensor::{
     CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal,
 };
@@ -73,11 +73,10 @@ fn unit_of_readings(
 ) -> Checked<(ReadingUnit, f64)> {
     let Some(stated) = stated else {
         let Some(given) = given else {
-            return Err(input_error(
-                Refusal::UnitUnknown,
-                format!("in which unit are the readings of the {sensor_kind}? `{field}` is null"),
-                "say --unit si or --unit counts",
-            ));
+            let message = format!("in which unit are the readings of the {sensor_kind}? `{field}` is null");
+            let help = "say option `unit` si or option `unit` counts";
+            let error = InputError::new(Refusal::UnitUnknown, message, help);
+            return Err(error.answered_by(TaskOption::Unit, ["si", "counts"]).into());
         };
         return Ok((given.unit(sensor_kind), 1.0));
     };

@@ -354,7 +354,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Che
     out.push_str("  model: scale-misalignment\n  time_offset: 0.0\n");
     if c_i_b != Matrix3::identity() {
         warnings.push(
-            "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; --gauge lower makes it the identity".into(),
+            "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; option `gauge` lower makes it the identity".into(),
         );
     }
     if imu.parameters.accelerometer.bias != Vector3::zeros()
@@ -367,7 +367,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Che
     }
     if !absent.is_empty() {
         warnings.push(format!(
-            "Kalibr needs {} as well: give an imu.yaml that has them with --noise",
+            "Kalibr needs {} as well: give an imu.yaml that has them with option `noise`",
             absent.join(", ")
         ));
     }

@@ -99,7 +99,7 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         return Err(input_error(
             Refusal::CalibrationInvalid,
             message,
-            "run `calibrant noise` on the same readings, or give it their --gain",
+            "run `calibrant noise` on the same readings, or give it their option `gain`",
         ));
     }
     let matrix = &imu.parameters.sensor(sensor_kind).matrix;

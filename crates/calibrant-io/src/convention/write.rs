@@ -59,7 +59,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
                 "{} has no place for what temperature does to bias and gain, and the correction would be another without it",
                 format.title()
             ),
-            "choose another format, or take the values at one temperature with --temperature CELSIUS",
+            "choose another format, or take the values at one temperature with option `temperature` CELSIUS",
         ));
     }
     let one = |text: String| vec![(None, text)];

@@ -4,7 +4,7 @@ use super::line_map::LineMap;
 use super::reader_finding::{Finding, Noticed};
 use super::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 
 /// Times beyond this, s, count from another epoch than the recording's. They then count from the first.
@@ -121,6 +121,9 @@ fn which_unit(name: &str, ticks: &[f64]) -> InputError {
     InputError::question(
         Refusal::UnitUnknown,
         format!("the time column `{name}` has no unit{hint}"),
-        vec![format!("--time-unit s, ms, us or ns (time_unit in [columns]){or}")],
+        vec![
+            Answer::new(TaskOption::TimeUnit, ["s", "ms", "us", "ns"])
+                .and(format!(" (time_unit in [columns]){or}")),
+        ],
     )
 }

@@ -5,7 +5,7 @@ use super::finding_words::list;
 use super::mcap_footer::Cut;
 use super::mcap_records::chunk_lengths_add_up;
 use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::counted;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -188,12 +188,10 @@ impl<M> Topics<M> {
                 .iter()
                 .map(|(topic, messages)| format!("{topic} ({})", counted(messages.len(), "message")));
             let message = format!("there is more than one {what}: {}", each.collect::<Vec<_>>().join(", "));
-            return Err(InputError::new(
-                Refusal::TopicUnknown,
-                message,
-                "say --topic, or topic in [columns]",
-            )
-            .into());
+            let error =
+                InputError::new(Refusal::TopicUnknown, message, "say option `topic`, or topic in [columns]");
+            let topics = self.messages.keys().map(String::as_str);
+            return Err(error.answered_by(TaskOption::Topic, topics).into());
         }
         self.messages.into_values().next().ok_or_else(|| {
             let message = if self.all.is_empty() {

@@ -177,7 +177,7 @@ impl TextColumns {
     /// The unit of the times: stated by the name or the format, or given, or plain from their size.
     fn set_time_unit(&mut self, first_row: &[&str], options: &ReferenceLogOptions) -> Checked<()> {
         let contradicts = |message: String| {
-            Err(InputError::new(Refusal::UnitContradicted, message, "leave --time-unit away").into())
+            Err(InputError::new(Refusal::UnitContradicted, message, "leave option `time_unit` away").into())
         };
         match (options.time_unit, self.time_unit) {
             (Some(TimeUnit::Sample), _) => {

@@ -37,7 +37,7 @@ pub(crate) fn refuse_duplicate(
         SensorKind::Gyroscope => "its gyroscope has the data that were calibrated from",
     };
     let message = format!("{what}; errors on them are smaller than on other data, and validate nothing");
-    let help = "give another recording of the sensor, or --folds 5 in place of --validate, which validates with parts of this recording";
+    let help = "give another recording of the sensor, or option `folds` 5 in place of option `validate`, which validates with parts of this recording";
     Err(Error::experiment(InputError::new(Refusal::RecordingRepeated, message, help).in_file(path)))
 }
 

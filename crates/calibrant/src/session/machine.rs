@@ -15,7 +15,7 @@ use super::report::about;
 use super::source::Source;
 use super::validation::unless_too_few;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Result, TaskOption};
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind};
 use calibrant_io::{Experiment, MachineLogInput, MachinePlan, file_name};
 use calibrant_machine::chain::KinematicChain;
@@ -71,7 +71,7 @@ impl<'e> MachineTask<'e> {
     ) -> Result<Outcome> {
         let recorded = self.reader.read(source)?;
         let setup = self.setup();
-        let moved = self.moved(source, recorded, (self.log, "--motion"), notes)?;
+        let moved = self.moved(source, recorded, (self.log, TaskOption::Motion), notes)?;
         let nominal = self.experiment.nominal()?;
         let quantities = self.experiment.quantities(&moved.recorded.recording);
         let settings = &options.machine_settings();
@@ -132,7 +132,7 @@ impl<'e> MachineTask<'e> {
         &self,
         source: &Source,
         mut recorded: Recorded,
-        (log, option): (Option<&LogFile>, &str),
+        (log, option): (Option<&LogFile>, TaskOption),
         notes: &mut Vec<Note>,
     ) -> Result<Moved> {
         notes.extend(Note::of_findings(&recorded.findings, source));
@@ -163,7 +163,7 @@ impl<'e> MachineTask<'e> {
             .filter(|sensor_kind| moved.recorded.recording.sensor(*sensor_kind).is_some())
             .collect();
         let read = self.reader.read_other(other, &calibrated)?;
-        let second = self.moved(other, read, (log.as_ref(), "--validate-motion"), notes)?;
+        let second = self.moved(other, read, (log.as_ref(), TaskOption::ValidateMotion), notes)?;
         for sensor_kind in calibrated {
             let [one, two] = [moved, &second].map(|of| of.recorded.readings(sensor_kind));
             refuse_duplicate(sensor_kind, &one, &two, other.path_of(sensor_kind))?;

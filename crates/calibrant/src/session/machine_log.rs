@@ -3,7 +3,7 @@
 use super::motion_source::MotionSource;
 use super::note::Note;
 use super::source::Readings;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_io::{MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::log::{ReferenceLog, recover_interpolated};
@@ -36,19 +36,17 @@ impl LogFile {
     pub(crate) fn read_beside(
         recording: &Readings,
         options: &ReferenceLogOptions,
-        option: &str,
+        option: TaskOption,
         notes: &mut Vec<Note>,
     ) -> Result<Self> {
         if recording.is_file() && is_reference_log(recording.path(), options) {
             return Self::read(&MotionSource::File(recording.path().into()), options, notes);
         }
-        Err(Error::experiment(InputError::new(
-            Refusal::KeyMissing,
-            "a [machine] experiment needs the log of the machine's motion",
-            format!(
-                "add {option} FILE: a CSV with t_s and a column for each joint (elbow_rad), or poses of the body"
-            ),
-        )))
+        let help = format!(
+            "add {option} FILE: a CSV with t_s and a column for each joint (elbow_rad), or poses of the body"
+        );
+        let message = "a [machine] experiment needs the log of the machine's motion";
+        Err(Error::experiment(InputError::new(Refusal::KeyMissing, message, help).answered_by(option, [])))
     }
 
     /// The log on the clock of a recording: the joints of the chain in their order, or poses that were measured.

@@ -3,7 +3,7 @@
 use super::machine_log::LogFile;
 use super::note::Note;
 use super::options::SessionOptions;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_io::{Experiment, MachinePlan, MotionPlan, Plan, ReferenceLogOptions};
 use calibrant_machine::chain::KinematicChain;
@@ -60,11 +60,9 @@ fn commanded(
     notes: &mut Vec<Note>,
 ) -> Result<CommandedMotion> {
     let source = options.motion.as_ref().ok_or_else(|| {
-        Error::experiment(InputError::new(
-            Refusal::KeyMissing,
-            "a [motion] experiment needs the commanded motion",
-            "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
-        ))
+        let message = "a [motion] experiment needs the commanded motion";
+        let help = "add option `motion` FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row";
+        Error::experiment(InputError::new(Refusal::KeyMissing, message, help).answered_by(TaskOption::Motion, []))
     })?;
     let motion = source.commanded(experiment.sensor.axes)?;
     if motion.intervals() != plan.intervals {

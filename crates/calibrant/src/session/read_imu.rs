@@ -41,7 +41,7 @@ impl<'e> ImuReader<'e> {
 
     /// Reads the recording that a calibration is tried on; where it lacks its gyroscope, the option that gives it is named.
     pub(crate) fn read_other(&self, source: &Source) -> Result<Recorded> {
-        let help = "give the gyroscope's file of that recording with --validate-gyroscope";
+        let help = "give the gyroscope's file of that recording with option `validate_gyroscope`";
         match Recorded::imu_from(source, &self.options) {
             Ok(recorded) if source.gyroscope.is_none() && recorded.recording.gyroscope.is_none() => {
                 let message = "the recording has no gyroscope";

@@ -1,7 +1,7 @@
 //! An accelerometer alone in known directions: its matrix in their frame, with honest intervals; wrong directions are refused.
 
-use crate::common::steady_holds;
 use crate::common::normal;
+use crate::common::steady_holds;
 use calibrant::Error;
 use calibrant::error::Refusal;
 use calibrant::estimate::{

@@ -3,8 +3,8 @@
 //! Sensors are simulated in the poses of a design, in its order, with a drift of the biases and a scatter
 //! between holds. The scatter of the estimates about the truth is compared with the promised one.
 
-use crate::common::steady_holds;
 use crate::common::normal;
+use crate::common::steady_holds;
 use calibrant::design::DesignSettings;
 use calibrant::design::poses::{
     Allowed, DirectionKnowledge, PoseDesign, PoseNuisance, PoseProblem, design_poses,

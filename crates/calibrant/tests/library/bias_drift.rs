@@ -1,11 +1,10 @@
 //! A bias that drifts over the recording: it hides in no parameter, and costs little where it is not there.
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, run_imu};
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, ImuSetup, Stimulus,
-    calibrate,
+    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, ImuSetup, Stimulus, calibrate,
 };
 use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{Purpose, Rng, stream};

@@ -1,10 +1,10 @@
 //! Tests of sensors whose times are not of one clock: the warning names it, and other sensors get no such
 //! warning.
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
 use crate::common::{messages, retimed};
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::Error;
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuProblem,

@@ -1,11 +1,9 @@
 //! Tests of given holds, turns and directions that the recording contradicts.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::draw_imu;
 use crate::common::messages;
-use calibrant::estimate::{
-    Calibration, CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu,
-};
+use crate::common::{steady_imu, unfeeling_gyroscope};
+use calibrant::estimate::{Calibration, CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu};
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
 use nalgebra::Vector3;

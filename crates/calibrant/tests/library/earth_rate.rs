@@ -1,8 +1,8 @@
 //! Tests of Earth's rate under the sensor. About the vertical it looks like g-sensitivity; about the north
 //! its heading is unknown.
 
-use crate::common::{steady_holds, steady_imu};
 use crate::common::{draw_imu, messages};
+use crate::common::{steady_holds, steady_imu};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuProblem,
     ImuSetup, KnownTerm, Turn, calibrate_imu, cross_validate_imu,
@@ -248,8 +248,7 @@ fn where_a_rotation_cannot_be_followed_another_heading_begins() {
 
 /// Holds on faces and whole turns with the axis up, as on a turntable.
 fn table(number: u64, simulation: &ImuSimulation) -> (ImuParameters, ImuRecording, ImuSetup) {
-    let (mut steps, mut setup, mut intervals, mut faces) =
-        (Vec::new(), steady_imu(), Vec::new(), Vec::new());
+    let (mut steps, mut setup, mut intervals, mut faces) = (Vec::new(), steady_imu(), Vec::new(), Vec::new());
     let mut start_s = 0.0;
     for axis in 0..3 {
         for sign in [1.0, -1.0] {

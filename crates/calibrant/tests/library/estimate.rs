@@ -185,15 +185,19 @@ fn a_still_axis_is_named() {
         (
             SensorModel::ScaleBias,
             Trust::Known,
-            "bias.y and scale.y cannot be separated: axis y does not move",
+            "accelerometer.bias.y and accelerometer.scale.y cannot be separated: axis y does not move",
         ),
         (
             SensorModel::ScaleBias,
             Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }),
-            "bias.y and scale.y cannot be separated: axis y does not move",
+            "accelerometer.bias.y and accelerometer.scale.y cannot be separated: axis y does not move",
         ),
         (SensorModel::ScaleBias, Trust::Unknown, "axis y has the same acceleration, 2 m/s², at both ends"),
-        (SensorModel::Full, Trust::Known, "bias.z and matrix.zy cannot be separated: axis y does not move"),
+        (
+            SensorModel::Full,
+            Trust::Known,
+            "accelerometer.bias.z and accelerometer.matrix.zy cannot be separated: axis y does not move",
+        ),
         (SensorModel::Full, Trust::Unknown, "only the two known ends speak of the sensor"),
     ] {
         let case = Case::with_motion(model, trust, motion.clone(), 10.0, 1);

@@ -59,8 +59,7 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
     let recording = read_accelerometer(&path, 3, ReadingUnit::Counts);
     let sensor =
         Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
-    let setup =
-        HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 }, ..steady_holds() };
+    let setup = HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 }, ..steady_holds() };
     let calibration = run(&sensor, &recording, &setup).expect("identifiable");
     assert_eq!(calibration.status, CalibrationStatus::Converged);
     let found = holds(&calibration);
@@ -152,8 +151,7 @@ fn bad_holds_are_found_and_left_out_with_a_word() {
                 *reading += along * size;
             }
         }
-        let calibration =
-            run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
+        let calibration = run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
         let left_out: Vec<usize> = (0..24).filter(|&k| !holds(&calibration).holds[k].used).collect();
         assert_eq!(left_out, bad, "size {size}");
         for &hold in &bad {
@@ -189,8 +187,8 @@ fn clean_recordings_rarely_lose_a_hold() {
 fn holds_that_do_not_spread_are_named() {
     // few holds
     let (_, recording) = simulate(6, 4);
-    let error = run(&sensor(SensorModel::Full), &recording, &steady_holds())
-        .expect_err("six holds, nine parameters");
+    let error =
+        run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect_err("six holds, nine parameters");
     assert!(error.is_not_identifiable());
     assert!(error.to_string().contains("6 holds give 6 equations"), "{error}");
 
@@ -201,8 +199,7 @@ fn holds_that_do_not_spread_are_named() {
             * Vector3::new(0.0, 0.0, 9.81)
             * (1.0 + 0.1 * (0.1 * k as f64).sin());
     }
-    let error =
-        run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect_err("always moving");
+    let error = run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect_err("always moving");
     assert!(error.is_not_identifiable(), "{error}");
 
     // many holds on one circle: gravity never leaves the x-y plane
@@ -232,8 +229,7 @@ fn holds_that_do_not_spread_are_named() {
 fn poor_spread_is_a_warning_with_the_missing_side_named() {
     // the upper half of the sphere only
     let (_, recording) = simulate(60, 6);
-    let calibration =
-        run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
+    let calibration = run(&sensor(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
     let up: Vec<(f64, f64)> = holds(&calibration)
         .holds
         .iter()
@@ -281,8 +277,7 @@ fn given_holds_are_used_as_given_and_checked() {
 fn the_uncertainty_of_gravity_is_a_common_scale() {
     let (_, recording) = simulate(24, 8);
     let at = |sd_mps2| {
-        let setup =
-            HoldsSetup { gravity: Gravity { magnitude_mps2: 9.80665, sd_mps2 }, ..steady_holds() };
+        let setup = HoldsSetup { gravity: Gravity { magnitude_mps2: 9.80665, sd_mps2 }, ..steady_holds() };
         run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable")
     };
     let (exact, uncertain) = (at(0.0), at(0.01));

@@ -1,7 +1,7 @@
 //! Tests of a whole IMU: against other programs on real recordings, and against the truth on simulated ones.
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::{draw_feeling_imu, run_imu};
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{Calibration, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, Turn};
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_recording, read_sections};
 use calibrant::motion::earth_rate;

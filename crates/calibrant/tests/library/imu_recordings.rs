@@ -1,8 +1,8 @@
 //! Tests of faulty recordings of an IMU, whose fault is named, and of known quantities, which are used.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_feeling_imu, normal, run_imu};
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::diagnostic::RotationReason;
 use calibrant::error::Error;
 use calibrant::estimate::{CalibrationStatus, Gyroscope, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
@@ -18,8 +18,7 @@ fn small() -> (ImuParameters, ImuRecording) {
 }
 
 fn fails(recording: &ImuRecording, gyroscope: &Gyroscope) -> Error {
-    run_imu(recording, gyroscope, &steady_imu(), ReadingUnit::MetrePerSecondSquared)
-        .expect_err("refused")
+    run_imu(recording, gyroscope, &steady_imu(), ReadingUnit::MetrePerSecondSquared).expect_err("refused")
 }
 
 #[test]
@@ -183,8 +182,7 @@ fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
         let mut recording = whole.clone();
         let gyroscope = recording.gyroscope.as_mut().expect("there");
         *gyroscope = gyroscope.only(|k| covered.contains(&k));
-        let calibration =
-            run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
+        let calibration = run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
         let holds = &calibration.hold_results();
         let (from_s, to_s) = (covered.start as f64 / 100.0, covered.end as f64 / 100.0);
         let mut left_out = 0;

@@ -1,9 +1,9 @@
 //! Knocks where a sensor is set down are real motion: nothing is cut out, and the uncertainty holds.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, run_imu};
-use calibrant::estimate::{Calibration, Gyroscope, };
+use crate::common::{steady_imu, unfeeling_gyroscope};
+use calibrant::estimate::Calibration;
 use calibrant::sensor::{ImuParameters, ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
 use rand::RngExt;

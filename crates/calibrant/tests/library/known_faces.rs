@@ -1,8 +1,8 @@
 //! Tests of faces of known directions with a tilt: the stated uncertainty of the accelerometer is right.
 
-use crate::common::steady_imu;
 use crate::common::draw_imu;
 use crate::common::messages;
+use crate::common::steady_imu;
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CalibrationStatus, Gyroscope, ImuProblem, ImuSetup, TiltSource, Turn,
     calibrate_imu,

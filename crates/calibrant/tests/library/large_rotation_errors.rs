@@ -1,8 +1,8 @@
 //! Tests of rotation errors of more than a right angle: near 180° the part of gravity across the direction
 //! found is small again.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{Calibration, CalibrationSettings, ImuProblem, calibrate_imu};
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{
@@ -13,12 +13,8 @@ use std::f64::consts::PI;
 
 fn calibrate(recording: &ImuRecording, model: SensorModel) -> Calibration {
     let (accelerometer, gyroscope) = (Sensor::triaxial(model), unfeeling_gyroscope());
-    let problem = ImuProblem {
-        accelerometer: &accelerometer,
-        gyroscope: &gyroscope,
-        recording,
-        setup: &steady_imu(),
-    };
+    let problem =
+        ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup: &steady_imu() };
     calibrate_imu(&problem, &CalibrationSettings::default()).expect("determined")
 }
 

@@ -1,9 +1,9 @@
 //! Tests of the mounting: a gyroscope may be turned against the accelerometer by any angle.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
-use calibrant::estimate::{Calibration, Gyroscope, };
+use crate::common::{steady_imu, unfeeling_gyroscope};
+use calibrant::estimate::{Calibration, Gyroscope};
 use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector4};

@@ -1,9 +1,9 @@
 //! A sample rate that nobody measured is uncertain, and with it the gains of the gyroscope.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, retimed, run_imu};
-use calibrant::estimate::{Gyroscope, ImuSetup};
+use crate::common::{steady_imu, unfeeling_gyroscope};
+use calibrant::estimate::ImuSetup;
 use calibrant::sensor::{ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
 use rayon::prelude::*;

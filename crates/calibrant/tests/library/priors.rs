@@ -1,7 +1,7 @@
 //! A prior only adds information: no standard deviation grows by it, a weak one changes nothing, and what the data leave open follows it.
 
-use crate::common::{steady_holds, steady_imu};
 use crate::common::{draw_feeling_imu, run_imu};
+use crate::common::{steady_holds, steady_imu};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuSetup, KnownTerm,
     Stimulus, calibrate,

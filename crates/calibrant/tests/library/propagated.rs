@@ -1,8 +1,8 @@
 //! Derived figures carry the uncertainty of all parameters that they are made from.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, run_imu};
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::sensor::{ImuParameters, ReadingUnit};
 use calibrant::simulate::{Purpose, stream};
 use nalgebra::DVector;

@@ -1,7 +1,7 @@
 //! Tests of readings in steps coarser than their noise: more samples do not help, and a warning says so.
 
-use crate::common::steady_imu;
 use crate::common::messages;
+use crate::common::steady_imu;
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CalibrationStatus, Gyroscope, ImuProblem, ImuSetup, Turn, calibrate_imu,

@@ -1,9 +1,9 @@
 //! Tests of an accelerometer that stops at the end of its range: its readings there are not used, and a
 //! warning says so.
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::{WORDS, messages};
 use crate::common::{draw_imu, normal};
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::diagnostic::RotationReason;
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldResult,

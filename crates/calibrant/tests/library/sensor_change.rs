@@ -1,9 +1,9 @@
 //! Tests of a sensor that changes within a recording: the change is reported. No change is reported of other
 //! sensors.
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, Caveat, Change, Changed, Course, CovarianceVerdict,
     ErrorKind, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Recovered, Stimulus, calibrate, calibrate_imu,

@@ -1,7 +1,7 @@
 //! The session gives what its stages give one by one, and writes it.
 
-use crate::common::{steady_holds, steady_imu};
 use crate::common::{draw_feeling_imu, run_imu};
+use crate::common::{steady_holds, steady_imu};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, NoiseSource,
     Stimulus, calibrate,

@@ -1,11 +1,11 @@
 //! Tests of spikes and invalid samples, and of the magnitudes of holds in the table.
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::messages;
 use crate::common::{draw_imu, normal, xsens};
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup,
-    Recovered, Stimulus, calibrate, calibrate_imu, find_imu_holds,
+    Calibration, CalibrationProblem, CalibrationSettings, ImuProblem, ImuSetup, Recovered, Stimulus,
+    calibrate, calibrate_imu, find_imu_holds,
 };
 use calibrant::sensor::{
     ImuCorrection, ImuRecording, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,

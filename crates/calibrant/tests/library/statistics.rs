@@ -4,8 +4,8 @@
 //! coverage of 95 % to √(0.95·0.05/n). √n times the Kolmogorov–Smirnov distance of uniform p-values exceeds
 //! 1.95 once in a thousand.
 
-use crate::common::steady_holds;
 use crate::common::messages;
+use crate::common::steady_holds;
 use calibrant::design::{DesignProblem, DesignSettings, design};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,

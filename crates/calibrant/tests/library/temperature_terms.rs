@@ -1,11 +1,11 @@
 //! Tests of an IMU whose bias and gain follow temperature: against the truth on simulated ones, and where the
 //! data do not determine it.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::WORDS;
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
-    Calibration, CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuProblem, ImuSetup,
-    KnownTerm, ThermalModel, Turn, calibrate_imu,
+    Calibration, CalibrationSettings, CalibrationStatus, Comparison, ImuProblem, ImuSetup, KnownTerm,
+    ThermalModel, Turn, calibrate_imu,
 };
 use calibrant::io::{CalibrationFile, ConventionOptions, Origin, parse_calibrated_imu, to_json};
 use calibrant::sensor::{
@@ -352,9 +352,8 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     let other = run(&recording, &ImuSetup { thermal: linear, ..steady_imu() }).expect("determined");
     assert_eq!(other.imu.thermal.reference_c, 33.0, "the mean over the holds, to the degree");
     let other = ThermalModel { reference_c: Some(25.0), ..linear };
-    let other = run(&recording, &ImuSetup { thermal: other, ..steady_imu() })
-        .expect("determined")
-        .calibrated();
+    let other =
+        run(&recording, &ImuSetup { thermal: other, ..steady_imu() }).expect("determined").calibrated();
     let comparison = Comparison::of(&calibration.calibrated(), &other);
     // the same data, only given at another temperature
     for row in &comparison.quantities {

@@ -34,7 +34,7 @@ pub(super) fn explain(
     parameters: &[usize],
     free_combinations: usize,
 ) -> UndeterminedGroup {
-    let names = list.names();
+    let names = list.names_in_results();
     let every = parameters.is_empty();
     let reason = match holds.len() {
         0 => "no hold was found in the recording: the sensor was never still for long enough".to_owned(),
@@ -45,7 +45,7 @@ pub(super) fn explain(
         ),
         count => format!("the {count} holds do not spread enough: {}", arrangement(holds)),
     };
-    let cross_terms = parameters.iter().any(|&k| names[k].starts_with("matrix."));
+    let cross_terms = parameters.iter().any(|&k| names[k].contains(".matrix."));
     UndeterminedGroup {
         parameters: if every { names } else { parameters.iter().map(|&k| names[k].clone()).collect() },
         free_combinations: if every {

@@ -133,7 +133,7 @@ pub(super) fn respond(context: &Context<'_>, calibration: &Calibration) -> Resul
         if calibration.values[k].abs() < 3.0 * sd[k] && calibration.status == CalibrationStatus::Converged {
             let noisy = matches!(context.command.trust, Trust::Noisy(_));
             return Err(Error::undetermined(UndeterminedGroup {
-                parameters: vec![Quantity::Scale(axis).name()],
+                parameters: vec![Quantity::Scale(axis).name_in_results()],
                 free_combinations: 1,
                 reason: format!(
                     "the reading of axis {axis} does not follow the motion: the scale factor is zero within its noise{}",

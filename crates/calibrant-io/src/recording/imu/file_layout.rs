@@ -131,7 +131,7 @@ impl Draft {
                     return Err(InputError::new(
                         Refusal::UnitContradicted,
                         message,
-                        "leave --time-unit away",
+                        "leave option `time_unit` away",
                     )
                     .into());
                 }

@@ -2,13 +2,15 @@
 
 use crate::recording::text_header::Head;
 use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{InputError, Refusal, TaskOption};
+use serde::{Deserialize, Serialize};
 
 /// The remedy where the given format is not that of the content.
-pub(super) const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
+pub(super) const LEAVE_AWAY: &str = "leave option `format` away: the format is recognised by the content";
 
 /// A file format of whole-IMU recordings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum FileFormat {
     /// Text export of Xsens/Movella MT Manager.
     MtManager,
@@ -27,6 +29,7 @@ pub enum FileFormat {
     /// Apache Parquet, columns named as in CSV.
     Parquet,
     /// Columns in memory, named as in CSV.
+    #[serde(skip)]
     Columns,
 }
 
@@ -43,7 +46,7 @@ impl FileFormat {
         Self::Parquet,
     ];
 
-    /// As `--format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `parquet`.
+    /// As the option `format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `parquet`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -119,8 +122,9 @@ impl FileFormat {
             return Err(InputError::new(Refusal::FormatUnknown,
                 "the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and \
                  nothing above the header tells which it is",
-                "say --format mt-manager or movella-dot",
+                "say option `format` mt-manager or movella-dot",
             )
+            .answered_by(TaskOption::Format, ["mt-manager", "movella-dot"])
             .at_line(head.line())
             .into());
         }

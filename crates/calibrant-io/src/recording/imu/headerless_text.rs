@@ -44,7 +44,7 @@ pub(super) fn in_columns(head: &Head<'_>) -> Option<String> {
         sensor("gyroscope", first + 3, unit);
     }
     Some(format!(
-        "say what they hold in [columns] of an experiment file (of a file of its own for --columns), a line each, such as {}",
+        "say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as {}",
         keys.join(", ")
     ))
 }

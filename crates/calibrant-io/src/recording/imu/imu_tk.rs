@@ -28,7 +28,7 @@ pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked
         return Err(InputError::new(Refusal::SensorUnnamed,
             "imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is",
             format!(
-                "give the accelerometer's file as the recording, the gyroscope's with --gyroscope, and their units with --accelerometer-unit and --gyroscope-unit; \
+                "give the accelerometer's file as the recording, the gyroscope's with option `gyroscope`, and their units with option `accelerometer_unit` and option `gyroscope_unit`; \
                  or {}",
                 headerless_text::in_columns(head).unwrap_or_default()
             ),

@@ -19,7 +19,7 @@ pub const USUAL_RATE_SD_PPM: f64 = 100.0;
 ///
 /// let text = b"n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,90,0,0,0,0,9.8\n1,0,90,0,0,9.8,0\n2,0,0,90,9.8,0,0\n";
 /// let question = parse_imu_recording(text, &ImuReadOptions::default()).expect_err("no units, no rate");
-/// assert!(question.to_string().contains("--gyroscope-unit"));
+/// assert!(question.to_string().contains("option `gyroscope_unit`"));
 ///
 /// let options = ImuReadOptions {
 ///     accelerometer_unit: Some(ImuUnit::MetrePerSecondSquared),

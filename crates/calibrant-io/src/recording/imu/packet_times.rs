@@ -6,7 +6,7 @@
 //! times.
 
 use super::column_values::Samples;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::{counted, plain};
 use calibrant_core::sensor::SensorKind;
 
@@ -70,10 +70,11 @@ impl Packets {
             false => "the samples come in packets: most follow each other in less than a third of the mean step, and then there is none for long".to_owned(),
         };
         let help = format!(
-            "if the sensor samples evenly, say its rate, --rate-hz, or rate_hz in [columns] (about {} Hz by the times): the rows are then taken at equal steps, and lost samples do not \
+            "if the sensor samples evenly, say its rate, option `rate_hz`, or rate_hz in [columns] (about {} Hz by the times): the rows are then taken at equal steps, and lost samples do not \
              show; otherwise give a file with the time of each sample",
             plain(self.rate_hz, 6)
         );
         InputError::new(Refusal::RateUnknown, format!("{sensor_kind}: {what}"), help)
+            .answered_by(TaskOption::RateHz, [])
     }
 }

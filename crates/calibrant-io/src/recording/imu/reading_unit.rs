@@ -6,7 +6,7 @@ use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
 use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -67,8 +67,8 @@ pub(super) fn stated_unit(
                 given.symbol()
             );
             let option = match options.accelerometer_only {
-                Some(_) => "--unit".to_owned(),
-                None => format!("--{sensor_kind}-unit (or --unit)"),
+                Some(_) => TaskOption::Unit.to_string(),
+                None => format!("{} (or {})", unit_option(sensor_kind), TaskOption::Unit),
             };
             let help = format!(
                 "leave {option} away: the file decides (name the columns in [columns] to overrule it)"
@@ -80,6 +80,14 @@ pub(super) fn stated_unit(
             let agreed = options.counts_unless_stated[sensor_kind as usize].then_some(ImuUnit::Counts);
             Ok(stated.or(given).or(usual).or(agreed))
         }
+    }
+}
+
+/// The option that gives the unit of this sensor.
+pub(super) fn unit_option(sensor_kind: SensorKind) -> TaskOption {
+    match sensor_kind {
+        SensorKind::Accelerometer => TaskOption::AccelerometerUnit,
+        SensorKind::Gyroscope => TaskOption::GyroscopeUnit,
     }
 }
 

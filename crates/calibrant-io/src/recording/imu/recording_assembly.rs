@@ -5,7 +5,7 @@ use super::column_values::Samples;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::packet_times::Packets;
-use super::reading_unit::{check_gravity, question, stated_unit};
+use super::reading_unit::{check_gravity, question, stated_unit, unit_option};
 use super::sample_clock;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::clock_column::backwards;
@@ -15,7 +15,7 @@ use crate::recording::reader_finding::{Finding, Noticed, Tally};
 use crate::recording::recording_quality;
 use crate::text_decoding::Checked;
 use calibrant_core::diagnostic::Code;
-use calibrant_core::error::{Error, InputError, Refusal};
+use calibrant_core::error::{Answer, Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated};
 use nalgebra::Vector3;
@@ -142,20 +142,23 @@ fn ask(
     sensor_kinds: &[SensorKind],
     units: &[Option<ImuUnit>],
 ) -> InputError {
-    let (mut questions, mut answers) = (Vec::new(), Vec::new());
+    let (mut questions, mut answers, mut more) = (Vec::new(), Vec::new(), String::new());
     for (&sensor_kind, _) in sensor_kinds.iter().zip(units).filter(|(_, unit)| unit.is_none()) {
         let raw = raw(sensor_kind, samples);
         questions.push(question(sensor_kind, &raw));
-        answers.push(format!(
-            "--{sensor_kind}-unit {} ({sensor_kind}_unit in [columns])",
-            ImuUnit::choices(sensor_kind)
-        ));
+        let units = ImuUnit::ALL.into_iter().filter(|unit| unit.suits(sensor_kind)).map(ImuUnit::symbol);
+        let answer = Answer::new(unit_option(sensor_kind), units);
+        answers.push(answer.and(format!(" ({sensor_kind}_unit in [columns])")));
     }
     if let Some(clock) = clock {
         questions.push(clock.message);
-        answers.extend(if clock.answers.is_empty() { vec![clock.help] } else { clock.answers });
+        if clock.answers.is_empty() {
+            more = format!("; {}", clock.help);
+        }
+        answers.extend(clock.answers);
     }
-    InputError::question(Refusal::UnitUnknown, questions.join("; "), answers)
+    let question = InputError::question(Refusal::UnitUnknown, questions.join("; "), answers);
+    InputError { help: question.help.clone() + &more, ..question }
 }
 
 /// The readings of a sensor in the unit of the file.

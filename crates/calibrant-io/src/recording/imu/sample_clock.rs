@@ -8,7 +8,7 @@ use super::options::ImuReadOptions;
 use crate::recording::clock_column::{ClockColumn, unwrap};
 use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 
 /// A stated rate and a given one may differ by this share.
@@ -38,9 +38,11 @@ pub(super) fn times(
     draft.leave_aside(ColumnMeaning::Time, "most of its values are missing");
     let Some((rate_hz, stated_by)) = rate else {
         let empty = if is_empty { "its sample times are missing" } else { "the file has no sample times" };
-        let answer = "--rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made";
+        let rate =
+            ", or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made";
+        let answer = Answer::new(TaskOption::RateHz, []).and(rate);
         let message = format!("{empty}, and nothing in it says the sample rate");
-        return Err(InputError::question(Refusal::RateUnknown, message, vec![answer.into()]).into());
+        return Err(InputError::question(Refusal::RateUnknown, message, vec![answer]).into());
     };
     let counter = has_counter
         .then(|| draft.column(ColumnMeaning::Counter).map_or_else(String::new, |column| column.name.clone()));
@@ -96,7 +98,7 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<
                 plain(stated, 6),
                 plain(given, 6)
             );
-            Err(InputError::new(Refusal::RateContradicted, message, "leave --rate-hz away").into())
+            Err(InputError::new(Refusal::RateContradicted, message, "leave option `rate_hz` away").into())
         }
         (Some(given), None) => Ok(Some((given, None))),
         (_, stated) => Ok(stated.map(|(rate, key)| (rate, Some(key)))),

@@ -130,6 +130,31 @@ fn no_crate_uses_one_above_it() {
     assert!(crates.iter().any(|one| one.name == "calibrant-cli" && one.dependencies.contains("calibrant")));
 }
 
+/// Options are data: each surface words them. The exceptions are flags of other programs, and a command.
+#[test]
+fn no_message_of_the_library_names_a_flag() {
+    const OF_OTHERS: [&str; 4] =
+        ["rosbags-convert --src", "mcap compress --", "Kalibr with --imu-models", "`calibrate --records`"];
+    let names_flag = |line: &&str| {
+        let message =
+            line.split_once('"').map_or("", |(code, message)| if code.contains("//") { "" } else { message });
+        let flag = message
+            .match_indices("--")
+            .any(|(at, _)| message[at + 2..].starts_with(|sign: char| sign.is_ascii_lowercase()));
+        flag && !OF_OTHERS.iter().any(|of_other| line.contains(of_other))
+    };
+    // tests, and diagnostics, which go through the same words from their entries on
+    let later = |file: &str| {
+        ["/tests", "/diagnostic/", "/words/", "finding_words"].iter().any(|part| file.contains(part))
+    };
+    for one in crates::all().iter().filter(|one| one.name != "calibrant-cli") {
+        for (file, text) in one.sources.iter().filter(|(file, _)| !later(file)) {
+            let lines: Vec<&str> = text.lines().filter(names_flag).collect();
+            assert!(lines.is_empty(), "{file}: name a TaskOption instead\n{}", lines.join("\n"));
+        }
+    }
+}
+
 #[test]
 fn files_hold_one_idea() {
     for one in crates::all() {

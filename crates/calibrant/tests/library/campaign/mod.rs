@@ -4,9 +4,9 @@ mod coverage;
 mod defects;
 mod good;
 
-use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
+use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, calibrate_imu,
 };

@@ -1,6 +1,8 @@
 //! Simulated and recorded IMUs that several tests share.
 
-use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, calibrate_imu};
+use calibrant::estimate::{
+    Calibration, CalibrationSettings, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, calibrate_imu,
+};
 use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{

@@ -96,7 +96,7 @@ const RECORDINGS: &[Case] = &[
     ),
     (
         b"time;x;y;z\n0;1;2;3\n",
-        "the accelerometer's columns have no unit: magnitudes around 3.74 do not tell; the time column `time` has no unit (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the accelerometer's columns have no unit: magnitudes around 3.74 do not tell; the time column `time` has no unit (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         b"t_s,ax_mps2,ax_counts,ay_mps2,az_mps2\n0,1,2,3,4\n",

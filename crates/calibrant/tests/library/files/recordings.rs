@@ -77,7 +77,7 @@ fn the_unit_comes_from_the_header_then_the_option_then_the_experiment() {
     assert_eq!(unit("ax_counts,ay_counts,az_counts", Some(Counts), MetrePerSecondSquared), Counts);
     assert_eq!(unit("ax_mps2,ay_mps2,az_mps2", None, MetrePerSecondSquared), MetrePerSecondSquared);
     let contradiction = |header, unit| read(header, Some(unit), unit).expect_err("contradiction").to_string();
-    let help = "(leave --unit away: the file decides (name the columns in [columns] to overrule it))";
+    let help = "(leave option `unit` away: the file decides (name the columns in [columns] to overrule it))";
     assert_eq!(
         contradiction("ax_counts,ay_counts,az_counts", MetrePerSecondSquared),
         format!("line 1: the accelerometer's columns are in counts, but the unit was given as m/s² {help}")

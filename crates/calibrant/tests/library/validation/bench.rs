@@ -1,8 +1,8 @@
 //! The bench of the validation tests: a simulated IMU, calibrated from one recording and validated on
 //! another.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::normal;
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, GyroscopeCalibration,
     HoldCalibration, ImuProblem, ImuSetup, Recovered, ValidatedErrors, Validation, calibrate_imu,

@@ -1,7 +1,7 @@
 //! Tests of inputs that cannot be validated.
 
-use crate::common::steady_imu;
 use crate::common::draw_imu;
+use crate::common::steady_imu;
 use crate::validation::bench::bench;
 use calibrant::estimate::{CalibrationSettings, ImuProblem, cross_validate_imu, validate_imu};
 use calibrant::sensor::ImuRecording;

@@ -1,8 +1,8 @@
 //! Tests of the level of the validation: how often a covariance passes, where it is right and where it is
 //! not.
 
-use crate::common::steady_holds;
 use crate::common::draw_imu;
+use crate::common::steady_holds;
 use crate::validation::bench::{KINDS, bench, gyroscope_mut, holds_mut, mean, share, simulate};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CovarianceVerdict, ErrorKind, HoldsSetup, Stimulus,
@@ -138,8 +138,7 @@ fn an_accelerometer_alone_is_tried_on_another_recording_and_by_folds() {
     };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let sensor = Sensor::triaxial(SensorModel::Full);
-    let holds =
-        HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81, sd_mps2: 1e-3 }, ..steady_holds() };
+    let holds = HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81, sd_mps2: 1e-3 }, ..steady_holds() };
     let stimulus = Stimulus::Holds(&holds);
     let found: Vec<(Validation, Validation)> = (0..200)
         .into_par_iter()

@@ -255,11 +255,11 @@ impl Linear<'_> {
     }
 
     fn undetermined(&self, groups: &[information::Undetermined]) -> NotIdentifiable {
-        let names = self.list.names();
+        let names = self.list.names_in_results();
         let groups = groups
             .iter()
             .map(|group| UndeterminedGroup {
-                parameters: group.parameters.iter().map(|&k| format!("accelerometer.{}", names[k])).collect(),
+                parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
                 free_combinations: group.free_combinations,
                 reason: format!("the {} directions do not span all axes, up and down", self.holds.len()),
                 remedy: "hold each axis up and down: six faces".into(),

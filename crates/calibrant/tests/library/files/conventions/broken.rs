@@ -166,7 +166,7 @@ fn imu_tk() {
     let asked = "1 0 0\n0 1 0\n0 0 1\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n1\n2\n3\n";
     let sensor_kind = Some(SensorKind::Accelerometer);
     let message = message_of(asked, &ConventionOptions { sensor_kind, ..Default::default() });
-    assert!(message.contains("a scale of 0.0024 looks like counts: --unit counts"), "{message}");
+    assert!(message.contains("a scale of 0.0024 looks like counts: option `unit` counts"), "{message}");
     let zero = asked.replace("0.0024", "0");
     let message = message_of(
         &zero,
@@ -252,7 +252,7 @@ fn what_is_no_calibration_is_not_recognised() {
     for (text, says) in [
         ("", "the file is empty"),
         ("\n\n", "the file is empty"),
-        ("hello", "this is no calibration in a format that is known (name its format with --from"),
+        ("hello", "this is no calibration in a format that is known (name its format with option `from`"),
         ("t_s,ax,ay,az\n0,0,0,1\n", "this is no calibration in a format that is known"),
         ("{}", "the field `schema` is missing"),
         ("[]", "not a calibration of calibrant"),

@@ -124,7 +124,7 @@ fn formats_without_a_place_for_it_refuse_it_and_take_one_temperature() {
     for format in [ImuFormat::Kalibr, ImuFormat::ImuTk, ImuFormat::Imucal] {
         let message = calibrated_imu_texts(&file(imu.clone()), format).expect_err("refused").to_string();
         assert!(message.contains("no place for what temperature does"), "{message}");
-        assert!(message.contains("--temperature CELSIUS"), "{message}");
+        assert!(message.contains("option `temperature` CELSIUS"), "{message}");
         let there = imu.at(48.0).expect("positive gains");
         for after in there_and_back(&file(there.clone()), format) {
             assert!(largest_difference(&there, &after.imu, &readings(&there, 100, 6)) < 1e-12);

@@ -42,7 +42,10 @@ fn every_dialect_gives_the_accelerometer_and_not_the_gyroscope() {
 fn what_the_user_says_of_the_file_counts() {
     let text = "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,5,6,7,1,0,0\n1,5,6,8,0,1,0\n2,5,6,8,0,0,1\n";
     let question = refused(text, &options(3));
-    assert!(question.contains("--accelerometer-unit") && question.contains("--rate-hz"), "{question}");
+    assert!(
+        question.contains("option `accelerometer_unit`") && question.contains("option `rate_hz`"),
+        "{question}"
+    );
     let device = ImuReadOptions {
         accelerometer_unit: Some(ImuUnit::StandardGravity),
         gyroscope_unit: Some(ImuUnit::DegreePerSecond),
@@ -61,7 +64,10 @@ fn what_the_user_says_of_the_file_counts() {
 fn columns_of_other_names_are_read_once_their_units_are_known() {
     let text = "time,x,y,z,note\n0,1,2,9,a\n10,1,2,9.1,b\n";
     let question = refused(text, &options(3));
-    assert!(question.contains("--time-unit") && question.contains("--accelerometer-unit"), "{question}");
+    assert!(
+        question.contains("option `time_unit`") && question.contains("option `accelerometer_unit`"),
+        "{question}"
+    );
     let given = ImuReadOptions {
         time_unit: Some(TimeUnit::Millisecond),
         accelerometer_unit: Some(ImuUnit::MetrePerSecondSquared),
@@ -69,7 +75,7 @@ fn columns_of_other_names_are_read_once_their_units_are_known() {
     };
     assert_eq!(recording(text, &given).times_s(), [0.0, 0.01]);
     // the unit is the experiment's only where the names are those of a plain text
-    assert!(refused(&text.replace("time", "t_s"), &options(3)).contains("--accelerometer-unit"));
+    assert!(refused(&text.replace("time", "t_s"), &options(3)).contains("option `accelerometer_unit`"));
 }
 
 #[test]

@@ -96,7 +96,7 @@ const PAIRS: &[Pair] = &[
         "0 1 2 90\n1 2 1 80\n",
         plain,
         "accelerometer: the accelerometer's columns have no unit: magnitudes around 10.1 suggest m/s²; gyroscope: the gyroscope's columns have no unit: magnitudes up to 90 suggest deg/s \
-         (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
+         (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
 ];
 
@@ -151,7 +151,7 @@ const CASES: &[Case] = &[
     (
         "0 1 2 3 4 5 6\n1 1 2 3 4 5 6\n",
         plain,
-        "line 1: 7 columns without a header: nothing says what they hold (begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps; or say what they hold in [columns] of an experiment file (of a file of its own for --columns), a line each, such as time = \"1\", time_unit = \"s\", accelerometer = [\"2\", \"3\", \"4\"], accelerometer_unit = \"m/s²\", gyroscope = [\"5\", \"6\", \"7\"], gyroscope_unit = \"rad/s\")",
+        "line 1: 7 columns without a header: nothing says what they hold (begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps; or say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as time = \"1\", time_unit = \"s\", accelerometer = [\"2\", \"3\", \"4\"], accelerometer_unit = \"m/s²\", gyroscope = [\"5\", \"6\", \"7\"], gyroscope_unit = \"rad/s\")",
     ),
     // gravity removed
     (
@@ -194,84 +194,84 @@ const CASES: &[Case] = &[
     (
         "t_s,ax,ay,az\n0,0,0.1,9.8\n1,0,9.8,0.1\n2,9.8,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,0.1,1\n1,0,1,0.1\n2,1,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,16384\n1,0,16384,1\n2,16384,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,4.2\n1,0,4.2,1\n2,4.2,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,360\n1,0,360,1.5\n2,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
+        "the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s (say option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,3\n1,0,3,1.5\n2,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
+        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns (say option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
     (
         "time,gx_radps,gy_radps,gz_radps\n0,0,1,3\n10,0,3,1.5\n20,0,0,0\n",
         plain,
-        "the time column `time` has no unit: steps of 10 suggest ms (say --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the time column `time` has no unit: steps of 10 suggest ms (say option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         "time,gx_radps,gy_radps,gz_radps\n0,0,1,3\n0.3,0,3,1.5\n0.6,0,0,0\n",
         plain,
-        "the time column `time` has no unit: steps of 0.3 suggest ms (say --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the time column `time` has no unit: steps of 0.3 suggest ms (say option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         "timestamp,gx,gy,gz\n0,0,1,3\n10000000,0,3,1.5\n20000000,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns; the time column `timestamp` has no unit: steps of 10000000 suggest ns (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns; the time column `timestamp` has no unit: steps of 10000000 suggest ns (say option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,1,2,3,0,0,9.8\n1,1,360,3,0,0,9.8\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
         plain,
-        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording, the gyroscope's with --gyroscope, and their units with --accelerometer-unit and --gyroscope-unit; or say what they hold in [columns] of an experiment file (of a file of its own for --columns), a line each, such as time = \"1\", time_unit = \"s\", accelerometer = [\"2\", \"3\", \"4\"], accelerometer_unit = \"m/s²\")",
+        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording, the gyroscope's with option `gyroscope`, and their units with option `accelerometer_unit` and option `gyroscope_unit`; or say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as time = \"1\", time_unit = \"s\", accelerometer = [\"2\", \"3\", \"4\"], accelerometer_unit = \"m/s²\")",
     ),
     (
         "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z\n1,1,1,2,3\n",
         plain,
-        "line 1: the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and nothing above the header tells which it is (say --format mt-manager or movella-dot)",
+        "line 1: the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and nothing above the header tells which it is (say option `format` mt-manager or movella-dot)",
     ),
     // a rate that the user must give
     (
         "// DeviceId: 1\nPacketCounter\tGyr_X\tGyr_Y\tGyr_Z\n1\t1\t2\t3\n2\t1\t2\t3\n",
         plain,
-        "the file has no sample times, and nothing in it says the sample rate (say --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the file has no sample times, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
     (
         "// DeviceId: 1\nPacketCounter\tSampleTimeFine\tGyr_X\tGyr_Y\tGyr_Z\n1\t\t1\t2\t3\n2\tNaN\t1\t2\t3\n",
         plain,
-        "its sample times are missing, and nothing in it says the sample rate (say --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "its sample times are missing, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
     (
         "gx_radps,gy_radps,gz_radps\n0,1,2\n1,2,3\n",
         plain,
-        "the file has no sample times, and nothing in it says the sample rate (say --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the file has no sample times, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
     // contradictions
     (
         "// Update Rate: 40.0Hz\nPacketCounter\tGyr_X\tGyr_Y\tGyr_Z\n1\t1\t2\t3\n2\t1\t2\t3\n",
         rate,
-        "the file says `Update Rate` 40 Hz, but the rate was given as 100 Hz (leave --rate-hz away)",
+        "the file says `Update Rate` 40 Hz, but the rate was given as 100 Hz (leave option `rate_hz` away)",
     ),
     (
         "gx_radps,gy_radps,gz_radps\n0,1,2\n1,2,3\n",
@@ -281,7 +281,7 @@ const CASES: &[Case] = &[
     (
         "t_s,ax_g,ay_g,az_g\n0,0,0,1\n1,0,1,0\n",
         || units(ImuUnit::MetrePerSecondSquared, ImuUnit::Counts),
-        "line 1: the accelerometer's columns are in g, but the unit was given as m/s² (leave --accelerometer-unit (or --unit) away: the file decides (name the columns in [columns] to overrule it))",
+        "line 1: the accelerometer's columns are in g, but the unit was given as m/s² (leave option `accelerometer_unit` (or option `unit`) away: the file decides (name the columns in [columns] to overrule it))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,0,1\n1,0,1,0\n",
@@ -301,17 +301,17 @@ const CASES: &[Case] = &[
     (
         "t_ms,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || ImuReadOptions { time_unit: Some(TimeUnit::Second), ..plain() },
-        "line 1: column `t_ms` is in ms, but the time's unit was given as s (leave --time-unit away)",
+        "line 1: column `t_ms` is in ms, but the time's unit was given as s (leave option `time_unit` away)",
     ),
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || format(FileFormat::Mcap),
-        "the format was given as mcap, but this is text (leave --format away: the format is recognised by the content)",
+        "the format was given as mcap, but this is text (leave option `format` away: the format is recognised by the content)",
     ),
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || format(FileFormat::ImuTk),
-        "line 1: imu_tk's files have no header, and this one has (leave --format away: the format is recognised by the content)",
+        "line 1: imu_tk's files have no header, and this one has (leave option `format` away: the format is recognised by the content)",
     ),
     (
         "0 1 2\n1 2 3\n",

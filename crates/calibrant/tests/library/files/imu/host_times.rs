@@ -1,9 +1,8 @@
 //! Samples that are even, logged with the steps of a host's clock.
 
-use crate::common::{steady_imu, unfeeling_gyroscope};
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, run_imu};
-use calibrant::estimate::{Gyroscope, };
+use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::io::{ImuFile, ImuReadOptions, SampleTimes, read_imu_recording, write_imu_recording};
 use calibrant::sensor::{ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
@@ -19,8 +18,7 @@ fn calibrated(number: u64, tick_s: f64, times: Option<SampleTimes>) -> (f64, f64
     write_imu_recording(&path, &setup.record(&imu, &mut rng)).expect("written");
     let file =
         read_imu_recording(&path, &ImuReadOptions { times, ..ImuReadOptions::default() }).expect("read");
-    let (gyroscope, setup, unit) =
-        (unfeeling_gyroscope(), steady_imu(), ReadingUnit::MetrePerSecondSquared);
+    let (gyroscope, setup, unit) = (unfeeling_gyroscope(), steady_imu(), ReadingUnit::MetrePerSecondSquared);
     let found = run_imu(&file.recording, &gyroscope, &setup, unit).expect("determined");
     let sd = found.sd();
     let of_gyroscope = |k: &usize| found.quantities[*k].sensor_kind() == SensorKind::Gyroscope;

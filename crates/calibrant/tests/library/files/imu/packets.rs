@@ -45,7 +45,9 @@ fn times_of_packets_are_asked_about_and_a_given_rate_takes_their_place() {
         assert_eq!(times.is_some(), parse_imu_recording(text.as_bytes(), &ImuReadOptions::default()).is_ok());
         let question = refused(&text, &ImuReadOptions { times, ..ImuReadOptions::default() });
         assert!(
-            question.contains(word) && question.contains("--rate-hz") && question.contains("(about 100"),
+            question.contains(word)
+                && question.contains("option `rate_hz`")
+                && question.contains("(about 100"),
             "{name}: {question}"
         );
         let read = read(&text, &ImuReadOptions { times, ..given() });

@@ -132,7 +132,7 @@ fn tables_that_cannot_be_used_say_why() {
         (
             unitless.clone(),
             "the gyroscope's columns have no unit: magnitudes up to 100 suggest deg/s; the time column `time` has no unit: steps of 10 suggest ms \
-             (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+             (say option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
         ),
         (
             simple(

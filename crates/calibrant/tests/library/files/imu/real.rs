@@ -37,7 +37,7 @@ fn the_ferraris_session_of_imucal_asks_for_units_and_rate() {
         "the accelerometer's columns have no unit: magnitudes around 10.3",
         " suggest m/s²; the gyroscope's columns have no unit: magnitudes up to ",
         " suggest deg/s; the file has no sample times, and nothing in it says the sample rate",
-        "say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); --rate-hz, or rate_hz in [columns]",
+        "say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]",
     ] {
         assert!(question.contains(word), "{word}\n{question}");
     }
@@ -78,7 +78,7 @@ fn every_sample_file_of_mt_manager_is_read_or_refused_with_the_reason() {
             read_imu_recording(&path, &ImuReadOptions::default()).expect_err("no rate").to_string();
         assert!(
             question.contains(
-                "its sample times are missing, and nothing in it says the sample rate (say --rate-hz"
+                "its sample times are missing, and nothing in it says the sample rate (say option `rate_hz`"
             ),
             "{question}"
         );

@@ -301,7 +301,7 @@ fn bags_that_cannot_be_used_say_why() {
         (
             two.clone(),
             plain.clone(),
-            "there is more than one IMU: /front/imu (3 messages), /rear/imu (2 messages) (say --topic, or topic in [columns])",
+            "there is more than one IMU: /front/imu (3 messages), /rear/imu (2 messages) (say option `topic`, or topic in [columns])",
         ),
         (
             two,
@@ -347,7 +347,7 @@ fn bags_that_cannot_be_used_say_why() {
         (
             one(),
             ImuReadOptions { format: Some(FileFormat::Csv), ..plain.clone() },
-            "the format was given as csv, but this is ROS 2 bag (MCAP) (leave --format away: the format is recognised by the content)",
+            "the format was given as csv, but this is ROS 2 bag (MCAP) (leave option `format` away: the format is recognised by the content)",
         ),
     ] {
         assert_eq!(refused(&bytes, &options), expected);

@@ -212,7 +212,7 @@ fn one_of_several_logs_has_to_be_named() {
     ]);
     assert_eq!(
         refused(&two, None),
-        "there is more than one log of a motion: /joint_states (3 messages), /pose (4 messages) (say --topic, or topic in [columns])"
+        "there is more than one log of a motion: /joint_states (3 messages), /pose (4 messages) (say option `topic`, or topic in [columns])"
     );
     assert_eq!(read(&two, Some("/pose")).log.times_s().len(), 4);
     assert_eq!(read(&two, Some("/tf:tool")).log.times_s().len(), 5);
@@ -221,7 +221,7 @@ fn one_of_several_logs_has_to_be_named() {
     let many = bag(&[("/tf", TF, "cdr", frames)]);
     assert_eq!(
         refused(&many, None),
-        "there is more than one log of a motion: /tf:tool (5 messages), /tf:upper (5 messages) (say --topic, or topic in [columns])"
+        "there is more than one log of a motion: /tf:tool (5 messages), /tf:upper (5 messages) (say option `topic`, or topic in [columns])"
     );
 }
 

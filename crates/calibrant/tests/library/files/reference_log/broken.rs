@@ -22,12 +22,12 @@ fn a_unit_that_contradicts_the_file_is_refused() {
         (
             "t_s,a_rad\n0,1\n1,2\n",
             TimeUnit::Millisecond,
-            "the times are in s, but their unit was given as ms (leave --time-unit away)",
+            "the times are in s, but their unit was given as ms (leave option `time_unit` away)",
         ),
         (
             "t,a_rad\n0,1\n1,2\n",
             TimeUnit::Sample,
-            "a log of a motion has times, not numbers of samples (leave --time-unit away)",
+            "a log of a motion has times, not numbers of samples (leave option `time_unit` away)",
         ),
     ] {
         let error = parse_reference_log(text.as_bytes(), &in_unit(unit)).expect_err("refused");
@@ -105,7 +105,7 @@ const CASES: &[(&[u8], &str)] = &[
     (b"a_rad,b_rad\n0,1\n1,2\n", "line 1: there is no column of times (name it t_s (or t_ms, t_us, t_ns))"),
     (
         b"time,a_rad\n0,1\n1,2\n",
-        "the time column `time` has no unit: steps of 1 suggest ms (say --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the time column `time` has no unit: steps of 1 suggest ms (say option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         b"t_s,t_ms,a_rad\n0,1,1\n1,2,1\n",

@@ -213,7 +213,7 @@ fn the_unit_of_the_times_can_be_given() {
     let question =
         parse_reference_log(text, &ReferenceLogOptions::default()).expect_err("no unit").to_string();
     assert!(
-        question.contains("the time column `time` has no unit") && question.contains("--time-unit"),
+        question.contains("the time column `time` has no unit") && question.contains("option `time_unit`"),
         "{question}"
     );
 }

@@ -1,0 +1,107 @@
+//! What a user may say where an error asks: an option and its values, as data. Each surface words it as its own.
+
+use std::fmt;
+
+macro_rules! options {
+    ($($option:ident $name:literal $meaning:literal;)*) => {
+        /// An option of a task, by the name that all surfaces share. In messages it is written as ``option `rate_hz` ``;
+        /// the command line words it as `--rate-hz`.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum TaskOption {
+            $(#[doc = $meaning] $option,)*
+        }
+
+        impl TaskOption {
+            /// All options that messages name.
+            pub const ALL: &'static [Self] = &[$(Self::$option,)*];
+
+            /// Its name: `rate_hz`.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$option => $name,)*
+                }
+            }
+        }
+    };
+}
+
+options! {
+    Accept "accept" "A file with the limits that a result must keep.";
+    AccelerometerUnit "accelerometer_unit" "Unit of the accelerometer's readings.";
+    Columns "columns" "A file that says what the columns of a recording hold.";
+    DropGSensitivity "drop_g_sensitivity" "Leave out the g-sensitivity on purpose.";
+    Folds "folds" "The number of parts of the recording that validate it.";
+    Force "force" "Do it in spite of its size, or replace what is there.";
+    Format "format" "The format of a recording.";
+    From "from" "An earlier calibration, or the format of a calibration.";
+    Gain "gain" "The nominal gain of the readings.";
+    Gauge "gauge" "The convention that fixes the true frame.";
+    Gyroscope "gyroscope" "The file of the gyroscope.";
+    GyroscopeUnit "gyroscope_unit" "Unit of the gyroscope's readings.";
+    Motion "motion" "The commanded motion, or the log of the machine.";
+    Noise "noise" "A file with noise densities.";
+    RateHz "rate_hz" "The sample rate in Hz.";
+    Sensor "sensor" "Which sensor a file is of.";
+    Temperature "temperature" "The temperature in °C.";
+    TimeUnit "time_unit" "Unit of the times.";
+    Topic "topic" "The topic of a bag.";
+    Unit "unit" "Unit of the readings.";
+    Validate "validate" "A second recording, which validates the result.";
+    ValidateGyroscope "validate_gyroscope" "The file of the gyroscope of the second recording.";
+    ValidateMotion "validate_motion" "The log of the machine during the second recording.";
+}
+
+impl fmt::Display for TaskOption {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "option `{}`", self.name())
+    }
+}
+
+/// An answer to the question of an error.
+///
+/// # Examples
+/// ```
+/// use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
+/// let answer = Answer::new(TaskOption::Sensor, ["accelerometer", "gyroscope"]);
+/// let question = InputError::question(Refusal::SensorUnnamed, "which sensor is this?", vec![answer]);
+/// assert_eq!(question.help, "say option `sensor` accelerometer or gyroscope");
+/// assert_eq!(question.answers[0].values.len(), 2);
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Answer {
+    /// The option that answers it.
+    pub option: TaskOption,
+    /// The values that it may have; empty where they cannot be listed.
+    pub values: Vec<String>,
+    /// What else is known, to follow the option and its values.
+    pub more: String,
+}
+
+impl Answer {
+    /// An answer with one of these values.
+    #[must_use]
+    pub fn new<'v>(option: TaskOption, values: impl IntoIterator<Item = &'v str>) -> Self {
+        let values = values.into_iter().map(str::to_owned).collect();
+        Self { option, values, more: String::new() }
+    }
+
+    /// The same answer, and what else is known.
+    #[must_use]
+    pub fn and(self, more: impl Into<String>) -> Self {
+        Self { more: more.into(), ..self }
+    }
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.option)?;
+        match self.values.split_last() {
+            None => (),
+            Some((last, [])) => write!(f, " {last}")?,
+            Some((last, others)) => write!(f, " {} or {last}", others.join(", "))?,
+        }
+        write!(f, "{}", self.more)
+    }
+}
