@@ -3,7 +3,6 @@
 mod arguments;
 mod holds;
 mod read;
-mod table;
 
 pub(crate) use arguments::Arguments;
 
@@ -101,18 +100,20 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         console::warn(&format!("no noise of the {sensor_kind}: {error}"));
     }
     noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|found| console::warn(&message(found)));
+    let about = about(arguments, &file, &inputs, examined.clone());
+    let sheet = noise_sheet(&noise, examined.as_deref(), &about);
     if arguments.json {
         console::print_always(&to_json(&result));
     } else {
-        noise.iter().for_each(|sensor| console::print(&table::noise_table(sensor, examined.as_deref())));
+        console::sheet(&sheet);
     }
     if let Some(directory) = &arguments.output {
         write_json(&directory.join("noise.json"), &result)?;
-        let html = noise_sheet(&noise, &about(arguments, &file, &inputs, examined)).html();
         let page = directory.join("report.html");
+        let html = sheet.html();
         write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
         if !arguments.json {
-            console::print(&format!("{}\n", page.display()));
+            console::print(&format!("\n{}\n", page.display()));
         }
     }
     Ok(Exit::DONE)

@@ -6,6 +6,7 @@
 
 mod batch;
 mod calibration;
+mod comparison;
 mod contents;
 mod design;
 mod evaluation;
@@ -33,7 +34,8 @@ pub use calibration::calibration_sheet;
 pub use design::design_report;
 pub use evaluation::evaluation_report;
 pub use machine::machine_sheet;
-pub use noise::{coefficient_name, noise_sheet};
+pub use comparison::comparison_sheet;
+pub use noise::noise_sheet;
 pub use poses::{design_in_words, evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
 pub use report_context::About;
 pub use sheet::{

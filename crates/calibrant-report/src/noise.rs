@@ -3,9 +3,9 @@
 use super::About;
 use super::figure::allan_figure;
 use super::number_format;
-use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
+use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
 use crate::words::{capitalised, message};
-use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
+use calibrant_core::noise::{AxisNoise, Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units, noise_line};
 
 /// Samples are disturbed if they scatter by more than this factor times white noise.
 const DISTURBED: f64 = 1.05;
@@ -13,12 +13,18 @@ const DISTURBED: f64 = 1.05;
 const FILTERED: f64 = 0.95;
 
 /// The noise of one or two sensors as a sheet: verdict, Allan deviation plots, tables in SI and in customary units.
+///
+/// `examined` names the part of the recording that was examined, where that is not nearly all of it.
 #[must_use]
-pub fn noise_sheet<'a>(noise: &'a [SensorNoise], about: &'a About) -> Sheet<'a> {
+pub fn noise_sheet<'a>(
+    noise: &'a [SensorNoise],
+    examined: Option<&str>,
+    about: &'a About,
+) -> Sheet<'a> {
     Sheet {
         title: if about.title.is_empty() { "Noise".into() } else { about.title.clone() },
         verdict: Some(verdict(noise, about)),
-        sections: noise_sections(noise),
+        sections: noise.iter().map(|sensor| with_line(noise_section(sensor, examined), sensor)).collect(),
         inputs: about.facts.clone(),
         footer: about.footer(),
     }
@@ -26,27 +32,49 @@ pub fn noise_sheet<'a>(noise: &'a [SensorNoise], about: &'a About) -> Sheet<'a> 
 
 /// A section on each sensor: its figure, coefficients, samples.
 pub(super) fn noise_sections(noise: &[SensorNoise]) -> Vec<Section<'_>> {
-    noise.iter().map(noise_section).collect()
+    noise.iter().map(|sensor| noise_section(sensor, None)).collect()
 }
 
-fn noise_section(noise: &SensorNoise) -> Section<'_> {
+fn noise_section<'a>(noise: &'a SensorNoise, examined: Option<&str>) -> Section<'a> {
     let segment = &noise.segment;
-    let mut section = Section::new(format!("Noise of the {}", noise.sensor_kind)).lead(format!(
+    let mut section = Section::new(format!("Noise of the {}", noise.sensor_kind));
+    section.paragraph(format!(
         "From {} samples, {} to {} s, at {} Hz.",
         number_format::count(segment.samples()),
         number_format::fixed(segment.start_s, 2),
         number_format::fixed(segment.end_s, 2),
         number_format::significant(segment.rate_hz(), 5)
     ));
+    examined.into_iter().for_each(|words| section.line(words));
     section.table(coefficient_table(noise));
+    section.list(reasons(noise));
     section.figure(|| Some(allan_figure(noise)));
     section.subheading("White noise of one sample");
-    sample_table(&mut section, noise);
+    section.table(sample_table(noise));
+    section
+}
+
+/// With the line of an experiment file, which stands alone to be copied; or why there is none.
+fn with_line<'a>(mut section: Section<'a>, noise: &SensorNoise) -> Section<'a> {
+    match (noise_line(noise), &noise.caveat) {
+        (_, Some(caveat)) => section.paragraph(format!("No noise for an experiment file: {caveat}.")),
+        (None, None) => section
+            .paragraph("No noise for an experiment file: white noise is not determined on all axes."),
+        (Some(found), None) => {
+            section.paragraph(format!("For an experiment file, in [{}]:", found.section));
+            section.paragraph(found.line);
+            if !noise.explains() {
+                section.paragraph(
+                    "(The model does not explain the noise: read the warnings before you use it.)",
+                );
+            }
+        }
+    }
     section
 }
 
 /// Name of a coefficient.
-pub fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str {
+fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str {
     use calibrant_core::sensor::SensorKind;
     match (process, noise.sensor_kind) {
         (PowerLaw::Quantisation, _) => "quantisation Q",
@@ -57,83 +85,104 @@ pub fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str 
     }
 }
 
+const PROCESSES: [PowerLaw; 4] =
+    [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation];
+
+/// Each coefficient in SI and in customary units, with its interval or its upper limit.
 fn coefficient_table(noise: &SensorNoise) -> Table {
-    let columns =
-        ["", "value ± sd", "95 % interval, also in customary units; or the reason why it is not determined"];
-    let mut table = Table::new(columns);
-    for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
+    let mut table = Table::new(["coefficient", "value ± sd", "unit", "95 %", "customary"]);
+    for process in PROCESSES {
         for axis in &noise.axes {
             let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
-            let (value, words) = coefficient_in_words(noise, axis, process);
-            table.explain(&name, value, &words);
+            let [value, unit, interval, customary] = coefficient(noise, axis, process);
+            table.row(vec![Cell::Name(name), value, unit, interval, customary]);
         }
     }
     table
 }
 
-/// A coefficient with its unit, and its interval or its reason.
-fn coefficient_in_words(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw) -> (String, String) {
+fn coefficient(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw) -> [Cell; 4] {
     let units = coefficient_units(noise.sensor_kind, process, noise.unit);
-    let unit = units[0].symbol;
+    let (unit, others) = (Cell::unit(units[0].symbol), &units[1..]);
     match axis.fit.model.coefficient(process) {
         Coefficient::Determined(found) => {
-            let ends = [found.low, found.high].map(|end| number_format::significant(end, 3));
-            let mut words = vec![format!("95 %: {} to {}", ends[0], ends[1])];
-            words.extend(units[1..].iter().map(|unit| {
-                let found = found.scaled(unit.factor);
-                format!("{} {}", number_format::with_sd(found.value, found.sd), unit.symbol)
-            }));
+            let [low, high] = [found.low, found.high].map(|end| number_format::significant(end, 3));
+            let mut words: Vec<String> = others
+                .iter()
+                .map(|unit| {
+                    let found = found.scaled(unit.factor);
+                    format!("{} {}", number_format::with_sd(found.value, found.sd), unit.symbol)
+                })
+                .collect();
             if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
                 words.push(format!("clearest at {} s", number_format::significant(tau, 2)));
             }
-            (format!("{} {unit}", number_format::with_sd(found.value, found.sd)), words.join("; "))
+            let interval = Cell::Number(format!("{low} to {high}"));
+            [Cell::estimate(found.value, found.sd), unit, interval, in_short(&words)]
         }
-        Coefficient::NotDetermined { limit, reason } => {
-            let limit = limit.map_or_else(String::new, |limit| {
-                let limits: Vec<String> = units
-                    .iter()
-                    .map(|unit| {
-                        format!("{} {}", number_format::significant(unit.factor * limit, 2), unit.symbol)
-                    })
-                    .collect();
-                format!("95 %: below {}. ", limits.join(" = "))
-            });
-            ("not determined".to_string(), format!("{limit}{}.", capitalised(reason)))
+        Coefficient::NotDetermined { limit, .. } => {
+            let below = |limit: f64| format!("< {}", number_format::significant(limit, 2));
+            let in_unit = |unit: &CoefficientUnit| {
+                limit.map(|limit| format!("{} {}", below(unit.factor * limit), unit.symbol))
+            };
+            let words: Vec<String> = others.iter().filter_map(in_unit).collect();
+            let limit = limit.map_or(Cell::Missing, |limit| Cell::Number(below(limit)));
+            [Cell::Number("not determined".into()), unit, limit, in_short(&words)]
         }
     }
 }
 
+fn in_short(words: &[String]) -> Cell {
+    if words.is_empty() { Cell::Missing } else { Cell::Text(words.join("; ")) }
+}
+
+/// Why coefficients are not determined, each reason once.
+fn reasons(noise: &SensorNoise) -> Vec<String> {
+    let mut reasons: Vec<(PowerLaw, &String, String)> = Vec::new();
+    for process in PROCESSES {
+        for axis in &noise.axes {
+            let Coefficient::NotDetermined { reason, .. } = axis.fit.model.coefficient(process) else {
+                continue;
+            };
+            match reasons.iter_mut().find(|(of, known, _)| *of == process && *known == reason) {
+                Some((_, _, axes)) => axes.push_str(&format!(", {}", axis.axis)),
+                None => reasons.push((process, reason, axis.axis.to_string())),
+            }
+        }
+    }
+    let in_words = |(process, reason, axes): &(PowerLaw, &String, String)| {
+        capitalised(&format!("{} {axes} not determined: {reason}.", coefficient_name(noise, *process)))
+    };
+    reasons.iter().map(in_words).collect()
+}
+
 /// The white noise of one sample beside the scatter of the samples.
-fn sample_table(section: &mut Section<'_>, noise: &SensorNoise) {
+fn sample_table(noise: &SensorNoise) -> Table {
     let unit = noise.unit.symbol();
-    let (white, sd) = (format!("N √rate ({unit})"), format!("sd of samples ({unit})"));
-    let mut table = Table::new(["axis", &white, &sd, "ratio", "samples"]);
+    let white = "the noise that a sample would have if it were independent of the others: the one that says how well a mean of many is known, and \
+                 the one to calibrate with. Samples that scatter less are correlated, as after a filter; those that scatter more are disturbed by something that averages out";
+    let mut table = Table::new([
+        Column::new("axis"),
+        Column::new("N √rate").in_unit(unit).noted(white),
+        Column::new("sd of samples").in_unit(unit),
+        Column::new("ratio"),
+        Column::new("samples"),
+    ]);
     for axis in &noise.axes {
         let sigma = axis.fit.model.white_noise_per_sample(noise.segment.rate_hz());
         let ratio = sigma.map(|sigma| axis.sample_sd / sigma);
-        let shown = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(
-                || number_format::UNKNOWN.to_string(),
-                |value| number_format::significant(value, 3),
-            ))
-        };
-        let what = match ratio {
-            None => number_format::UNKNOWN,
-            Some(ratio) if ratio > DISTURBED => "disturbed",
-            Some(ratio) if ratio < FILTERED => "correlated",
-            Some(_) => "independent",
-        };
-        table.row(vec![
-            Cell::Name(axis.axis.to_string()),
-            shown(sigma),
-            shown(Some(axis.sample_sd)),
-            shown(ratio),
-            Cell::Text(what.to_string()),
-        ]);
+        let shown = |value: Option<f64>| value.map_or(Cell::Missing, |value| Cell::significant(value, 3));
+        let what = ratio.map_or(Cell::Missing, |ratio| {
+            Cell::text(match ratio {
+                ratio if ratio > DISTURBED => "disturbed",
+                ratio if ratio < FILTERED => "correlated",
+                _ => "independent",
+            })
+        });
+        let [white, sd] = [sigma, Some(axis.sample_sd)].map(shown);
+        table.row(vec![Cell::name(axis.axis.to_string()), white, sd, shown(ratio), what]);
     }
-    section.table(table);
-    section.explanation("N √rate is the noise that a sample would have if it were independent of the others: the one that says how well a mean of many is known, and \
-                       the one to calibrate with. Samples that scatter less are correlated, as after a filter; those that scatter more are disturbed by something that averages out.");
+    table
 }
 
 fn verdict(noise: &[SensorNoise], about: &About) -> SheetVerdict {

@@ -165,6 +165,11 @@ impl Outcome {
         self
     }
 
+    /// The words of stdout, wherever lines are broken.
+    pub(crate) fn printed(&self) -> String {
+        self.stdout.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
     /// Stderr must contain this text, wherever lines are broken.
     pub(crate) fn says(&self, text: &str) {
         // long messages beside an excerpt are wrapped with a bar on the left

@@ -28,7 +28,7 @@ fn one_file_goes_through_all_formats_and_stays_the_same_imu() {
     bench.write("shimmer.json", IMUCAL);
     let done = bench.run("convert shimmer.json imu.json").done();
     assert!(
-        done.stdout.contains(
+        done.printed().contains(
             "imucal's JSON): accelerometer in counts, gyroscope in counts, g-sensitivity, no covariance"
         ),
         "{}",
@@ -66,7 +66,7 @@ fn what_a_format_cannot_carry_is_refused_or_said() {
     assert!(bench.read("imu_gyro.calib").contains("# sensor: gyroscope"));
     let done = bench.run("convert imu.calib pair.json").done();
     assert!(
-        done.stdout.contains("accelerometer in counts, gyroscope in counts, no covariance"),
+        done.printed().contains("accelerometer in counts, gyroscope in counts, no covariance"),
         "{}",
         done.stdout
     );
@@ -99,9 +99,9 @@ fn a_gauge_change_carries_the_covariance_and_compare_sees_one_sensor() {
     assert_eq!(lower["inputs"][0]["sha256"].as_str().map(str::len), Some(64));
     assert_eq!(lower["covariance"].as_array().map(Vec::len), Some(9));
     let done = bench.run("compare out/calibration.json lower.json").done();
-    assert!(done.stdout.contains("accelerometer.angle.xy"), "{}", done.stdout);
-    assert!(done.stdout.contains("their uncertainties explain the difference; χ² 0"), "{}", done.stdout);
-    assert!(done.stdout.contains("9 degrees of freedom, p-value > 0.9999"), "{}", done.stdout);
+    assert!(done.printed().contains("accelerometer.angle.xy"), "{}", done.stdout);
+    assert!(done.printed().contains("their uncertainties explain the difference; χ² 0"), "{}", done.stdout);
+    assert!(done.printed().contains("9 degrees of freedom, p-value > 0.9999"), "{}", done.stdout);
     // Kalibr's own files have no biases
     bench.run("convert out/calibration.json own.yaml --to kalibr --gauge lower").done();
     let text = bench.read("own.yaml");
@@ -109,21 +109,21 @@ fn a_gauge_change_carries_the_covariance_and_compare_sees_one_sensor() {
     bench.write("own.yaml", own.join("\n"));
     let done = bench.run("compare out/calibration.json own.yaml").done();
     assert!(done.stderr.contains("B does not say the biases of the accelerometer"), "{}", done.stderr);
-    assert!(done.stdout.contains("χ² 0") && !done.stdout.contains("bias"), "{}", done.stdout);
-    assert!(done.stdout.contains(" 6 degrees of freedom"), "{}", done.stdout);
+    assert!(done.printed().contains("χ² 0") && !done.printed().contains("bias"), "{}", done.stdout);
+    assert!(done.printed().contains(" 6 degrees of freedom"), "{}", done.stdout);
     // another bias shows
     let text = bench.read("lower.json");
     let bias = lower["accelerometer"]["bias_mps2"][0].as_f64().expect("a number");
     bench.write("moved.json", text.replace(&format!("{bias:?}"), &format!("{:?}", bias + 1.0)));
     let done = bench.run("compare lower.json moved.json").done();
-    assert!(done.stdout.contains("they differ by more than their uncertainties explain"), "{}", done.stdout);
+    assert!(done.printed().contains("they differ by more than their uncertainties explain"), "{}", done.stdout);
 }
 
 #[test]
 fn apply_writes_true_values_with_their_uncertainty() {
     let bench = calibrated();
     let done = bench.run("apply out/calibration.json sim/recording.csv -o corrected.csv").done();
-    assert!(done.stdout.contains("largest standard uncertainty of the correction"), "{}", done.stdout);
+    assert!(done.printed().contains("largest standard uncertainty of the correction"), "{}", done.stdout);
     let text = bench.read("corrected.csv");
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,ay_sd_mps2,az_sd_mps2"));
@@ -135,7 +135,7 @@ fn apply_writes_true_values_with_their_uncertainty() {
     // without a covariance there is no uncertainty, and the program says so
     bench.run("convert out/calibration.json imu.h").done();
     let done = bench.run("apply imu.h sim/recording.csv -o plain.csv").done();
-    assert!(done.stdout.contains("its uncertainty is not known"), "{}", done.stdout);
+    assert!(done.printed().contains("its uncertainty is not known"), "{}", done.stdout);
     assert!(bench.read("plain.csv").starts_with("t_s,ax_mps2,ay_mps2,az_mps2\n"));
     // counts are no m/s²
     bench.write("counts.csv", "t_s,ax_counts,ay_counts,az_counts\n0,1,2,3\n0.1,2,3,4\n");

@@ -103,7 +103,7 @@ fn how_well_the_faces_were_met_is_told() {
     bench.run("simulate tilted.toml --seed 3 -o tilted").done();
     let given = bench.run("calibrate tilted.toml tilted/recording.csv -o given").done();
     assert!(
-        given.stdout.contains("the face alignment is 0.50° about each axis, as given"),
+        given.printed().contains("face alignment is 0.50° about each axis, as given"),
         "{}",
         given.stdout
     );

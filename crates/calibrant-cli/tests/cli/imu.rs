@@ -10,7 +10,7 @@ fn a_simulated_imu_is_found_again_and_its_noise_in_a_long_hold() {
     bench.preset("imu", "imu.toml", &[(long, &format!("poses = 14\nhold_s = 25.0\nrate_hz = 50.0\n{long}"))]);
     bench.run("simulate imu.toml --seed 8 -o sim").done();
     let outcome = bench.run("calibrate imu.toml sim/recording.csv -o out").done();
-    assert!(outcome.stdout.contains("rad/s, from: Allan deviation of hold "), "{}", outcome.stdout);
+    assert!(outcome.printed().contains("rad/s, from: Allan deviation of hold "), "{}", outcome.stdout);
     let calibration = bench.json("out/calibration.json");
     assert_close_to_truth(&calibration, &bench.json("sim/truth.json"));
     let noise = calibration["still_gyroscope"]["noise_per_sample_radps"].as_array().expect("axes").clone();
@@ -21,7 +21,7 @@ fn a_simulated_imu_is_found_again_and_its_noise_in_a_long_hold() {
     bench.write("given.toml", given);
     let outcome = bench.run("calibrate given.toml sim/recording.csv -o given").done();
     assert!(
-        outcome.stdout.contains("0.00200, 0.00200, 0.00200 rad/s, from: datasheet"),
+        outcome.printed().contains("0.00200, 0.00200, 0.00200 rad/s, from: datasheet"),
         "{}",
         outcome.stdout
     );
@@ -160,10 +160,9 @@ fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
     bench.run("simulate hand.toml --seed 3 -o hand").done();
     let noise = |file: &str| {
         let outcome = bench.run(&format!("calibrate hand.toml {file} --no-report -o out")).done();
-        let message = outcome.stdout.lines().find(|line| line.contains("noise of a gyroscope sample"));
-        let message = message.unwrap_or_default().trim().to_owned();
-        let text = message.trim_start_matches("noise of a gyroscope sample ");
-        let first: f64 = text.split(',').next().and_then(|n| n.parse().ok()).unwrap_or(f64::NAN);
+        let printed = outcome.printed();
+        let message = printed.split("gyroscope's noise x, y, z ").nth(1).unwrap_or_default().to_owned();
+        let first: f64 = message.split(',').next().and_then(|n| n.parse().ok()).unwrap_or(f64::NAN);
         (first, message, outcome.stderr)
     };
     let (clean, message, _) = noise("hand/recording.csv");
@@ -429,7 +428,7 @@ fn without_a_gyroscope_the_accelerometer_is_calibrated_and_the_result_says_so() 
     for other in ["other.csv", "other/recording.csv"] {
         let outcome =
             bench.run(&format!("calibrate imu.toml alone.csv --validate {other} -o validated")).done();
-        assert!(outcome.stdout.contains("validation"), "{outcome:?}");
+        assert!(outcome.printed().contains("validation"), "{outcome:?}");
     }
     // in a batch it stands among the others
     let outcome = bench.run("calibrate imu.toml alone.csv sim/recording.csv --no-report -o batch").done();

@@ -47,7 +47,7 @@ fn small_faults_are_repaired_and_told() {
         let command = "calibrate experiment.toml faulty.csv --motion simulated/motion.csv -o result";
         let outcome = bench.run(command).done();
         outcome.says(&format!("note: faulty.csv: {note}"));
-        assert!(outcome.stdout.contains("converged"), "{what}");
+        assert!(outcome.printed().contains("converged"), "{what}");
         let report = bench.read("result/report.html");
         assert!(report.contains(note), "{what}: the report tells it too");
     }

@@ -50,7 +50,7 @@ fn the_temperature_goes_from_the_recording_to_the_corrected_readings() {
     let (bench, recording) = bench();
     let done = bench.run("calibrate imu.toml recording.csv -o out").done();
     for says in ["gyroscope.bias_per_k.x", "rad/s/K", "Biases and gains are those at T₀ = 25"] {
-        assert!(done.stdout.contains(says), "{says}: {}", done.stdout);
+        assert!(done.printed().contains(says), "{says}: {}", done.stdout);
     }
     assert!(bench.read("out/report.html").contains("bias over temperature"));
     let json = bench.json("out/calibration.json");

@@ -27,11 +27,11 @@ fn good_recordings_are_believed() {
         --validate two/recording.csv --validate-motion two/joints.csv -o out";
     let outcome = bench.run(command).done();
     for words in [
-        "Validation: 4 blocks of 5.00 s, each left out in turn",
-        "Validation: on recording.csv",
+        "4 blocks of 5.00 s, each left out in turn",
+        "On recording.csv",
         "The parameters of the accelerometer move as far as their covariance predicts.",
     ] {
-        assert!(outcome.stdout.contains(words), "{words}\n{}", outcome.stdout);
+        assert!(outcome.printed().contains(words), "{words}\n{}", outcome.stdout);
     }
     assert_eq!([verdict(&bench, "folds"), verdict(&bench, "recording")], ["believed", "believed"]);
     assert_eq!(bench.json("out/calibration.json")["validation"]["recording"]["file"], "recording.csv");
@@ -46,6 +46,6 @@ fn a_lever_arm_that_is_wrong_and_held_is_found() {
     let command = "calibrate wrong.toml one/recording.csv --motion one/joints.csv --folds 4 -o out";
     let outcome = bench.run(command).ends_with(5);
     let words = "The parameters of the accelerometer move further than predicted";
-    assert!(outcome.stdout.contains(words), "{}", outcome.stdout);
+    assert!(outcome.printed().contains(words), "{}", outcome.stdout);
     assert_eq!(verdict(&bench, "folds"), "too_small");
 }

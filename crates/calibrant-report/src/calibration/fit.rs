@@ -26,7 +26,8 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     );
     table.explain(
         "χ²",
-        number_format::significant(fit.chi2, 5),
+        number_format::significant(fit.chi2, 5)
+            + if fit.p_value.is_some() { "" } else { ", weights from the data" },
         match fit.p_value {
             Some(_) => "Sum of squared residuals over the assumed noise. Good: near the degrees of freedom.",
             None => {
@@ -90,8 +91,8 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
         let (still, symbol) = (&gyroscope.still, gyroscope.unit.symbol());
         table.explain(
             "gyroscope's noise x, y, z",
-            per_axis(&still.noise, 1.0, symbol),
-            &format!("Standard deviation of one sample, from: {}.", still.noise_source),
+            format!("{}, from: {}", per_axis(&still.noise, 1.0, symbol), still.noise_source),
+            "Standard deviation of one sample.",
         );
         table.explain_on_page(
             "between holds x, y, z",

@@ -15,12 +15,11 @@ const OUTLYING: f64 = 3.0;
 pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -> Table {
     let used = holds.used().count();
     let mut table = Table::explained();
-    let found = if holds.detected {
-        "Found in the recording as stationary intervals."
-    } else {
-        "As given by the user."
+    let (how, found) = match holds.detected {
+        true => ("detected", "Found in the recording as stationary intervals."),
+        false => ("given", "As given by the user."),
     };
-    table.explain_on_page("holds used", format!("{used} of {}", holds.holds.len()), found);
+    table.explain("holds used", format!("{used} of {}, {how}", holds.holds.len()), found);
     let gravity = number_format::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2);
     table.explain(
         "gravity g",
@@ -62,7 +61,11 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
     } else {
         table.explain(
             name,
-            format!("{} mm/s²", number_format::significant(1e3 * holds.between_holds_sd_mps2, 3)),
+            format!(
+                "{} mm/s², {}",
+                number_format::significant(1e3 * holds.between_holds_sd_mps2, 3),
+                if holds.between_holds_dominates { "decides the sd" } else { "explained by the noise" }
+            ),
             if holds.between_holds_dominates {
                 "It exceeds the noise of the samples, so it decides the standard deviations."
             } else {

@@ -197,7 +197,8 @@ fn fit_table(calibration: &MachineCalibration) -> Table {
         number_format::significant(calibration.gradient_norm, 2),
         "Length of the last step, in standard deviations of the parameters. Good: far below 1.",
     );
-    table.explain("χ²", number_format::significant(fit.chi2, 5), match fit.p_value {
+    let weights = if fit.p_value.is_some() { "" } else { ", noise from the residuals" };
+    table.explain("χ²", number_format::significant(fit.chi2, 5) + weights, match fit.p_value {
         Some(_) => "Sum of squared residuals over the given noise. Good: near the degrees of freedom.",
         None => "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.",
     });

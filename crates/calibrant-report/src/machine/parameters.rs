@@ -24,14 +24,14 @@ fn widened(factor: f64) -> Cell {
 }
 
 /// These columns, and that of [`widened`] where it says something.
-fn with_widened(columns: &[&str], calibration: &MachineCalibration) -> Table {
+fn with_widened(columns: &[Column], calibration: &MachineCalibration) -> Table {
     let further = is_widened(calibration).then(|| Column::on_page("sd widened"));
-    Table::new(columns.iter().copied().map(Column::new).chain(further))
+    Table::new(columns.iter().cloned().chain(further))
 }
 
 /// The parameters of one sensor.
 pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind) -> Table {
-    let mut table = with_widened(&["parameter", "estimate ± sd", "unit"], calibration);
+    let mut table = with_widened(&["parameter", "estimate ± sd", "unit"].map(Column::new), calibration);
     let sds = calibration.sd();
     for (k, quantity) in calibration.quantities.iter().enumerate() {
         let MachineQuantity::Imu(of) = quantity else { continue };
@@ -51,7 +51,9 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
 
 /// Lever arm, mounting, delays, clock, tilt and gravity, beside what was known of them.
 pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup) -> Table {
-    let columns = ["quantity", "estimate ± sd", "expected ± prior sd", "unit", "sd / prior sd"];
+    let [quantity, found, expected_sd, unit] =
+        ["quantity", "estimate ± sd", "expected ± prior sd", "unit"].map(Column::new);
+    let columns = [quantity, found, expected_sd, unit, Column::on_page("sd / prior sd")];
     let mut table = with_widened(&columns, calibration);
     for quantity in of_mount(calibration) {
         let (factor, unit) = machine_unit(calibration, quantity);

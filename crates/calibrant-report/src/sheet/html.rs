@@ -84,7 +84,7 @@ fn table(table: &Table) -> String {
     let columns = table.places(Shown::on_page);
     let class = |column: usize| if table.is_numeric(column) { " class=\"n\"" } else { "" };
     let heading = |&column: &usize| {
-        format!("<th scope=\"col\"{}>{}</th>", class(column), escape(&table.columns[column].heading))
+        format!("<th scope=\"col\"{}>{}</th>", class(column), escape(&table.columns[column].title()))
     };
     let head: String = columns.iter().map(heading).collect();
     let rows = || table.rows.iter().filter(|row| row.shown.on_page());

@@ -123,7 +123,7 @@ impl<'a> Section<'a> {
         };
         let mut fresh: Vec<String> = notes.into_iter().filter(is_new).collect();
         fresh.dedup();
-        if !fresh.is_empty() {
+        if shown.on_page() && !fresh.is_empty() {
             self.explanation(fresh.join(" "));
         }
     }

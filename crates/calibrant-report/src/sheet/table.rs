@@ -6,22 +6,29 @@ use super::shown::Shown;
 /// A column: its heading, what it means, and where it is shown.
 #[derive(Debug, Clone)]
 pub struct Column {
-    pub(super) heading: String,
-    pub(super) note: String,
+    heading: String,
+    /// The unit of its numbers; empty where they have none or several.
+    unit: String,
+    note: String,
     pub(super) shown: Shown,
 }
 
 impl Column {
     /// A column with this heading.
     pub fn new(heading: impl Into<String>) -> Self {
-        Self { heading: heading.into(), note: String::new(), shown: Shown::Everywhere }
+        Self { heading: heading.into(), unit: String::new(), note: String::new(), shown: Shown::Everywhere }
     }
 
-    /// Its numbers are in this unit, which the heading then has.
+    /// Its numbers are in this unit, which stands in the heading.
     #[must_use]
     pub fn in_unit(mut self, symbol: &str) -> Self {
-        self.heading = format!("{} ({symbol})", self.heading);
+        self.unit = symbol.to_owned();
         self
+    }
+
+    /// The heading with the unit.
+    pub(super) fn title(&self) -> String {
+        if self.unit.is_empty() { self.heading.clone() } else { format!("{} ({})", self.heading, self.unit) }
     }
 
     /// What the column means, for pages: a sentence without its full stop, or several.

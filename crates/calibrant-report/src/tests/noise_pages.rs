@@ -33,7 +33,7 @@ fn of_axes(sensor_kind: SensorKind, unit: ReadingUnit, axes: &[Vec<f64>; 3], dri
 fn a_page_shows_the_plot_the_coefficients_and_what_is_not_determined() {
     let accelerometer = noise(SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.0);
     let gyroscope = noise(SensorKind::Gyroscope, ReadingUnit::Counts, 0.0);
-    let html = noise_sheet(&[accelerometer, gyroscope], &about()).html();
+    let html = noise_sheet(&[accelerometer, gyroscope], None, &about()).html();
     assert_sound(&html);
     for text in [
         "Allan deviation of the accelerometer",
@@ -55,7 +55,7 @@ fn a_drift_is_told_apart() {
     // 40 standard deviations of the slope that white noise makes; a random walk as large as the recording
     // permits makes 10 of them
     let html =
-        noise_sheet(&[noise(SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], &about()).html();
+        noise_sheet(&[noise(SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], None, &about()).html();
     assert_sound(&html);
     assert!(
         html.contains("gyroscope z drifts by") && html.contains("linear drift") && html.contains("deg/√h")
@@ -79,7 +79,7 @@ fn a_filters_share_is_not_called_quantisation() {
     };
     let (sensor_kind, unit) = (SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared);
     let resonant = of_axes(sensor_kind, unit, &[axis(), axis(), axis()], 0.0);
-    let page = |noise: &SensorNoise| noise_sheet(std::slice::from_ref(noise), &about()).html();
+    let page = |noise: &SensorNoise| noise_sheet(std::slice::from_ref(noise), None, &about()).html();
     let filtered = resonant.axes.iter().filter(|axis| axis.fit.filtered).count();
     assert!(filtered > 0, "{:?}", resonant.warnings);
     let html = page(&resonant);

@@ -41,7 +41,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
         "in [sensor]: noise_mps2 = ",
         "in [gyroscope]: noise_radps = ",
     ] {
-        assert!(outcome.stdout.contains(text), "{text}\n{}", outcome.stdout);
+        assert!(outcome.printed().contains(text), "{text}\n{}", outcome.stdout);
     }
     let json = bench.json("both/noise.json");
     assert_eq!(json["schema"], 2);
@@ -92,7 +92,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
     // the accelerometer's file of imu_tk cannot carry the gyroscope's g-sensitivity
     bench.refuses("convert ferraris.json imu.calib", 2, &["g-sensitivity", "--sensor accelerometer"]);
     let outcome = bench.run("convert ferraris.json acc.calib --sensor accelerometer").done();
-    assert!(outcome.stdout.contains("acc.calib (imu_tk"), "{}", outcome.stdout);
+    assert!(outcome.printed().contains("acc.calib (imu_tk"), "{}", outcome.stdout);
     assert!(bench.read("acc.calib").contains("# sensor: accelerometer"));
     bench.refuses(
         "convert ferraris.json gyro.calib --sensor gyroscope",
@@ -123,7 +123,7 @@ fn of_a_pair_only_the_unit_of_the_sensor_that_is_asked_for_is_needed() {
     let pair = "noise acc.mat --gyroscope gyro.mat";
     bench.refuses(pair, 3, &["have no unit"]);
     let outcome = bench.run(&format!("{pair} --sensor gyroscope --gyroscope-unit rad/s -o one")).done();
-    assert!(outcome.stdout.contains("in [gyroscope]: noise_radps = "), "{}", outcome.stdout);
+    assert!(outcome.printed().contains("in [gyroscope]: noise_radps = "), "{}", outcome.stdout);
     bench.run(&format!("{pair} --sensor accelerometer --unit m/s2")).done();
     bench.refuses(
         &format!("{pair} --sensor gyroscope"),

@@ -6,8 +6,8 @@ use super::super::table::Table;
 use super::lines::{self, MARGIN};
 use std::ops::Range;
 
-/// Between two columns.
-const GAP: usize = 3;
+/// Between two columns, where there is room for that, and where there is not.
+const GAPS: [usize; 2] = [3, 2];
 /// A column is not made narrower than this.
 const NARROW: usize = 12;
 
@@ -32,15 +32,17 @@ pub(super) fn table(table: &Table, width: usize) -> Option<String> {
     let (first, others) = places.split_first()?;
     let numeric = |column: usize| !table.is_list && table.is_numeric(column);
     let room = width.saturating_sub(MARGIN.len());
-    let heading = |column: usize| table.columns[column].heading.as_str();
+    let heading = |column: usize| table.columns[column].title();
     let most = if others.is_empty() { room } else { room / 2 };
-    let mut columns = vec![printed(heading(*first), &rows, *first, most, false)];
-    let left = room.saturating_sub(columns[0].width + GAP).max(NARROW);
+    let mut columns = vec![printed(&heading(*first), &rows, *first, most, false)];
+    let left = room.saturating_sub(columns[0].width + GAPS[1]).max(NARROW);
     columns
-        .extend(others.iter().map(|&column| printed(heading(column), &rows, column, left, numeric(column))));
+        .extend(others.iter().map(|&column| printed(&heading(column), &rows, column, left, numeric(column))));
     let widths: Vec<usize> = columns.iter().map(|column| column.width).collect();
-    let part = |others: Range<usize>| part(&columns, others, rows.len(), !table.is_list);
-    Some(parts(&widths, room).into_iter().map(part).collect::<Vec<_>>().join("\n"))
+    let wide = widths.iter().sum::<usize>() + GAPS[0] * others.len();
+    let gap = if wide <= room { GAPS[0] } else { GAPS[1] };
+    let part = |others: Range<usize>| part(&columns, others, gap, rows.len(), !table.is_list);
+    Some(parts(&widths, gap, room).into_iter().map(part).collect::<Vec<_>>().join("\n"))
 }
 
 fn printed(heading: &str, rows: &[&[Cell]], column: usize, most: usize, to_the_right: bool) -> Printed {
@@ -53,12 +55,12 @@ fn printed(heading: &str, rows: &[&[Cell]], column: usize, most: usize, to_the_r
 }
 
 /// The columns of each part, as many as fit. The first column stands in every part, and is not listed.
-fn parts(widths: &[usize], room: usize) -> Vec<Range<usize>> {
+fn parts(widths: &[usize], gap: usize, room: usize) -> Vec<Range<usize>> {
     let (mut parts, mut from) = (Vec::new(), 1);
     loop {
         let mut used = widths[0];
         let fits = |column: &usize| {
-            used += GAP + widths[*column];
+            used += gap + widths[*column];
             *column == from || used <= room
         };
         let end = (from..widths.len()).take_while(fits).last().map_or(from, |last| last + 1);
@@ -71,20 +73,26 @@ fn parts(widths: &[usize], room: usize) -> Vec<Range<usize>> {
 }
 
 /// A part of the table: its first column, and these.
-fn part(columns: &[Printed], others: Range<usize>, rows: usize, with_heading: bool) -> String {
+fn part(
+    columns: &[Printed],
+    others: Range<usize>,
+    gap: usize,
+    rows: usize,
+    with_heading: bool,
+) -> String {
     let shown: Vec<&Printed> = columns[..1].iter().chain(&columns[others]).collect();
-    let rule: usize = shown.iter().map(|column| column.width).sum::<usize>() + GAP * (shown.len() - 1);
+    let rule: usize = shown.iter().map(|column| column.width).sum::<usize>() + gap * (shown.len() - 1);
     let mut text = String::new();
     if with_heading {
-        text += &row(&shown, |column| &column.heading);
+        text += &row(&shown, gap, |column| &column.heading);
         text += &format!("{MARGIN}{}\n", "─".repeat(rule));
     }
-    (0..rows).for_each(|k| text += &row(&shown, |column| &column.cells[k]));
+    (0..rows).for_each(|k| text += &row(&shown, gap, |column| &column.cells[k]));
     text
 }
 
 /// A row, with as many lines as its highest cell.
-fn row<'a>(columns: &[&'a Printed], cell: impl Fn(&'a Printed) -> &'a Vec<String>) -> String {
+fn row<'a>(columns: &[&'a Printed], gap: usize, cell: impl Fn(&'a Printed) -> &'a Vec<String>) -> String {
     let height = columns.iter().map(|column| cell(column).len()).max().unwrap_or(0);
     let line = |k: usize| {
         let padded = |column: &&'a Printed| {
@@ -93,7 +101,7 @@ fn row<'a>(columns: &[&'a Printed], cell: impl Fn(&'a Printed) -> &'a Vec<String
             if column.to_the_right { pad + text } else { text.to_owned() + &pad }
         };
         let cells: Vec<String> = columns.iter().map(padded).collect();
-        format!("{MARGIN}{}", cells.join(&" ".repeat(GAP))).trim_end().to_owned() + "\n"
+        format!("{MARGIN}{}", cells.join(&" ".repeat(gap))).trim_end().to_owned() + "\n"
     };
     (0..height).map(line).collect()
 }
@@ -112,9 +120,11 @@ mod tests {
     fn a_wide_table_continues_below_beside_its_first_column() {
         assert_eq!(biases().text(20), "  axis   bias   unit\n  ──────────────────\n  x       1.5   m/s²\n");
         assert_eq!(
-            biases().text(19),
-            "  axis   bias\n  ───────────\n  x       1.5\n\n  axis   unit\n  ───────────\n  x      m/s²\n"
+            biases().text(17),
+            "  axis  bias\n  ──────────\n  x      1.5\n\n  axis  unit\n  ──────────\n  x     m/s²\n"
         );
+        // closer together before that
+        assert_eq!(biases().text(18), "  axis  bias  unit\n  ────────────────\n  x      1.5  m/s²\n");
         // one column at least, however narrow the terminal
         assert_eq!(biases().text(1).matches("bias").count(), 1);
         let mut alone = Table::new(["alone"]);

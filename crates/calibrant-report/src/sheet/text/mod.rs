@@ -26,7 +26,8 @@ impl Sheet<'_> {
 
 /// The verdict, and the sentence on what was found.
 fn opening(verdict: &SheetVerdict, width: usize) -> Option<String> {
-    let line = verdict.line.as_ref().unwrap_or(&verdict.word);
+    let sign = |c: char| !c.is_alphanumeric();
+    let line = verdict.line.as_deref().unwrap_or_else(|| verdict.word.trim_start_matches(sign));
     if line.is_empty() {
         return None;
     }
