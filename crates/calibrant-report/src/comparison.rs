@@ -29,7 +29,10 @@ fn together(overall: &OverallDifference) -> String {
     };
     let behind = match overall.degrees_behind {
         behind if behind.is_finite() => {
-            format!("; the least known scatter has {} degrees of freedom", number_format::significant(behind, 2))
+            format!(
+                "; the least known scatter has {} degrees of freedom",
+                number_format::significant(behind, 2)
+            )
         }
         _ => String::new(),
     };

@@ -1,8 +1,7 @@
-//! Results as HTML pages for people: the figures as data, then HTML; no mathematics.
+//! Results for people: each is one [`Sheet`], which is printed as text or as an HTML page; no mathematics.
 //!
-//! Each entry point returns one self-contained HTML file. A page is a list of pieces: a verdict, tables, and
-//! figures. Cells of tables already have their digits ([`number_format`]). Figures are data (`figure`) until
-//! the page is written.
+//! A sheet is a verdict and sections of tables, sentences and figures. Cells of tables know their digits ([`number_format`]). Figures are data (`figure`),
+//! and are drawn when a page is printed.
 
 mod batch;
 mod calibration;
@@ -31,10 +30,10 @@ mod tests;
 
 pub use batch::{Batch, BatchParameter, BatchSensor, batch_report};
 pub use calibration::calibration_sheet;
+pub use comparison::comparison_sheet;
 pub use design::design_report;
 pub use evaluation::evaluation_report;
 pub use machine::machine_sheet;
-pub use comparison::comparison_sheet;
 pub use noise::noise_sheet;
 pub use poses::{design_in_words, evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
 pub use report_context::About;

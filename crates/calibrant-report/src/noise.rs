@@ -5,7 +5,9 @@ use super::figure::allan_figure;
 use super::number_format;
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
 use crate::words::{capitalised, message};
-use calibrant_core::noise::{AxisNoise, Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units, noise_line};
+use calibrant_core::noise::{
+    AxisNoise, Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units, noise_line,
+};
 
 /// Samples are disturbed if they scatter by more than this factor times white noise.
 const DISTURBED: f64 = 1.05;
@@ -16,11 +18,7 @@ const FILTERED: f64 = 0.95;
 ///
 /// `examined` names the part of the recording that was examined, where that is not nearly all of it.
 #[must_use]
-pub fn noise_sheet<'a>(
-    noise: &'a [SensorNoise],
-    examined: Option<&str>,
-    about: &'a About,
-) -> Sheet<'a> {
+pub fn noise_sheet<'a>(noise: &'a [SensorNoise], examined: Option<&str>, about: &'a About) -> Sheet<'a> {
     Sheet {
         title: if about.title.is_empty() { "Noise".into() } else { about.title.clone() },
         verdict: Some(verdict(noise, about)),
@@ -58,8 +56,9 @@ fn noise_section<'a>(noise: &'a SensorNoise, examined: Option<&str>) -> Section<
 fn with_line<'a>(mut section: Section<'a>, noise: &SensorNoise) -> Section<'a> {
     match (noise_line(noise), &noise.caveat) {
         (_, Some(caveat)) => section.paragraph(format!("No noise for an experiment file: {caveat}.")),
-        (None, None) => section
-            .paragraph("No noise for an experiment file: white noise is not determined on all axes."),
+        (None, None) => {
+            section.paragraph("No noise for an experiment file: white noise is not determined on all axes.")
+        }
         (Some(found), None) => {
             section.paragraph(format!("For an experiment file, in [{}]:", found.section));
             section.paragraph(found.line);

@@ -116,7 +116,11 @@ fn a_gauge_change_carries_the_covariance_and_compare_sees_one_sensor() {
     let bias = lower["accelerometer"]["bias_mps2"][0].as_f64().expect("a number");
     bench.write("moved.json", text.replace(&format!("{bias:?}"), &format!("{:?}", bias + 1.0)));
     let done = bench.run("compare lower.json moved.json").done();
-    assert!(done.printed().contains("they differ by more than their uncertainties explain"), "{}", done.stdout);
+    assert!(
+        done.printed().contains("they differ by more than their uncertainties explain"),
+        "{}",
+        done.stdout
+    );
 }
 
 #[test]

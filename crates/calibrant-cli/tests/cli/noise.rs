@@ -260,7 +260,11 @@ fn counts_stay_counts_without_a_gain() {
     let bench = Bench::new();
     bench.write("still.csv", recording("t_s,ax_counts,ay_counts,az_counts", 3000, 20.0));
     let outcome = bench.run("noise still.csv --unit counts").done();
-    assert!(outcome.printed().contains("counts/√Hz") && !outcome.printed().contains("µg"), "{}", outcome.stdout);
+    assert!(
+        outcome.printed().contains("counts/√Hz") && !outcome.printed().contains("µg"),
+        "{}",
+        outcome.stdout
+    );
     let outcome = bench.run("noise still.csv --sensor gyroscope --gain 4778,4758,4766").done();
     assert!(
         outcome.printed().contains("angle random walk N z") && outcome.printed().contains("deg/√h"),

@@ -16,7 +16,12 @@ fn an_accelerometer_that_changes_is_told_on_the_console_in_the_json_and_in_the_r
             "{}",
             outcome.stdout
         );
-        assert_eq!(outcome.printed().contains("is consistent with the errors"), !changes, "{}", outcome.stdout);
+        assert_eq!(
+            outcome.printed().contains("is consistent with the errors"),
+            !changes,
+            "{}",
+            outcome.stdout
+        );
         let json = bench.json("result/calibration.json");
         let warnings = json["warnings"].as_array().expect("a list").iter();
         let warned = warnings

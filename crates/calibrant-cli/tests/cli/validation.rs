@@ -23,12 +23,7 @@ fn an_accelerometer_is_validated_by_folds_and_on_another_recording() {
     bench.write("second.csv", format!("{}\n{}\n", lines[0], lines[half..].join("\n")));
     let outcome =
         bench.run("calibrate poses.toml first.csv --validate second.csv --folds 3 -o result").done();
-    for says in [
-        "Validation On second.csv",
-        "3 blocks of holds",
-        "the gravity residual is",
-        "ratio (99 %)",
-    ] {
+    for says in ["Validation On second.csv", "3 blocks of holds", "the gravity residual is", "ratio (99 %)"] {
         assert!(outcome.printed().contains(says), "{says}: {}", outcome.stdout);
     }
     let json = bench.json("result/calibration.json");

@@ -55,7 +55,8 @@ fn a_drift_is_told_apart() {
     // 40 standard deviations of the slope that white noise makes; a random walk as large as the recording
     // permits makes 10 of them
     let html =
-        noise_sheet(&[noise(SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], None, &about()).html();
+        noise_sheet(&[noise(SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], None, &about())
+            .html();
     assert_sound(&html);
     assert!(
         html.contains("gyroscope z drifts by") && html.contains("linear drift") && html.contains("deg/√h")

@@ -73,13 +73,7 @@ fn parts(widths: &[usize], gap: usize, room: usize) -> Vec<Range<usize>> {
 }
 
 /// A part of the table: its first column, and these.
-fn part(
-    columns: &[Printed],
-    others: Range<usize>,
-    gap: usize,
-    rows: usize,
-    with_heading: bool,
-) -> String {
+fn part(columns: &[Printed], others: Range<usize>, gap: usize, rows: usize, with_heading: bool) -> String {
     let shown: Vec<&Printed> = columns[..1].iter().chain(&columns[others]).collect();
     let rule: usize = shown.iter().map(|column| column.width).sum::<usize>() + gap * (shown.len() - 1);
     let mut text = String::new();
