@@ -1,6 +1,6 @@
 //! Writes reports of calibrations on machines for a reader to look at: a hand that cameras tracked (BROAD), and an arm in MuJoCo.
 //!
-//! `cargo run --example machine_pages -- DIRECTORY MUJOCO_RECORDING`, with the data in `$CALIBRANT_DATA`.
+//! `cargo run -p calibrant --features programs --example machine_pages -- DIRECTORY MUJOCO_RECORDING`, with the data in `$CALIBRANT_DATA`.
 
 use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, SensorKind, SensorModel,

@@ -1,5 +1,5 @@
 //! Writes design problems with calibrant's answers and times as JSON:
-//! `cargo run --release --example peer_design -- FILE`. Other programs solve the same problems in another
+//! `cargo run --release -p calibrant --features programs --example peer_design -- FILE`. Other programs solve the same problems in another
 //! way. `peers/casadi/design.py` is one of them; `scripts/peers` runs both. A second file gives the problems
 //! (`peers/casadi/random_designs.py` makes some), which come back with answers.
 //!

@@ -1,5 +1,5 @@
 //! Writes seeded calibration problems with calibrant's answers and times as JSON:
-//! `cargo run --release --example peer_estimate -- FILE`. Other programs solve the same problems in another
+//! `cargo run --release -p calibrant --features programs --example peer_estimate -- FILE`. Other programs solve the same problems in another
 //! way. `peers/casadi/estimate.py` is one of them; `scripts/peers` runs both.
 //!
 //! The problems have every trust and model at N = 14 intervals of 5 s, sampled at 2 Hz (M = 141). That is the

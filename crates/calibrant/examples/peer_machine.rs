@@ -1,5 +1,5 @@
 //! Calibrates recordings of an IMU on an arm that MuJoCo made, and counts how often the 95 % intervals hold the truth:
-//! `cargo run --release --example peer_machine -- FOLDER URDF [known|noisy] [modelled|exact] [NUMBER] [prior|unknown]`.
+//! `cargo run --release -p calibrant --features programs --example peer_machine -- FOLDER URDF [known|noisy] [modelled|exact] [NUMBER] [prior|unknown]`.
 //! `peers/mujoco/recordings.py` writes the folder; `scripts/peers` runs both.
 //!
 //! `exact` takes the geometry of the URDF as it is. Where the arm differs, the residuals must say so.

@@ -1,5 +1,5 @@
 //! Solves a problem of `peers/casadi/machine_estimate.py` and compares the answers: a small machine with noisy joints.
-//! `cargo run --release --example peer_machine_estimate -- PROBLEM.json RESULT.json`; `scripts/peers` runs both.
+//! `cargo run --release -p calibrant --features programs --example peer_machine_estimate -- PROBLEM.json RESULT.json`; `scripts/peers` runs both.
 //!
 //! Fails where a parameter differs by more than 1e-6 of its standard deviation, or a standard deviation by more than 1e-3 of itself.
 

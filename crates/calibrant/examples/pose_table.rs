@@ -1,5 +1,5 @@
 //! Efficiency of the best poses, of random ones and of common habits, for the note on best poses:
-//! `cargo run --release --example pose_table`.
+//! `cargo run --release -p calibrant --features programs --example pose_table`.
 
 use calibrant::design::DesignSettings;
 use calibrant::design::poses::{

@@ -1,5 +1,5 @@
 //! Measures time, iterations and memory of one calibration against the number of intervals N and samples M:
-//! `cargo run --release --example scaling`. Every size runs in a process of its own, so that its peak memory
+//! `cargo run --release -p calibrant --features programs --example scaling`. Every size runs in a process of its own, so that its peak memory
 //! is its own.
 //!
 //! The time is the median of several calibrations (the whole `calibrate()` call, one thread). Memory is the

@@ -1,5 +1,5 @@
 //! Measures the design of long motions against their number of intervals:
-//! `cargo run --release --example scaling_design [-- LARGEST [STARTS]]`.
+//! `cargo run --release -p calibrant --features programs --example scaling_design [-- LARGEST [STARTS]]`.
 //!
 //! Intervals of 0.05 s at 100 Hz within 10 m/s², 30 m/s³, 2 m/s and 0.5 m, from rest to rest. One thread;
 //! times include everything but the certificate.

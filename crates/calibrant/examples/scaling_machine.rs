@@ -1,5 +1,5 @@
 //! Measures time and memory of a calibration on a six-joint arm against the length of the recording:
-//! `cargo run --release --example scaling_machine`. Every size runs in a process of its own, so that its peak memory is its own.
+//! `cargo run --release -p calibrant --features programs --example scaling_machine`. Every size runs in a process of its own, so that its peak memory is its own.
 //!
 //! The joints are logged at 500 Hz. The time is that of the whole `calibrate_on_machine()` call, the search for the knots included, on all threads:
 //! the median of five, or of one for the long ones. Memory is the peak of the resident set (`VmHWM`, Linux) less the resident set before.

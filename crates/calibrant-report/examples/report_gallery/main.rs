@@ -1,5 +1,5 @@
 //! Writes reports of made-up results for a reader to look at:
-//! `cargo run --example report_gallery -- DIRECTORY`.
+//! `cargo run -p calibrant-report --features programs --example report_gallery -- DIRECTORY`.
 
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design as design;
