@@ -1,8 +1,12 @@
 //! `calibrant apply`: corrects a recording, and writes the standard uncertainty of the correction.
 
 use crate::calibration_file::{Content, in_words};
+use crate::diagnostics::{tell, tell_all};
 use crate::{Exit, console};
 use calibrant::Error;
+use calibrant::diagnostic::correction::{SensorAbsent, SensorUncalibrated, SpikesCorrected};
+use calibrant::diagnostic::samples::CalibrationExtrapolated;
+use calibrant::diagnostic::settings::SettingUnused;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     ColumnMeaning, ImuFile, ImuReadOptions, ResultPlaces, check_not_corrected, file_name, imu_tk_files,
@@ -70,7 +74,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
             recording.temperature_c = Some(vec![temperature_c; sensor.map_or(0, Recording::len)]);
         }
-        Some(_) => console::note("--temperature is not used: the calibration has no temperature terms"),
+        Some(_) => tell(SettingUnused::of(&["--temperature"], "the calibration has no temperature terms")),
         None => {}
     }
     let (clean, spikes) = recording.without_spikes();
@@ -79,29 +83,19 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         .map_err(|error| error.in_recording(&arguments.recording))?;
     for sensor_kind in SensorKind::ALL {
         match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
-            (Some(_), None) => console::note(&format!(
-                "the recording has no {sensor_kind}; only the other sensor is corrected"
-            )),
-            (None, Some(_)) => {
-                console::warn(&format!("the calibration has no {sensor_kind}; its readings are not written"));
-            }
+            (Some(_), None) => tell(SensorAbsent { sensor_kind }),
+            (None, Some(_)) => tell(SensorUncalibrated { sensor_kind }),
             _ => {}
         }
     }
     if let Some(range) =
         recording.temperature_c.as_deref().and_then(range).filter(|_| correction.follows_temperature())
     {
-        console::warn_beyond(&imu, range);
+        CalibrationExtrapolated::of(&imu.parameters.thermal, range).into_iter().for_each(tell);
     }
     for (sensor_kind, spikes) in spikes {
-        let what = match spikes.samples.len() + spikes.cut.len() {
-            1 => "1 sample is a spike".to_owned(),
-            count => format!("{} are spikes", number_format::counted(count, "sample")),
-        };
-        console::warn(&format!(
-            "{sensor_kind}: {what} ({} s). The correction is applied as usual, but these samples do not correct the g-sensitivity. Look for a loose contact, or for bytes lost on the way.",
-            number_format::short(spikes.time_s)
-        ));
+        let count = spikes.samples.len() + spikes.cut.len();
+        tell(SpikesCorrected { sensor_kind, spikes: count, time_s: spikes.time_s });
     }
     write_corrected_recording(&arguments.output, &corrected, &file_name(&arguments.calibration))?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
@@ -126,7 +120,8 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
     let path = &arguments.recording;
     let file = read(imu, arguments)?;
     let second = arguments.gyroscope.as_ref().map(|path| path.display().to_string());
-    console::findings(&file.findings, &path.display().to_string(), second.as_deref());
+    let found = file.findings_in(&path.display().to_string(), second.as_deref());
+    tell_all(&found);
     for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
         check_usable(&file, sensor_kind).map_err(|error| error.in_recording(path))?;
     }

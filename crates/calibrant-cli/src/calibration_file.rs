@@ -1,7 +1,9 @@
 //! The options of all commands that read a calibration, in any format.
 
-use crate::console;
+use crate::diagnostics::tell;
 use calibrant::Result;
+use calibrant::diagnostic::correction::FormatSupposed;
+use calibrant::diagnostic::{Diagnostic, Phrase};
 use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuUnit, RawUnits, read_calibrated_imu,
 };
@@ -102,7 +104,8 @@ impl Content {
         };
         let file = read_calibrated_imu(path, &options)?;
         for finding in &file.findings {
-            console::note(&format!("{}: {finding}", path.display()));
+            let found = Diagnostic::from(FormatSupposed { what: Phrase(finding.clone()) });
+            tell(found.in_file(path.display().to_string()));
         }
         Ok(file)
     }

@@ -10,10 +10,8 @@ pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
 pub(crate) use table::table;
 
 use calibrant::Error;
-use calibrant::io::Finding;
+use calibrant::diagnostic::Severity;
 use calibrant::report::{Sheet, wrapped};
-use calibrant::sensor::CalibratedImu;
-use calibrant::session::{Note, extrapolation_in_words};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
@@ -90,12 +88,12 @@ pub(crate) fn note(text: &str) {
 }
 
 /// Prints a warning to stderr.
-pub(crate) fn warn(text: &str) {
+fn warn(text: &str) {
     say(WARNING, &harmless(text));
 }
 
 /// Prints a diagnostic that forbids the use of a result to stderr.
-pub(crate) fn fault(text: &str) {
+fn fault(text: &str) {
     say(ERROR, &harmless(text));
 }
 
@@ -104,31 +102,13 @@ pub(crate) fn denied(code: &str, text: &str) {
     say(ERROR, &format!("denied: {code}: {}", harmless(text)));
 }
 
-/// Prints a finding about a recording, as a note or a warning.
-pub(crate) fn finding(file: &str, finding: &Finding) {
-    let say = if finding.is_warning() { warn } else { note };
-    say(&format!("{file}: {finding}"));
-}
-
-/// Prints the findings of a recording, each with the name of its file: that of the gyroscope, where it has
-/// one.
-pub(crate) fn findings(findings: &[Finding], file: &str, gyroscope: Option<&str>) {
-    for found in findings {
-        let name = if found.in_second_file { gyroscope.unwrap_or(file) } else { file };
-        finding(name, found);
-    }
-}
-
-/// Prints the notes of a session.
-pub(crate) fn noted(found: &Note) {
-    let say = if found.is_warning() { warn } else { note };
-    say(&found.to_string());
-}
-
-/// Warns about temperatures far beyond those of the calibration.
-pub(crate) fn warn_beyond(imu: &CalibratedImu, range_c: [f64; 2]) {
-    if let Some(words) = extrapolation_in_words(&imu.parameters.thermal, range_c) {
-        warn(&words);
+/// Prints a text of this severity to stderr.
+pub(crate) fn told(severity: Severity, text: &str) {
+    match severity {
+        Severity::Allowed => {}
+        Severity::Note => note(text),
+        Severity::Warning => warn(text),
+        Severity::Error => fault(text),
     }
 }
 

@@ -1,8 +1,13 @@
 //! `calibrant convert`: writes a calibration in another format.
 
 use crate::calibration_file::{Format, Reading, in_words};
+use crate::diagnostics::tell;
 use crate::{Exit, console};
 use calibrant::Error;
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::correction::{FormatLoses, GSensitivityOmitted, TemperatureFixed};
+use calibrant::diagnostic::samples::CalibrationExtrapolated;
+use calibrant::diagnostic::settings::SettingUnused;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     ImuFormat, ImuNoise, ResultPlaces, imu_tk_files, read_kalibr_noise, read_measured_noise,
@@ -101,10 +106,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         let largest = file.imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
         if largest > 0.0 {
             let unit = file.imu.gyroscope_unit.map_or("", |unit| unit.symbol());
-            console::warn(&format!(
-                "the g-sensitivity is omitted. Readings of the gyroscope have errors up to {:.2e} {unit} at 1 g.",
-                9.80665 * largest
-            ));
+            tell(GSensitivityOmitted { error: 9.80665 * largest, unit });
         }
         file.imu = file.imu.without_g_sensitivity();
     }
@@ -113,13 +115,12 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     if let Some(temperature_c) = arguments.temperature {
         if file.imu.follows_temperature() {
-            console::note(&format!(
-                "biases and gains are those at {temperature_c} °C. At other temperatures, the correction changes."
-            ));
-            console::warn_beyond(&file.imu, [temperature_c; 2]);
+            tell(TemperatureFixed { temperature_c });
+            let thermal = &file.imu.parameters.thermal;
+            CalibrationExtrapolated::of(thermal, [temperature_c; 2]).into_iter().for_each(tell);
             file.imu = file.imu.at(temperature_c)?;
         } else {
-            console::note("--temperature is not used: this calibration has no temperature terms");
+            tell(SettingUnused::of(&["--temperature"], "this calibration has no temperature terms"));
         }
     }
     if let Some(gauge) = arguments.gauge {
@@ -128,7 +129,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let written = write_calibrated_imu(&arguments.output, &file, format)?;
     console::print(&read);
     for warning in &written.warnings {
-        console::warn(warning);
+        tell(FormatLoses { what: Phrase(warning.clone()) });
     }
     let files: Vec<_> = written.files.iter().map(|path| path.display().to_string()).collect();
     console::print(&format!(

@@ -2,48 +2,23 @@
 
 use crate::{Exit, console};
 use calibrant::diagnostic::{Code, Diagnostic, Severity, Usability, Verdict};
-use calibrant::io::{Told, ToldKind, nearest};
-use calibrant::report::message;
-use calibrant::session::Note;
+use calibrant::io::nearest;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The diagnostics that the user denies and allows.
-#[derive(clap::Args)]
+#[derive(clap::Args, Debug, Clone, Default)]
 pub(crate) struct Rules {
     /// Exit with status 1 if this diagnostic occurs; `warnings` stands for all. `doubtful`: exit with status 5 where a result is doubtful. The results are written nevertheless. Repeatable. `calibrant explain` lists the codes.
-    #[arg(long, value_name = "CODE", value_parser = denied)]
+    #[arg(long, global = true, value_name = "CODE", value_parser = denied)]
     deny: Vec<Denied>,
     /// Do not print this diagnostic, do not deny it, and do not count it for the verdict. JSON keeps it with the severity `allowed`. Repeatable.
-    #[arg(long, value_name = "CODE", value_parser = code)]
+    #[arg(long, global = true, value_name = "CODE", value_parser = code)]
     allow: Vec<Code>,
 }
 
-/// A diagnostic in its sentence.
-pub(crate) fn told_of(diagnostic: &Diagnostic) -> Told {
-    Told {
-        kind: ToldKind::Diagnostic,
-        code: Some(diagnostic.code()),
-        file: String::new(),
-        words: message(diagnostic),
-    }
-}
-
-/// A note of the session in its sentence.
-pub(crate) fn told_of_note(note: &Note) -> Told {
-    let plain = |kind| Told { kind, code: None, file: String::new(), words: note.to_string() };
-    match note {
-        Note::Finding { file, finding } => Told {
-            kind: ToldKind::Finding,
-            code: Some(finding.code()),
-            file: file.clone(),
-            words: finding.to_string(),
-        },
-        Note::Warning(_) => plain(ToldKind::Warning),
-        Note::Remark(_) => plain(ToldKind::Remark),
-    }
-}
-
 /// A denied diagnostic, or all.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Denied {
     /// All warnings.
     Warnings,
@@ -53,36 +28,58 @@ enum Denied {
     Code(Code),
 }
 
+static RULES: OnceLock<Rules> = OnceLock::new();
+static IS_DENIED: AtomicBool = AtomicBool::new(false);
+
+/// The rules of this run.
+pub(crate) fn rules() -> &'static Rules {
+    RULES.get_or_init(Rules::default)
+}
+
+/// Prints a diagnostic, unless its code is allowed. A denied code sets the exit status of the program.
+pub(crate) fn tell(found: impl Into<Diagnostic>) {
+    let found = found.into();
+    tell_in(&found, None);
+}
+
+/// The same; a folder stands before it, in place of the name of a file.
+pub(crate) fn tell_in(found: &Diagnostic, folder: Option<&str>) {
+    let (rules, code) = (rules(), found.code());
+    if rules.allow.contains(&code) {
+        return;
+    }
+    let text = match folder {
+        Some(folder) => format!("{folder}: {}", found.without_file()),
+        None => found.to_string(),
+    };
+    if rules.denies(code) {
+        IS_DENIED.store(true, Ordering::Relaxed);
+        console::denied(code.name(), &text);
+    } else {
+        console::told(found.severity(), &format!("{text} [{code}]"));
+    }
+}
+
+/// Prints each of them.
+pub(crate) fn tell_all<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
+    found.into_iter().for_each(|found| tell_in(found, None));
+}
+
 impl Rules {
+    /// Makes these the rules of this run.
+    pub(crate) fn set(self) {
+        // they are set once
+        let _ = RULES.set(self);
+    }
+
+    /// The exit status that denied codes have set.
+    pub(crate) fn exit() -> Exit {
+        if IS_DENIED.load(Ordering::Relaxed) { Exit::DENIED } else { Exit::DONE }
+    }
+
     /// The diagnostics that are allowed.
     pub(crate) fn allowed(&self) -> &[Code] {
         &self.allow
-    }
-
-    /// Prints what is told of a recording, but for codes that are allowed. Returns the exit status that denied codes set. `folder` stands before each, in place of the name of a file.
-    pub(crate) fn show(&self, told: &[Told], folder: Option<&str>) -> Exit {
-        let mut exit = Exit::DONE;
-        for of in told.iter().filter(|of| of.code.is_none_or(|code| !self.allow.contains(&code))) {
-            let place = match of.kind {
-                ToldKind::Diagnostic | ToldKind::Finding => folder.unwrap_or(&of.file),
-                ToldKind::Warning | ToldKind::Remark => "",
-            };
-            let text = if place.is_empty() { of.words.clone() } else { format!("{place}: {}", of.words) };
-            let severity = of.code.map(Code::severity);
-            match of.code {
-                Some(code) if self.denies(code) => {
-                    exit = Exit::DENIED;
-                    console::denied(code.name(), &text);
-                }
-                _ => match of.kind {
-                    ToldKind::Diagnostic if severity == Some(Severity::Error) => console::fault(&text),
-                    ToldKind::Finding if severity < Some(Severity::Warning) => console::note(&text),
-                    ToldKind::Diagnostic | ToldKind::Finding | ToldKind::Warning => console::warn(&text),
-                    ToldKind::Remark => console::note(&text),
-                },
-            }
-        }
-        exit
     }
 
     /// The exit status that a verdict sets.
@@ -114,7 +111,7 @@ fn code(text: &str) -> Result<Code, String> {
 
 /// The diagnostic of this name. `others`: the names that are meant beside those of diagnostics.
 pub(crate) fn code_named<'n>(text: &str, others: impl Iterator<Item = &'n str>) -> Result<Code, String> {
-    let names = || Code::ALL.iter().map(|code| code.name());
+    let names = || Code::all().map(|code| code.name());
     Code::parse(text).ok_or_else(|| match nearest(text, names().chain(others)) {
         Some(name) => format!("there is no such code; did you mean `{name}`?"),
         None => "there is no such code; `calibrant explain` lists them".into(),

@@ -66,7 +66,7 @@ impl Explained {
 
 /// All codes with their meanings, the diagnostics first.
 fn list() -> String {
-    let diagnostics = Code::ALL.iter().copied().map(Explained::Diagnostic);
+    let diagnostics = Code::all().map(Explained::Diagnostic);
     let line = |code: Explained| {
         let (name, meaning) = code.head();
         console::paragraph(&format!("{name}: {meaning}"))

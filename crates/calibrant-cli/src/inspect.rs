@@ -5,15 +5,16 @@ mod machine;
 mod reference_log;
 mod sampling;
 
+use crate::diagnostics::tell_all;
 use crate::recording_options::RecordingOptions;
 use crate::{Exit, console};
+use calibrant::diagnostic::{Diagnostic, samples};
 use calibrant::io::{
     FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, file_name, inspect,
     inspection_json, read_imu_pair, read_imu_recording,
 };
 use calibrant::motion::Hold;
 use calibrant::report::number_format::{count, counted, short, significant};
-use calibrant::report::{coarse_axis, spikes_taken_out};
 use calibrant::sensor::{Axis, ReadingUnit, Saturation, SensorKind, Spikes};
 use std::path::{Path, PathBuf};
 
@@ -77,8 +78,9 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             file => file?,
         },
     };
-    let warnings: Vec<_> = file.findings.iter().filter(|finding| finding.is_warning()).cloned().collect();
-    console::findings(&warnings, &file_name(&arguments.file), arguments.second().map(file_name).as_deref());
+    let second = arguments.second().map(file_name);
+    let found = file.findings_in(&file_name(&arguments.file), second.as_deref());
+    tell_all(found.iter().filter(|found| found.is_warning()));
     let inspection = inspect(&file);
     if arguments.json {
         console::print_always(&inspection_json(&file, &inspection));
@@ -101,10 +103,10 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
     }
     let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
         let unit = file.recording.sensor(*sensor_kind)?.unit();
-        Some(spikes_taken_out(spikes, *sensor_kind, unit))
+        Some(Diagnostic::from(samples::Spikes::of(spikes, *sensor_kind, unit)).to_string())
     };
     let spikes = inspection.spikes.iter().filter_map(of_sensor);
-    let noticed: Vec<String> = file.findings.iter().map(ToString::to_string).chain(spikes).collect();
+    let noticed: Vec<String> = file.all_findings().map(ToString::to_string).chain(spikes).collect();
     if !noticed.is_empty() {
         text.push_str("\nNoticed\n");
         noticed.iter().for_each(|finding| text.push_str(&format!("  {finding}\n")));
@@ -202,7 +204,7 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
     for (sensor_kind, coarse) in &found.coarse {
         let of_kind = |sensor: &&SensorInspection| sensor.sensor_kind == *sensor_kind;
         let Some(sensor) = inspection.sensors.iter().find(of_kind) else { continue };
-        text.push_str(&format!("  {}\n", coarse_axis(*sensor_kind, sensor.unit, coarse)));
+        text.push_str(&format!("  {}\n", coarse.check(*sensor_kind, sensor.unit).finding()));
     }
     if let Some(coverage) = &found.coverage {
         let missing: Vec<String> = Axis::ALL

@@ -26,7 +26,10 @@ mod simulate;
 #[cfg(feature = "study")]
 mod study;
 
+use crate::diagnostics::{Rules, tell};
 use calibrant::budget::Budget;
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::files::ResultLeftOver;
 use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Manner;
 use exit::Exit;
@@ -54,6 +57,8 @@ struct Cli {
     /// Colours in messages. `auto`: where stderr is a terminal and NO_COLOR is not set.
     #[arg(long, global = true, value_name = "WHEN", default_value_t)]
     color: ColorChoice,
+    #[command(flatten)]
+    rules: Rules,
 }
 
 #[derive(Subcommand)]
@@ -91,6 +96,7 @@ fn main() -> ExitCode {
         Command::Man(arguments) => *arguments.program = Cli::command(),
         _ => {}
     }
+    std::mem::take(&mut cli.rules).set();
     if cli.force {
         budget::lift();
     }
@@ -118,7 +124,7 @@ fn main() -> ExitCode {
         console::error(&error);
         Exit::of(&error)
     });
-    ExitCode::from(exit.0)
+    ExitCode::from(exit.max(Rules::exit()).0)
 }
 
 /// Has the command `--json`, or a command of it?
@@ -148,7 +154,7 @@ fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
     let outcome = command.run();
     let kept = command.kept();
     for left_over in claimed.left_over().filter(|path| !kept.iter().any(|of| of == path)) {
-        console::warn(&format!("{} is that of an earlier run", left_over.display()));
+        tell(ResultLeftOver { file: Phrase(left_over.display().to_string()) });
     }
     outcome.map(|exit| if interruption::is_asked() { Exit::INTERRUPTED } else { exit })
 }

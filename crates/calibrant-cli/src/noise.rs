@@ -6,16 +6,18 @@ mod read;
 
 pub(crate) use arguments::Arguments;
 
+use crate::diagnostics::{tell, tell_all};
 use crate::{Exit, console};
 use arguments::Gains;
 use calibrant::Error;
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::noise::NoiseImpossible;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    DiagnosticWords, ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_atomically,
-    write_json,
+    ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_atomically, write_json,
 };
 use calibrant::noise::{Segment, SensorNoise};
-use calibrant::report::{About, message, noise_sheet, number_format};
+use calibrant::report::{About, noise_sheet, number_format};
 use calibrant::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -92,14 +94,15 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         None => imu.sensor(first.sensor_kind).and_then(|it| holds::examined(&holds, &first.segment, it)),
     };
     let inputs = inputs(arguments, &file, first.sensor_kind);
-    let result = NoiseFile { noise: &noise, inputs: &inputs, words: DiagnosticWords::new(&message) };
+    let result = NoiseFile { noise: &noise, inputs: &inputs };
 
     let second = arguments.gyroscope.as_deref().map(file_name);
-    console::findings(&file.findings, &file_name(&arguments.recording), second.as_deref());
+    let found = file.findings_in(&file_name(&arguments.recording), second.as_deref());
+    tell_all(&found);
     if let Some((sensor_kind, error)) = &failed {
-        console::warn(&format!("no noise of the {sensor_kind}: {error}"));
+        tell(NoiseImpossible { sensor_kind: *sensor_kind, why: Phrase(error.to_string()) });
     }
-    noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|found| console::warn(&message(found)));
+    tell_all(noise.iter().flat_map(|sensor| &sensor.warnings));
     let about = about(arguments, &file, &inputs, examined.clone());
     let sheet = noise_sheet(&noise, examined.as_deref(), &about);
     if arguments.json {
@@ -158,7 +161,7 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
             ("Samples".into(), of_inputs(&samples)),
             ("Hold".into(), hold),
         ],
-        findings: file.findings.iter().map(ToString::to_string).collect(),
+        findings: file.all_findings().map(ToString::to_string).collect(),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     }

@@ -1,15 +1,13 @@
 //! The remark on limits that count from rest, where the experiment does not say where the arm is at rest.
 
-use crate::console;
+use crate::diagnostics::tell;
+use calibrant::diagnostic::design::RestAssumed;
 use calibrant::motion::{Limits, Rest};
 
 /// Says that the motion starts at rest, where limits imply it and `rest` is not set.
 pub(crate) fn remark(limits: &Limits) {
     if let Some(limit) = counts_from_rest(limits) {
-        console::note(&format!(
-            "the limit of {limit} counts from rest at the start, so the motion starts at rest. It may end in motion: \
-             rest = \"both\" in [limits] ends it at rest, too; rest = \"start\" silences this note"
-        ));
+        tell(RestAssumed { limit });
     }
 }
 

@@ -10,9 +10,11 @@ mod random;
 
 pub(crate) use arguments::Arguments;
 
+use crate::diagnostics::tell;
 use crate::{Exit, console, rest_remark};
 use calibrant::Error;
 use calibrant::design::initial_motion;
+use calibrant::diagnostic::settings::SettingUnused;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, read_poses, write_motion,
@@ -67,7 +69,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         (Plan::Machine(plan), _) => machine::run(arguments, &experiment, plan, random)?,
         (Plan::Holds(plan), imu) => {
             if arguments.motion.is_some() {
-                console::warn("--motion is not used: a [holds] experiment has no motion");
+                tell(SettingUnused::of(&["--motion"], "a [holds] experiment has no motion"));
             }
             match imu {
                 Some(imu) => imu::run(arguments, &experiment, plan, imu, random)?,

@@ -6,6 +6,7 @@
 //! it is outside of them by the guard band. Between the two, it is too close to say: neither conformity nor nonconformity is verified.
 //! A standard deviation is decided without a guard band: it passes up to the largest that is accepted.
 
+use crate::diagnostic::acceptance::{LimitBroken, LimitNotChecked, LimitTooClose};
 use crate::diagnostic::{Diagnostic, LimitMiss};
 use crate::form::finite;
 use crate::json::if_some;
@@ -156,9 +157,11 @@ impl CheckedLimit {
     pub fn diagnostic(&self) -> Option<Diagnostic> {
         match self.decision {
             Decision::Pass => None,
-            Decision::NotChecked => Some(Diagnostic::LimitNotChecked { name: self.figure.name.clone() }),
-            Decision::TooClose => Some(Diagnostic::LimitTooClose { limit: self.miss() }),
-            Decision::Fail => Some(Diagnostic::LimitBroken { limit: self.miss() }),
+            Decision::NotChecked => {
+                Some(Diagnostic::from(LimitNotChecked { name: self.figure.name.clone() }))
+            }
+            Decision::TooClose => Some(Diagnostic::from(LimitTooClose { limit: self.miss() })),
+            Decision::Fail => Some(Diagnostic::from(LimitBroken { limit: self.miss() })),
         }
     }
 
@@ -214,7 +217,7 @@ mod tests {
         assert_eq!(one("gyroscope.scale.x", 2e-4).decision, Decision::Pass);
         let large = one("gyroscope.scale", 1e-4);
         assert_eq!(large.decision, Decision::Fail);
-        let subject = large.diagnostic().and_then(|found| found.subject());
+        let subject = large.diagnostic().and_then(|found| found.subject().map(str::to_owned));
         assert_eq!(subject.as_deref(), Some("the sd of gyroscope.scale.x"));
         assert_eq!(one("norm_rms_mps2", 1e-4).decision, Decision::NotChecked);
         assert_eq!(one("gyroscope.bias", 1e-4).decision, Decision::NotChecked);

@@ -1,8 +1,9 @@
 //! `calibration.json` of an accelerometer or of an IMU. Every reader of calibrations takes it.
 
-use super::diagnostics::{DiagnosticWords, WordedDiagnostic};
+use super::diagnostics::DiagnosticWords;
 use super::heading::Heading;
 use super::origin::Origin;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{Calibration, Validation};
 use calibrant_core::json::{flat, if_any};
 use calibrant_core::json_object;
@@ -43,8 +44,8 @@ impl<'a> CalibrationFile<'a> {
         self.validations.iter().map(|validation| (validation.source_name(), validation)).collect()
     }
 
-    fn warnings(&self) -> Vec<WordedDiagnostic<'_>> {
-        self.words.all(&self.calibration.warnings)
+    fn warnings(&self) -> Vec<Diagnostic> {
+        self.words.stated(&self.calibration.warnings)
     }
 }
 

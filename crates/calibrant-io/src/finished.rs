@@ -7,7 +7,7 @@ use super::json::write_json;
 use super::program::program;
 use super::resume_key::ResumeKey;
 use super::summary::Summary;
-use super::told::Told;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -26,7 +26,7 @@ pub struct Finished {
     /// Its cells in the table of the terminal.
     pub cells: Vec<String>,
     /// What was told of it.
-    pub told: Vec<Told>,
+    pub told: Vec<Diagnostic>,
 }
 
 /// The content of the file.

@@ -2,8 +2,10 @@
 //! as JSON.
 
 use super::json;
-use super::recording::{Finding, ImuColumn, ImuFile};
+use super::recording::{ImuColumn, ImuFile};
 use super::sampling::{Sampling, SamplingFields};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::holds::HoldsLostToFilter;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
@@ -140,7 +142,8 @@ impl HoldsInspection {
                 Ok(_) => None,
             }
             .or_else(|| {
-                holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S).map(|lost| lost.to_string())
+                holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)
+                    .map(|lost| Diagnostic::from(HoldsLostToFilter { lost }).message().to_owned())
             }),
             coarse: SensorKind::ALL
                 .into_iter()
@@ -315,7 +318,7 @@ impl<'a> InspectionFile<'a> {
                 columns: second.columns,
             }),
             columns: file.columns.iter().map(ColumnFields::of).collect(),
-            findings: file.findings.iter().map(Finding::to_string).collect(),
+            findings: file.all_findings().map(ToString::to_string).collect(),
             sensors: inspection.sensors.iter().map(SensorFields::of).collect(),
             spikes: inspection.spikes.iter().map(SpikesFields::of).collect(),
             temperature_c: file.recording.temperature_c.as_ref().map(range),

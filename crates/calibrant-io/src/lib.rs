@@ -21,7 +21,7 @@
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
 //! passes them. Every error names file, line and column and gives a remedy. A reader repairs or notices
-//! nothing silently: it returns a [`Finding`]. Every result is written beside its place and then renamed
+//! nothing silently: it returns a [`Diagnostic`](calibrant_core::diagnostic::Diagnostic). Every result is written beside its place and then renamed
 //! ([`write_atomically`]), so it is whole or absent.
 
 mod atomic_output;
@@ -74,7 +74,6 @@ mod summary;
 mod sweep;
 mod text_decoding;
 mod text_excerpt;
-mod told;
 mod truth;
 mod utc_time;
 
@@ -120,8 +119,8 @@ pub use poses::{read_poses, write_poses};
 pub use program::program;
 pub use reach::Reached;
 pub use recording::{
-    AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, imu_from_columns,
+    AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
+    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, imu_from_columns,
     imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
     write_imu_recording, write_recording,
 };
@@ -145,6 +144,5 @@ pub use summary::{
 };
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
 pub use text_decoding::{Checked, open_file, read_text};
-pub use told::{Told, ToldKind};
 pub use truth::{truth_json, write_imu_truth, write_motion_truth, write_truth};
 pub use utc_time::UtcTime;

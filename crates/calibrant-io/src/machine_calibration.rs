@@ -1,13 +1,13 @@
 //! Writes `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
-use super::diagnostics::{DiagnosticWords, WordedDiagnostic};
+use super::diagnostics::DiagnosticWords;
 use super::heading::Heading;
 use super::json;
 use super::machine_validation::{ValidationFields, validation_fields};
 use super::origin::Origin;
 use super::shared_fields::{FitFields, matrix_rows};
 use calibrant_core::acceptance::CheckedLimit;
-use calibrant_core::diagnostic::Verdict;
+use calibrant_core::diagnostic::{Diagnostic, Verdict};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuFields, ReadingUnit, SensorKind};
 use calibrant_machine::chain::KinematicChain;
@@ -118,7 +118,7 @@ struct CalibrationFile<'a> {
     validation: Option<ValidationFields>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     limits: Vec<CheckedLimit>,
-    warnings: Vec<WordedDiagnostic<'a>>,
+    warnings: Vec<Diagnostic>,
 }
 
 impl<'a> CalibrationFile<'a> {
@@ -138,7 +138,7 @@ impl<'a> CalibrationFile<'a> {
             machine: MachineFields::of(result),
             validation: validation_fields(result.validations, &calibration.joints),
             limits: words.limits.to_vec(),
-            warnings: words.all(&calibration.warnings),
+            warnings: words.stated(&calibration.warnings),
         }
     }
 }

@@ -1,6 +1,5 @@
 //! `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
 
-use super::diagnostics::{DiagnosticWords, WordedDiagnostic};
 use super::heading::Heading;
 use super::input::Input;
 use calibrant_core::json::{flat, if_some};
@@ -15,8 +14,6 @@ pub struct NoiseFile<'a> {
     pub noise: &'a [SensorNoise],
     /// The file, or those of accelerometer and gyroscope.
     pub inputs: &'a [Input],
-    /// How warnings are written.
-    pub words: DiagnosticWords<'a>,
 }
 
 json_object! {
@@ -25,28 +22,9 @@ json_object! {
         heading: flat(Heading::of("noise")),
         /// Of the intervals of coefficients.
         confidence: CONFIDENCE,
-        sensors: file.noise.iter().map(|noise| Warned { noise, words: &file.words }).collect::<Vec<_>>(),
+        sensors: file.noise,
         input: file.inputs.first(),
         /// The gyroscope's file, where it has one of its own.
         gyroscope_input: if_some(file.inputs.get(1)),
-    }
-}
-
-struct Warned<'a> {
-    noise: &'a SensorNoise,
-    words: &'a DiagnosticWords<'a>,
-}
-
-json_object! {
-    /// The noise of a sensor, and what the user should know of it.
-    Warned<'_> as sensor {
-        noise: flat(sensor.noise),
-        warnings: sensor.warnings(),
-    }
-}
-
-impl Warned<'_> {
-    fn warnings(&self) -> Vec<WordedDiagnostic<'_>> {
-        self.words.all(&self.noise.warnings)
     }
 }

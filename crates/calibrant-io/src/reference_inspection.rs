@@ -1,7 +1,6 @@
 //! Inspection of a log of a machine's motion: what was recorded of it and how well, as data and as JSON.
 
 use super::json;
-use super::recording::Finding;
 use super::reference_log::ReferenceLogFile;
 use super::sampling::{Sampling, SamplingFields};
 use calibrant_machine::log::{JointLog, PoseLog, RecoveredStream, ReferenceLog, recover_interpolated};
@@ -195,7 +194,7 @@ pub fn reference_inspection_json(file: &ReferenceLogFile, inspection: &Reference
         format: file.format.name(),
         sha256: &file.sha256,
         rows: file.rows,
-        findings: file.findings.iter().map(Finding::to_string).collect(),
+        findings: file.findings.iter().map(ToString::to_string).collect(),
         sampling: SamplingFields::of(&inspection.sampling),
         repeated_times: inspection.repeated,
         joints: inspection.joints.iter().map(JointFields::of).collect(),

@@ -21,7 +21,6 @@ mod sheet;
 mod study;
 mod sweep;
 mod validation;
-mod words;
 
 pub use calibrant_core::number_format;
 
@@ -44,4 +43,3 @@ pub use sheet::{
 pub use study::study_report;
 pub use sweep::sweep_report;
 pub use validation::validation_sentences;
-pub use words::{coarse_axis, message, spikes_taken_out};

@@ -3,8 +3,8 @@
 use super::About;
 use super::figure::allan_figure;
 use super::number_format;
+use crate::number_format::capitalised;
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
-use crate::words::{capitalised, message};
 use calibrant_core::noise::{
     AxisNoise, Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units, noise_line,
 };
@@ -218,7 +218,11 @@ fn verdict(noise: &[SensorNoise], about: &About) -> SheetVerdict {
         Some(format!("{}: {}", sensor_kind.sensor_kind, sensor_kind.caveat.as_ref()?))
     });
     let warnings = caveats
-        .chain(noise.iter().flat_map(|sensor_kind| sensor_kind.warnings.iter().map(message)))
+        .chain(
+            noise
+                .iter()
+                .flat_map(|sensor_kind| sensor_kind.warnings.iter().map(|found| found.message().to_owned())),
+        )
         .collect();
     SheetVerdict::new(grade, word, sentence)
         .with("Warnings", warnings)

@@ -2,6 +2,7 @@
 
 use super::{About, Batch, BatchParameter, BatchSensor, calibration_sheet};
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::datasheet::WeakerThanDatasheet;
 use calibrant_core::estimate::{Calibration, Recovered};
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design as design;
@@ -129,7 +130,8 @@ fn text_of_the_user_is_escaped() {
     let case = fakes::motion_case(1, 3, 2.0, 1);
     let hostile = "a<b>&\"c\".csv";
     let mut calibration = case.calibration;
-    calibration.warnings = vec![Diagnostic::WeakerThanDatasheet { parameters: vec![hostile.to_string()] }];
+    calibration.warnings =
+        vec![Diagnostic::from(WeakerThanDatasheet { parameters: vec![hostile.to_string()] })];
     let about = About {
         title: hostile.to_string(),
         facts: vec![(hostile.to_string(), hostile.to_string())],

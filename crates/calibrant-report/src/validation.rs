@@ -3,7 +3,6 @@
 use super::figure::validation_errors;
 use super::number_format;
 use crate::sheet::{Cell, Section, Table};
-use crate::words::headline;
 use calibrant_core::estimate::{
     BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     UnusedError, ValidatedErrors, Validation, ValidationSource,
@@ -244,7 +243,7 @@ fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
     };
     match caveat {
         Caveat::Change(change) => {
-            format!("{}, and the prediction includes the scatter of this change", headline(change))
+            format!("{}, and the prediction includes the scatter of this change", change.headline())
         }
         Caveat::Clocks(ClockRate { faster, sd }) => format!(
             "the clocks of the sensors run at different rates, by {:.4} ± {:.4} %. The gains are wrong by this percentage in all rotations alike",

@@ -1,7 +1,6 @@
 //! The arguments of `calibrant calibrate`.
 
 use super::naming::Naming;
-use crate::diagnostics::Rules;
 use crate::recording_options::RecordingOptions;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -55,8 +54,6 @@ pub(crate) struct Arguments {
     /// Add each result to these records, an SQLite database that is made where there is none (see `calibrant records`). A recording that they have of another sensor is refused.
     #[arg(long, value_name = "FILE")]
     pub(super) records: Option<PathBuf>,
-    #[command(flatten)]
-    pub(super) rules: Rules,
     /// Write no report.html. This saves time with many sensors.
     #[arg(long)]
     pub(super) no_report: bool,

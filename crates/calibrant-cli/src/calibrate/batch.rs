@@ -8,6 +8,7 @@ use super::quality;
 use super::recorded::Recorded;
 use super::sources::hashed_readings;
 use super::worst_first::{Row, table_of};
+use crate::diagnostics::{rules, tell_in};
 use crate::{Exit, console};
 use calibrant::io::{SummaryRow, calibrations_json, write_atomically, write_summary};
 use calibrant::report::{About, batch_report};
@@ -85,11 +86,11 @@ fn show(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) -> Exit {
     let (arguments, columns) = (job.arguments, quality::columns(job.experiment));
     let (mut exit, mut rows) = (Exit::DONE, Vec::new());
     for ((path, folder), recorded) in arguments.recordings.iter().zip(folders).zip(recorded) {
-        exit = exit.max(arguments.rules.show(recorded.told(), Some(folder)));
+        recorded.told().iter().for_each(|found| tell_in(found, Some(folder)));
         match &recorded.outcome {
             Ok(result) => {
                 let verdict = result.finished.summary.verdict();
-                exit = exit.max(arguments.rules.exit_of(verdict));
+                exit = exit.max(rules().exit_of(verdict));
                 rows.push(Row::of_result(folder, verdict, result.finished.cells.clone()));
             }
             Err(error) => {

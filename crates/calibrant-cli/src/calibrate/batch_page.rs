@@ -3,8 +3,9 @@
 use super::job::Job;
 use super::recorded::Recorded;
 use crate::console;
+use crate::diagnostics::rules;
 use calibrant::acceptance::AcceptanceLimit;
-use calibrant::diagnostic::{Code, Severity};
+use calibrant::diagnostic::{Code, Diagnostic, Severity};
 use calibrant::io::SummaryParameter;
 use calibrant::report::{Batch, BatchParameter, BatchSensor};
 use calibrant::sensor::{Parameter, ParameterList, Sensor};
@@ -42,9 +43,9 @@ fn parameter(of: &SummaryParameter, datasheet: &[Parameter], limits: &[Acceptanc
 }
 
 fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryParameter]) -> BatchSensor {
-    let allowed = job.arguments.rules.allowed();
+    let allowed = rules().allowed();
     let mut codes: Vec<Code> = Vec::new();
-    for code in recorded.told().iter().filter_map(|told| told.code) {
+    for code in recorded.told().iter().map(Diagnostic::code) {
         if code.severity() >= Severity::Warning && !allowed.contains(&code) && !codes.contains(&code) {
             codes.push(code);
         }
@@ -57,17 +58,15 @@ fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryPara
                 let found = summary.parameters().iter().find(|of| of.name == column.name);
                 found.map_or((f64::NAN, f64::NAN), |of| (of.value, of.sd))
             };
-            let deciding = recorded
-                .told()
-                .iter()
-                .filter(|told| told.code.is_some_and(|code| summary.verdict().codes.contains(&code)));
+            let decides = |found: &&Diagnostic| summary.verdict().codes.contains(&found.code());
+            let deciding = recorded.told().iter().filter(decides);
             BatchSensor {
                 name,
                 link: Some(format!("{folder}/{file}")),
                 verdict: Ok(summary.verdict().clone()),
                 codes,
                 limits_failed: summary.limits_failed().to_vec(),
-                reasons: deciding.map(|told| told.words.clone()).collect(),
+                reasons: deciding.map(Diagnostic::without_file).collect(),
                 estimates: named.iter().map(estimate).collect(),
             }
         }

@@ -3,10 +3,11 @@
 use super::arguments::Arguments;
 use super::record_keeper::RecordKeeper;
 use super::sources::{check_motion, sources};
-use crate::console;
+use crate::diagnostics::{rules, tell_all};
 use calibrant::acceptance::AcceptanceLimit;
+use calibrant::diagnostic::Diagnostic;
 use calibrant::io::{Experiment, HashedFile, Plan, ResumeKey, SensorNaming, UrdfSource, read_acceptance};
-use calibrant::session::{MotionSource, Note, Outcome, Readings, Session, SessionOptions, Source};
+use calibrant::session::{MotionSource, Outcome, Readings, Session, SessionOptions, Source};
 use std::path::{Path, PathBuf};
 
 /// The session and its recordings.
@@ -33,7 +34,7 @@ impl<'a> Job<'a> {
         let shared: Option<Vec<_>> = shared_files(arguments, experiment).map(HashedFile::of).collect();
         let key = shared.map(|shared| ResumeKey::of(&format!("{options:?}"), &shared));
         let session = Session::with(experiment.clone(), options)?;
-        session.notes().iter().for_each(console::noted);
+        tell_all(session.notes());
         let sources = sources(arguments, experiment)?;
         let records = RecordKeeper::open(arguments.records.as_deref())?;
         Ok(Self { arguments, sources, experiment, limits, records, naming, session, key })
@@ -60,7 +61,7 @@ impl<'a> Job<'a> {
         &self,
         source: &Source,
         directory: &Path,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> calibrant::Result<Outcome> {
         let outcome = self.session.calibrate_noting(source, notes)?;
         outcome.write(directory)?;
@@ -96,7 +97,7 @@ fn options(arguments: &Arguments) -> calibrant::Result<SessionOptions> {
         validate_motion: arguments.validate_motion.clone().map(MotionSource::File),
         folds: arguments.folds,
         accept: arguments.accept.as_deref().map(read_acceptance).transpose()?,
-        allowed: arguments.rules.allowed().to_vec(),
+        allowed: rules().allowed().to_vec(),
         naming: arguments.naming.options()?,
         report: !arguments.no_report,
         ..SessionOptions::default()

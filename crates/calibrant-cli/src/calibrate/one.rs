@@ -2,7 +2,7 @@
 
 use super::job::Job;
 use super::sources::hashed_readings;
-use crate::diagnostics::{told_of, told_of_note};
+use crate::diagnostics::{rules, tell_all};
 use crate::{Exit, console};
 use calibrant::session::{Outcome, Source};
 
@@ -13,9 +13,12 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let outcome = job
         .check_records(source, || hashed_readings(source))
         .and_then(|()| job.run(source, directory, &mut notes));
-    let denied = job.arguments.rules.show(&notes.iter().map(told_of_note).collect::<Vec<_>>(), None);
+    tell_all(&notes);
     match outcome {
-        Ok(outcome) => show(job, &outcome).max(denied).max(job.arguments.rules.exit_of(&outcome.verdict())),
+        Ok(outcome) => {
+            show(job, &outcome);
+            rules().exit_of(&outcome.verdict())
+        }
         Err(error) => {
             match job.experiment.imu {
                 Some(_) => console::error(&error),
@@ -26,15 +29,13 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     }
 }
 
-/// Prints the diagnostics, then the tables or calibration.json. Gives the exit status that denied diagnostics set.
-fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
-    let told: Vec<_> = outcome.warnings().iter().map(told_of).collect();
-    let exit = job.arguments.rules.show(&told, None);
+/// Prints the diagnostics, then the tables or calibration.json.
+fn show(job: &Job<'_>, outcome: &Outcome) {
+    tell_all(outcome.warnings());
     if job.arguments.json {
         console::print_always(&outcome.json());
-        return exit;
+        return;
     }
     console::sheet(&outcome.sheet());
     console::print(&format!("\n{}\n", job.arguments.main_result().display()));
-    exit
 }

@@ -2,16 +2,16 @@
 
 use super::job::Job;
 use super::quality;
-use crate::diagnostics::{told_of, told_of_note};
 use calibrant::Error;
-use calibrant::io::{Finished, HashedFile, Told};
+use calibrant::diagnostic::Diagnostic;
+use calibrant::io::{Finished, HashedFile};
 use calibrant::session::Source;
 use std::path::Path;
 
 /// A recording and what came of it.
 pub(super) struct Recorded {
     /// What was told before an error ended the work. With a result, it is there.
-    told: Vec<Told>,
+    told: Vec<Diagnostic>,
     pub(super) outcome: calibrant::Result<Kept>,
 }
 
@@ -40,11 +40,10 @@ impl Recorded {
                 outcome: recorded.map(|()| Kept { finished, json: kept_text(text), earlier: true }),
             };
         }
-        let mut notes = Vec::new();
-        let outcome = job.run(source, directory, &mut notes);
-        let mut told: Vec<Told> = notes.iter().map(told_of_note).collect();
+        let mut told = Vec::new();
+        let outcome = job.run(source, directory, &mut told);
         let outcome = outcome.and_then(|outcome| {
-            told.extend(outcome.warnings().iter().map(told_of));
+            told.extend(outcome.warnings().iter().cloned());
             let finished = Finished {
                 summary: outcome.summary(),
                 cells: quality::cells(job.experiment, &outcome.calibrated),
@@ -65,7 +64,7 @@ impl Recorded {
     }
 
     /// What is told of it.
-    pub(super) fn told(&self) -> &[Told] {
+    pub(super) fn told(&self) -> &[Diagnostic] {
         self.outcome.as_ref().map_or(&self.told, |kept| &kept.finished.told)
     }
 }

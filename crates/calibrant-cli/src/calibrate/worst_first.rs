@@ -66,14 +66,16 @@ pub(super) fn table_of(mut rows: Vec<Row>, columns: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use calibrant::diagnostic::Code;
+    use calibrant::diagnostic::datasheet::{GainImplausible, ScaleNegative};
+    use calibrant::diagnostic::samples::CoarseSteps;
+    use calibrant::diagnostic::{Check, Code};
 
     #[test]
     fn failures_stand_first_and_twenty_rows_are_shown() {
         let row = |k: usize| {
             let codes: &[Code] = match k {
-                3 => &[Code::ScaleNegative, Code::GainImplausible],
-                5 => &[Code::CoarseSteps],
+                3 => &[ScaleNegative::CODE, GainImplausible::CODE],
+                5 => &[CoarseSteps::CODE],
                 _ => &[],
             };
             Row::of_result(&format!("s{k}"), &Verdict::on(codes.iter().copied(), &[]), vec!["0.5".into()])

@@ -2,9 +2,13 @@
 
 use super::Arguments;
 use super::job::{Job, in_file};
+use super::output::undetermined;
 use super::output::{exit_of, write};
+use crate::diagnostics::tell;
 use crate::{Exit, console};
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::MotionNotCompared;
 use calibrant::io::{evaluation_json, read_motion, write_atomically, write_evaluation};
 use calibrant::report::evaluation_report;
 use calibrant::report::number_format::{counted, short, significant};
@@ -41,19 +45,13 @@ pub(super) fn run(
         console::print(&format!("\n{}\n", page.display()));
     }
     for group in &assessment.evaluation.undetermined {
-        console::warn(&format!(
-            "{} leaves {} undetermined: {} ({})",
-            path.display(),
-            group.parameters.join(", "),
-            group.reason,
-            group.remedy
-        ));
+        tell(undetermined(path.display().to_string(), group));
     }
     let determined = assessment.evaluation.covariance.is_some();
     let optimum = match &assessment.optimum {
         Ok(design) => exit_of(design),
         Err(why) => {
-            console::warn(&format!("the motion is not compared with the best one: {why}"));
+            tell(MotionNotCompared { why: Phrase(why.to_string()) });
             Exit::NOT_IDENTIFIABLE
         }
     };

@@ -1,9 +1,12 @@
 //! The design problem that the experiment file and the options describe.
 
 use super::arguments::Arguments;
+use crate::diagnostics::tell;
 use crate::{budget, console, interruption};
 use calibrant::Error;
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::{CalibrationsApart, CalibrationsEqual};
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{EarlierCalibration, Experiment, Prior, read_calibration};
 use calibrant::report::{About, number_format};
@@ -122,18 +125,14 @@ impl Job {
 /// Warns about earlier calibrations of different sensors, or the same calibration twice. Their information adds up.
 fn warn_of_strangers(earlier: &[EarlierCalibration]) {
     let name = |calibration: &EarlierCalibration| {
-        calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())
+        Phrase(calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string()))
     };
     for (number, calibration) in earlier.iter().enumerate() {
         let same = |other: &&EarlierCalibration| {
             other.values == calibration.values && other.covariance == calibration.covariance
         };
         if let Some(other) = earlier[..number].iter().find(same) {
-            console::warn(&format!(
-                "{} and {} are equal to the last digit. If they are of one recording, its information counts twice. Name it once.",
-                name(other),
-                name(calibration)
-            ));
+            tell(CalibrationsEqual { one: name(other), other: name(calibration) });
         }
     }
     let Some((last, others)) = earlier.split_last() else { return };
@@ -142,12 +141,8 @@ fn warn_of_strangers(earlier: &[EarlierCalibration]) {
         // significant: mean and variance of χ² are k and 2k
         let most = degrees_of_freedom + 6.0 * (2.0 * degrees_of_freedom).sqrt();
         if let Some(chi2) = last.chi2_against(other).filter(|chi2| *chi2 > most) {
-            console::warn(&format!(
-                "{} and {} differ by more than their uncertainty (χ² {} for {degrees_of_freedom} parameters). Are they of the same sensor?",
-                name(other),
-                name(last),
-                number_format::significant(chi2, 3)
-            ));
+            let parameters = last.values.len();
+            tell(CalibrationsApart { one: name(other), other: name(last), chi2, parameters });
         }
     }
 }

@@ -3,9 +3,15 @@
 use super::arguments::Arguments;
 use super::job::Job;
 use super::table;
+use crate::diagnostics::tell;
 use crate::{Exit, budget, console, interruption};
 use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::{
+    MotionUndetermined, SearchInterrupted, SearchNotConverged, SearchOutOfTime,
+};
+use calibrant::error::UndeterminedGroup;
 use calibrant::io::{Reached, design_json, write_atomically, write_dense_motion, write_design, write_motion};
 use calibrant::report::design_report;
 
@@ -67,30 +73,28 @@ pub(super) fn write(
     write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
 }
 
+/// A motion that leaves parameters undetermined.
+pub(super) fn undetermined(motion: impl Into<String>, group: &UndeterminedGroup) -> MotionUndetermined {
+    MotionUndetermined {
+        motion: Phrase(motion.into()),
+        parameters: group.parameters.clone(),
+        reason: Phrase(group.reason.clone()),
+        remedy: Phrase(group.remedy.clone()),
+    }
+}
+
 /// The exit status of a design, with its warnings.
 pub(super) fn exit_of(design: &Design) -> Exit {
     let out_of_time = design.status == DesignStatus::Interrupted && !interruption::is_asked();
     if out_of_time {
-        console::warn(
-            "the time was over before the best start converged. The motion is the best so far, and a better one may be near (give it more --seconds)",
-        );
+        tell(SearchOutOfTime {});
     } else if design.status == DesignStatus::Interrupted {
-        console::warn(
-            "the search was interrupted. The motion is the best so far, and a better one may be near",
-        );
+        tell(SearchInterrupted { are_poses: false });
     } else if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
-        console::warn(&format!(
-            "the search ended with the status \"{}\". The motion is admissible, but a better one may be near (increase --starts, or loosen very tight limits)",
-            design.status.name()
-        ));
+        tell(SearchNotConverged { at: None, status: design.status.name() });
     }
     for group in &design.optimal.undetermined {
-        console::warn(&format!(
-            "the motion leaves {} undetermined: {} ({})",
-            group.parameters.join(", "),
-            group.reason,
-            group.remedy
-        ));
+        tell(undetermined("the motion", group));
     }
     let ended = design.status == DesignStatus::Converged || out_of_time;
     if ended && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }

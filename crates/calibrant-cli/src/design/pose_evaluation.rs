@@ -3,6 +3,7 @@
 use super::job::{Job, in_file};
 use super::pose_output::{about, write_page};
 use super::{Arguments, pose_table};
+use crate::diagnostics::tell_all;
 use crate::{Exit, console};
 use calibrant::design::poses::evaluate_poses;
 use calibrant::error::{Error, InputError, Refusal};
@@ -26,7 +27,7 @@ pub(super) fn run(arguments: &Arguments, job: &Job, recording: &Path) -> calibra
         ..SessionOptions::default()
     };
     let outcome = Session::with(job.experiment.clone(), options)?.calibrate(&Source::from_file(recording))?;
-    outcome.notes.iter().for_each(console::noted);
+    tell_all(&outcome.notes);
     let Some(calibration) = outcome.calibration() else {
         let message = "the holds of a machine are not compared with the best";
         let help = "see `calibrant init static-poses`";

@@ -4,8 +4,10 @@ use super::job::{Job, in_file};
 use super::pose_output::{about, write_page};
 use super::reach_request::{asked, goals};
 use super::{Arguments, pose_evaluation, pose_table};
+use crate::diagnostics::tell;
 use crate::{Exit, console};
 use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, design_poses, fewest_poses};
+use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{Reached, pose_design_json, write_pose_design, write_poses};
 use calibrant::report::{pose_in_words, pose_report};
@@ -64,9 +66,7 @@ fn design(arguments: &Arguments, job: &Job, problem: &PoseProblem) -> calibrant:
         console::print(&format!("\n{}\n{}\n", poses.display(), report.display()));
     }
     if design.interrupted {
-        console::warn(
-            "the search was interrupted. The poses are the best so far, and better ones may be near",
-        );
+        tell(SearchInterrupted { are_poses: true });
         return Ok(Exit::NOT_IDENTIFIABLE);
     }
     Ok(Exit::DONE)

@@ -3,8 +3,13 @@
 use super::Arguments;
 use super::job::{Job, in_file};
 use super::sweep_request::Request;
+use crate::diagnostics::tell;
 use crate::{Exit, budget, console, interruption};
 use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep, sweep_work};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::{
+    SearchNotConverged, SweepInterrupted, SweepValueFailed, SweepValueRounded,
+};
 use calibrant::io::{sweep_json, write_atomically, write_sweep, write_sweep_csv};
 use calibrant::report::number_format::{counted, short, significant};
 use calibrant::report::sweep_report;
@@ -27,7 +32,7 @@ pub(super) fn run(
     let swept = outcome.map_err(|error| in_file(error, &arguments.experiment))?;
     if interruption::is_asked() {
         let (finished, all) = (swept.points.len(), request.values.len());
-        console::warn(&format!("the sweep was interrupted: {finished} of {all} values are finished"));
+        tell(SweepInterrupted { finished, all });
         if finished == 0 {
             return Ok(Exit::INTERRUPTED);
         }
@@ -64,20 +69,18 @@ fn say(swept: &Sweep) {
     let (name, unit) = (swept.variable.name(), swept.variable.unit());
     for point in &swept.points {
         if (point.value - point.asked).abs() > 1e-9 * point.asked {
-            console::note(&format!(
-                "{name} {} {unit} is not a whole number of intervals: {} {unit}, {}, instead",
-                short(point.asked),
-                short(point.value),
-                counted(point.intervals, "interval")
-            ));
+            tell(SweepValueRounded {
+                asked: Phrase(format!("{name} {} {unit}", short(point.asked))),
+                taken: Phrase(format!("{} {unit}", short(point.value))),
+                intervals: point.intervals,
+            });
         }
+        let at = || Phrase(format!("{name} {} {unit}", short(point.value)));
         match &point.outcome {
-            Err(why) => console::warn(&format!("{name} {} {unit}: {why}", short(point.value))),
-            Ok(design) if design.status != DesignStatus::Converged => console::warn(&format!(
-                "{name} {} {unit}: the search ended with the status \"{}\"; a better motion may be near",
-                short(point.value),
-                design.status.name()
-            )),
+            Err(why) => tell(SweepValueFailed { at: at(), why: Phrase(why.to_string()) }),
+            Ok(design) if design.status != DesignStatus::Converged => {
+                tell(SearchNotConverged { at: Some(at()), status: design.status.name() });
+            }
             Ok(_) => (),
         }
     }

@@ -1,6 +1,9 @@
 //! The joints of a machine.
 
+use crate::diagnostics::tell;
 use crate::{Exit, console};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::files::MeshMissing;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{MissingMesh, Urdf, machine_json, missing_limits};
 use calibrant::machine::chain::{Joint, JointKind, KinematicChain, reach_m};
@@ -44,7 +47,7 @@ impl Options {
         let chain = machine.chain(self.base.as_deref(), self.tip.as_deref())?;
         let meshes =
             if self.packages.is_empty() { Vec::new() } else { machine.missing_meshes(&self.packages) };
-        meshes.iter().for_each(|mesh: &MissingMesh| console::warn(&mesh.to_string()));
+        meshes.iter().for_each(|mesh: &MissingMesh| tell(MeshMissing { mesh: Phrase(mesh.to_string()) }));
         if json {
             console::print_always(&machine_json(&machine, &chain, &meshes));
         } else {

@@ -1,6 +1,7 @@
 //! What a log of a machine's motion contains.
 
 use super::sampling;
+use crate::diagnostics::tell;
 use crate::{Exit, console};
 use calibrant::io::{
     ImuReadOptions, Jumps, PoseInspection, ReferenceInspection, ReferenceLogFile, ReferenceLogOptions, Seen,
@@ -19,8 +20,8 @@ pub(super) fn is_one(path: &Path, options: &ImuReadOptions) -> bool {
 /// Prints what a log contains.
 pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calibrant::Result<Exit> {
     let file = read_reference_log(path, &of_log(options))?;
-    let warnings: Vec<_> = file.findings.iter().filter(|finding| finding.is_warning()).cloned().collect();
-    console::findings(&warnings, &file_name(path), None);
+    let in_file = file.findings.iter().map(|found| found.clone().in_file(file_name(path)));
+    in_file.filter(|found| found.is_warning()).for_each(tell);
     let inspection = inspect_reference_log(&file);
     if as_json {
         console::print_always(&reference_inspection_json(&file, &inspection));

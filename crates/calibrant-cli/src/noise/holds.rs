@@ -2,6 +2,7 @@
 
 use calibrant::Error;
 use calibrant::diagnostic::Diagnostic;
+use calibrant::diagnostic::noise::NoiseHoldMoves;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::motion::Hold;
@@ -71,5 +72,5 @@ pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<Diagnostic> {
 }
 
 fn moving(moving_s: f64, given: &Segment) -> Diagnostic {
-    Diagnostic::NoiseHoldMoves { moving_s, given_s: given.duration_s() }
+    Diagnostic::from(NoiseHoldMoves { moving_s, given_s: given.duration_s() })
 }

@@ -3,6 +3,7 @@
 use super::Arguments;
 use super::random::Random;
 use crate::console;
+use crate::diagnostics::tell;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{MachinePlan, ReferenceLogOptions, file_name, read_reference_log};
@@ -71,7 +72,7 @@ fn given(
 ) -> calibrant::Result<TrueMotion> {
     let options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
     let file = read_reference_log(path, &options)?;
-    file.findings.iter().for_each(|finding| console::finding(&file_name(path), finding));
+    file.findings.iter().for_each(|found| tell(found.clone().in_file(file_name(path))));
     let log = file.of_machine(chain, path)?;
     let refused = |message: String, help: &str| {
         Error::recording(InputError::new(Refusal::MachineUnsolved, message, help).in_file(path))

@@ -1,8 +1,29 @@
-//! A change of a sensor within a recording: what changes, when, and by how much.
+//! The check for a sensor that changes within a recording: what changes, when, and by how much.
 
-use crate::diagnostic::parts::{Part, Parts};
-use crate::sensor::SensorKind;
+use super::check::checks;
+use super::parts::{Part, Parts, listed};
+use crate::number_format::fixed;
+use crate::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
+use std::fmt;
+
+/// Range of temperatures in a recording that can explain a change, K.
+const TEMPERATURE_RANGE_K: f64 = 1.0;
+
+checks! {
+    /// A sensor changes within the recording. The estimates are a mean of before and after.
+    SensorChanged "sensor-changed" Warning {
+        /// The change.
+        change: Change,
+        /// The coldest sample, °C. `None`: the temperature is unknown, or the model follows it.
+        coldest_c: Option<f64>,
+        /// The hottest sample, °C.
+        hottest_c: Option<f64>,
+    }
+    decided "A score test of the residuals in the order of time finds a step, a drift or an episode."
+    remedy "Calibrate the parts separately (holds.intervals_s) and compare. Let the sensor warm up."
+    says change.in_words(coldest_c.zip(*hottest_c));
+}
 
 /// A sensor that changes within a recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,5 +110,103 @@ impl Part for Change {
         let amount = ["amount_x", "amount_y", "amount_z"].into_iter().zip(self.amount.iter().copied());
         parts.numbers.extend(amount);
         parts.numbers.extend([("deviations", self.in_sd()), ("p_value", self.p_value)]);
+    }
+}
+
+impl Change {
+    /// Which sensor changes, and when.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        let sensor = self.sensor_kind;
+        match self.course {
+            Course::Drift => format!("the {sensor} drifts through the recording"),
+            Course::Episode { first, last, start_s, end_s } => format!(
+                "the {sensor} changes at about {start_s:.0} s and back at about {end_s:.0} s (hold {} to hold {})",
+                first + 1,
+                last + 1
+            ),
+            Course::Step { before, after, time_s } => {
+                let place = match before == after {
+                    true => format!("in hold {}", after + 1),
+                    false => format!("between hold {} and hold {}", before + 1, after + 1),
+                };
+                format!("the {sensor} changes at about {time_s:.0} s ({place})")
+            }
+        }
+    }
+
+    /// What changes, when, by how much, and what to do. `temperature_c`: lowest and highest of the recording, °C.
+    fn in_words(&self, temperature_c: Option<(f64, f64)>) -> String {
+        let reason = match (temperature_c, self.course) {
+            (Some((low, high)), _) if high - low >= TEMPERATURE_RANGE_K => format!(
+                "The temperature goes from {low:.1} to {high:.1} °C, and the model ignores it: set [temperature]. Or"
+            ),
+            (_, Course::Drift) => "Let the sensor warm up before the recording. Or".to_owned(),
+            (_, Course::Episode { .. }) => "Was the sensor touched, warmed or clamped then, or did its supply change? If so, record again. \
+                 To use this recording,"
+                .to_owned(),
+            (_, Course::Step { .. }) => format!(
+                "Was the sensor knocked, did its mounting slip, did it saturate, was it still warming up? If so, record \
+                 again. {}To use this recording,",
+                if self.of == Changed::Bias { "Or its bias walks at random. " } else { "" }
+            ),
+        };
+        let remedy = match self.course {
+            Course::Drift => "calibrate the first and the second half separately",
+            Course::Episode { .. } => "calibrate without the data in between",
+            Course::Step { .. } => "calibrate the data before and after separately",
+        };
+        format!(
+            "{}: {}. The estimates are a mean over the change, and their standard deviations do not include it. {reason} \
+             {remedy} (holds.intervals_s), and compare.",
+            self.headline(),
+            self.amounts()
+        )
+    }
+
+    /// What changes and by how much: `its bias steps by 3.1, −0.2, 0.4 mm/s², up to 12 standard deviations`.
+    fn amounts(&self) -> String {
+        let what = match self.instead {
+            Some(instead) => format!("its {} (or its {instead})", self.of),
+            None => format!("its {}", self.of),
+        };
+        let ending = if self.of == Changed::Bias { "s" } else { "" };
+        let moves = match self.course {
+            Course::Step { .. } => format!("step{ending} by"),
+            Course::Drift => format!("change{ending} from beginning to end by"),
+            Course::Episode { .. } => format!("differ{ending} in between by"),
+        };
+        let (scale, unit) = match (self.of, self.sensor_kind) {
+            (Changed::Bias, SensorKind::Accelerometer) => (1e3, "mm/s²"),
+            (Changed::Bias, SensorKind::Gyroscope) => (1_f64.to_degrees(), "°/s"),
+            (Changed::Gain, _) => (100.0, "%"),
+            (Changed::Axes, _) => (1_f64.to_degrees(), "°"),
+        };
+        let known: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| self.sd[axis.index()] > 0.0).collect();
+        // rounded to the first digit of their standard deviations
+        let amount = |axis: &Axis| {
+            let (amount, sd) = (scale * self.amount[axis.index()], scale * self.sd[axis.index()]);
+            fixed(amount, (-sd.log10().floor()).clamp(0.0, 9.0) as usize)
+        };
+        let amounts: Vec<String> = known.iter().map(amount).collect();
+        let on = match known.as_slice() {
+            [_, _, _] => String::new(),
+            some => format!(" on {}", listed(some, ", ")),
+        };
+        format!(
+            "{what} {moves} {} {unit}{on}, up to {:.0} standard deviations",
+            amounts.join(", "),
+            self.in_sd()
+        )
+    }
+}
+
+impl fmt::Display for Changed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Bias => "bias",
+            Self::Gain => "gains",
+            Self::Axes => "axes (against the accelerometer's)",
+        })
     }
 }

@@ -1,11 +1,98 @@
-//! Fields of diagnostics about faces (holds of known direction): an axis that points up or down, and a hold whose given direction the accelerometer contradicts.
+//! Checks of faces: holds of known direction.
 
-use crate::diagnostic::direction::direction_in_words;
-use crate::diagnostic::hold_span::HoldSpan;
-use crate::diagnostic::parts::{Part, Parts};
+use super::check::checks;
+use super::direction::direction_in_words;
+use super::hold_span::HoldSpan;
+use super::parts::{Part, Parts, listed};
 use crate::sensor::Axis;
 use nalgebra::Vector3;
 use std::fmt;
+
+checks! {
+    /// All given directions of the holds differ from the accelerometer's by one rotation.
+    FacesTurned "faces-turned" Error {
+        /// The holds.
+        faces: Vec<FaceMismatch>,
+    }
+    decided "Readings in SI show a different axis up than the given one."
+    remedy "Correct the directions, unless the sensor is mounted that way."
+    says format!(
+        "{}. All directions are rotated in the same way. Correct them, unless the sensor is mounted that way: the \
+         results are in the frame of the given directions.",
+        listed(faces, "; ")
+    );
+
+    /// A face was held for only a few samples.
+    FaceBrief "face-brief" Warning {
+        /// The hold.
+        hold: HoldSpan,
+        /// Its samples.
+        samples: usize,
+    }
+    decided "It has too few samples for a hold of seconds."
+    remedy "Correct its times."
+    says format!("{hold} has only {samples} samples. A face is held for seconds. Check the times of the hold.");
+
+    /// The faces scatter far beyond their noise.
+    FacesScatter "faces-scatter" Warning {
+        /// Scatter of their directions, rad.
+        tilt_rad: f64,
+        /// Scatter along gravity, m/s².
+        along_mps2: f64,
+        /// Largest error, rad.
+        worst_rad: f64,
+        /// The faces with the largest error.
+        worst: Vec<HoldSpan>,
+    }
+    decided "The scatter exceeds that of faces set by hand."
+    remedy "Correct directions and times of the holds."
+    says format!(
+        "beyond their noise, the faces scatter by {:.1}° in direction and by {along_mps2:.2} m/s² along gravity. The \
+         largest error is {:.1}°, in {}. Check the directions and the times of the holds.",
+        tilt_rad.to_degrees(),
+        worst_rad.to_degrees(),
+        listed(worst, ", or ")
+    );
+
+    /// The face alignment differs from the given one.
+    TiltContradicted "tilt-contradicted" Warning {
+        /// Standard deviation of the tilt that the faces show, rad.
+        shown_rad: f64,
+        /// Given standard deviation of the tilt, rad.
+        given_rad: f64,
+    }
+    decided "The χ² of the faces is too large or too small for the given alignment."
+    remedy "Correct holds.face_sd_deg."
+    says {
+        let (by, remedy) = match shown_rad > given_rad {
+            true => ("by", "The standard deviations are too small. Correct holds.face_sd_deg."),
+            false => (
+                "by only",
+                "The standard deviations are too large. Remove the key: the scatter of the faces then gives the value.",
+            ),
+        };
+        format!(
+            "the faces scatter {by} {:.2}° about each axis, but holds.face_sd_deg says {:.2}°. {remedy}",
+            shown_rad.to_degrees(),
+            given_rad.to_degrees()
+        )
+    };
+
+    /// The faces are too few to estimate their alignment. The program assumes a value.
+    TiltAssumed "tilt-assumed" Warning {
+        /// Number of faces.
+        faces: usize,
+        /// Standard deviation of the tilt, rad.
+        tilt_rad: f64,
+    }
+    decided "No degrees of freedom are left for it."
+    remedy "Give holds.face_sd_deg, or hold more faces."
+    says format!(
+        "{faces} faces are too few to estimate the face alignment. The program assumes {:.1}° about each axis. Add \
+         faces, or give holds.face_sd_deg.",
+        tilt_rad.to_degrees()
+    );
+}
 
 /// An axis that points up or down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +101,13 @@ pub struct FacePointing {
     pub axis: Axis,
     /// Does it point up?
     pub is_up: bool,
+}
+
+/// `the x axis pointing up`.
+impl fmt::Display for FacePointing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the {} axis pointing {}", self.axis, if self.is_up { "up" } else { "down" })
+    }
 }
 
 impl Part for FacePointing {

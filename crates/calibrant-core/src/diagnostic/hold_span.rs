@@ -1,6 +1,6 @@
 //! A hold that a diagnostic is about, and why it is not used.
 
-use crate::diagnostic::parts::{Part, Parts};
+use super::parts::{Part, Parts};
 use crate::motion::Hold;
 use crate::sensor::{Axis, ReadingUnit};
 use std::fmt;
@@ -44,7 +44,7 @@ impl Part for HoldSpan {
 
 /// Why a hold is not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum HoldLeftOut {
+pub enum HoldReason {
     /// The accelerometer saturates in it.
     Saturated {
         /// On this axis.
@@ -63,8 +63,7 @@ pub enum HoldLeftOut {
     },
 }
 
-/// The reason as files state it.
-impl fmt::Display for HoldLeftOut {
+impl fmt::Display for HoldReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Saturated { axis, reading, unit } => write!(
@@ -82,7 +81,7 @@ impl fmt::Display for HoldLeftOut {
     }
 }
 
-impl Part for HoldLeftOut {
+impl Part for HoldReason {
     fn add_to(&self, parts: &mut Parts, _: &'static str) {
         match self {
             Self::Saturated { axis, reading, .. } => {

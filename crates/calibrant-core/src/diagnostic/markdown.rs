@@ -1,15 +1,15 @@
 //! The tables of codes as a page of the documentation.
 
-use crate::diagnostic::code::Code;
+use super::code::Code;
 use crate::error::Refusal;
 
 /// The head of the page.
 const HEAD: &str = "# Diagnostics\n
-<!-- Made from diagnostic/code.rs and error/refusal.rs of crates/calibrant-core/src: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
+<!-- Made from diagnostic/ and error/refusal.rs of crates/calibrant-core/src: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
 calibrant prints an error where a result must not be used, a warning where it may be wrong, and a note where a reader repaired a recording. Each has a code, which never changes.
 The severest code is the verdict on a result: `bad` by an error, `doubtful` by a warning, otherwise `ok`.
 `calibration.json` and `noise.json` list the warnings about the result with code, severity, subject, numbers and message.
-`calibrant calibrate --deny CODE` makes the exit status 1 where a code occurs. `--allow CODE` silences one, and takes it out of the verdict.
+`--deny CODE` makes the exit status of a command 1 where a code occurs. `--allow CODE` silences one, and takes it out of the verdict.
 ";
 
 /// The head of the second part.
@@ -26,7 +26,7 @@ There are fewer codes than messages: errors with the same code ask for the same 
 #[must_use]
 pub fn table_as_markdown() -> String {
     let mut text = HEAD.to_owned();
-    for code in Code::ALL {
+    for code in Code::all() {
         let entry = code.entry();
         text.push_str(&format!(
             "\n## {}\n\n{}\n\n- Severity: {}.\n- Decided: {}\n- What to do: {}\n",

@@ -1,37 +1,57 @@
 //! Diagnostics: what a user should know about a result, as values with a stable code.
 //!
-//! [`Code`] is the table of all codes. A [`Diagnostic`] has a code, a subject and numbers. Sentences are made of it in one place, `calibrant_report::message`.
+//! Each check has one entry: its code, how much it matters, what it means, how it is decided, what to do, what was found, and the sentence.
+//! The entries of an area stand in one file. What a check found becomes a [`Diagnostic`].
+//! `docs/diagnostics.md` is made of the entries.
 
-mod change;
+mod check;
+
+pub mod acceptance;
+pub mod change;
+pub mod correction;
+pub mod datasheet;
+pub mod design;
+pub mod faces;
+pub mod files;
+pub mod fit;
+pub mod gyroscope;
+pub mod holds;
+pub mod machine;
+pub mod motion;
+pub mod noise;
+pub mod reader;
+pub mod samples;
+pub mod settings;
+pub mod turns;
+pub mod validation;
+
 mod code;
 mod direction;
-mod faces;
 mod hold_span;
-mod known;
 mod late_times;
-mod limit_miss;
-mod lost_holds;
 mod markdown;
 mod parts;
+mod reader_fields;
 mod rotation_reason;
 mod severity;
-mod taken_out;
-mod turn;
+mod table;
 mod value;
 mod verdict;
 
+pub use acceptance::LimitMiss;
 pub use change::{Change, Changed, Course};
+pub use check::Check;
 pub use code::{Code, CodeEntry};
+pub use datasheet::KnownMismatch;
 pub(crate) use direction::AGREES_RAD;
 pub use faces::{FaceMismatch, FacePointing};
-pub use hold_span::{HoldLeftOut, HoldSpan};
-pub use known::KnownMismatch;
+pub use hold_span::{HoldReason, HoldSpan};
+pub use holds::LostHolds;
 pub use late_times::{late, repair};
-pub use limit_miss::LimitMiss;
-pub use lost_holds::LostHolds;
 pub use markdown::table_as_markdown;
+pub use parts::Phrase;
 pub use rotation_reason::RotationReason;
 pub use severity::Severity;
-pub use turn::{TurnMismatch, TurnSpan, UnitMistake};
+pub use turns::{TurnMismatch, TurnSpan, UnitMistake};
 pub use value::Diagnostic;
 pub use verdict::{Usability, Verdict};

@@ -1,6 +1,7 @@
-//! Builds a diagnostic's subject (`gyroscope axis x`) and its named numbers from its fields. Each field type implements [`Part`]. Nothing is printed.
+//! A diagnostic's subject (`gyroscope axis x`) and its named numbers, made of the fields of its check. Each type of a field implements [`Part`].
 
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
+use std::fmt::Display;
 
 /// Subject and numbers of a diagnostic.
 #[derive(Default)]
@@ -8,6 +9,10 @@ pub(super) struct Parts {
     pub(super) subject: Vec<String>,
     pub(super) numbers: Vec<(&'static str, f64)>,
 }
+
+/// Words that whoever finds something has for it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Phrase(pub String);
 
 /// A field of a diagnostic, which adds to its subject or to its numbers.
 pub(super) trait Part {
@@ -71,4 +76,9 @@ macro_rules! neither {
     };
 }
 
-neither!(bool, ReadingUnit, &'static str, [String; 3]);
+neither!(bool, ReadingUnit, &'static str, [String; 3], Phrase);
+
+/// The items in words, with this between them.
+pub(super) fn listed(items: &[impl Display], between: &str) -> String {
+    items.iter().map(ToString::to_string).collect::<Vec<_>>().join(between)
+}

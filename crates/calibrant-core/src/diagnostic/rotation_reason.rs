@@ -1,6 +1,6 @@
 //! Why a rotation is not used.
 
-use crate::diagnostic::parts::{Part, Parts};
+use super::parts::{Part, Parts};
 use crate::sensor::{Axis, SensorKind};
 use std::fmt;
 

@@ -3,6 +3,8 @@
 /// How much a diagnostic matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
+    /// The user allows it: it is kept, but not told of, and does not count for the verdict.
+    Allowed,
     /// Something to know. The result is sound.
     Note,
     /// The result may be wrong, or its standard deviations too small.
@@ -12,10 +14,14 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// As files state it: `note`, `warning` or `error`.
+    /// All of them, the least first.
+    pub const ALL: [Self; 4] = [Self::Allowed, Self::Note, Self::Warning, Self::Error];
+
+    /// As files state it: `allowed`, `note`, `warning` or `error`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Allowed => "allowed",
             Self::Note => "note",
             Self::Warning => "warning",
             Self::Error => "error",
@@ -23,4 +29,4 @@ impl Severity {
     }
 }
 
-crate::json_name!(Severity);
+crate::json_name!(Severity, Severity::ALL);

@@ -37,7 +37,7 @@ impl Usability {
 
     fn of(severity: Severity) -> Self {
         match severity {
-            Severity::Note => Self::Ok,
+            Severity::Allowed | Severity::Note => Self::Ok,
             Severity::Warning => Self::Doubtful,
             Severity::Error => Self::Bad,
         }
@@ -52,11 +52,11 @@ crate::json_name!(Usability, Usability::ALL);
 ///
 /// # Examples
 /// ```
-/// use calibrant_core::diagnostic::{Code, Usability, Verdict};
-/// let codes = [Code::CoarseSteps, Code::ScaleNegative];
+/// use calibrant_core::diagnostic::{Check, Usability, Verdict, datasheet::ScaleNegative, samples::CoarseSteps};
+/// let codes = [CoarseSteps::CODE, ScaleNegative::CODE];
 /// let verdict = Verdict::on(codes, &[]);
 /// assert_eq!(verdict.to_string(), "bad (scale-negative)");
-/// assert_eq!(Verdict::on(codes, &[Code::ScaleNegative]).usability, Usability::Doubtful);
+/// assert_eq!(Verdict::on(codes, &[ScaleNegative::CODE]).usability, Usability::Doubtful);
 /// assert_eq!(Verdict::on([], &[]).to_string(), "ok");
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

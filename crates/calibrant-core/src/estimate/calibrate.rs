@@ -1,7 +1,8 @@
 //! Calibrates a sensor, whatever its stimulus.
 
 use super::{Calibration, CalibrationProblem, CalibrationSettings, Change, Stimulus, holds, motion};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::change::SensorChanged;
+use crate::diagnostic::{Diagnostic, samples};
 use crate::error::Result;
 use crate::sensor::SensorKind;
 use std::borrow::Cow;
@@ -56,13 +57,12 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
             let problem = CalibrationProblem { recording: &recording, ..*problem };
             problem.validate()?;
             let mut calibration = holds::calibrate(&problem, setup, settings, &recording)?;
-            let found =
-                spikes.map(|spikes| Diagnostic::spikes(&spikes, SensorKind::Accelerometer, recording.unit));
+            let found = spikes.map(|spikes| {
+                Diagnostic::from(samples::Spikes::of(&spikes, SensorKind::Accelerometer, recording.unit))
+            });
             calibration.warnings.splice(0..0, found);
-            let changed = |change: &Change| Diagnostic::SensorChanged {
-                change: *change,
-                coldest_c: None,
-                hottest_c: None,
+            let changed = |change: &Change| {
+                Diagnostic::from(SensorChanged { change: *change, coldest_c: None, hottest_c: None })
             };
             calibration.warnings.extend(calibration.changes.iter().map(changed));
             Ok(calibration)

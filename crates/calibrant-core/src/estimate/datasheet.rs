@@ -1,6 +1,8 @@
 //! A result beside the datasheet: parameters, gains and noise that no sensor of the type has.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::datasheet::{GainImplausible, ParameterImplausible};
+use crate::diagnostic::fit::{NoiseImplausible, NoiseNotAsGiven};
 use crate::sensor::{Axis, Parameter, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
@@ -26,7 +28,7 @@ pub fn beyond_datasheet(parameters: &[Parameter], values: &[f64], sd: &[f64]) ->
         .filter_map(|((parameter, value), sd)| Some((&parameter.name, deviations(parameter, *value, *sd)?)))
         .max_by(|one, other| one.1.total_cmp(&other.1))?;
     (times > ALLOWED_SPREADS)
-        .then(|| Diagnostic::ParameterImplausible { parameter: name.clone(), deviations: times })
+        .then(|| Diagnostic::from(ParameterImplausible { parameter: name.clone(), deviations: times }))
 }
 
 /// The gains of readings in SI that are far from one. `allowed`: does the datasheet allow for the gain of this axis?
@@ -39,7 +41,7 @@ pub fn implausible_gains(
     let along = |axis: Axis| matrix[(axis.index(), axis.index())];
     let is_far = |axis: &Axis| !PLAUSIBLE_GAINS.contains(&along(*axis)) && !allowed(*axis);
     let far = Axis::ALL.into_iter().filter(is_far).filter(|_| unit != ReadingUnit::Counts);
-    far.map(|axis| Diagnostic::GainImplausible { sensor_kind, axis, gain: along(axis), unit }).collect()
+    far.map(|axis| Diagnostic::from(GainImplausible { sensor_kind, axis, gain: along(axis), unit })).collect()
 }
 
 /// Does the datasheet allow for the gain of an axis, from a list that ends in the scale factors' names?
@@ -64,8 +66,8 @@ pub fn noise_not_as_given(
     let axis = Axis::ALL.into_iter().max_by(|one, other| off(one).total_cmp(&off(other)))?;
     let ratio = ratio(axis);
     match off(&axis) > NOT_AS_GIVEN {
-        true if ratio > IMPLAUSIBLE => Some(Diagnostic::NoiseImplausible { sensor_kind, axis, ratio }),
-        true => Some(Diagnostic::NoiseNotAsGiven { sensor_kind, axis, ratio }),
+        true if ratio > IMPLAUSIBLE => Some(Diagnostic::from(NoiseImplausible { sensor_kind, axis, ratio })),
+        true => Some(Diagnostic::from(NoiseNotAsGiven { sensor_kind, axis, ratio })),
         false => None,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bias_drift::BiasDrift;
 use super::uncalibrated::Uncalibrated;
-use crate::diagnostic::{Change, HoldLeftOut};
+use crate::diagnostic::{Change, HoldReason};
 use crate::motion::{Gravity, Hold};
 use crate::sensor::Gauge;
 use nalgebra::Vector3;
@@ -127,14 +127,14 @@ pub struct HoldResult {
     /// Was it used? An outlier is reported and not used.
     pub used: bool,
     /// Why it was not used, if that does not follow from its residual: the sensor saturates.
-    pub reason: Option<HoldLeftOut>,
+    pub reason: Option<HoldReason>,
 }
 
 impl HoldResult {
     /// Why it was not used. `None` if it was used.
     #[must_use]
-    pub fn why_left_out(&self) -> Option<HoldLeftOut> {
-        let by_residual = HoldLeftOut::MagnitudeOff {
+    pub fn why_left_out(&self) -> Option<HoldReason> {
+        let by_residual = HoldReason::MagnitudeOff {
             residual_mps2: self.magnitude_residual_mps2,
             studentised: self.studentised_residual,
         };

@@ -19,7 +19,8 @@
 use super::holds::median;
 use super::problem::{CalibrationProblem, Stimulus};
 use super::studentised_fit::StudentisedFit;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::noise::NoiseOutliers;
+use crate::diagnostic::{Diagnostic, samples};
 use crate::motion::{CommandedMotion, Trust};
 use crate::sensor::{Axis, Recording, SensorKind, Spikes};
 
@@ -77,7 +78,7 @@ pub fn without_motion_outliers(problem: &CalibrationProblem<'_>) -> Option<(Opti
         let (outliers, samples) = (cut.len(), recording.len());
         return Some((
             None,
-            Diagnostic::NoiseOutliers {
+            Diagnostic::from(NoiseOutliers {
                 sensor_kind,
                 axis,
                 unit,
@@ -88,7 +89,7 @@ pub fn without_motion_outliers(problem: &CalibrationProblem<'_>) -> Option<(Opti
                 deviations,
                 left_out: false,
                 white_noise_ratio: None,
-            },
+            }),
         ));
     }
     let is_kept = |k: &usize| cut.binary_search(k).is_err();
@@ -98,7 +99,7 @@ pub fn without_motion_outliers(problem: &CalibrationProblem<'_>) -> Option<(Opti
         ..recording.clone()
     };
     let spikes = Spikes { samples: Vec::new(), cut, axis, time_s, reading, deviations };
-    Some((Some(clean), Diagnostic::spikes(&spikes, sensor_kind, unit)))
+    Some((Some(clean), samples::Spikes::of(&spikes, sensor_kind, unit).into()))
 }
 
 /// Are some of these samples consecutive?
@@ -139,6 +140,7 @@ fn outliers(problem: &CalibrationProblem<'_>, command: &CommandedMotion, kept: &
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnostic::Check;
     use crate::motion::{KnownEnds, Limits};
     use crate::sensor::Sensor;
     use crate::simulate::{Purpose, draw_sensor, initial_motion, sample_times, simulate_recording, stream};
@@ -177,8 +179,9 @@ mod tests {
             })
             .expect("outliers");
             assert!(is_clean, "{found:?}");
-            let Diagnostic::Spikes { cut, axis, time_s, .. } = found else { panic!("{found:?}") };
-            assert_eq!((cut, axis), (2, Axis::Y), "{trust:?} {size}");
+            assert_eq!(found.code(), samples::Spikes::CODE, "{found:?}");
+            assert_eq!((found.number("cut"), found.subject()), (Some(2.0), Some("accelerometer axis y")));
+            let time_s = found.number("time_s").expect("a time");
             assert!((time_s - 3.3).abs() < 1e-9, "{time_s}");
         }
     }
@@ -190,10 +193,8 @@ mod tests {
                 places.iter().for_each(|k| recording.readings[*k].z += 3.0 + *k as f64 * 0.01);
             };
             let Some((is_clean, found)) = cut(Trust::Known, 2, disturb) else { continue };
-            assert!(
-                !is_clean && matches!(found, Diagnostic::NoiseOutliers { left_out: false, .. }),
-                "{found:?}"
-            );
+            assert!(!is_clean && found.code() == NoiseOutliers::CODE, "{found:?}");
+            assert!(found.message().contains("too many to remove"), "{found:?}");
         }
     }
 }

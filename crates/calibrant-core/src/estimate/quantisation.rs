@@ -11,7 +11,7 @@
 //! samples do not reduce it.
 
 use super::quantised_noise::{Counts, noise_in_steps};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::samples::CoarseSteps;
 use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -39,10 +39,11 @@ pub struct CoarseAxis {
 }
 
 impl CoarseAxis {
-    /// The warning about it, for this sensor.
-    pub(crate) fn diagnostic(&self, sensor_kind: SensorKind, unit: ReadingUnit) -> Diagnostic {
+    /// What the check found in this sensor.
+    #[must_use]
+    pub fn check(&self, sensor_kind: SensorKind, unit: ReadingUnit) -> CoarseSteps {
         let Self { axis, step, noise, mean_sd } = *self;
-        Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd }
+        CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd }
     }
 }
 

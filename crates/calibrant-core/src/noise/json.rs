@@ -26,6 +26,8 @@ json_object! {
         experiment: noise_line(noise),
         /// Why the white noise is not that of a sensor at rest.
         caveat: noise.caveat.as_deref(),
+        /// What the user should know of it.
+        warnings: noise.warnings.as_slice(),
     }
 }
 

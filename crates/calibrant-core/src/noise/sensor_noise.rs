@@ -4,6 +4,10 @@ use super::heavy_tails::Tails;
 use super::outliers::{self, Outliers};
 use super::{AllanDeviation, Moments, NoiseFit, Segment};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::noise::{
+    NoiseBeyondWhite, NoiseDrifts, NoiseFiltered, NoiseInParts, NoiseOutliers, NoiseUnexplained,
+    NoiseVibration, ResolutionCoarse, SampleTimesVary, SamplesMissing, ShortTimesUnexplained,
+};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::interruption::Interruption;
 use crate::number_format::plain;
@@ -228,7 +232,7 @@ impl SensorNoise {
         let (axis, deviations, fit) = (axis.axis, found.deviations, &axis.fit);
         let white = fit.model.white_noise_per_sample(self.segment.rate_hz());
         let white_noise_ratio = white.zip(found.white_with_them).map(|(without, with)| with / without);
-        Diagnostic::NoiseOutliers {
+        Diagnostic::from(NoiseOutliers {
             sensor_kind,
             axis,
             unit,
@@ -239,19 +243,19 @@ impl SensorNoise {
             deviations,
             left_out: found.left_out,
             white_noise_ratio: white_noise_ratio.filter(|_| found.left_out),
-        }
+        })
     }
 
     fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<Diagnostic> {
         let mut remarks = self.of_outliers();
         if self.segment.missing > 0.0 {
-            remarks.push(Diagnostic::SamplesMissing { missing_share: self.segment.missing });
+            remarks.push(SamplesMissing { missing_share: self.segment.missing }.into());
         } else if self.segment.jitter > JITTER {
-            remarks.push(Diagnostic::SampleTimesVary { jitter: self.segment.jitter });
+            remarks.push(SampleTimesVary { jitter: self.segment.jitter }.into());
         }
         if self.segment.parts > 1 {
             let (parts, longest_s) = (self.segment.parts, self.segment.duration_s());
-            remarks.push(Diagnostic::NoiseInParts { parts, longest_s });
+            remarks.push(NoiseInParts { parts, longest_s }.into());
         }
         // of spikes the noise is what it is
         let explicable = |axis: &&AxisNoise| axis.outliers.as_ref().is_none_or(|outliers| outliers.left_out);
@@ -265,33 +269,36 @@ impl SensorNoise {
         if fit.drift.is_significant() {
             let deviations = fit.drift.per_s.abs() / fit.drift.most_sd;
             let drift_per_s = fit.drift.per_s;
-            remarks.push(Diagnostic::NoiseDrifts { sensor_kind, axis, unit, drift_per_s, deviations });
+            remarks.push(NoiseDrifts { sensor_kind, axis, unit, drift_per_s, deviations }.into());
         }
         if !fit.explains() {
             let (chi2, degrees_of_freedom) = (fit.chi2, fit.degrees_of_freedom);
-            remarks.push(Diagnostic::NoiseUnexplained { sensor_kind, axis, chi2, degrees_of_freedom });
+            remarks.push(NoiseUnexplained { sensor_kind, axis, chi2, degrees_of_freedom }.into());
         } else if fit.filtered {
             let correlated_s = fit.shortest_tau_s.max(2.0 * interval_s);
-            remarks.push(Diagnostic::NoiseFiltered { sensor_kind, axis, correlated_s });
+            remarks.push(NoiseFiltered { sensor_kind, axis, correlated_s }.into());
         } else if fit.shortest_tau_s > 1.5 * interval_s {
             let shortest_tau_s = fit.shortest_tau_s;
-            remarks.push(Diagnostic::ShortTimesUnexplained { sensor_kind, axis, shortest_tau_s });
+            remarks.push(ShortTimesUnexplained { sensor_kind, axis, shortest_tau_s }.into());
         }
         if let Some(line) = fit.vibration.as_ref().filter(|line| line.left_out) {
-            remarks.push(Diagnostic::NoiseVibration {
-                sensor_kind,
-                axis,
-                frequency_hz: line.frequency_hz,
-                share: line.share,
-                of_white: line.of_white,
-            });
+            remarks.push(
+                NoiseVibration {
+                    sensor_kind,
+                    axis,
+                    frequency_hz: line.frequency_hz,
+                    share: line.share,
+                    of_white: line.of_white,
+                }
+                .into(),
+            );
         }
         let white = fit.model.white_noise_per_sample(self.segment.rate_hz());
         if let Some(white_noise) = white
             && noise.sample_sd > BEYOND_WHITE * white_noise
         {
             let sample_sd = noise.sample_sd;
-            remarks.push(Diagnostic::NoiseBeyondWhite { sensor_kind, axis, unit, sample_sd, white_noise });
+            remarks.push(NoiseBeyondWhite { sensor_kind, axis, unit, sample_sd, white_noise }.into());
         }
         let index = axis.index();
         let step = readings
@@ -300,7 +307,7 @@ impl SensorNoise {
             .filter(|step| *step > 0.0)
             .fold(f64::INFINITY, f64::min);
         if step.is_finite() && step > noise.sample_sd {
-            remarks.push(Diagnostic::ResolutionCoarse { sensor_kind, axis, unit, step });
+            remarks.push(ResolutionCoarse { sensor_kind, axis, unit, step }.into());
         }
     }
 }

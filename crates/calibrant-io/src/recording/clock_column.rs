@@ -1,9 +1,10 @@
 //! Times in seconds of a column of times, whatever their unit and their epoch.
 
 use super::line_map::LineMap;
-use super::reader_finding::{Finding, Noticed};
 use super::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, Ticks, TimesFromFirst};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 
@@ -37,14 +38,14 @@ impl ClockColumn<'_> {
         &self,
         ticks: Vec<f64>,
         lines: &LineMap,
-        findings: &mut Vec<Finding>,
+        findings: &mut Vec<Diagnostic>,
     ) -> Checked<Seconds> {
         let name = self.name;
         let Some(unit) = self.unit else { return Err(which_unit(name, &ticks).into()) };
         let per_second = unit.per_second().unwrap_or(1.0);
         let (mut ticks, wraps) = unwrap(ticks, self.wraps_at);
         if wraps > 0 {
-            findings.push(Finding::new(Noticed::ClockWrapped(name.to_owned(), wraps)));
+            findings.push(ClockSource { clock: ClockSourceKind::Wrapped(name.to_owned(), wraps) }.into());
         }
         let first = ticks.iter().copied().find(|t| t.is_finite()).unwrap_or(0.0);
         let whole = first.fract() == 0.0 && unit != TimeUnit::Second;
@@ -56,8 +57,8 @@ impl ClockColumn<'_> {
             ticks.iter_mut().for_each(|t| *t -= first);
             let first = (first as i128).saturating_add(self.origin.into());
             counted_from_ns = first.checked_mul((1e9 / per_second) as i128);
-            let noticed = Noticed::TimesFromFirst { column: name.to_owned(), first, unit: unit.symbol() };
-            findings.push(Finding::new(noticed));
+            let (column, first) = (name.to_owned(), Ticks(first));
+            findings.push(TimesFromFirst { column, first, unit: unit.symbol() }.into());
         } else if self.origin != 0 {
             ticks.iter_mut().for_each(|t| *t += self.origin as f64);
         }

@@ -1,6 +1,7 @@
 //! Axes that keep their reading while the others move, and axes with the same reading: a loose wire, or a column that is there twice.
 
-use super::reader_finding::Noticed;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{AxesEqual, AxisStuck, Span};
 use calibrant_core::sensor::{Axis, Recording};
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -16,7 +17,7 @@ const COARSE: f64 = 0.1;
 const MOVES: f64 = 0.1;
 
 /// What there is of a recording of three axes, each with its first sample.
-pub(super) fn glued_axes(recording: &Recording) -> Vec<(Noticed, usize)> {
+pub(super) fn glued_axes(recording: &Recording) -> Vec<(Diagnostic, usize)> {
     let (readings, times_s) = (recording.readings(), recording.times_s());
     let [low, high] = recording.extremes();
     let moves = |axis: Axis, part: &Range<usize>| {
@@ -26,8 +27,9 @@ pub(super) fn glued_axes(recording: &Recording) -> Vec<(Noticed, usize)> {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), y| (least.min(y[k]), most.max(y[k])));
         most - least > MOVES * (high[k] - low[k])
     };
-    let times = |part: &Range<usize>| (times_s[part.start], times_s[part.end - 1]);
-    let is_long = |part: &Range<usize>| part.len() >= LONG_SAMPLES && times(part).1 - times(part).0 >= LONG_S;
+    let times = |part: &Range<usize>| Span { start_s: times_s[part.start], end_s: times_s[part.end - 1] };
+    let is_long =
+        |part: &Range<usize>| part.len() >= LONG_SAMPLES && times(part).end_s - times(part).start_s >= LONG_S;
     let mut found = Vec::new();
     if recording.axes() != 3 || readings.is_empty() {
         return found;
@@ -40,8 +42,7 @@ pub(super) fn glued_axes(recording: &Recording) -> Vec<(Noticed, usize)> {
         let is_clipped = value <= low[k] || value >= high[k];
         let others_move = Axis::ALL.into_iter().any(|other| other != axis && moves(other, &part));
         if is_long(&part) && others_move && !is_clipped && !is_coarse {
-            let times_s = Some(times(&part));
-            found.push((Noticed::AxisConstant { axis, value, times_s }, part.start));
+            found.push((AxisStuck { axis, value, times: Some(times(&part)) }.into(), part.start));
         }
     }
     for (one, other) in [(Axis::X, Axis::Y), (Axis::X, Axis::Z), (Axis::Y, Axis::Z)] {
@@ -49,8 +50,8 @@ pub(super) fn glued_axes(recording: &Recording) -> Vec<(Noticed, usize)> {
         let (part, same) = longest(readings, |before, y| is_same(before) && is_same(y));
         let is_coarse = (same - part.len()) as f64 > COARSE * (readings.len() - part.len()) as f64;
         if is_long(&part) && moves(one, &part) && !is_coarse {
-            let times_s = (part.len() < readings.len()).then(|| times(&part));
-            found.push((Noticed::AxesEqual { one, other, times_s }, part.start));
+            let times = (part.len() < readings.len()).then(|| times(&part));
+            found.push((AxesEqual { one, other, times }.into(), part.start));
         }
     }
     found

@@ -1,10 +1,10 @@
 //! Reads the messages of ROS 2 bags in MCAP containers, of the types that a reader asks for, in CDR.
 
 use super::cdr::Unreadable;
-use super::finding_words::list;
 use super::mcap_footer::Cut;
 use super::mcap_records::chunk_lengths_add_up;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::counted;
 use mcap::records::Record;
@@ -169,7 +169,7 @@ impl<M> Topics<M> {
     /// The messages of one topic, which has to be named where there are several of `what`.
     pub(crate) fn one(mut self, topic: Option<&str>, what: &str) -> Checked<Vec<M>> {
         let types = &self.types;
-        let named = |names: &[String]| list(names, 10);
+        let named = |names: &[String]| quoted(names, 10);
         if let Some(topic) = topic {
             let known = named(&self.messages.keys().cloned().collect::<Vec<_>>());
             return self.messages.remove(topic).filter(|messages| !messages.is_empty()).ok_or_else(|| {

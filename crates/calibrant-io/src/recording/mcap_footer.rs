@@ -3,7 +3,8 @@
 //! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
 
 use super::mcap_records::{HEAD, raw_records};
-use crate::recording::reader_finding::{Finding, Noticed};
+use calibrant_core::diagnostic::reader::FileUnfinished;
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{InputError, Refusal};
 use mcap::MAGIC;
 use mcap::records::op;
@@ -37,9 +38,9 @@ impl Cut {
     }
 
     /// The warning where messages could be read: their number, and their duration, s.
-    pub(crate) fn finding(&self, messages: usize, duration_s: f64) -> Finding {
-        let (cut, is_after_data) = (self.sentence(), self.is_after_data);
-        Finding::new(Noticed::FileUnfinished { cut, is_after_data, messages, duration_s })
+    pub(crate) fn finding(&self, messages: usize, duration_s: f64) -> Diagnostic {
+        let (cut, is_after_data) = (Phrase(self.sentence()), self.is_after_data);
+        FileUnfinished { cut, is_after_data, messages, duration_s }.into()
     }
 
     /// The error where none could be read.

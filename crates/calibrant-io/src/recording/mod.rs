@@ -10,7 +10,7 @@
 //!
 //! Delimiters: comma, semicolon, tab or white space, found in the first line. Comment lines (`#`, `//`, `%`),
 //! blank lines, a byte order mark and line ends of any system are fine. The reader repairs what it can and
-//! reports it as a [`Finding`]. What would change the answer unnoticed is an error.
+//! reports it as a [`Diagnostic`](calibrant_core::diagnostic::Diagnostic). What would change the answer unnoticed is an error.
 //!
 //! The time to read a file grows as its length does. A row of an accelerometer takes about 45 bytes of memory,
 //! that of an IMU about 70. The text is read in pieces, unless its lines end with CR alone.
@@ -20,7 +20,6 @@ pub(crate) mod cdr;
 pub(crate) mod checksum;
 pub(crate) mod chunked_reader;
 pub(crate) mod clock_column;
-pub(crate) mod finding_words;
 mod glued_axes;
 mod imu;
 pub(crate) mod line_map;
@@ -32,11 +31,11 @@ mod mcap_footer;
 #[cfg(feature = "mcap")]
 mod mcap_records;
 pub(crate) mod named_sensor;
-pub(crate) mod reader_finding;
 pub(crate) mod recording_quality;
 mod recording_writer;
 pub(crate) mod row_parser;
 mod size;
+pub(crate) mod tally;
 pub(crate) mod text_header;
 pub(crate) mod text_source;
 pub(crate) mod time_unit;
@@ -47,6 +46,5 @@ pub use imu::{
     ImuReadOptions, ImuUnit, SampleTimes, SecondFile, USUAL_RATE_SD_PPM, imu_from_columns, imu_pair_of,
     parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
 };
-pub use reader_finding::{Finding, Noticed};
 pub use recording_writer::{write_imu_recording, write_recording};
 pub use time_unit::TimeUnit;

@@ -3,7 +3,10 @@
 
 use super::glued_axes::glued_axes;
 use super::line_map::LineMap;
-use super::reader_finding::{Finding, Noticed};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{
+    AxisStuck, ClockDoubtful, ReadingsClipped, SamplingGap, SamplingIrregular,
+};
 use calibrant_core::sensor::{Recording, SensorKind, greater, lesser, missing};
 
 /// A time step is a gap from this many usual steps on.
@@ -22,42 +25,39 @@ pub(crate) fn readings(
     recording: &Recording,
     sensor_kind: Option<SensorKind>,
     lines: &LineMap,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) {
     for &axis in recording.active_axes() {
         if let Some(value) = recording.constant(axis) {
-            findings
-                .push(Finding::new(Noticed::AxisConstant { axis, value, times_s: None }).about(sensor_kind));
+            findings.push(Diagnostic::from(AxisStuck { axis, value, times: None }).about(sensor_kind));
         }
     }
     let glued = glued_axes(recording).into_iter();
-    findings
-        .extend(glued.map(|(noticed, first)| Finding::new(noticed).about(sensor_kind).at(lines.line(first))));
+    findings.extend(glued.map(|(found, first)| found.about(sensor_kind).at_line(lines.line(first))));
     for found in recording.saturations() {
-        let noticed = Noticed::Saturation {
+        let clipped = ReadingsClipped {
             axis: found.axis,
             samples: found.samples,
             is_largest: found.is_largest,
             value: found.value,
             unit: recording.unit(),
         };
-        findings.push(Finding::new(noticed).about(sensor_kind).at(lines.line(found.first)));
+        findings.push(Diagnostic::from(clipped).about(sensor_kind).at_line(lines.line(found.first)));
     }
 }
 
 /// Asks for the unit of the times where the rate is lower than that of any IMU.
-pub(crate) fn clock(rate: f64, findings: &mut Vec<Finding>) {
+pub(crate) fn clock(rate: f64, findings: &mut Vec<Diagnostic>) {
     if rate < SLOW_HZ
         && let Some((per_s, unit)) =
             [(1e3, "ms"), (1e6, "µs"), (1e9, "ns")].into_iter().find(|(per_s, _)| per_s * rate >= USUAL_HZ)
     {
-        let noticed = Noticed::ClockDoubtful { step_s: 1.0 / rate, unit, rate_hz: per_s * rate };
-        findings.push(Finding::new(noticed));
+        findings.push(ClockDoubtful { step_s: 1.0 / rate, unit, rate_hz: per_s * rate }.into());
     }
 }
 
 /// Looks for gaps and irregular sampling; `rate` is that of most samples, Hz.
-pub(crate) fn sampling(times_s: &[f64], rate: f64, lines: &LineMap, findings: &mut Vec<Finding>) {
+pub(crate) fn sampling(times_s: &[f64], rate: f64, lines: &LineMap, findings: &mut Vec<Diagnostic>) {
     let usual = 1.0 / rate;
     let (mut gaps, mut longest, mut least, mut most) = (0_usize, (0.0, 0), f64::INFINITY, 0.0_f64);
     for (before, pair) in times_s.windows(2).enumerate() {
@@ -69,8 +69,8 @@ pub(crate) fn sampling(times_s: &[f64], rate: f64, lines: &LineMap, findings: &m
             }
             if gaps <= GAPS_SHOWN {
                 let samples = (step / usual).round() - 1.0;
-                let noticed = Noticed::Gap { length_s: step, after_s: pair[0], samples };
-                findings.push(Finding::new(noticed).at(lines.line(before + 1)));
+                let gap = SamplingGap { length_s: step, after_s: pair[0], samples, more: None };
+                findings.push(Diagnostic::from(gap).at_line(lines.line(before + 1)));
             }
         } else {
             least = lesser(least, step);
@@ -78,18 +78,22 @@ pub(crate) fn sampling(times_s: &[f64], rate: f64, lines: &LineMap, findings: &m
         }
     }
     if gaps > GAPS_SHOWN {
-        let (longest_s, before) = longest;
-        let after_s = times_s[before];
-        let noticed = Noticed::MoreGaps { gaps: gaps - GAPS_SHOWN, longest_s, after_s };
-        findings.push(Finding::new(noticed).at(lines.line(before + 1)));
+        let (length_s, before) = longest;
+        let gap = SamplingGap {
+            length_s,
+            after_s: times_s[before],
+            samples: (length_s / usual).round() - 1.0,
+            more: Some(gaps - GAPS_SHOWN),
+        };
+        findings.push(Diagnostic::from(gap).at_line(lines.line(before + 1)));
     }
     // rounding of large time stamps is no jitter
     let ends = [times_s.first(), times_s.last()];
     let resolution =
         4.0 * f64::EPSILON * ends.into_iter().flatten().fold(0.0_f64, |most, t| most.max(t.abs()));
     if most - usual > JITTER * usual + resolution || usual - least > JITTER * usual + resolution {
-        let missing = missing(times_s, rate, GAP * usual);
-        let noticed = Noticed::SamplingIrregular { least_s: least, most_s: most, rate_hz: rate, missing };
-        findings.push(Finding::new(noticed));
+        let missing_share = missing(times_s, rate, GAP * usual);
+        findings
+            .push(SamplingIrregular { least_s: least, most_s: most, rate_hz: rate, missing_share }.into());
     }
 }

@@ -1,7 +1,7 @@
 //! A log of a motion as a file holds it.
 
 use super::format::ReferenceFormat;
-use crate::recording::Finding;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
 
 /// A log of a machine's motion as it was read.
@@ -12,7 +12,7 @@ pub struct ReferenceLogFile {
     /// The format, as recognised.
     pub format: ReferenceFormat,
     /// What was noticed.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<Diagnostic>,
     /// Number of rows or messages, dropped ones included.
     pub rows: usize,
     /// SHA-256 of the bytes of the file, hexadecimal.

@@ -3,8 +3,8 @@
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use crate::experiment::nearest;
-use crate::recording::finding_words::list;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::log::{JointLog, ReferenceLog};
@@ -93,7 +93,7 @@ impl ReferenceLogFile {
         let listed: Vec<String> = missing.iter().map(with_nearest).collect();
         let joints = if missing.len() == 1 { "joint" } else { "joints" };
         let message = format!("the log lacks the {joints} {}", listed.join(", "));
-        let help = format!("give them the names of the chain; the log has {}", list(&log.names, 20));
+        let help = format!("give them the names of the chain; the log has {}", quoted(&log.names, 20));
         Err(InputError::new(Refusal::ColumnMissing, message, help).into())
     }
 }

@@ -8,9 +8,11 @@ use super::quaternion::orientation;
 use super::rows::Rows;
 use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
-use crate::recording::reader_finding::{Finding, Noticed, Tally};
+use crate::recording::tally::Tally;
 use crate::recording::{TimeUnit, recording_quality};
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, ValuesMissing};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::rate_hz;
 use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
@@ -25,7 +27,7 @@ pub(super) fn assemble(
     content: Content,
     (time_name, time_unit): (&str, Option<TimeUnit>),
     mut rows: Rows,
-    mut findings: Vec<Finding>,
+    mut findings: Vec<Diagnostic>,
 ) -> Checked<ReferenceLogFile> {
     let number_of_rows = rows.times.len();
     if number_of_rows == 0 {
@@ -58,7 +60,7 @@ pub(super) fn assemble(
     };
     check_seen(&log, &rows)?;
     if rows.truncated.is_some() {
-        findings.push(Finding::new(Noticed::LineTruncated).at(rows.truncated));
+        findings.push(Diagnostic::from(LineTruncated {}).at_line(rows.truncated));
     }
     sampling(&kept, &rows, &mut findings);
     Ok(ReferenceLogFile {
@@ -72,7 +74,7 @@ pub(super) fn assemble(
 }
 
 /// The rows that have a time; an error where a time goes backwards, or where all are the same.
-fn with_times(rows: &Rows, findings: &mut Vec<Finding>) -> Checked<Vec<usize>> {
+fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>> {
     let mut untimed = Tally::default();
     let mut kept: Vec<usize> = Vec::with_capacity(rows.times.len());
     for (row, &t) in rows.times.iter().enumerate() {
@@ -85,7 +87,7 @@ fn with_times(rows: &Rows, findings: &mut Vec<Finding>) -> Checked<Vec<usize>> {
         }
         kept.push(row);
     }
-    untimed.report(findings, None, Noticed::TimesMissing);
+    untimed.report(findings, None, |count| ValuesMissing { missing: MissingValue::Time, count });
     match (kept.first(), kept.last()) {
         (Some(first), Some(last)) if first != last && rows.times[*first] == rows.times[*last] => {
             let message = format!("the time is {:?} s in every row", rows.times[*first]);
@@ -146,7 +148,7 @@ fn check_seen(log: &ReferenceLog, rows: &Rows) -> Checked<()> {
 }
 
 /// Looks for gaps and irregular sampling.
-fn sampling(kept: &[usize], rows: &Rows, findings: &mut Vec<Finding>) {
+fn sampling(kept: &[usize], rows: &Rows, findings: &mut Vec<Diagnostic>) {
     let (mut times_s, mut lines) = (Vec::with_capacity(kept.len()), LineMap::default());
     for &row in kept {
         if times_s.last() != Some(&rows.times[row]) {

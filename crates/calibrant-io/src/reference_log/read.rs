@@ -9,10 +9,11 @@ use super::rows::LogReader;
 use super::text_columns::TextColumns;
 use crate::recording::checksum::hex_sha256;
 use crate::recording::chunked_reader::FileBeginning;
-use crate::recording::reader_finding::{Finding, Noticed};
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::ColumnsIgnored;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use std::path::Path;
 
@@ -83,7 +84,8 @@ fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<Refe
     let ignored = columns.ignored();
     let mut findings = Vec::new();
     if !ignored.is_empty() {
-        findings.push(Finding::new(Noticed::ColumnsIgnored(ignored)).at(Some(line)));
+        let found = ColumnsIgnored { columns: ignored, other: None };
+        findings.push(Diagnostic::from(found).at_line(Some(line)));
     }
     let clock = (columns.time_name(), columns.time_unit);
     assemble(columns.format, columns.content, (&clock.0, clock.1), rows, findings)

@@ -6,12 +6,12 @@ use super::joint_columns::{JointColumn, joint_column, rtde_column};
 use super::options::ReferenceLogOptions;
 use super::pose_columns::{NAMES, PoseColumn, VALUES, pose_column};
 use crate::delimited_text::Delimiter;
-use crate::recording::finding_words::list;
 use crate::recording::imu_column;
 use crate::recording::row_parser::Layout;
 use crate::recording::text_header::Head;
 use crate::recording::{ColumnMeaning, ColumnUnit, TimeUnit};
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal};
 
 /// The columns of a text.
@@ -321,7 +321,7 @@ fn nothing_to_read(names: &[String]) -> InputError {
         );
     }
     let message =
-        format!("no column is known to be of a joint or of a pose; the columns are {}", list(names, 20));
+        format!("no column is known to be of a joint or of a pose; the columns are {}", quoted(names, 20));
     InputError::new(Refusal::ColumnMissing, message, EXAMPLES)
 }
 

@@ -1,7 +1,10 @@
 //! A batch of made-up sensors for the page on batches.
 
 use super::{Batch, BatchParameter, BatchSensor};
-use calibrant_core::diagnostic::{Code, Verdict};
+use calibrant_core::diagnostic::Check;
+use calibrant_core::diagnostic::Verdict;
+use calibrant_core::diagnostic::datasheet::{GainImplausible, ParameterImplausible};
+use calibrant_core::diagnostic::samples::Spikes;
 use calibrant_core::error::Refusal;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -36,9 +39,9 @@ pub(crate) fn drifting_batch(count: usize) -> Batch {
         let mut codes = Vec::new();
         if number == count / 2 {
             estimates[3].0 = 1.4;
-            codes = vec![Code::ParameterImplausible, Code::GainImplausible];
+            codes = vec![ParameterImplausible::CODE, GainImplausible::CODE];
         } else if number % 9 == 4 {
-            codes = vec![Code::Spikes];
+            codes = vec![Spikes::CODE];
         }
         let failed = number == count / 3;
         let verdict =

@@ -1,7 +1,8 @@
 //! Made-up results for the gallery: simulated readings, fitted only as far as a picture needs it.
 
 use super::{estimate, motion, sensor, study};
-use calibrant_core::diagnostic::{Diagnostic, HoldLeftOut, HoldSpan};
+use calibrant_core::diagnostic::holds::HoldLeftOut;
+use calibrant_core::diagnostic::{Diagnostic, HoldReason, HoldSpan};
 use estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
     Uncalibrated, Whiteness,
@@ -241,10 +242,10 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         }),
         gyroscope: None,
         changes: Vec::new(),
-        warnings: vec![Diagnostic::HoldLeftOut {
+        warnings: vec![Diagnostic::from(HoldLeftOut {
             hold: HoldSpan { number: 18, start_s: 170.0, end_s: 175.0 },
-            why: HoldLeftOut::MagnitudeOff { residual_mps2: 0.1, studentised: 21.0 },
-        }],
+            why: HoldReason::MagnitudeOff { residual_mps2: 0.1, studentised: 21.0 },
+        })],
     };
     (calibration, recording.into())
 }

@@ -3,7 +3,8 @@
 use super::sensors::{Batch, BatchSensor};
 use crate::number_format::{self, UNKNOWN};
 use crate::sheet::{Cell, Table};
-use calibrant_core::diagnostic::{Code, Usability};
+use calibrant_core::diagnostic::acceptance::LimitBroken;
+use calibrant_core::diagnostic::{Check, Usability};
 
 /// The most sensors in the table of those that are not ok.
 const MOST_ROWS: usize = 100;
@@ -67,7 +68,7 @@ fn decided_by(sensor: &BatchSensor) -> String {
 
 /// The codes, and after `limit-broken` the figures that break a limit.
 fn codes_and_limits(sensor: &BatchSensor) -> String {
-    let code = Code::LimitBroken.name();
+    let code = LimitBroken::CODE.name();
     match sensor.limits_failed.as_slice() {
         [] => decided_by(sensor),
         broken => decided_by(sensor).replace(code, &format!("{code} ({})", broken.join(", "))),
@@ -87,7 +88,7 @@ fn reasons(sensor: &BatchSensor) -> String {
 fn sentence(reason: &str) -> String {
     // the name of a file or of a parameter keeps its letters
     let is_name = reason.split([' ', ':']).next().is_some_and(|word| word.contains(['.', '_', '/']));
-    let text = if is_name { reason.to_owned() } else { crate::words::capitalised(reason) };
+    let text = if is_name { reason.to_owned() } else { crate::number_format::capitalised(reason) };
     if text.ends_with(['.', '?', '!', ')']) { text } else { text + "." }
 }
 

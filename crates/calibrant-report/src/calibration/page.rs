@@ -18,9 +18,9 @@ use crate::figure::{
 };
 use crate::limits::limit_section;
 use crate::noise::noise_sections;
+use crate::number_format::capitalised;
 use crate::sheet::{Section, Sheet, Shown};
 use crate::validation::validation_section;
-use crate::words::capitalised;
 use calibrant_core::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;

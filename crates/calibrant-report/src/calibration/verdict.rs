@@ -1,9 +1,9 @@
 //! The verdict on a calibration: can it be used?
 
 use super::quality::{calibration_quality, used_in_words};
+use crate::number_format::capitalised;
 use crate::sheet::{Grade, SheetVerdict};
 use crate::validation::validation_in_short;
-use crate::words::{capitalised, message};
 use crate::{About, number_format};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability, Verdict};
 use calibrant_core::estimate::Calibration;
@@ -36,7 +36,11 @@ pub(crate) fn calibration_verdict(
     about: &About,
 ) -> SheetVerdict {
     let of = |severity: Severity| -> Vec<String> {
-        diagnostics.iter().filter(|found| found.severity() == severity).map(message).collect()
+        diagnostics
+            .iter()
+            .filter(|found| found.severity() == severity)
+            .map(|found| found.message().to_owned())
+            .collect()
     };
     let remarks: Vec<String> = of(Severity::Note).into_iter().chain(remarks).collect();
     let own = || Verdict::on(diagnostics.iter().map(Diagnostic::code), &[]);

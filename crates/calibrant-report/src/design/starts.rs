@@ -1,8 +1,8 @@
 //! The table of the starts of the search.
 
 use crate::number_format;
+use crate::number_format::capitalised;
 use crate::sheet::{Cell, Table};
-use crate::words::capitalised;
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
 use calibrant_design::{AT_BEST, DesignStatus, StartOutcome};

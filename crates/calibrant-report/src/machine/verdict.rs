@@ -2,8 +2,8 @@
 
 use super::validation::{doubts, validation_in_short};
 use crate::calibration::{calibration_verdict, noise_explains};
+use crate::number_format::capitalised;
 use crate::sheet::SheetVerdict;
-use crate::words::capitalised;
 use crate::{About, number_format};
 use calibrant_core::sensor::Invariant;
 use calibrant_machine::estimate::{MachineCalibration, MachineTrust, MachineValidation};

@@ -53,7 +53,7 @@ impl Column {
     /// The note with the name of the column before it; none without a note.
     pub(super) fn explanation(&self) -> Option<String> {
         (!self.note.is_empty())
-            .then(|| format!("{}: {}.", crate::words::capitalised(&self.heading), self.note))
+            .then(|| format!("{}: {}.", crate::number_format::capitalised(&self.heading), self.note))
     }
 }
 

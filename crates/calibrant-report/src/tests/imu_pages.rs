@@ -2,7 +2,8 @@
 
 use super::super::{About, calibration_sheet, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
-use calibrant_core::diagnostic::{Diagnostic, RotationReason};
+use calibrant_core::diagnostic::RotationReason;
+use calibrant_core::diagnostic::fit::NotConverged;
 use calibrant_core::estimate::{Calibration, GyroscopeCalibration, Recovered};
 use calibrant_core::noise::{Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
@@ -152,7 +153,7 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
         .iter_mut()
         .for_each(|rotation| rotation.error_before_rad = rotation.error_rad);
     assert!(page(&calibration).contains("hardly improves the rotations"));
-    calibration.warnings.push(Diagnostic::NotConverged { status: "stalled" });
+    calibration.warnings.push(NotConverged { status: "stalled" }.into());
     assert!(page(&calibration).contains("verdict bad") && page(&calibration).contains("(not-converged)"));
 }
 

@@ -3,6 +3,7 @@
 use super::super::{About, machine_sheet};
 use super::{about, assert_sound, sensor};
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::fit::NotConverged;
 use calibrant_core::estimate::CalibrationStatus;
 use nalgebra::Vector3;
 
@@ -101,7 +102,7 @@ fn degenerate_results_on_a_machine_are_reported_without_panic() {
     let mut case = machine_case(false, 6.0, 3);
     let hostile = "a<b>&\"c\"";
     case.calibration.joints[0] = hostile.into();
-    case.calibration.warnings = vec![Diagnostic::NotConverged { status: "stalled" }];
+    case.calibration.warnings = vec![Diagnostic::from(NotConverged { status: "stalled" })];
     case.calibration.status = CalibrationStatus::Stalled;
     case.calibration.fit.p_value = Some(1e-9);
     case.calibration.used_share = 0.4;

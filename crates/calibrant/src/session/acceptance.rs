@@ -4,6 +4,7 @@ use super::calibrated::Calibrated;
 use super::figures::figures;
 use super::outcome::Outcome;
 use calibrant_core::acceptance::{AcceptanceLimit, CheckedLimit, checked};
+use calibrant_core::diagnostic::validation::ValidationDoubts;
 use calibrant_core::diagnostic::{Code, Diagnostic};
 use calibrant_core::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
 
@@ -31,7 +32,7 @@ fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
             ErrorKind::Rotation => "the rotation errors",
         };
         let is_large = errors.verdict == CovarianceVerdict::TooSmall;
-        is_large.then(|| Diagnostic::ValidationDoubts { what: what.into(), factor: errors.factor })
+        is_large.then(|| Diagnostic::from(ValidationDoubts { what: what.into(), factor: errors.factor }))
     };
     match &outcome.calibrated {
         Calibrated::Sensors(_) => {
@@ -41,9 +42,11 @@ fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
             let shifts = machine.validations.iter().flat_map(|of| &of.shifts);
             let large = shifts.filter(|shift| shift.verdict == CovarianceVerdict::TooSmall);
             large
-                .map(|shift| Diagnostic::ValidationDoubts {
-                    what: format!("the movements of the parameters of the {}", shift.sensor),
-                    factor: shift.factor,
+                .map(|shift| {
+                    Diagnostic::from(ValidationDoubts {
+                        what: format!("the movements of the parameters of the {}", shift.sensor),
+                        factor: shift.factor,
+                    })
                 })
                 .collect()
         }

@@ -1,6 +1,6 @@
 //! Outliers are taken out of a recording once, for all stages that follow.
 
-use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::{Diagnostic, samples};
 use calibrant_core::estimate::{CalibrationProblem, Stimulus, without_motion_outliers};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::{ImuRecording, Sensor, SensorKind, Spikes};
@@ -29,7 +29,7 @@ pub(crate) fn take_out_outliers_in_motion(recording: &mut ImuRecording) -> Vec<D
 fn diagnostics(recording: &ImuRecording, outliers: &[(SensorKind, Spikes)]) -> Vec<Diagnostic> {
     let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
         let unit = recording.sensor(*sensor_kind)?.unit();
-        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
+        Some(samples::Spikes::of(spikes, *sensor_kind, unit).into())
     };
     outliers.iter().filter_map(of_sensor).collect()
 }

@@ -1,10 +1,10 @@
 //! The kinds of calibrations: what an experiment says of the motion in every recording.
 
-use super::note::Note;
 use super::sections::{setup_of, unused_face_sd};
 use super::setup::{Faces, Setup};
 use super::source::Source;
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::samples::GyroscopeMissing;
 use calibrant_core::error::Result;
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::ImuRecording;
@@ -29,7 +29,7 @@ impl<'e> Kind<'e> {
     /// What the recording lacks of this kind.
     pub(crate) fn missing(&self, recording: &ImuRecording) -> Vec<Diagnostic> {
         let without = matches!(self, Self::Imu(..)) && recording.gyroscope.is_none();
-        without.then_some(Diagnostic::GyroscopeMissing {}).into_iter().collect()
+        without.then_some(GyroscopeMissing {}.into()).into_iter().collect()
     }
 
     /// What is known of one recording.
@@ -37,7 +37,7 @@ impl<'e> Kind<'e> {
         &self,
         source: &Source,
         recording: &ImuRecording,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Setup<'e>> {
         Ok(match self {
             Self::Motion(command) => Setup::Motion((*command).clone()),
@@ -52,7 +52,7 @@ impl<'e> Kind<'e> {
 }
 
 /// An accelerometer that is held still.
-fn held<'e>(plan: &'e HoldsPlan, notes: &mut Vec<Note>) -> Setup<'e> {
+fn held<'e>(plan: &'e HoldsPlan, notes: &mut Vec<Diagnostic>) -> Setup<'e> {
     match &plan.directions {
         Some(directions) => {
             Setup::Faces(Faces { holds: plan.setup(), directions, face_sd_rad: plan.face_sd_rad })

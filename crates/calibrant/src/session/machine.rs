@@ -5,7 +5,6 @@ use super::clean::take_out_outliers_in_motion;
 use super::duplicates::refuse_duplicate;
 use super::machine_datasheet::beyond_datasheets;
 use super::machine_log::LogFile;
-use super::note::Note;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
 use super::prepared::log_options;
@@ -67,7 +66,7 @@ impl<'e> MachineTask<'e> {
         &self,
         source: &Source,
         options: &SessionOptions,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Outcome> {
         let recorded = self.reader.read(source)?;
         let setup = self.setup();
@@ -133,9 +132,9 @@ impl<'e> MachineTask<'e> {
         source: &Source,
         mut recorded: Recorded,
         (log, option): (Option<&LogFile>, TaskOption),
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Moved> {
-        notes.extend(Note::of_findings(&recorded.findings, source));
+        notes.extend(recorded.findings.iter().cloned());
         let outliers = take_out_outliers_in_motion(&mut recorded.recording);
         let beside;
         let log = match log {
@@ -155,7 +154,7 @@ impl<'e> MachineTask<'e> {
         other: &Source,
         options: &SessionOptions,
         moved: &Moved,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Moved> {
         let log = options.validate_motion.as_ref();
         let log = log.map(|log| LogFile::read(log, &log_options(self.plan), notes)).transpose()?;

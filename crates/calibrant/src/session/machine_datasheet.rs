@@ -1,6 +1,7 @@
 //! A result on a machine beside the datasheets of the sensors.
 
-use calibrant_core::diagnostic::{Code, Diagnostic};
+use calibrant_core::diagnostic::fit::NoiseImplausible;
+use calibrant_core::diagnostic::{Check, Diagnostic};
 use calibrant_core::estimate::{beyond_datasheet, noise_not_as_given};
 use calibrant_core::sensor::{ParameterList, Sensor, SensorKind, SensorParameters};
 use calibrant_io::ImuPlan;
@@ -31,7 +32,7 @@ pub(crate) fn beyond_datasheets(
     };
     let noise = calibration.noise.iter().filter_map(|of| {
         let found = noise_not_as_given(of.sensor, &of.white_noise, &given(of.sensor)?)?;
-        (found.code() == Code::NoiseImplausible).then_some(found)
+        (found.code() == NoiseImplausible::CODE).then_some(found)
     });
     beyond_datasheet(&parameters, &values, &sd).into_iter().chain(noise).collect()
 }

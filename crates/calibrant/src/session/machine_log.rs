@@ -1,13 +1,13 @@
 //! The log of a machine's motion: its joints in the order of the chain, or its poses.
 
 use super::motion_source::MotionSource;
-use super::note::Note;
 use super::source::Readings;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::machine::PosesInterpolated;
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_io::{MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::log::{ReferenceLog, recover_interpolated};
-use calibrant_report::number_format::{counted, significant};
 use std::path::PathBuf;
 
 /// A log as its file holds it.
@@ -21,14 +21,10 @@ impl LogFile {
     pub(crate) fn read(
         source: &MotionSource,
         options: &ReferenceLogOptions,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let (file, path) = (source.logged(options)?, source.path());
-        notes.extend(
-            file.findings
-                .iter()
-                .map(|finding| Note::Finding { file: file_name(path), finding: finding.clone() }),
-        );
+        notes.extend(file.findings.iter().map(|found| found.clone().in_file(file_name(path))));
         Ok(Self { path: path.to_path_buf(), file })
     }
 
@@ -37,7 +33,7 @@ impl LogFile {
         recording: &Readings,
         options: &ReferenceLogOptions,
         option: TaskOption,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         if recording.is_file() && is_reference_log(recording.path(), options) {
             return Self::read(&MotionSource::File(recording.path().into()), options, notes);
@@ -54,7 +50,7 @@ impl LogFile {
         &self,
         chain: Option<&KinematicChain>,
         counted_from_ns: Option<i128>,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<(ReferenceLog, MachineLogInput)> {
         let mut file = self.file.clone();
         file.put_on_clock_of(counted_from_ns);
@@ -63,12 +59,9 @@ impl LogFile {
         if let ReferenceLog::Poses(poses) = &log
             && let Some(stream) = recover_interpolated(poses)
         {
-            notes.push(Note::Remark(format!(
-                "{}: the poses are a linear interpolation of a stream at {} Hz. Its {} take their place",
-                file_name(&self.path),
-                significant(stream.rate_hz(), 7),
-                counted(stream.log.times_s.len(), "sample")
-            )));
+            let (rate_hz, samples) = (stream.rate_hz(), stream.log.times_s.len());
+            let found = Diagnostic::from(PosesInterpolated { rate_hz, samples });
+            notes.push(found.in_file(file_name(&self.path)));
             recovered_rate_hz = Some(stream.rate_hz());
             log = ReferenceLog::Poses(stream.log);
         }

@@ -1,7 +1,6 @@
 //! What comes of a recording, and the files that it is written to.
 
 use super::calibrated::{Calibrated, MachineOutcome};
-use super::note::Note;
 use calibrant_core::acceptance::CheckedLimit;
 use calibrant_core::diagnostic::{Code, Diagnostic, Verdict};
 use calibrant_core::error::Result;
@@ -12,7 +11,7 @@ use calibrant_io::{
     CalibrationFile, DiagnosticWords, Origin, Summary, machine_calibration_json, to_json, write_atomically,
     write_json, write_machine_calibration,
 };
-use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet, message};
+use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet};
 use std::path::Path;
 
 /// A calibration with everything that stands beside it.
@@ -25,7 +24,7 @@ pub struct Outcome {
     /// The noise of an IMU in its longest hold, in m/s² and rad/s, as the report shows it. Empty without a report.
     pub noise: Vec<SensorNoise>,
     /// What was noticed, in the order in which people should read it. Warnings of the calibration are in itself.
-    pub notes: Vec<Note>,
+    pub notes: Vec<Diagnostic>,
     /// The sensor, and the files that were read.
     pub origin: Origin,
     /// The limits that were checked.
@@ -118,12 +117,7 @@ impl Outcome {
 
     /// How diagnostics are written to files.
     fn words(&self) -> DiagnosticWords<'_> {
-        DiagnosticWords {
-            message: &message,
-            allowed: &self.allowed,
-            findings: &self.findings,
-            limits: &self.limits,
-        }
+        DiagnosticWords { allowed: &self.allowed, findings: &self.findings, limits: &self.limits }
     }
 
     fn write_json(&self, directory: &Path) -> Result<()> {

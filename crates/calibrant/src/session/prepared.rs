@@ -1,8 +1,9 @@
 //! What all recordings of a session share beside the experiment: the commanded motion, or the machine and its log.
 
 use super::machine_log::LogFile;
-use super::note::Note;
 use super::options::SessionOptions;
+use calibrant_core::diagnostic::motion::IntervalsDiffer;
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_io::{Experiment, MachinePlan, MotionPlan, Plan, ReferenceLogOptions};
@@ -22,7 +23,7 @@ impl Prepared {
     pub(crate) fn read(
         experiment: &Experiment,
         options: &SessionOptions,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         match &experiment.plan {
             Plan::Motion(plan) if experiment.imu.is_none() => {
@@ -57,7 +58,7 @@ fn commanded(
     plan: &MotionPlan,
     experiment: &Experiment,
     options: &SessionOptions,
-    notes: &mut Vec<Note>,
+    notes: &mut Vec<Diagnostic>,
 ) -> Result<CommandedMotion> {
     let source = options.motion.as_ref().ok_or_else(|| {
         let message = "a [motion] experiment needs the commanded motion";
@@ -66,12 +67,9 @@ fn commanded(
     })?;
     let motion = source.commanded(experiment.sensor.axes)?;
     if motion.intervals() != plan.intervals {
-        notes.push(Note::Remark(format!(
-            "{} has {} intervals, the experiment file {}: the former counts",
-            source.path().display(),
-            motion.intervals(),
-            plan.intervals
-        )));
+        let name = Phrase(source.path().display().to_string());
+        let (intervals, stated) = (motion.intervals(), plan.intervals);
+        notes.push(IntervalsDiffer { motion: name, intervals, stated }.into());
     }
     Ok(plan.command(motion))
 }

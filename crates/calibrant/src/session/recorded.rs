@@ -2,9 +2,10 @@
 
 use super::duplicates::{Readings, are_the_same};
 use super::source::Source;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
-use calibrant_io::{FileFormat, Finding, ImuFile, ImuReadOptions, Input, Origin, USUAL_RATE_SD_PPM, UtcTime};
+use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, USUAL_RATE_SD_PPM, UtcTime};
 use std::path::Path;
 
 /// The samples of one sensor or of both, and where they come from.
@@ -12,8 +13,8 @@ pub(crate) struct Recorded {
     pub(crate) recording: ImuRecording,
     /// The format of an IMU's file.
     pub(crate) format: Option<FileFormat>,
-    /// What the reader noticed.
-    pub(crate) findings: Vec<Finding>,
+    /// What the reader noticed, each with the name of its file.
+    pub(crate) findings: Vec<Diagnostic>,
     /// Relative standard deviation of the sample rate, if that is nominal; 0 if a clock was recorded.
     pub(crate) rate_sd: f64,
     /// The time from which the times count, ns, where they count from their first and the file has another.
@@ -24,22 +25,30 @@ pub(crate) struct Recorded {
     joined: Vec<Input>,
 }
 
+/// What was noticed in a file, or in both files of a pair, with their names.
+fn findings_of(file: &ImuFile, source: &Source) -> Vec<Diagnostic> {
+    file.findings_in(&source.name(false), Some(&source.name(true)))
+}
+
 /// Pause between two recordings of a sensor that are calibrated together, s.
 const PAUSE_S: f64 = 60.0;
 
 impl Recorded {
     /// Reads an accelerometer alone.
     pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
-        let ImuFile { recording, findings, sha256, counted_from_ns, .. } = source.recording.read(options)?;
+        let file = source.recording.read(options)?;
+        let findings = findings_of(&file, source);
+        let ImuFile { recording, sha256, counted_from_ns, .. } = file;
         let (format, rate_sd, joined) = (None, 0.0, Vec::new());
         Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
     }
 
     /// Reads an IMU from its file or its two files.
     pub(crate) fn imu_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
-        let ImuFile { recording, format, findings, sha256, counted_from_ns, .. } =
-            source.read_imu(options)?;
-        let rate_sd = match findings.iter().any(Finding::is_nominal_rate) {
+        let file = source.read_imu(options)?;
+        let findings = findings_of(&file, source);
+        let ImuFile { recording, format, sha256, counted_from_ns, rate_is_nominal, .. } = file;
+        let rate_sd = match rate_is_nominal {
             true => 1e-6 * options.rate_sd_ppm.unwrap_or(USUAL_RATE_SD_PPM),
             false => 0.0,
         };

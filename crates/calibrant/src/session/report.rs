@@ -2,6 +2,7 @@
 
 use super::options::SessionOptions;
 use super::recorded::Recorded;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_io::Input;
 use calibrant_report::About;
 use calibrant_report::number_format::{count, significant};
@@ -27,7 +28,7 @@ pub(crate) fn about(
     About {
         title: format!("Calibration of {what} from {files}"),
         facts: facts.into_iter().map(|(label, fact)| (label.to_owned(), fact)).collect(),
-        findings: recorded.findings.iter().map(ToString::to_string).collect(),
+        findings: recorded.findings.iter().map(Diagnostic::without_file).collect(),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     }

@@ -1,7 +1,8 @@
 //! What is known of the recording of an IMU: by the experiment, and by a list of sections.
 
-use super::note::Note;
 use super::source::Source;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::settings::SettingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{ImuSetup, Turn};
 use calibrant_core::sensor::ImuRecording;
@@ -13,7 +14,7 @@ pub(crate) fn setup_of(
     holds: &HoldsPlan,
     source: &Source,
     recording: &ImuRecording,
-    notes: &mut Vec<Note>,
+    notes: &mut Vec<Diagnostic>,
 ) -> Result<ImuSetup> {
     let mut setup = plan.setup(holds);
     if let Some(list) = &source.sections {
@@ -29,9 +30,8 @@ pub(crate) fn setup_of(
             return Err(Error::experiment(input_error.in_file(path)));
         }
         if setup.holds.intervals_s.is_some() {
-            let words =
-                "holds.intervals_s and holds.directions are not used: the list of sections gives the faces";
-            notes.push(Note::Warning(words.into()));
+            let keys = ["holds.intervals_s", "holds.directions"];
+            notes.push(SettingUnused::of(&keys, "the list of sections gives the faces").into());
         }
         take_sections(&mut setup, &sections, times, plan);
     }
@@ -42,9 +42,9 @@ pub(crate) fn setup_of(
 }
 
 /// The warning about a face alignment where no directions are given.
-pub(crate) fn unused_face_sd(face_sd_rad: Option<f64>) -> Option<Note> {
-    let words = "holds.face_sd_deg is not used: no directions of the holds are given";
-    face_sd_rad.map(|_| Note::Warning(words.into()))
+pub(crate) fn unused_face_sd(face_sd_rad: Option<f64>) -> Option<Diagnostic> {
+    let unused = |_| SettingUnused::of(&["holds.face_sd_deg"], "no directions of the holds are given").into();
+    face_sd_rad.map(unused)
 }
 
 /// Faces and turns from a list of sections.

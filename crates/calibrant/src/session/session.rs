@@ -4,13 +4,13 @@ use super::acceptance::judge;
 use super::kind::Kind;
 use super::machine::MachineTask;
 use super::motion_source::MotionSource;
-use super::note::Note;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
 use super::prepared::{Prepared, unsuited};
 use super::source::Source;
 use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
 use calibrant_io::{Experiment, HashedFile, Origin, Plan};
 
@@ -19,7 +19,7 @@ pub struct Session {
     experiment: Experiment,
     options: SessionOptions,
     prepared: Prepared,
-    notes: Vec<Note>,
+    notes: Vec<Diagnostic>,
     /// What all results come from.
     origin: Origin,
 }
@@ -63,7 +63,7 @@ impl Session {
 
     /// What was noticed in what all recordings share.
     #[must_use]
-    pub fn notes(&self) -> &[Note] {
+    pub fn notes(&self) -> &[Diagnostic] {
         &self.notes
     }
 
@@ -83,7 +83,7 @@ impl Session {
     /// [`Error::Recording`](crate::Error::Recording) where a recording cannot be read or used;
     /// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that it cannot determine;
     /// [`Error::Experiment`](crate::Error::Experiment) where it contradicts the experiment, or where the validation is on the data that were calibrated from.
-    pub fn calibrate_noting(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
+    pub fn calibrate_noting(&self, source: &Source, notes: &mut Vec<Diagnostic>) -> Result<Outcome> {
         let before = notes.len();
         let named = self.options.naming.of(source.path())?;
         let mut outcome = self.estimated(source, notes)?;
@@ -95,17 +95,15 @@ impl Session {
             ..self.origin.clone()
         };
         let names = [source.name(false), source.name(true)];
-        let of_recording = |note: &Note| match note {
-            Note::Finding { file, finding } if names.contains(file) => Some(finding.code()),
-            _ => None,
-        };
-        let findings = notes[before..].iter().filter_map(of_recording).collect();
+        let is_of_recording =
+            |found: &&Diagnostic| found.file().is_some_and(|file| names.iter().any(|name| name == file));
+        let findings = notes[before..].iter().filter(is_of_recording).map(Diagnostic::code).collect();
         judge(&mut outcome, self.limits(), findings);
         Ok(outcome)
     }
 
     /// The stages that this kind of experiment needs, up to the validation.
-    fn estimated(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
+    fn estimated(&self, source: &Source, notes: &mut Vec<Diagnostic>) -> Result<Outcome> {
         let (experiment, options) = (&self.experiment, &self.options);
         let kind = match (&experiment.plan, &self.prepared) {
             (Plan::Machine(plan), Prepared::OnMachine { chain, log }) => {

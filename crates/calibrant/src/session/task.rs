@@ -4,7 +4,6 @@ use super::calibrated::Calibrated;
 use super::duplicates::refuse_duplicate;
 use super::kind::Kind;
 use super::noise::NoiseInHold;
-use super::note::Note;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
 use super::reader::Reader;
@@ -12,14 +11,14 @@ use super::recorded::Recorded;
 use super::report::about;
 use super::setup::Setup;
 use super::source::Source;
-use super::temperature::extrapolation_in_words;
 use super::validation::{on_recording, unless_too_few};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationSettings, Validation, other_temperature};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::{Sensor, Temperatures};
 use calibrant_io::{Experiment, Prior, file_name};
-use calibrant_report::message;
 
 /// What all recordings share.
 pub(crate) struct Task<'e> {
@@ -47,14 +46,14 @@ impl<'e> Task<'e> {
         &self,
         source: &Source,
         options: &SessionOptions,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Outcome> {
         let mut recorded = self.reader.read(source)?;
-        notes.extend(Note::of_findings(&recorded.findings, source));
+        notes.extend(recorded.findings.iter().cloned());
         for readings in &source.further {
             let further = Source::new(readings.clone());
             let read = self.reader.read(&further)?;
-            notes.extend(Note::of_findings(&read.findings, &further));
+            notes.extend(read.findings.iter().cloned());
             recorded.join(read, source, readings.path())?;
         }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
@@ -110,7 +109,7 @@ impl<'e> Task<'e> {
         options: &SessionOptions,
         calibration: &Calibration,
         (recorded, setup): (&Recorded, &Setup<'_>),
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Vec<Validation>> {
         let mut validations = Vec::new();
         if let Some(other) = &options.validate {
@@ -130,15 +129,15 @@ impl<'e> Task<'e> {
         calibration: &Calibration,
         (recorded, setup): (&Recorded, &Setup<'_>),
         source: &Source,
-        notes: &mut Vec<Note>,
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Validation> {
         let path = source.path();
-        let warning = |words: String| Note::Warning(format!("{}: {words}", file_name(path)));
+        let in_file = |found: Diagnostic| found.in_file(file_name(path));
         let mut other = self.reader.read_other(source, calibration.sensor_kinds())?;
-        notes.extend(Note::of_findings(&other.findings, source));
+        notes.extend(other.findings.iter().cloned());
         let mut setup = setup.of_other();
         let outliers = setup.prepare(self.accelerometer, &mut other.recording);
-        notes.extend(outliers.iter().map(|found| warning(message(found))));
+        notes.extend(outliers.into_iter().map(in_file));
         for &sensor_kind in calibration.sensor_kinds() {
             let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
             refuse_duplicate(sensor_kind, &one, &two, source.path_of(sensor_kind))?;
@@ -149,7 +148,8 @@ impl<'e> Task<'e> {
         validation.reasons.extend(temperature);
         let thermal = &calibration.imu.thermal;
         let range = Temperatures::of(&other.recording)?.and_then(|temperatures| temperatures.range_c());
-        notes.extend(range.and_then(|range| extrapolation_in_words(thermal, range)).map(warning));
+        let beyond = range.and_then(|range| CalibrationExtrapolated::of(thermal, range));
+        notes.extend(beyond.map(|found| in_file(found.into())));
         Ok(on_recording(path, validation))
     }
 }

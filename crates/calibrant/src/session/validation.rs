@@ -1,16 +1,17 @@
 //! Two steps after a validation: fold errors about the recording become a warning, and a validation on another recording gets its file name.
 
-use super::note::Note;
+use calibrant_core::diagnostic::validation::FoldsImpossible;
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, Result};
 use calibrant_core::estimate::{Validation, ValidationSource};
 use calibrant_io::file_name;
 use std::path::Path;
 
 /// The cross-validation by folds. If the recording does not allow it (too few holds, for example), the calibration still stands: the reason becomes a warning and the result is `None`.
-pub(crate) fn unless_too_few<T>(folds: Result<T>, notes: &mut Vec<Note>) -> Result<Option<T>> {
+pub(crate) fn unless_too_few<T>(folds: Result<T>, notes: &mut Vec<Diagnostic>) -> Result<Option<T>> {
     match folds {
         Err(error @ Error::Recording(_)) => {
-            notes.push(Note::Warning(format!("not validated by folds: {error}")));
+            notes.push(FoldsImpossible { why: Phrase(error.to_string()) }.into());
             Ok(None)
         }
         folds => folds.map(Some),

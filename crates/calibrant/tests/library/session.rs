@@ -9,7 +9,7 @@ use calibrant::estimate::{
 use calibrant::io::{Experiment, preset, write_imu_recording, write_motion, write_recording};
 use calibrant::motion::{CommandedMotion, Gravity, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
-use calibrant::session::{MotionSource, Note, Outcome, Session, SessionOptions, Source};
+use calibrant::session::{MotionSource, Outcome, Session, SessionOptions, Source};
 use calibrant::simulate::{
     HoldsSimulation, ImuSimulation, Purpose, draw_sensor, initial_motion, sample_times, simulate_holds,
     simulate_imu, simulate_recording, stream,
@@ -110,7 +110,7 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
         ..SessionOptions::default()
     };
     let session = Session::with(experiment.clone(), options).expect("prepared");
-    assert!(matches!(session.notes(), [Note::Remark(words)] if words.contains("12 intervals")));
+    assert!(matches!(session.notes(), [found] if found.message().contains("12 intervals")));
     let outcome = session.calibrate(&Source::from_file(path("recording.csv"))).expect("calibrated");
     let calibration = outcome.calibration().expect("of sensors");
 
@@ -201,5 +201,5 @@ fn notes_are_there_where_the_run_fails() {
     let mut notes = Vec::new();
     let outcome = session.calibrate_noting(&Source::from_file(&file), &mut notes);
     assert!(outcome.expect_err("too few holds").is_not_identifiable());
-    assert!(matches!(notes.as_slice(), [Note::Finding { file, .. }] if file == "recording.csv"), "{notes:?}");
+    assert!(matches!(notes.as_slice(), [found] if found.file() == Some("recording.csv")), "{notes:?}");
 }

@@ -3,6 +3,8 @@
 use crate::common::messages;
 use crate::common::{draw_imu, normal, xsens};
 use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
+use calibrant::diagnostic::Diagnostic;
+use calibrant::diagnostic::samples::Spikes;
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, ImuProblem, ImuSetup, Recovered, Stimulus,
     calibrate, calibrate_imu, find_imu_holds,
@@ -90,7 +92,7 @@ fn invalid_samples_in_a_row_are_a_gap_and_are_named_with_time_and_value() {
         assert_eq!((*found, spikes.cut.len(), spikes.time_s), (of, 20, 10.0));
         let samples = without.accelerometer.as_ref().expect("there").len();
         assert_eq!(without.temperature_c.as_ref().expect("there").len(), samples);
-        let words = calibrant::report::spikes_taken_out(spikes, of, ReadingUnit::MetrePerSecondSquared);
+        let words = Diagnostic::from(Spikes::of(spikes, of, ReadingUnit::MetrePerSecondSquared)).to_string();
         assert!(words.contains("20 samples are invalid") && words.contains("at 10.000 s"), "{words}");
         // the holds after the gap are where they were
         let holds = find_imu_holds(&damaged, 1.0).expect("found");

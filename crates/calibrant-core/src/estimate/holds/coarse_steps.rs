@@ -6,5 +6,5 @@ use crate::sensor::{Recording, SensorKind};
 
 /// The axes of an accelerometer that come in coarse steps.
 pub(in crate::estimate) fn coarse_steps(coarse: &[CoarseAxis], recording: &Recording) -> Vec<Diagnostic> {
-    coarse.iter().map(|found| found.diagnostic(SensorKind::Accelerometer, recording.unit)).collect()
+    coarse.iter().map(|found| found.check(SensorKind::Accelerometer, recording.unit).into()).collect()
 }

@@ -5,6 +5,7 @@
 //! finds holds in trembling hands too.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::holds::HoldBeyondRecording;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{Hold, to_ms};
 use crate::sensor::{MeanReading, Recording, SensorKind, Spikes, gap_s, greater, lesser};
@@ -256,13 +257,15 @@ pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f6
         let missing = (first - start).max(0.0) + (end - last).max(0.0);
         missing > (ROUNDED_TIME_SHARE * (end - start)).max(2.0 * step)
     };
-    let beyond = |(k, &(start_s, end_s)): (usize, &(f64, f64))| Diagnostic::HoldBeyondRecording {
-        hold: k + 1,
-        start_s,
-        end_s,
-        recording_start_s: first,
-        recording_end_s: last,
-        common_s: end_s.min(last) - start_s.max(first),
+    let beyond = |(k, &(start_s, end_s)): (usize, &(f64, f64))| {
+        Diagnostic::from(HoldBeyondRecording {
+            hold: k + 1,
+            start_s,
+            end_s,
+            recording_start_s: first,
+            recording_end_s: last,
+            common_s: end_s.min(last) - start_s.max(first),
+        })
     };
     intervals_s.iter().enumerate().filter(outside).map(beyond).collect()
 }

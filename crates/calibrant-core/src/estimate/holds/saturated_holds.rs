@@ -3,7 +3,7 @@
 //! Saturation moves the mean, always to the same side, and makes the scatter within the hold too small. These holds are unusable, whatever their
 //! residuals.
 
-use crate::diagnostic::HoldLeftOut;
+use crate::diagnostic::HoldReason;
 use crate::error::{Error, NotIdentifiable};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Saturation};
@@ -42,8 +42,8 @@ pub fn clipped_holds(recording: &Recording, holds: &[Hold]) -> Vec<Option<Satura
 }
 
 /// Why a hold is not used.
-pub(in crate::estimate) fn reason(end: &Saturation, recording: &Recording) -> HoldLeftOut {
-    HoldLeftOut::Saturated { axis: end.axis, reading: end.value, unit: recording.unit }
+pub(in crate::estimate) fn reason(end: &Saturation, recording: &Recording) -> HoldReason {
+    HoldReason::Saturated { axis: end.axis, reading: end.value, unit: recording.unit }
 }
 
 /// Adds the number of saturated holds to an error about the other holds.

@@ -1,5 +1,9 @@
 //! Warnings about a static calibration, and the reason if it is not determined.
 
+use crate::diagnostic::fit::{FewDegreesOfFreedom, ModelContradicted, NotConverged, NothingToCheck};
+use crate::diagnostic::holds::{
+    GravityUnusual, HoldLeftOut, HoldsLeftOutInARow, HoldsScatter, HoldsSpreadLittle, OrientationMissing,
+};
 use crate::diagnostic::{Diagnostic, FacePointing, HoldSpan};
 use crate::error::UndeterminedGroup;
 use crate::estimate::gravity_off_earth::gravity_off_earth;
@@ -96,42 +100,41 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     let mut warnings = Vec::new();
     let Recovered::Holds(holds) = &calibration.recovered else { return warnings };
     if calibration.status != CalibrationStatus::Converged {
-        warnings.push(Diagnostic::NotConverged { status: calibration.status.name() });
+        warnings.push(NotConverged { status: calibration.status.name() }.into());
     }
     warnings.extend(gravity_off_earth(&holds.gravity));
     warnings.extend(left_out(holds));
     warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.used().collect();
     if calibration.fit.degrees_of_freedom == 0 {
-        warnings.push(Diagnostic::NothingToCheck {
-            holds: Some(used.len()),
-            parameters: calibration.parameters.len(),
-        });
+        warnings.push(
+            NothingToCheck { holds: Some(used.len()), parameters: calibration.parameters.len() }.into(),
+        );
     } else if calibration.fit.degrees_of_freedom < 5 {
         let degrees_of_freedom = calibration.fit.degrees_of_freedom;
-        warnings.push(Diagnostic::FewDegreesOfFreedom { degrees_of_freedom });
+        warnings.push(FewDegreesOfFreedom { degrees_of_freedom }.into());
     }
     if holds.condition_number > CONDITION && are_correlated(calibration, weakest) {
         let (condition_number, parameters) = (holds.condition_number, weakest.to_vec());
-        warnings.push(Diagnostic::HoldsSpreadLittle { condition_number, parameters });
+        warnings.push(HoldsSpreadLittle { condition_number, parameters }.into());
     }
     let missing = missing_faces(&used);
     if !missing.is_empty() && (holds.condition_number > CONDITION / 3.0 || missing.len() > 1) {
-        warnings.push(Diagnostic::OrientationMissing { missing });
+        warnings.push(OrientationMissing { missing }.into());
     }
     if let (Some(assumed), Some(found)) = (calibration.fit.assumed_noise, calibration.fit.noise_estimate) {
         warnings.extend(noise_not_as_given(SensorKind::Accelerometer, &found, &assumed));
     }
     let between_holds_sd_mps2 = holds.between_holds_sd_mps2;
     if between_holds_sd_mps2 > SCATTERED_MPS2 {
-        warnings.push(Diagnostic::HoldsScatter { between_holds_sd_mps2 });
+        warnings.push(HoldsScatter { between_holds_sd_mps2 }.into());
     }
     let ratio = between_holds_sd_mps2 / SCATTERED_MPS2;
     if ratio > CONTRADICTED {
-        warnings.push(Diagnostic::ModelContradicted { sensor_kind: SensorKind::Accelerometer, ratio });
+        warnings.push(ModelContradicted { sensor_kind: SensorKind::Accelerometer, ratio }.into());
     }
     if !(9.7..=9.9).contains(&holds.gravity.magnitude_mps2) {
-        warnings.push(Diagnostic::GravityUnusual { gravity_mps2: holds.gravity.magnitude_mps2 });
+        warnings.push(GravityUnusual { gravity_mps2: holds.gravity.magnitude_mps2 }.into());
     }
     warnings.extend(calibration.beyond_datasheet());
     warnings
@@ -154,7 +157,7 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<Diagnostic> 
         .enumerate()
         .filter_map(|(k, hold)| {
             let why = hold.why_left_out()?;
-            Some(Diagnostic::HoldLeftOut { hold: HoldSpan::of(k, &hold.hold), why })
+            Some(Diagnostic::from(HoldLeftOut { hold: HoldSpan::of(k, &hold.hold), why }))
         })
         .collect()
 }
@@ -164,7 +167,7 @@ fn left_out_in_a_row(holds: &HoldCalibration) -> Option<Diagnostic> {
     let sound: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.reason.is_none()).collect();
     let run = longest_run(sound.iter().map(|hold| !hold.used)).filter(|_| holds.change.is_none())?;
     let (first, last) = (&sound[run.start].hold, &sound[run.end - 1].hold);
-    Some(Diagnostic::HoldsLeftOutInARow { holds: run.len(), start_s: first.start_s, end_s: last.end_s })
+    Some(Diagnostic::from(HoldsLeftOutInARow { holds: run.len(), start_s: first.start_s, end_s: last.end_s }))
 }
 
 /// Directions, out of ±x, ±y, ±z, near which there is no hold.

@@ -1,6 +1,8 @@
 //! Calibrates an IMU: removes outliers, and compares given values with the recording.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::datasheet::KnownContradicted;
+use crate::diagnostic::holds::HoldsSpreadLittle;
+use crate::diagnostic::{Check, samples};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::are_correlated;
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
@@ -42,9 +44,12 @@ pub fn calibrate_imu_with(
     let warnings = std::mem::take(&mut calibration.warnings);
     calibration.warnings = warnings
         .into_iter()
-        .filter(|warning| match warning {
-            Diagnostic::HoldsSpreadLittle { parameters, .. } => are_correlated(&calibration, parameters),
-            _ => true,
+        .filter(|warning| {
+            // its subject is the list of the parameters
+            let parameters =
+                || warning.subject().unwrap_or_default().split(", ").map(str::to_owned).collect();
+            warning.code() != HoldsSpreadLittle::CODE
+                || are_correlated(&calibration, &parameters() as &Vec<String>)
         })
         .collect();
     Ok(calibration)
@@ -60,7 +65,7 @@ fn without_outliers(
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
     let found = outliers.iter().filter_map(|(sensor_kind, outliers)| {
         let unit = problem.recording.sensor(*sensor_kind)?.unit;
-        Some(Diagnostic::spikes(outliers, *sensor_kind, unit))
+        Some(samples::Spikes::of(outliers, *sensor_kind, unit).into())
     });
     calibration.warnings.splice(0..0, found);
     Ok(calibration)
@@ -83,7 +88,7 @@ fn of_clean(
     let stated = contradictions.into_iter().map(|term| term.known);
     match outcome {
         Ok(mut found) if !absurd => {
-            found.warnings.splice(0..0, stated.map(|known| Diagnostic::KnownContradicted { known }));
+            found.warnings.splice(0..0, stated.map(|known| KnownContradicted { known }.into()));
             Ok(found)
         }
         Err(error) if stated.len() == 0 => Err(error),

@@ -1,6 +1,6 @@
 //! The calibration of an accelerometer alone from holds of known directions: the part of an IMU's that needs no gyroscope.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, samples};
 use crate::error::Result;
 use crate::estimate::datasheet::noise_not_as_given;
 use crate::estimate::gravity_error::gravity_slope;
@@ -34,7 +34,7 @@ pub fn calibrate_faces(problem: &FacesProblem<'_>, settings: &CalibrationSetting
     let (sensor, stimulus) = (problem.sensor, Stimulus::Holds(problem.holds));
     CalibrationProblem { sensor, recording: &recording, stimulus }.validate()?;
     let mut calibration = solved(problem, from_faces(problem, &recording)?, settings)?;
-    let found = spikes.map(|spikes| Diagnostic::spikes(&spikes, kind, recording.unit));
+    let found = spikes.map(|spikes| Diagnostic::from(samples::Spikes::of(&spikes, kind, recording.unit)));
     calibration.warnings.splice(0..0, found);
     calibration.warnings.extend(beyond(&recording, problem.holds.intervals_s.as_deref().unwrap_or_default()));
     let beyond_datasheet = calibration.beyond_datasheet();

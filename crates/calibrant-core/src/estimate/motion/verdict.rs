@@ -2,7 +2,13 @@
 
 use super::context::Context;
 use super::{Calibration, Error, Result, Trust};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::datasheet::{GainImplausible, ScaleNegative, WeakerThanDatasheet};
+use crate::diagnostic::fit::{
+    EstimateBiased, FitBetterThanNoise, FitWorseThanNoise, ModelContradicted, NoiseImplausible, NotConverged,
+    NothingToCheck, ResidualsNotWhite,
+};
+use crate::diagnostic::motion::{MotionNotRecorded, SamplesOutsideMotion};
+use crate::diagnostic::{Check, Diagnostic};
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
 use crate::estimate::datasheet::noise_not_as_given;
@@ -13,17 +19,20 @@ use nalgebra::Vector3;
 pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &[f64]) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
-        warnings.push(Diagnostic::NotConverged { status: calibration.status.name() });
+        warnings.push(NotConverged { status: calibration.status.name() }.into());
     }
     let recorded = context.problem.recording.len();
     let used = context.positions.samples();
     if used < recorded {
-        warnings.push(Diagnostic::SamplesOutsideMotion {
-            outside: recorded - used,
-            samples: recorded,
-            motion_start_s: context.command.motion.times_s()[0],
-            motion_end_s: context.command.motion.times_s()[context.command.motion.intervals()],
-        });
+        warnings.push(
+            SamplesOutsideMotion {
+                outside: recorded - used,
+                samples: recorded,
+                motion_start_s: context.command.motion.times_s()[0],
+                motion_end_s: context.command.motion.times_s()[context.command.motion.intervals()],
+            }
+            .into(),
+        );
     }
     if let (Some(p), Some(estimate)) = (calibration.fit.p_value, calibration.fit.noise_estimate) {
         let worst = context
@@ -35,42 +44,45 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &
             .fold(0.0, f64::max);
         if p < 1e-3 {
             let is_white = calibration.fit.whiteness.iter().all(|test| test.p_value >= 1e-4);
-            warnings.push(Diagnostic::FitWorseThanNoise { p_value: p, noise_ratio: worst, is_white });
+            warnings.push(FitWorseThanNoise { p_value: p, noise_ratio: worst, is_white }.into());
             warnings.extend(far_beyond_noise(&estimate, &context.noise, is_white));
         } else if p > 1.0 - 1e-3 {
-            warnings.push(Diagnostic::FitBetterThanNoise { p_value: p, noise_ratio: worst });
+            warnings.push(FitBetterThanNoise { p_value: p, noise_ratio: worst }.into());
         }
     }
     for (axis, test) in context.problem.sensor.active_axes().iter().zip(&calibration.fit.whiteness) {
         if test.p_value < 1e-4 {
-            warnings.push(Diagnostic::ResidualsNotWhite { axis: *axis, p_value: test.p_value });
+            warnings.push(ResidualsNotWhite { axis: *axis, p_value: test.p_value }.into());
         }
     }
     warnings.extend(uncovered(context));
     if calibration.fit.degrees_of_freedom == 0 {
         let parameters = calibration.parameters.len();
-        warnings.push(Diagnostic::NothingToCheck { holds: None, parameters });
+        warnings.push(NothingToCheck { holds: None, parameters }.into());
     }
     warnings.extend(biased(calibration, bias));
-    warnings.extend(calibration.beyond_datasheet().into_iter().filter(|found| {
-        // a reversed axis says it better
-        !matches!(found, Diagnostic::GainImplausible { gain, .. } if *gain < 0.0)
-    }));
+    // a reversed axis says it better
+    let is_reversed = |found: &Diagnostic| {
+        found.code() == GainImplausible::CODE && found.number("gain").is_some_and(|gain| gain < 0.0)
+    };
+    warnings.extend(calibration.beyond_datasheet().into_iter().filter(|found| !is_reversed(found)));
     warnings.extend(weak(calibration));
     if let Some(axis) = negative_scale(calibration) {
-        warnings.push(Diagnostic::ScaleNegative { axis });
+        warnings.push(ScaleNegative { axis }.into());
     }
     warnings
 }
 
 /// Residuals that are more than ten times the given noise: of the noise itself if they are white, otherwise of the model.
 fn far_beyond_noise(found: &Vector3<f64>, given: &Vector3<f64>, is_white: bool) -> Option<Diagnostic> {
-    match noise_not_as_given(SensorKind::Accelerometer, found, given)? {
-        noise @ Diagnostic::NoiseImplausible { .. } if is_white => Some(noise),
-        Diagnostic::NoiseImplausible { sensor_kind, ratio, .. } => {
-            Some(Diagnostic::ModelContradicted { sensor_kind, ratio })
-        }
-        _ => None,
+    let sensor_kind = SensorKind::Accelerometer;
+    let noise = noise_not_as_given(sensor_kind, found, given)?;
+    if noise.code() != NoiseImplausible::CODE {
+        return None;
+    }
+    match noise.number("ratio") {
+        Some(ratio) if !is_white => Some(ModelContradicted { sensor_kind, ratio }.into()),
+        _ => Some(noise),
     }
 }
 
@@ -83,7 +95,7 @@ fn weak(calibration: &Calibration) -> Option<Diagnostic> {
         .filter(|(parameter, sd)| parameter.spread.is_some_and(|spread| *sd > spread))
         .map(|(parameter, _)| parameter.name.clone())
         .collect();
-    (!parameters.is_empty()).then_some(Diagnostic::WeakerThanDatasheet { parameters })
+    (!parameters.is_empty()).then_some(Diagnostic::from(WeakerThanDatasheet { parameters }))
 }
 
 fn negative_scale(calibration: &Calibration) -> Option<Axis> {
@@ -101,7 +113,7 @@ fn uncovered(context: &Context<'_>) -> Option<Diagnostic> {
         .map(|i| motion.interval_s(i))
         .sum();
     let whole = tau[motion.intervals()] - tau[0];
-    let uncovered = Diagnostic::MotionNotRecorded { empty_s: empty, motion_s: whole };
+    let uncovered = Diagnostic::from(MotionNotRecorded { empty_s: empty, motion_s: whole });
     (empty > 0.1 * whole && context.positions.samples() >= motion.intervals()).then_some(uncovered)
 }
 
@@ -116,7 +128,7 @@ fn biased(calibration: &Calibration, bias: &[f64]) -> Option<Diagnostic> {
         .filter(|(_, times)| times.is_finite())
         .max_by(|one, other| one.1.total_cmp(&other.1))?;
     let parameter = calibration.parameters[k].name.clone();
-    (times > 0.3).then_some(Diagnostic::EstimateBiased { parameter, deviations: times })
+    (times > 0.3).then_some(Diagnostic::from(EstimateBiased { parameter, deviations: times }))
 }
 
 /// Does each axis respond to the motion at all?

@@ -7,10 +7,11 @@ use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::unit::ColumnUnit;
 use super::{column_names, imu_tk};
-use crate::recording::reader_finding::{Finding, Noticed};
 use crate::recording::text_header::Head;
 use crate::recording::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{ColumnsIgnored, UnitUnexpected};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 
@@ -83,16 +84,15 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
         .into());
     };
     let recording = recording.with_axes(axes);
-    let mut noticed = Vec::new();
+    let mut found = Vec::new();
     let unused = file.columns.iter().filter(|column| !column.is_used());
     let names: Vec<String> = unused.map(|column| column.name.clone()).collect();
     if draft.plain.is_some() && !names.is_empty() {
-        noticed.push(Noticed::ColumnsIgnored(names));
+        found.push(ColumnsIgnored { columns: names, other: None }.into());
     }
     if options.accelerometer_unit.is_none() && recording.unit() != expected {
-        noticed.push(Noticed::UnitUnexpected { stated: recording.unit(), expected });
+        found.push(UnitUnexpected { stated: recording.unit(), expected }.into());
     }
-    let found = noticed.into_iter().map(|noticed| Finding::new(noticed).at(draft.line));
-    file.findings.splice(0..0, found);
+    file.findings.splice(0..0, found.into_iter().map(|found: Diagnostic| found.at_line(draft.line)));
     Ok(ImuFile { recording: recording.into(), ..file })
 }

@@ -2,7 +2,7 @@
 
 use super::column::ImuColumn;
 use super::format::FileFormat;
-use crate::recording::reader_finding::Finding;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::sensor::ImuRecording;
 
 /// A recording of an IMU as it was read.
@@ -14,8 +14,8 @@ pub struct ImuFile {
     pub format: FileFormat,
     /// The columns in their order, used or not; of both files for a pair.
     pub columns: Vec<ImuColumn>,
-    /// What was noticed and repaired.
-    pub findings: Vec<Finding>,
+    /// What was noticed and repaired; of a pair in the accelerometer's file.
+    pub findings: Vec<Diagnostic>,
     /// Number of rows, dropped ones included; of a pair the accelerometer's.
     pub rows: usize,
     /// SHA-256 of the bytes of each file, hexadecimal.
@@ -24,10 +24,27 @@ pub struct ImuFile {
     pub second: Option<SecondFile>,
     /// The time from which the times count, ns, where they count from their first and the file has another.
     pub counted_from_ns: Option<i128>,
+    /// Do the sample times follow from a nominal rate, not from a clock that was recorded?
+    pub rate_is_nominal: bool,
+}
+
+impl ImuFile {
+    /// All that was noticed, in the file or in both files of a pair.
+    pub fn all_findings(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.findings.iter().chain(self.second.iter().flat_map(|second| &second.findings))
+    }
+
+    /// The same, each with the name of its file: the first, or the gyroscope's.
+    #[must_use]
+    pub fn findings_in(&self, name: &str, gyroscope: Option<&str>) -> Vec<Diagnostic> {
+        let second = self.second.iter().flat_map(|second| &second.findings);
+        let of_second = second.map(|found| found.clone().in_file(gyroscope.unwrap_or(name)));
+        self.findings.iter().map(|found| found.clone().in_file(name)).chain(of_second).collect()
+    }
 }
 
 /// The facts about the gyroscope's file of a pair.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SecondFile {
     /// The format, as recognised or given.
     pub format: FileFormat,
@@ -35,4 +52,6 @@ pub struct SecondFile {
     pub rows: usize,
     /// Number of its columns: the last ones of [`ImuFile::columns`].
     pub columns: usize,
+    /// What was noticed in it.
+    pub findings: Vec<Diagnostic>,
 }

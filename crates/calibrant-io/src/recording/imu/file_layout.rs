@@ -5,9 +5,9 @@ use super::column_values::{COUNTER, TEMPERATURE, TIME, slot_of};
 use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::unit::ColumnUnit;
-use crate::recording::finding_words::list;
 use crate::recording::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 
@@ -93,7 +93,7 @@ impl Draft {
             let names: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
             let message = format!(
                 "[columns] names `{name}`, which the file does not have; it has {}",
-                list(&names, 20)
+                quoted(&names, 20)
             );
             return Err(InputError::new(
                 Refusal::ColumnMissing,
@@ -220,7 +220,7 @@ impl Draft {
                 Refusal::ColumnMissing,
                 format!(
                     "the file holds orientation only ({}): no reading of a sensor",
-                    list(&orientation, 3)
+                    quoted(&orientation, 3)
                 ),
                 "export accelerometer and gyroscope (Acc_X, …, Gyr_X, …): orientation is computed from them, and they do not follow from it",
             );
@@ -229,14 +229,14 @@ impl Draft {
         if !increments.is_empty() {
             return InputError::new(
                 Refusal::ColumnMissing,
-                format!("the file holds increments only ({}), not readings", list(&increments, 3)),
+                format!("the file holds increments only ({}), not readings", quoted(&increments, 3)),
                 "export accelerometer and gyroscope (Acc_X, …, Gyr_X, …)",
             );
         }
         let all: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
         let message = format!(
             "no column is known to be an accelerometer's or a gyroscope's; the columns are {}",
-            list(&all, 20)
+            quoted(&all, 20)
         );
         InputError::new(
             Refusal::ColumnMissing,

@@ -12,9 +12,9 @@ use super::imu_message::{self, ImuMessage};
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::mcap_container::{Bag, MessageType};
-use crate::recording::reader_finding::Finding;
 use crate::recording::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// The messages that are read.
@@ -22,7 +22,7 @@ const TYPES: &[MessageType<ImuMessage>] =
     &[MessageType { name: "sensor_msgs/msg/Imu", read: imu_message::imu }];
 
 /// Columns and values of the bag's IMU, and a warning where the bag has no end.
-pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Option<Finding>)> {
+pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Option<Diagnostic>)> {
     let bag = Bag::read(bytes, TYPES)?;
     let cut = bag.cut("an IMU")?;
     let messages = bag.topics().one(options.topic.as_deref(), "IMU")?;

@@ -226,6 +226,7 @@ pub(super) fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOp
         sha256: Vec::new(),
         second: None,
         counted_from_ns: samples.counted_from_ns,
+        rate_is_nominal: samples.rate_is_nominal,
     };
     only(file, &draft, options)
 }

@@ -11,20 +11,28 @@ use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::clock_column::backwards;
 use crate::recording::line_map::LineMap;
 use crate::recording::lost_sign;
-use crate::recording::reader_finding::{Finding, Noticed, Tally};
 use crate::recording::recording_quality;
+use crate::recording::tally::Tally;
 use crate::text_decoding::Checked;
-use calibrant_core::diagnostic::Code;
+use calibrant_core::diagnostic::Check;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{
+    ClockSource, ClockSourceKind, LineTruncated, MissingValue, RowsRepeated, TemperatureDoubt,
+    TemperatureDoubtful, TemperatureGaps, TimesRepeated, ValuesMissing,
+};
 use calibrant_core::error::{Answer, Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated};
 use nalgebra::Vector3;
 use std::iter::once;
 
+/// Longest time without a temperature that needs no warning, s: a sensor warms up within minutes.
+const LONG_WITHOUT_TEMPERATURE_S: f64 = 30.0;
+
 /// The assembled recording, and the findings.
 pub(super) struct Assembled {
     pub(super) recording: ImuRecording,
-    pub(super) findings: Vec<Finding>,
+    pub(super) findings: Vec<Diagnostic>,
 }
 
 /// Assembles the recording. The draft records which of its columns were of no use.
@@ -69,10 +77,10 @@ pub(super) fn assemble(
         let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
             return Err(packets.question(sensor_kind).into());
         };
-        times = sample_clock::of_rows(samples.rows, rate, &mut findings);
+        times = sample_clock::of_rows(samples, rate, &mut findings);
         (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
     } else if has_times && options.rate_hz.is_some() {
-        findings.push(Finding::new(Noticed::RateUnused));
+        findings.push(ClockSource { clock: ClockSourceKind::RateUnused }.into());
     }
     findings.append(&mut of_rows);
     let mut recording = ImuRecording::default();
@@ -95,12 +103,12 @@ pub(super) fn assemble(
         maps.push(lines);
     }
     if samples.truncated.is_some() {
-        findings.push(Finding::new(Noticed::LineTruncated).at(samples.truncated));
+        findings.push(Diagnostic::from(LineTruncated {}).at_line(samples.truncated));
     }
     recording.temperature_c = temperature(draft, &times, &kept, samples, &recording, &mut findings);
     examine(&recording, &sensor_kinds, &maps, is_plain, &mut findings);
     if is_plain {
-        findings.iter_mut().for_each(|finding| finding.sensor_kind = None);
+        findings = findings.into_iter().map(|finding| finding.about(None)).collect();
     }
     Ok(Assembled { recording, findings })
 }
@@ -191,7 +199,7 @@ fn increasing(
     times: &[f64],
     sensor_kinds: &[SensorKind],
     samples: &Samples,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) -> Checked<Kept> {
     let mut kept = Kept { rows: times.len(), dropped: Vec::new() };
     let mut last: [Option<usize>; 2] = [None; 2];
@@ -219,9 +227,9 @@ fn increasing(
             kept.dropped.push(row);
         }
     }
-    untimed.report(findings, None, Noticed::TimesMissing);
-    same_rows.report(findings, None, Noticed::RowsRepeated);
-    same_times.report(findings, None, Noticed::TimesRepeated);
+    untimed.report(findings, None, |count| ValuesMissing { missing: MissingValue::Time, count });
+    same_rows.report(findings, None, |rows| RowsRepeated { rows });
+    same_times.report(findings, None, |count| TimesRepeated { count, is_of_one_sensor: false });
     Ok(kept)
 }
 
@@ -232,7 +240,7 @@ fn readings(
     times: &[f64],
     kept: &Kept,
     samples: &mut Samples,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) -> Checked<(Recording, LineMap)> {
     let (unit, factor) = unit.reading();
     let mut readings = samples.take_sensor(sensor_kind);
@@ -261,9 +269,10 @@ fn readings(
         Error::Recording(input_error) => input_error,
         other => InputError::new(Refusal::FileDamaged, other.to_string(), "write the file again").into(),
     })?;
-    absent.report(findings, Some(sensor_kind), Noticed::ReadingsMissing);
-    missing.report(findings, Some(sensor_kind), Noticed::ValuesMissing);
-    same_times.report(findings, Some(sensor_kind), Noticed::SampleTimesRepeated);
+    let about = Some(sensor_kind);
+    absent.report(findings, about, |count| ValuesMissing { missing: MissingValue::Reading, count });
+    missing.report(findings, about, |count| ValuesMissing { missing: MissingValue::Part, count });
+    same_times.report(findings, about, |count| TimesRepeated { count, is_of_one_sensor: true });
     if recording.len() < 2 {
         let message = format!(
             "only {} of the {sensor_kind} in {}",
@@ -271,7 +280,7 @@ fn readings(
             counted(samples.rows, "row")
         );
         let mut help = vec![TWO.to_owned()];
-        let dropped = findings.iter().filter(|finding| finding.code() != Code::ClockSource);
+        let dropped = findings.iter().filter(|finding| finding.code() != ClockSource::CODE);
         help.extend(dropped.map(ToString::to_string));
         let input_error = InputError::new(Refusal::RecordingShort, message, help.join("; "));
         return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());
@@ -286,7 +295,7 @@ fn temperature(
     kept: &Kept,
     samples: &Samples,
     recording: &ImuRecording,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) -> Option<Vec<f64>> {
     let values = &samples.temperatures;
     if values.is_empty() {
@@ -308,11 +317,16 @@ fn temperature(
         let known_at = known.iter().map(|(t, _)| *t);
         let with_ends: Vec<f64> = once(ends.0).chain(known_at).chain(once(ends.1)).collect();
         let longest_s = with_ends.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-        let noticed = Noticed::TemperatureMissing { missing, rows: kept.len(), longest_s };
-        findings.push(Finding::new(noticed));
+        let rows = kept.len();
+        findings.push(match longest_s <= LONG_WITHOUT_TEMPERATURE_S {
+            true => TemperatureGaps { missing, rows, longest_s }.into(),
+            false => {
+                TemperatureDoubtful { doubt: TemperatureDoubt::Missing { missing, rows, longest_s } }.into()
+            }
+        });
     }
     if let Some((_, value)) = known.iter().find(|(_, value)| !WORKING_C.contains(value)) {
-        findings.push(Finding::new(Noticed::TemperatureImplausible(*value)));
+        findings.push(TemperatureDoubtful { doubt: TemperatureDoubt::Implausible(*value) }.into());
     }
     let (times_s, values_c): (Vec<f64>, Vec<f64>) = known.into_iter().unzip();
     at.iter().enumerate().map(|(k, &t)| interpolated(&times_s, |known| values_c[known], t, k)).collect()
@@ -324,7 +338,7 @@ fn examine(
     sensor_kinds: &[SensorKind],
     lines: &[LineMap],
     is_plain: bool,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) {
     let sensors: Vec<_> = sensor_kinds
         .iter()
@@ -341,7 +355,8 @@ fn examine(
             let from = findings.len();
             recording_quality::sampling(sensor.times_s(), rate, lines, findings);
             if !shared {
-                findings[from..].iter_mut().for_each(|finding| finding.sensor_kind = Some(*sensor_kind));
+                let of_sensor = findings.split_off(from);
+                findings.extend(of_sensor.into_iter().map(|finding| finding.about(Some(*sensor_kind))));
             }
         }
         recording_quality::readings(sensor, Some(*sensor_kind), lines, findings);

@@ -6,8 +6,9 @@ use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use crate::recording::clock_column::{ClockColumn, unwrap};
-use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 
@@ -25,7 +26,7 @@ pub(super) fn times(
     draft: &mut Draft,
     samples: &mut Samples,
     options: &ImuReadOptions,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) -> Checked<Vec<f64>> {
     let rate = rate(draft, options)?;
     let times = &samples.times;
@@ -46,7 +47,9 @@ pub(super) fn times(
     };
     let counter = has_counter
         .then(|| draft.column(ColumnMeaning::Counter).map_or_else(String::new, |column| column.name.clone()));
-    findings.push(Finding::new(Noticed::TimesDerived { is_empty, counter, rate_hz, stated_by }));
+    samples.rate_is_nominal = true;
+    let clock = ClockSourceKind::Derived { is_empty, counter, rate_hz, stated_by };
+    findings.push(ClockSource { clock }.into());
     match has_counter {
         true => of_counter(draft, samples, rate_hz),
         false => Ok((0..samples.rows).map(|row| row as f64 / rate_hz).collect()),
@@ -54,9 +57,10 @@ pub(super) fn times(
 }
 
 /// Times of the rows from the given rate. They replace those in the file, which are not times of samples.
-pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) -> Vec<f64> {
-    findings.push(Finding::new(Noticed::PacketTimesReplaced(rate_hz)));
-    (0..rows).map(|row| row as f64 / rate_hz).collect()
+pub(super) fn of_rows(samples: &mut Samples, rate_hz: f64, findings: &mut Vec<Diagnostic>) -> Vec<f64> {
+    samples.rate_is_nominal = true;
+    findings.push(ClockSource { clock: ClockSourceKind::Packets(rate_hz) }.into());
+    (0..samples.rows).map(|row| row as f64 / rate_hz).collect()
 }
 
 /// Puts samples at even times, where these are asked for, or where the logged times are steps of a coarse clock.
@@ -64,7 +68,7 @@ pub(super) fn make_even(
     times: &mut [f64],
     samples: &Samples,
     options: &ImuReadOptions,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<Diagnostic>,
 ) -> Checked<()> {
     let is_twice = |row: usize| times[row] == times[row - 1] && samples.repeats(row, row - 1);
     let even = match options.times {
@@ -74,7 +78,8 @@ pub(super) fn make_even(
     };
     if let Some(even) = even {
         times.iter_mut().enumerate().for_each(|(row, time_s)| *time_s = even.at(row));
-        findings.push(Finding::new(Noticed::TimesEven { rate_hz: 1.0 / even.step_s, tick_s: even.tick_s }));
+        let clock = ClockSourceKind::Even { rate_hz: 1.0 / even.step_s, tick_s: even.tick_s };
+        findings.push(ClockSource { clock }.into());
     }
     Ok(())
 }
@@ -105,7 +110,7 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<
     }
 }
 
-fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -> Checked<Vec<f64>> {
+fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Diagnostic>) -> Checked<Vec<f64>> {
     let column = draft.column(ColumnMeaning::Time);
     let clock = ClockColumn {
         name: column.map_or("", |column| column.name.as_str()),

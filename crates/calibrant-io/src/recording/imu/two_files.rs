@@ -4,10 +4,13 @@ use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::read::{beginning, rows, with_checksum};
 use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
-use crate::recording::reader_finding::{Finding, Noticed};
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::reader::{
+    ColumnsIgnored, FileShorter, FileTimes, FilesApart, Span, TimesFromFirst,
+};
+use calibrant_core::diagnostic::{Check, Diagnostic};
 use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use std::path::Path;
@@ -99,45 +102,54 @@ fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKi
 }
 
 /// The other sensor's columns of a file that was given for one sensor.
-fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Finding> {
+fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Diagnostic> {
     let is_other =
         |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != sensor_kind);
-    let names: Vec<String> = file.columns.iter().filter(is_other).map(|column| column.name.clone()).collect();
-    let other = || Noticed::OtherSensorIgnored(sensor_kind.other(), names.clone());
-    (!names.is_empty()).then(|| Finding::new(other()))
+    let columns: Vec<String> =
+        file.columns.iter().filter(is_other).map(|column| column.name.clone()).collect();
+    (!columns.is_empty()).then(|| ColumnsIgnored { columns, other: Some(sensor_kind.other()) }.into())
 }
 
-/// The finding where one of a pair of files covers much less of the time than the other, or nothing of it.
-fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Finding> {
-    let span = |recording: &Recording| Some((*recording.times_s().first()?, *recording.times_s().last()?));
+/// The finding where one of a pair of files covers much less of the time than the other, or nothing of it; and the sensor of that file.
+fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<(SensorKind, Diagnostic)> {
+    let span = |recording: &Recording| {
+        Some(Span { start_s: *recording.times_s().first()?, end_s: *recording.times_s().last()? })
+    };
     let (accelerometer, gyroscope) =
         (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
-    let common_s = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
-    let lengths = [accelerometer, gyroscope].map(|(start, end)| end - start);
-    let is_gyroscope = lengths[1] < lengths[0];
-    let (shorter, shorter_s, longer_s) = match is_gyroscope {
+    let common_s = accelerometer.end_s.min(gyroscope.end_s) - accelerometer.start_s.max(gyroscope.start_s);
+    let lengths = [accelerometer, gyroscope].map(|span| span.end_s - span.start_s);
+    let (shorter, shorter_s, longer_s) = match lengths[1] < lengths[0] {
         true => (SensorKind::Gyroscope, gyroscope, accelerometer),
         false => (SensorKind::Accelerometer, accelerometer, gyroscope),
     };
     if common_s >= COVERED * lengths[0].max(lengths[1]) {
         return None;
     }
-    let noticed = Noticed::FilesApart { shorter, shorter_s, longer_s, common_s };
-    Some(Finding { in_second_file: is_gyroscope, ..Finding::new(noticed) })
+    let files = FileTimes { shorter, shorter_s, longer_s, common_s };
+    let found: Diagnostic = match common_s > 0.0 {
+        true => FileShorter { files }.into(),
+        false => FilesApart { files }.into(),
+    };
+    Some((shorter, found.about(Some(shorter))))
 }
 
 /// Two files as one recording.
 pub(super) fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
     on_one_clock(&first, &mut second);
-    let named = |sensor_kind: SensorKind, file: &ImuFile| -> Vec<Finding> {
-        let named = |finding: Finding| finding.about(Some(sensor_kind));
-        file.findings.iter().cloned().chain(left_aside(file, sensor_kind)).map(named).collect()
+    let shorter = shorter_than_other(&first.recording, &second.recording);
+    let named = |sensor_kind: SensorKind, file: &ImuFile| -> Vec<Diagnostic> {
+        let found = file.findings.iter().cloned().chain(left_aside(file, sensor_kind));
+        let shorter = shorter.iter().filter(|(of, _)| *of == sensor_kind).map(|(_, found)| found.clone());
+        found.map(|finding| finding.about(Some(sensor_kind))).chain(shorter).collect()
     };
-    let of_second = named(SensorKind::Gyroscope, &second).into_iter();
-    let mut findings = named(SensorKind::Accelerometer, &first);
-    findings.extend(of_second.map(|finding| Finding { in_second_file: true, ..finding }));
-    findings.extend(shorter_than_other(&first.recording, &second.recording));
-    let of_gyroscope = SecondFile { format: second.format, rows: second.rows, columns: second.columns.len() };
+    let findings = named(SensorKind::Accelerometer, &first);
+    let of_gyroscope = SecondFile {
+        format: second.format,
+        rows: second.rows,
+        columns: second.columns.len(),
+        findings: named(SensorKind::Gyroscope, &second),
+    };
     ImuFile {
         recording: ImuRecording {
             accelerometer: first.recording.accelerometer,
@@ -148,6 +160,7 @@ pub(super) fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
         findings,
         sha256: [first.sha256, second.sha256].concat(),
         second: Some(of_gyroscope),
+        rate_is_nominal: first.rate_is_nominal || second.rate_is_nominal,
         ..first
     }
 }
@@ -158,5 +171,5 @@ fn on_one_clock(first: &ImuFile, second: &mut ImuFile) {
     let later_s = of_second.saturating_sub(of_first) as f64 / 1e9;
     let gyroscope = second.recording.gyroscope.take();
     second.recording.gyroscope = gyroscope.map(|gyroscope| gyroscope.later_by(later_s));
-    second.findings.retain(|finding| !matches!(finding.noticed, Noticed::TimesFromFirst { .. }));
+    second.findings.retain(|finding| finding.code() != TimesFromFirst::CODE);
 }

@@ -4,6 +4,10 @@ use crate::estimate::problem::layout::Layout;
 use crate::estimate::problem::parameters::place;
 use crate::estimate::{MachineCalibration, MachineSetup, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::fit::{ModelContradicted, NotConverged};
+use calibrant_core::diagnostic::machine::{
+    LogCoversPart, LogOutliers, MachineResiduals, PriorContradicted, ResidualsCorrelated,
+};
 use calibrant_core::estimate::{CalibrationStatus, implausible_gains};
 
 /// Largest usual ratio of the residuals to the noise between neighbouring samples: with noisy trust, and with known trust.
@@ -25,7 +29,7 @@ pub(crate) fn all(
 ) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
-        found.push(Diagnostic::NotConverged { status: calibration.status.name() });
+        found.push(NotConverged { status: calibration.status.name() }.into());
     }
     found.extend(residuals(calibration));
     found.extend(correlated(calibration));
@@ -38,10 +42,10 @@ pub(crate) fn all(
     let (outliers, samples) = (calibration.reference_noise.iter())
         .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
     if outliers as f64 > OUTLIERS * samples as f64 {
-        found.push(Diagnostic::LogOutliers { outliers, samples });
+        found.push(LogOutliers { outliers, samples }.into());
     }
     if calibration.used_share < USED {
-        found.push(Diagnostic::LogCoversPart { used_share: calibration.used_share });
+        found.push(LogCoversPart { used_share: calibration.used_share }.into());
     }
     found
 }
@@ -53,8 +57,8 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
         let ratio = (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt();
         let sensor_kind = of.sensor;
         match ratio > limit {
-            true if ratio > REFUSED => Some(Diagnostic::ModelContradicted { sensor_kind, ratio }),
-            true => Some(Diagnostic::MachineResiduals { sensor_kind, ratio }),
+            true if ratio > REFUSED => Some(Diagnostic::from(ModelContradicted { sensor_kind, ratio })),
+            true => Some(Diagnostic::from(MachineResiduals { sensor_kind, ratio })),
             false => None,
         }
     })
@@ -65,9 +69,8 @@ fn correlated(calibration: &MachineCalibration) -> Option<Diagnostic> {
     let widest = (0..calibration.inflation.len())
         .max_by(|one, other| calibration.inflation[*one].total_cmp(&calibration.inflation[*other]))?;
     let factor = calibration.inflation[widest];
-    (factor > 1.0).then(|| Diagnostic::ResidualsCorrelated {
-        parameter: calibration.names().swap_remove(widest),
-        factor,
+    (factor > 1.0).then(|| {
+        Diagnostic::from(ResidualsCorrelated { parameter: calibration.names().swap_remove(widest), factor })
     })
 }
 
@@ -80,7 +83,8 @@ fn contradicted(setup: &MachineSetup, layout: &Layout, calibration: &MachineCali
             let deviations =
                 deviation[k].abs() / setup.prior_sd(layout.quantities[k], calibration.noise.len());
             let parameter = names[k].clone();
-            (deviations > CONTRADICTED).then_some(Diagnostic::PriorContradicted { parameter, deviations })
+            (deviations > CONTRADICTED)
+                .then_some(Diagnostic::from(PriorContradicted { parameter, deviations }))
         })
         .collect()
 }

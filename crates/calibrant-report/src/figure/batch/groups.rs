@@ -22,7 +22,7 @@ pub(super) fn groups(batch: &Batch) -> Vec<Group<'_>> {
         match groups.iter_mut().find(|group| group.prefix == prefix) {
             Some(group) => group.members.push(place),
             None => {
-                let name = crate::words::capitalised(prefix);
+                let name = crate::number_format::capitalised(prefix);
                 groups.push(Group { name, prefix, members: vec![place] });
             }
         }

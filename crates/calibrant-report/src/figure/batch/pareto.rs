@@ -41,7 +41,7 @@ pub(crate) fn code_bars(batch: &Batch) -> Option<String> {
             let kind = match code.severity() {
                 Severity::Error => Kind::Error,
                 Severity::Warning => Kind::Warning,
-                Severity::Note => continue,
+                Severity::Allowed | Severity::Note => continue,
             };
             *counts.entry((kind, code.name())).or_default() += 1;
         }

@@ -109,6 +109,15 @@ impl Modules {
                     self.all[module].items.extend(names);
                     place += 2;
                 }
+                "checks" if depth == 0 && at(place + 1) == "!" => {
+                    // a type for each entry: `HoldMoved "hold-moved" Warning`
+                    let severity = |word: &str| matches!(word, "Note" | "Warning" | "Error");
+                    let body = &tokens[place..after_group(tokens, place + 2)];
+                    let entries = body.windows(3).filter(|three| three[1] == "\"" && severity(&three[2]));
+                    let names = entries.map(|three| three[0].clone()).chain(["CODES".to_owned()]);
+                    self.all[module].items.extend(names);
+                    self.all[module].named.push(vec!["checks".to_owned()]);
+                }
                 word if starts_path(word) && !matches!(at(place.wrapping_sub(1)), "::" | "." | "fn") => {
                     let mut path = vec![word.to_owned()];
                     while at(place + 1) == "::" && starts_path(at(place + 2)) {

@@ -2,13 +2,12 @@
 
 use calibrant::diagnostic::Diagnostic;
 use calibrant::io::DiagnosticWords;
-use calibrant::report::message;
 
 /// The sentence of each.
 pub(crate) fn messages(diagnostics: &[Diagnostic]) -> Vec<String> {
-    diagnostics.iter().map(message).collect()
+    diagnostics.iter().map(|found| found.message().to_owned()).collect()
 }
 
 /// As files state them, with no code allowed.
 pub(crate) const WORDS: DiagnosticWords<'static> =
-    DiagnosticWords { message: &message, allowed: &[], findings: &[], limits: &[] };
+    DiagnosticWords { allowed: &[], findings: &[], limits: &[] };

@@ -88,7 +88,7 @@ const RECORDINGS: &[Case] = &[
     ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n0,1,2,3\n1,nan,2,3\n",
-        "line 4: only 1 usable sample of the accelerometer in 3 rows (a recording needs two samples at least; line 3: 1 row equal to the one before dropped; line 4: 1 sample of the accelerometer with a missing or NaN value dropped)",
+        "line 4: only 1 usable sample of the accelerometer in 3 rows (a recording needs two samples at least; line 3: 1 row equal to the one before dropped; line 4: accelerometer: 1 sample with a missing or NaN value dropped)",
     ),
     (
         b"t_s,ax,ay,temp\n0,1,2,3\n1,2,3,4\n",

@@ -1,7 +1,8 @@
 //! Tests of real recordings of accelerometers.
 
 use crate::common::shared_data;
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::reader::SamplingIrregular;
 use calibrant::io::{ImuReadOptions, read_imu_recording};
 use calibrant::sensor::ReadingUnit;
 
@@ -17,7 +18,7 @@ fn the_xsens_recording_of_imu_tk_reads_whole() {
     assert_eq!(recording.times_s().last(), Some(&511.718));
     assert!((recording.rate_hz() - 100.0).abs() < 0.2, "{}", recording.rate_hz());
     let kinds: Vec<_> = file.findings.iter().map(|finding| finding.code()).collect();
-    assert_eq!(kinds, [Code::SamplingIrregular], "{:?}", file.findings);
+    assert_eq!(kinds, [SamplingIrregular::CODE], "{:?}", file.findings);
 }
 
 #[test]

@@ -2,14 +2,18 @@
 
 use calibrant::Error;
 use calibrant::diagnostic::Code;
-use calibrant::io::{Finding, ImuReadOptions, ImuUnit, parse_imu_recording};
+use calibrant::diagnostic::reader::{
+    AxisStuck, ColumnsIgnored, LineTruncated, ReadingsClipped, SamplingGap, SamplingIrregular, UnitUnexpected,
+};
+use calibrant::diagnostic::{Check, Diagnostic};
+use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_recording};
 use calibrant::sensor::{ReadingUnit, Recording};
 
 /// A recording as it was read.
 #[derive(Debug)]
 struct Read {
     recording: Recording,
-    findings: Vec<Finding>,
+    findings: Vec<Diagnostic>,
     sha256: String,
 }
 
@@ -92,7 +96,7 @@ fn the_unit_comes_from_the_header_then_the_option_then_the_experiment() {
         file.findings[0].to_string(),
         "line 1: readings are in m/s² by their header, the experiment says counts"
     );
-    assert_eq!(file.findings[0].code(), Code::UnitUnexpected);
+    assert_eq!(file.findings[0].code(), UnitUnexpected::CODE);
 }
 
 #[test]
@@ -106,19 +110,19 @@ fn one_axis_needs_one_column() {
 
 #[test]
 fn samples_that_are_missing_or_twice_are_dropped_with_a_word() {
-    use Code::{RowsRepeated, TimesRepeated, ValuesMissing};
+    use calibrant::diagnostic::reader::{RowsRepeated, TimesRepeated, ValuesMissing};
     assert_eq!(
         finding("t_s,ax,ay,az\n0,1,2,3\n1,,2,3\n2,NaN,2,3\n3,1,NA,3\n4,2,3,4\n"),
-        (ValuesMissing, "line 3: 3 samples with a missing or NaN value dropped (first here)".into(), 2)
+        (ValuesMissing::CODE, "line 3: 3 samples with a missing or NaN value dropped (first here)".into(), 2)
     );
     assert_eq!(
         finding("t_s,ax,ay,az\n0,1,2,3\n0,1,2,3\n1,2,3,4\n2,2,2,2\n2,2,2,2\n"),
-        (RowsRepeated, "line 3: 2 rows equal to the one before dropped (first here)".into(), 3)
+        (RowsRepeated::CODE, "line 3: 2 rows equal to the one before dropped (first here)".into(), 3)
     );
     assert_eq!(
         finding("t_s,ax,ay,az\n0,1,2,3\n1,2,3,4\n1,5,5,5\n2,2,2,2\n"),
         (
-            TimesRepeated,
+            TimesRepeated::CODE,
             "line 4: 1 row with the time of the one before but another reading dropped".into(),
             3
         )
@@ -127,7 +131,7 @@ fn samples_that_are_missing_or_twice_are_dropped_with_a_word() {
 
 #[test]
 fn a_last_line_that_was_cut_off_is_dropped_with_a_word() {
-    let expected = |line| (Code::LineTruncated, format!("line {line}: truncated last line dropped"));
+    let expected = |line| (LineTruncated::CODE, format!("line {line}: truncated last line dropped"));
     for (text, line) in [
         ("t_s,ax,ay,az\n0,1,2,3\n1,2,3,4\n2,3,4", 4),
         ("t_s,ax,ay,az\n0,1,2,3\n1,2,3,4\n2", 4),
@@ -149,7 +153,7 @@ fn a_last_line_that_was_cut_off_is_dropped_with_a_word() {
 #[test]
 fn columns_that_are_not_needed_are_named() {
     let (kind, message, _) = finding("t_s,ax,ay,az,temp,flag\n0,1,2,3,4,5\n1,2,3,4,5,x\n");
-    assert_eq!((kind, message.as_str()), (Code::ColumnsIgnored, "line 1: ignored columns `temp`, `flag`"));
+    assert_eq!((kind, message.as_str()), (ColumnsIgnored::CODE, "line 1: ignored columns `temp`, `flag`"));
     let (_, message, _) = finding("0 1 2 3 9 9\n1 2 3 4 9 9\n");
     assert_eq!(message, "line 1: ignored columns `5`, `6`");
 }
@@ -157,7 +161,7 @@ fn columns_that_are_not_needed_are_named() {
 #[test]
 fn an_axis_that_never_changes_is_told() {
     let (kind, message, _) = finding("t_s,ax,ay,az\n0,1,0,3\n1,2,0,4\n");
-    assert_eq!(kind, Code::AxisStuck);
+    assert_eq!(kind, AxisStuck::CODE);
     assert_eq!(message, "axis y never changes: 0 throughout; is it connected?");
 }
 
@@ -167,7 +171,7 @@ fn gaps_are_told_with_place_and_length_and_not_too_many() {
         format!("{:.2},{},{},{}", 0.01 * k as f64 + if k < 20 { 0.0 } else { 10.0 }, k % 7, k % 5, k % 3)
     });
     let (kind, message, _) = finding(&one);
-    assert_eq!(kind, Code::SamplingGap);
+    assert_eq!(kind, SamplingGap::CODE);
     assert_eq!(message, "line 22: gap of 10.01 s after t = 0.19 s: about 1000 samples are missing");
     let many = rows(|k| format!("{:.2},{},{},{}", 0.01 * k as f64 + (k / 10) as f64, k % 7, k % 5, k % 3));
     let messages: Vec<String> = parse(many.as_bytes()).findings.iter().map(ToString::to_string).collect();
@@ -187,7 +191,7 @@ fn gaps_are_told_with_place_and_length_and_not_too_many() {
 fn irregular_sampling_is_told_once() {
     let text = rows(|k| format!("{},{},{},{}", 0.01 * k as f64 + 3e-4 * (k % 2) as f64, k % 7, k % 5, k % 3));
     let (kind, message, _) = finding(&text);
-    assert_eq!(kind, Code::SamplingIrregular);
+    assert_eq!(kind, SamplingIrregular::CODE);
     assert!(
         message.starts_with("sampling is irregular: time steps from 9.7 to 10.3 ms, usually "),
         "{message}"
@@ -204,7 +208,7 @@ fn clipped_readings_are_told_but_still_ones_are_not() {
     let swing = |k: usize| ((k as f64 * 0.1).sin() * 30.0).clamp(-20.0, 25.0);
     let file = parse(rows(|k| format!("{k},{},{},{}", swing(k), k % 5, k % 3)).as_bytes());
     let messages: Vec<String> = file.findings.iter().map(ToString::to_string).collect();
-    assert!(file.findings.iter().all(|finding| finding.code() == Code::ReadingsClipped));
+    assert!(file.findings.iter().all(|finding| finding.code() == ReadingsClipped::CODE));
     let expected = [
         "line 41: axis x may be saturated: 17 samples in a row at its smallest value -20 m/s²",
         "line 12: axis x may be saturated: 12 samples in a row at its largest value 25 m/s²",

@@ -3,6 +3,7 @@
 use crate::common::{WORDS, read_accelerometer};
 use calibrant::Error;
 use calibrant::diagnostic::Diagnostic;
+use calibrant::diagnostic::datasheet::WeakerThanDatasheet;
 use calibrant::error::Refusal;
 use calibrant::estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
@@ -142,7 +143,7 @@ fn calibration(
         recovered,
         gyroscope: None,
         changes: Vec::new(),
-        warnings: vec![Diagnostic::WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] }],
+        warnings: vec![Diagnostic::from(WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] })],
     }
 }
 

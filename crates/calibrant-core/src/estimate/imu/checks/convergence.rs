@@ -1,6 +1,7 @@
 //! Did the iteration converge?
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::fit::NotConverged;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::result::CalibrationStatus;
 
@@ -10,5 +11,5 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     if status == CalibrationStatus::Converged {
         return Vec::new();
     }
-    vec![Diagnostic::NotConverged { status: status.name() }]
+    vec![Diagnostic::from(NotConverged { status: status.name() })]
 }

@@ -1,6 +1,6 @@
 //! Polynomials of temperature beyond the temperatures of the holds.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::samples::{ReferenceExtrapolated, TemperatureExtrapolated};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::sensor::Thermal;
 
@@ -16,19 +16,25 @@ fn extrapolation(thermal: &Thermal, recording_c: Option<[f64; 2]>) -> Diagnostic
     let beyond = |t: f64| thermal.extrapolates_to(t);
     let mut warnings = Vec::new();
     if beyond(coldest) || beyond(hottest) {
-        warnings.push(Diagnostic::TemperatureExtrapolated {
-            coldest_c: coldest,
-            hottest_c: hottest,
-            holds_coldest_c: low,
-            holds_hottest_c: high,
-        });
+        warnings.push(
+            TemperatureExtrapolated {
+                coldest_c: coldest,
+                hottest_c: hottest,
+                holds_coldest_c: low,
+                holds_hottest_c: high,
+            }
+            .into(),
+        );
     }
     if beyond(thermal.reference_c) {
-        warnings.push(Diagnostic::ReferenceExtrapolated {
-            reference_c: thermal.reference_c,
-            holds_coldest_c: low,
-            holds_hottest_c: high,
-        });
+        warnings.push(
+            ReferenceExtrapolated {
+                reference_c: thermal.reference_c,
+                holds_coldest_c: low,
+                holds_hottest_c: high,
+            }
+            .into(),
+        );
     }
     warnings
 }

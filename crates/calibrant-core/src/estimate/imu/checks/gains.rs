@@ -1,13 +1,15 @@
 //! Parameters of the accelerometer that its datasheet does not allow, and gains of readings in SI, which are near one, each axis along its own.
 
+use crate::diagnostic::Check;
 use crate::diagnostic::Code;
+use crate::diagnostic::datasheet::{GainImplausible, ParameterImplausible};
 use crate::estimate::datasheet::{allows_gain, beyond_datasheet, implausible_gains};
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::sensor::{Axis, ImuQuantity, Parameter, ParameterList, Quantity, SensorKind};
 
 /// What these checks say. The accelerometer's own fit says it of an accelerometer that is not final.
-pub(crate) const CODES: [Code; 2] = [Code::ParameterImplausible, Code::GainImplausible];
+pub(crate) const CODES: [Code; 2] = [ParameterImplausible::CODE, GainImplausible::CODE];
 
 /// Parameters and gains that are not plausible.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {

@@ -4,6 +4,7 @@
 //! the step between them less `s`, `r = d·s/s·s` is 1 there, and 0 elsewhere. Steps show it that are far above the noise, and whose neighbours are alike: no knock.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::samples::SamplesLost;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::sensor::{Recording, quantile};
 use nalgebra::Vector3;
@@ -55,5 +56,5 @@ fn lost_samples(gyroscope: &Recording) -> Option<Diagnostic> {
     }
     let lost_share = lost as f64 / (lost + whole).max(1) as f64;
     (lost >= FEWEST && lost_share > LEAST_SHARE)
-        .then_some(Diagnostic::SamplesLost { lost_share, jumps: lost })
+        .then_some(Diagnostic::from(SamplesLost { lost_share, jumps: lost }))
 }

@@ -1,5 +1,6 @@
 //! Motion in holds: the gyroscope turns where the accelerometer is still.
 
+use crate::diagnostic::holds::HoldMoved;
 use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 
@@ -13,6 +14,6 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let rate_rms = gyroscope.turning.iter().flatten().copied().fold(0.0, f64::max);
     let (unit, are_given) =
         (evidence.problem.gyroscope.unit, evidence.problem.setup.holds.intervals_s.is_some());
-    let moved = Diagnostic::HoldMoved { holds, rate_rms, unit, are_given };
+    let moved = Diagnostic::from(HoldMoved { holds, rate_rms, unit, are_given });
     if rate_rms > 0.0 { vec![moved] } else { Vec::new() }
 }

@@ -3,6 +3,7 @@
 //! `clock` finds them.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::gyroscope::{ClockSkew, TimeOffset};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::clock::ClockDifference;
 use crate::sensor::Recording;
@@ -31,15 +32,15 @@ pub(crate) fn of_clock(
 ) -> Option<Diagnostic> {
     let (first, last) = (*gyroscope.times_s.first()?, *gyroscope.times_s.last()?);
     if clock.rate().is_some() {
-        return Some(Diagnostic::ClockSkew {
+        return Some(Diagnostic::from(ClockSkew {
             first_offset_s: clock.at(first),
             last_offset_s: clock.at(last),
             skew: clock.skew,
             skew_sd: clock.skew_sd,
-        });
+        }));
     }
     let step = accelerometer.rate_hz().min(gyroscope.rate_hz()).recip();
     let matters = clock.offset_s.abs() > SHORT_S.max(SHORT_INTERVALS * step);
-    let offset = Diagnostic::TimeOffset { offset_s: clock.offset_s, offset_sd_s: clock.offset_sd_s };
+    let offset = Diagnostic::from(TimeOffset { offset_s: clock.offset_s, offset_sd_s: clock.offset_sd_s });
     (matters && clock.is_certain(clock.offset_s, clock.offset_sd_s)).then_some(offset)
 }

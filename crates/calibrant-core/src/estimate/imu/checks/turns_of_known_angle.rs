@@ -1,6 +1,7 @@
 //! Turns of known angle that do not fit the other data.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::turns::TurnContradicted;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 
 /// The data contradict a turn that is off by this many standard deviations.
@@ -16,7 +17,11 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
         let residual = model.turn_residual(data, &evidence.fit.state.imu);
         let deviations = residual.component_mul(&residual).dot(&data.weight).sqrt();
         let (turn, angle_rad) = (turn.span(number), turn.angle_rad);
-        (deviations > CONTRADICTED_SD).then_some(Diagnostic::TurnContradicted { turn, angle_rad, deviations })
+        (deviations > CONTRADICTED_SD).then_some(Diagnostic::from(TurnContradicted {
+            turn,
+            angle_rad,
+            deviations,
+        }))
     });
     contradicted.collect()
 }

@@ -3,6 +3,7 @@
 //! Where up is in the readings needs no direction: they lie on a sphere about the bias, distorted by errors of a few per cent. A turn of all
 //! directions together is the mounting of the sensor and no mistake, so the turn that most faces agree with counts.
 
+use crate::diagnostic::faces::FacesTurned;
 use crate::diagnostic::{AGREES_RAD, Diagnostic, FaceMismatch, HoldSpan};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::sphere;
@@ -49,7 +50,7 @@ pub(crate) fn turned_faces(
             Some(difference(j, hold, given, &shown))
         })
         .collect();
-    (!wrong.is_empty()).then_some(Diagnostic::FacesTurned { faces: wrong })
+    (!wrong.is_empty()).then_some(Diagnostic::from(FacesTurned { faces: wrong }))
 }
 
 /// What was given of a hold, and what is measured.

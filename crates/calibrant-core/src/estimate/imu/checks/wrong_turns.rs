@@ -6,6 +6,8 @@
 //!
 //! On known faces such turns are refused. Else the rotations between the holds say something of the gyroscope, too, and the user is warned.
 
+use crate::diagnostic::gyroscope::AxesInOtherOrder;
+use crate::diagnostic::turns::{TurnShare, TurnUnlikeGiven};
 use crate::diagnostic::{AGREES_RAD, Diagnostic, TurnMismatch, UnitMistake};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::axes::{axis_names, orders};
@@ -40,7 +42,7 @@ pub(crate) fn check(
     let unlike = share.filter(|share| (share - 1.0).abs() > OTHER_TURN_SHARE);
     if let Some(share) = unlike {
         if !on_faces || PLAUSIBLE_SHARES.contains(&share) {
-            return Ok(vec![Diagnostic::TurnShare { share, mistake: factor(share) }]);
+            return Ok(vec![Diagnostic::from(TurnShare { share, mistake: factor(share) })]);
         }
         let help = if share < 0.0 {
             "angles are right-handed about the axis: is the sign of the angle of the turns right (gyroscope.turn_angle_deg, angle_deg)? else change the sign of the gyroscope's columns"
@@ -62,7 +64,7 @@ pub(crate) fn check(
     if let (Some(order), None) = (alike.next(), alike.next()) {
         // else the rotations show it
         let stated =
-            on_faces.then(|| Diagnostic::AxesInOtherOrder { order: axis_names(order), by_turns: true });
+            on_faces.then(|| Diagnostic::from(AxesInOtherOrder { order: axis_names(order), by_turns: true }));
         return Ok(stated.into_iter().collect());
     }
     let mismatch = |&k: &usize| {
@@ -72,7 +74,7 @@ pub(crate) fn check(
     };
     let mismatches = wrong.iter().map(mismatch);
     if !on_faces {
-        let warning = |(turn, mistake)| Diagnostic::TurnUnlikeGiven { turn, mistake };
+        let warning = |(turn, mistake)| Diagnostic::from(TurnUnlikeGiven { turn, mistake });
         return Ok(mismatches.map(warning).collect());
     }
     let exchanged = wrong.iter().all(|&k| wrong.iter().any(|&other| other != k && shown.is(k, other, share)));

@@ -16,6 +16,7 @@
 //! which is `S/(ν − 2)` for large tilts. Six faces that scatter like their noise get `τ² = v`.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::faces::{TiltAssumed, TiltContradicted};
 use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::hold_result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
@@ -225,14 +226,14 @@ impl FaceAlignment {
     /// The warning about a scatter that contradicts the given tilt.
     pub(crate) fn contradiction(&self) -> Option<Diagnostic> {
         let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.scatter.tilt_rad);
-        Some(Diagnostic::TiltContradicted { shown_rad, given_rad })
+        Some(Diagnostic::from(TiltContradicted { shown_rad, given_rad }))
     }
 }
 
 impl FaceTilt {
     /// The warning about too few faces for their alignment.
     pub(crate) fn assumed(&self, faces: usize) -> Option<Diagnostic> {
-        let assumed = Diagnostic::TiltAssumed { faces, tilt_rad: self.sd_rad };
+        let assumed = Diagnostic::from(TiltAssumed { faces, tilt_rad: self.sd_rad });
         (self.source == TiltSource::Assumed).then_some(assumed)
     }
 }

@@ -3,6 +3,7 @@
 //! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and
 //! the face alignment (`face_alignment`).
 
+use crate::diagnostic::faces::{FaceBrief, FacesScatter};
 use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::gravity_off_earth::gravity_off_earth;
@@ -141,7 +142,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
 
 /// The warning about a face with few samples.
 fn brief(number: usize, hold: &Hold) -> Option<Diagnostic> {
-    let brief = Diagnostic::FaceBrief { hold: HoldSpan::of(number, hold), samples: hold.samples() };
+    let brief = Diagnostic::from(FaceBrief { hold: HoldSpan::of(number, hold), samples: hold.samples() });
     (hold.samples() < FEWEST_SAMPLES).then_some(brief)
 }
 
@@ -160,7 +161,7 @@ fn scattered(
     let most = used().map(|(k, _)| off[k]).fold(0.0, f64::max);
     let is_worst = |(k, _): &(usize, &HoldResult)| off[*k] > 0.8 * most;
     let worst = used().filter(is_worst).map(|(k, result)| HoldSpan::of(k, &result.hold)).collect();
-    Diagnostic::FacesScatter { tilt_rad, along_mps2, worst_rad: most, worst }
+    Diagnostic::from(FacesScatter { tilt_rad, along_mps2, worst_rad: most, worst })
 }
 
 struct Linear<'a> {

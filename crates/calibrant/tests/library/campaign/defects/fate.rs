@@ -3,10 +3,12 @@
 use super::kind::Kind;
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::motion::IntervalsDiffer;
+use calibrant::diagnostic::reader::{ClockSource, TimesFromFirst};
 use calibrant::io::{Experiment, preset, write_imu_recording, write_recording};
 use calibrant::sensor::{ImuParameters, ImuRecording, Recording, SensorKind};
-use calibrant::session::{Note, Outcome, Session, SessionOptions, Source};
+use calibrant::session::{Outcome, Session, SessionOptions, Source};
 use calibrant::simulate::{Purpose, stream};
 use std::fmt::Write;
 use std::path::Path;
@@ -87,13 +89,9 @@ fn calibrated(recording: &ImuRecording) -> (calibrant::Result<Outcome>, Vec<Stri
     let session = Session::with(experiment.clone(), options).expect("valid");
     let mut notes = Vec::new();
     let outcome = session.calibrate_noting(&source, &mut notes);
-    let said = notes.iter().filter_map(|note| match note {
-        Note::Finding { finding, .. } if finding.code() == Code::ClockSource => None,
-        Note::Finding { finding, .. } => Some(format!("{:?}", finding.noticed)),
-        Note::Warning(words) => Some(words.clone()),
-        Note::Remark(_) => None,
-    });
-    (outcome, said.collect())
+    let harmless = [ClockSource::CODE, TimesFromFirst::CODE, IntervalsDiffer::CODE];
+    let said = notes.iter().filter(|found| !harmless.contains(&found.code()));
+    (outcome, said.map(|found| format!("{found:?}")).collect())
 }
 
 /// The parameter with the largest error, and the error in standard deviations.

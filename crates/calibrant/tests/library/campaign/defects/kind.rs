@@ -57,14 +57,22 @@ impl Kind {
     /// Parts of diagnostics, findings and refusals that name it.
     pub(super) fn words(self) -> &'static [&'static str] {
         match self {
-            Self::BiasStep | Self::TemperatureDrift => &["of: Bias", "Some(Bias)"],
-            Self::GainChange => &["of: Gain", "Some(Gain)"],
-            Self::SwappedAxes => &["AxesInOtherOrder", "GyroscopeTurned", "of: Axes", "Some(Axes)"],
-            Self::Saturation => &["Saturat"],
-            Self::Clock => &["ClockSkew", "TimeOffset", "Clocks", "RecordingsUnlike"],
-            Self::LostSamples => &["SamplesMissing", "Gap", "SamplingIrregular", "SamplesLost"],
-            Self::Vibration => &["Vibration", "NoiseNotAsGiven"],
-            Self::GluedAxis => &["AxesEqual", "AxisConstant", "AxisStuck"],
+            Self::BiasStep | Self::TemperatureDrift => {
+                &["its bias s", "its bias c", "its bias d", "its bias (or", "(or its bias)"]
+            }
+            Self::GainChange => {
+                &["its gains s", "its gains c", "its gains d", "its gains (or", "(or its gains)"]
+            }
+            Self::SwappedAxes => {
+                &["axes-in-other-order", "gyroscope-turned", "its axes (against", "or its axes"]
+            }
+            Self::Saturation => &["Saturat", "saturat"],
+            Self::Clock => &["clock-skew", "time-offset", "Clocks", "RecordingsUnlike"],
+            Self::LostSamples => {
+                &["SamplesMissing", "samples-missing", "sampling-gap", "sampling-irregular", "samples-lost"]
+            }
+            Self::Vibration => &["noise-vibration", "noise-not-as-given"],
+            Self::GluedAxis => &["axes-equal", "axis-stuck"],
         }
     }
 

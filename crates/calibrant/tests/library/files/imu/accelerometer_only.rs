@@ -1,7 +1,8 @@
 //! Tests of the accelerometer alone, read from any file.
 
 use super::{read, refused};
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::reader::UnitUnexpected;
 use calibrant::io::{ImuReadOptions, ImuUnit, TimeUnit};
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording};
 
@@ -109,5 +110,5 @@ fn a_unit_that_the_experiment_does_not_expect_is_a_finding() {
                 0,5,6,7,1,2,9\n10000000,5,6,8,1,2,9.1\n";
     let in_counts = ImuReadOptions::accelerometer(3, ReadingUnit::Counts);
     let codes: Vec<_> = read(text, &in_counts).findings.iter().map(|finding| finding.code()).collect();
-    assert!(codes.contains(&Code::UnitUnexpected), "{codes:?}");
+    assert!(codes.contains(&UnitUnexpected::CODE), "{codes:?}");
 }

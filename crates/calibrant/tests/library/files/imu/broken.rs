@@ -368,7 +368,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,1,2,3\n1,NaN,2,3\n2,,2,3\n",
         plain,
-        "line 4: only 1 usable sample of the gyroscope in 3 rows (a recording needs two samples at least; line 3: 2 samples of the gyroscope with a missing or NaN value dropped (first here))",
+        "line 4: only 1 usable sample of the gyroscope in 3 rows (a recording needs two samples at least; line 3: gyroscope: 2 samples with a missing or NaN value dropped (first here))",
     ),
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,,2,3\n1,NaN,2,3\n",

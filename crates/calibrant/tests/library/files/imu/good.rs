@@ -1,7 +1,7 @@
 //! Tests of files that can be used, in every format.
 
 use super::{findings, read, units, used};
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
 use calibrant::io::{
     ColumnMapping, ColumnUnit, FileFormat, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_pair,
 };
@@ -268,25 +268,27 @@ fn sensors_of_different_rates_may_share_a_file() {
     let file = read(text, &PLAIN);
     assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.01, 0.02]);
     assert_eq!(file.recording.gyroscope.as_ref().expect("there").len(), 5);
-    assert_eq!(findings(&file), ["line 3: 2 rows without a reading of the accelerometer (first here)"]);
+    assert_eq!(findings(&file), ["line 3: accelerometer: 2 rows without a reading (first here)"]);
 }
 
 #[test]
 fn what_is_missing_twice_or_cut_off_is_dropped_with_a_word() {
-    use Code::{LineTruncated, RowsRepeated, SamplingGap, TimesRepeated, ValuesMissing};
+    use calibrant::diagnostic::reader::{
+        LineTruncated, RowsRepeated, SamplingGap, TimesRepeated, ValuesMissing,
+    };
     let header = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n";
     let row = |t: f64, k: usize| format!("{t},{},{},9.{k},0.{},0.{},0.1{k}\n", k % 3, k % 5, k % 7, k % 4);
     let plain: Vec<String> = (0..20).map(|k| row(0.01 * k as f64, k)).collect();
     for (change, kind, message) in [
         (
             ",1,1,9.1",
-            ValuesMissing,
-            "line 3: 1 sample of the accelerometer with a missing or NaN value dropped",
+            ValuesMissing::CODE,
+            "line 3: accelerometer: 1 sample with a missing or NaN value dropped",
         ),
-        ("\n0.01,", ValuesMissing, "line 3: 1 row without a time dropped"),
+        ("\n0.01,", ValuesMissing::CODE, "line 3: 1 row without a time dropped"),
     ] {
         let text = header.to_owned() + &plain.concat();
-        let text = if kind == ValuesMissing && change.starts_with(',') {
+        let text = if kind == ValuesMissing::CODE && change.starts_with(',') {
             text.replacen(change, ",1,NaN,9.1", 1)
         } else {
             text.replacen(change, "\n,", 1)
@@ -296,15 +298,15 @@ fn what_is_missing_twice_or_cut_off_is_dropped_with_a_word() {
     }
     let twice = header.to_owned() + &plain[..3].concat() + &plain[2..].concat();
     let file = read(&twice, &PLAIN);
-    assert_eq!((file.findings[0].code(), file.rows), (RowsRepeated, 21));
+    assert_eq!((file.findings[0].code(), file.rows), (RowsRepeated::CODE, 21));
     assert_eq!(findings(&file), ["line 5: 1 row equal to the one before dropped"]);
     let same_time = header.to_owned() + &plain[..3].concat() + &row(0.02, 9) + &plain[3..].concat();
-    assert_eq!(read(&same_time, &PLAIN).findings[0].code(), TimesRepeated);
+    assert_eq!(read(&same_time, &PLAIN).findings[0].code(), TimesRepeated::CODE);
     let cut = header.to_owned() + &plain.concat() + "0.2,1,2";
-    assert_eq!(read(&cut, &PLAIN).findings[0].code(), LineTruncated);
+    assert_eq!(read(&cut, &PLAIN).findings[0].code(), LineTruncated::CODE);
     let gap = header.to_owned() + &plain.concat() + &row(5.0, 3);
     let file = read(&gap, &PLAIN);
-    assert_eq!(file.findings[0].code(), SamplingGap);
+    assert_eq!(file.findings[0].code(), SamplingGap::CODE);
     assert!(findings(&file)[0].starts_with("line 22: gap of 4.81 s after t = 0.19 s"), "{:?}", file.findings);
 }
 

@@ -109,7 +109,7 @@ fn a_table_reads_with_any_compression() {
             findings(&file)[..2],
             [
                 "times are counted from the first sample, where `stamp` is 1700000000123456789 ns",
-                "1 sample of the accelerometer with a missing or NaN value dropped"
+                "accelerometer: 1 sample with a missing or NaN value dropped"
             ]
         );
         assert_eq!(file.columns[8].unused.as_deref(), Some("not known to be needed"));

@@ -2,7 +2,8 @@
 
 use super::{findings, units, used};
 use crate::common::shared_data;
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::reader::ValuesMissing;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording};
 use calibrant::sensor::ReadingUnit;
 
@@ -85,9 +86,9 @@ fn every_sample_file_of_mt_manager_is_read_or_refused_with_the_reason() {
         let file = read_imu_recording(&path, &with_rate).expect("good");
         assert_eq!(used(&file)[1..], all);
         let missing: Vec<_> =
-            file.findings.iter().filter(|finding| finding.code() == Code::ValuesMissing).collect();
+            file.findings.iter().filter(|finding| finding.code() == ValuesMissing::CODE).collect();
         assert_eq!(missing.len(), 1, "{:?}", file.findings);
-        assert_eq!(missing[0].line, Some(14));
+        assert_eq!(missing[0].line(), Some(14));
         let accelerometer = file.recording.accelerometer.as_ref().expect("there");
         assert_eq!(accelerometer.len() + 1, file.rows);
         assert_eq!(file.recording.gyroscope.as_ref().expect("there").len(), file.rows);

@@ -1,7 +1,8 @@
 //! Tests of ROS 2 bags, written with the crate `mcap`.
 
 use super::findings;
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::reader::FileUnfinished;
 use calibrant::io::{
     ColumnMapping, FileFormat, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
 };
@@ -148,7 +149,7 @@ fn a_bag_compressed_with_zstd_reads_the_same() {
 
 /// The warning about the end of a bag.
 fn unfinished(file: &ImuFile) -> Option<String> {
-    let found = file.findings.iter().find(|finding| finding.code() == Code::FileUnfinished)?;
+    let found = file.findings.iter().find(|finding| finding.code() == FileUnfinished::CODE)?;
     assert!(found.is_warning());
     Some(found.to_string())
 }

@@ -1,7 +1,8 @@
 //! Tests of files in which each sensor has rows of its own, against an independent reading of the text.
 
 use super::findings;
-use calibrant::diagnostic::Code;
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::reader::{RowsRepeated, TimesRepeated};
 use calibrant::io::{ImuFile, ImuReadOptions, parse_imu_recording};
 use calibrant::sensor::{Recording, SensorKind};
 
@@ -78,8 +79,8 @@ fn each_sensor_has_its_own_series() {
                 &format!("{what}, {sensor_kind}"),
             );
         }
-        let twice = |finding: &&calibrant::io::Finding| {
-            [Code::RowsRepeated, Code::TimesRepeated].contains(&finding.code())
+        let twice = |finding: &&calibrant::diagnostic::Diagnostic| {
+            [RowsRepeated::CODE, TimesRepeated::CODE].contains(&finding.code())
         };
         assert_eq!(file.findings.iter().find(twice), None, "{what}");
         if what.starts_with("a thermometer") {
@@ -114,7 +115,7 @@ fn a_sensor_that_is_twice_at_a_time_is_a_duplicate_still() {
     rows[5] = other.replace(",,,,\n", &gyroscope(0.2)["0.2,,,".len()..]);
     let file = read(&rows);
     assert_eq!(file.recording, good.recording);
-    let says = "line 7: 1 sample of the accelerometer with the time of the one before dropped";
+    let says = "line 7: accelerometer: 1 sample with the time of the one before dropped";
     assert!(findings(&file).contains(&says.to_owned()), "{:?}", findings(&file));
     // each sensor's time increases
     rows.push(accelerometer(0.75));

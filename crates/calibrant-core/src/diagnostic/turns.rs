@@ -1,9 +1,60 @@
-//! The turn of known angle that a diagnostic names.
+//! Checks of turns of known angle.
 
-use crate::diagnostic::direction::direction_in_words;
-use crate::diagnostic::parts::{Part, Parts};
+use super::check::checks;
+use super::direction::direction_in_words;
+use super::parts::{Part, Parts};
 use nalgebra::Vector3;
 use std::fmt;
+
+checks! {
+    /// The gyroscope shows the same share of the angle of every turn.
+    TurnShare "turn-share" Warning {
+        /// The share.
+        share: f64,
+        /// The mistake of units that explains the share.
+        mistake: Option<UnitMistake>,
+    }
+    decided "The share differs from 1 by more than a quarter, and is the same for all turns."
+    remedy "Correct the angle of the turns, the sample rate, or the gyroscope's unit."
+    says format!(
+        "the gyroscope shows {share:.3} of the angle of every turn: {}",
+        mistake.as_ref().map_or_else(
+            || "check the angle of the turns, the sample rate and the gyroscope's unit.".to_owned(),
+            UnitMistake::to_string,
+        )
+    );
+
+    /// The gyroscope shows a different turn from the given one.
+    TurnUnlikeGiven "turn-unlike-given" Warning {
+        /// The turn.
+        turn: TurnMismatch,
+        /// The mistake of units that explains the difference.
+        mistake: Option<UnitMistake>,
+    }
+    decided "The difference in angle or axis exceeds any error of a sensor."
+    remedy "Correct its angle, its axis or its times."
+    says match mistake {
+        Some(mistake) => format!("{turn}, {mistake}"),
+        None => format!("{turn}. Correct its angle, its axis or its times."),
+    };
+
+    /// A turn of known angle contradicts the other data.
+    TurnContradicted "turn-contradicted" Warning {
+        /// The turn.
+        turn: TurnSpan,
+        /// Its angle as given, rad.
+        angle_rad: f64,
+        /// The difference, in standard deviations.
+        deviations: f64,
+    }
+    decided "The difference exceeds 4.5 standard deviations."
+    remedy "Correct its times, axis and angle."
+    says format!(
+        "{turn} of {:.1}° contradicts the other data, by {deviations:.0} standard deviations. Check its times, axis and \
+         angle.",
+        angle_rad.to_degrees()
+    );
+}
 
 /// A turn by its name or number and its times.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,0 +1,87 @@
+//! Checks of the correction of readings with a calibration, and of calibrations in other formats.
+
+use super::check::checks;
+use super::parts::Phrase;
+use crate::number_format::{counted, short};
+use crate::sensor::SensorKind;
+
+checks! {
+    /// The recording lacks a sensor of the calibration. Only the other is corrected.
+    SensorAbsent "sensor-absent" Note {
+        /// The sensor.
+        sensor_kind: SensorKind,
+    }
+    decided "The recording has no readings of it."
+    remedy "Nothing."
+    says format!("the recording has no {sensor_kind}; only the other sensor is corrected");
+
+    /// The calibration lacks a sensor of the recording. Its readings are not written.
+    SensorUncalibrated "sensor-uncalibrated" Warning {
+        /// The sensor.
+        sensor_kind: SensorKind,
+    }
+    decided "The calibration has no parameters of it."
+    remedy "Give a calibration of both sensors."
+    says format!("the calibration has no {sensor_kind}; its readings are not written");
+
+    /// Readings that are corrected have spikes.
+    SpikesCorrected "spikes-corrected" Warning {
+        /// The sensor.
+        sensor_kind: SensorKind,
+        /// Their number.
+        spikes: usize,
+        /// Time of the farthest, s.
+        time_s: f64,
+    }
+    decided "As the spikes of a recording that is calibrated: see `spikes`."
+    remedy "Look for a loose contact, or for bytes that are lost on the way."
+    says format!(
+        "{sensor_kind}: {} ({} s). The correction is applied as usual, but these samples do not correct the g-sensitivity. \
+         Look for a loose contact, or for bytes lost on the way.",
+        match spikes {
+            1 => "1 sample is a spike".to_owned(),
+            count => format!("{} are spikes", counted(*count, "sample")),
+        },
+        short(*time_s)
+    );
+
+    /// The g-sensitivity of a calibration is omitted.
+    GSensitivityOmitted "g-sensitivity-omitted" Warning {
+        /// Largest error of a reading at 1 g.
+        error: f64,
+        /// Symbol of its unit.
+        unit: &'static str,
+    }
+    decided "Somebody asks for it, and it is not zero."
+    remedy "Keep it, in a format that has it."
+    says format!("the g-sensitivity is omitted. Readings of the gyroscope have errors up to {error:.2e} {unit} at 1 g.");
+
+    /// A calibration is fixed at a temperature.
+    TemperatureFixed "temperature-fixed" Note {
+        /// The temperature, °C.
+        temperature_c: f64,
+    }
+    decided "Somebody asks for the calibration at one temperature."
+    remedy "Nothing."
+    says format!(
+        "biases and gains are those at {temperature_c} °C. At other temperatures, the correction changes."
+    );
+
+    /// A format of calibrations does not carry all of it.
+    FormatLoses "format-loses" Warning {
+        /// What it loses.
+        what: Phrase,
+    }
+    decided "The format has no place for it, or needs what the calibration does not have."
+    remedy "Keep the JSON of calibrant beside it."
+    says what.0.as_str();
+
+    /// A reader of another format supposes something, or leaves something out.
+    FormatSupposed "format-supposed" Note {
+        /// What it supposes.
+        what: Phrase,
+    }
+    decided "The file does not say it, or calibrant has no place for it."
+    remedy "Check it."
+    says what.0.as_str();
+}

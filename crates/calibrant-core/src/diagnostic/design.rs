@@ -1,0 +1,156 @@
+//! Checks of the search for a motion or for poses, and of what it begins with.
+
+use super::check::checks;
+use super::parts::Phrase;
+use crate::number_format::{counted, significant};
+
+checks! {
+    /// The time was over before the search converged.
+    SearchOutOfTime "search-out-of-time" Warning {}
+    decided "The time that was given ends before the best start converged."
+    remedy "Give it more time."
+    says "the time was over before the best start converged. The motion is the best so far, and a better one may be near \
+        (give it more --seconds)";
+
+    /// The search was interrupted. Its result is the best so far.
+    SearchInterrupted "search-interrupted" Warning {
+        /// Are poses searched for, not a motion?
+        are_poses: bool,
+    }
+    decided "Somebody interrupted the program."
+    remedy "Let it run to its end."
+    says match are_poses {
+        true => "the search was interrupted. The poses are the best so far, and better ones may be near",
+        false => "the search was interrupted. The motion is the best so far, and a better one may be near",
+    };
+
+    /// The search ended before it converged. A better motion may be near.
+    SearchNotConverged "search-not-converged" Warning {
+        /// The value of a sweep, where it is one.
+        at: Option<Phrase>,
+        /// The status.
+        status: &'static str,
+    }
+    decided "The status of the design is not `converged`."
+    remedy "Take more starts, or loosen very tight limits."
+    says match at {
+        Some(at) => {
+            format!("{}: the search ended with the status \"{status}\"; a better motion may be near", at.0)
+        }
+        None => format!(
+            "the search ended with the status \"{status}\". The motion is admissible, but a better one may be near (increase \
+             --starts, or loosen very tight limits)"
+        ),
+    };
+
+    /// A motion does not determine some parameters.
+    MotionUndetermined "motion-undetermined" Warning {
+        /// The motion, or its file.
+        motion: Phrase,
+        /// The parameters.
+        parameters: Vec<String>,
+        /// Why.
+        reason: Phrase,
+        /// What to do.
+        remedy: Phrase,
+    }
+    decided "The information of the motion is singular."
+    remedy "Move the axes that the message names, or give a prior."
+    says format!("{} leaves {} undetermined: {} ({})", motion.0, parameters.join(", "), reason.0, remedy.0);
+
+    /// A given motion is not compared with the best one.
+    MotionNotCompared "motion-not-compared" Warning {
+        /// Why.
+        why: Phrase,
+    }
+    decided "The search for the best motion ends with an error."
+    remedy "Read the error."
+    says format!("the motion is not compared with the best one: {}", why.0);
+
+    /// A sweep was interrupted.
+    SweepInterrupted "sweep-interrupted" Warning {
+        /// Values that are finished.
+        finished: usize,
+        /// All values.
+        all: usize,
+    }
+    decided "Somebody interrupted the program."
+    remedy "Let it run to its end."
+    says format!("the sweep was interrupted: {finished} of {all} values are finished");
+
+    /// A value of a sweep has no design.
+    SweepValueFailed "sweep-value-failed" Warning {
+        /// The value.
+        at: Phrase,
+        /// Why.
+        why: Phrase,
+    }
+    decided "The search for its best motion ends with an error."
+    remedy "Read the error."
+    says format!("{}: {}", at.0, why.0);
+
+    /// A value of a sweep is not a whole number of intervals. The nearest one is taken.
+    SweepValueRounded "sweep-value-rounded" Note {
+        /// The value that was asked for.
+        asked: Phrase,
+        /// The value that is taken.
+        taken: Phrase,
+        /// Its intervals.
+        intervals: usize,
+    }
+    decided "The duration is no multiple of the interval."
+    remedy "Nothing."
+    says format!(
+        "{} is not a whole number of intervals: {}, {}, instead",
+        asked.0,
+        taken.0,
+        counted(*intervals, "interval")
+    );
+
+    /// Two earlier calibrations are equal.
+    CalibrationsEqual "calibrations-equal" Warning {
+        /// The one.
+        one: Phrase,
+        /// The other.
+        other: Phrase,
+    }
+    decided "Values and covariances are equal to the last digit."
+    remedy "Name each calibration once."
+    says format!(
+        "{} and {} are equal to the last digit. If they are of one recording, its information counts twice. Name it once.",
+        one.0,
+        other.0
+    );
+
+    /// Two earlier calibrations differ by more than their uncertainty.
+    CalibrationsApart "calibrations-apart" Warning {
+        /// The one.
+        one: Phrase,
+        /// The other.
+        other: Phrase,
+        /// χ² of the difference.
+        chi2: f64,
+        /// Number of parameters.
+        parameters: usize,
+    }
+    decided "χ² of the difference exceeds the number of parameters by 6 standard deviations."
+    remedy "Name calibrations of one sensor only."
+    says format!(
+        "{} and {} differ by more than their uncertainty (χ² {} for {parameters} parameters). Are they of the same sensor?",
+        one.0,
+        other.0,
+        significant(*chi2, 3)
+    );
+
+    /// A limit counts from rest at the start, so the motion starts at rest.
+    RestAssumed "rest-assumed" Note {
+        /// The limit.
+        limit: &'static str,
+    }
+    decided "A limit of velocity or displacement is given, and `rest` in [limits] is not."
+    remedy "Give `rest`: \"both\" ends the motion at rest, too."
+    says format!(
+        "the limit of {limit} counts from rest at the start, so the motion starts at rest. It may end in motion: rest = \
+         \"both\" in [limits] ends it at rest, too; rest = \"start\" silences this note"
+    );
+}

@@ -1,0 +1,131 @@
+//! Checks of the gyroscope beside the accelerometer: clocks, axes, rotations.
+
+use super::check::checks;
+use super::late_times::{late, repair};
+use super::rotation_reason::RotationReason;
+
+checks! {
+    /// The gyroscope shows movements earlier or later than the accelerometer.
+    TimeOffset "time-offset" Warning {
+        /// By how much the gyroscope is late, s.
+        offset_s: f64,
+        /// Its standard deviation, s.
+        offset_sd_s: f64,
+    }
+    decided "The offset is significant, and exceeds both 5 ms and 1.5 sample intervals."
+    remedy "Correct the gyroscope's times by the offset."
+    says format!(
+        "the gyroscope shows movements {} than the accelerometer (± {:.1} ms). Either one sensor has a latency, or the \
+         clocks differ. The offset shortens holds and rotations. To correct it, {}.",
+        late(*offset_s, 1),
+        1e3 * offset_sd_s,
+        repair(*offset_s, 0.0, 4)
+    );
+
+    /// The clocks of the two sensors run at different rates.
+    ClockSkew "clock-skew" Warning {
+        /// By how much the gyroscope is late at its first sample, s.
+        first_offset_s: f64,
+        /// By how much the gyroscope is late at its last sample, s.
+        last_offset_s: f64,
+        /// How much later it becomes with each second.
+        skew: f64,
+        /// Its standard deviation.
+        skew_sd: f64,
+    }
+    decided "The skew is significant, and large enough to affect the result."
+    remedy "Correct the gyroscope's times by offset and skew."
+    says format!(
+        "the clocks of the two sensors run at different rates, by {:+.4} ± {:.4} %. The gyroscope shows movements {} \
+         than the accelerometer at the beginning, and {} at the end. If the accelerometer's clock is right, the \
+         gyroscope's gains are too {} by this percentage. To correct it, {}.",
+        100.0 * skew,
+        100.0 * skew_sd,
+        late(*first_offset_s, 1),
+        late(*last_offset_s, 1),
+        if *skew > 0.0 { "large" } else { "small" },
+        repair(*first_offset_s, *skew, 3)
+    );
+
+    /// The gyroscope's axes are in another order than the accelerometer's.
+    AxesInOtherOrder "axes-in-other-order" Error {
+        /// The gyroscope's axis along each of the accelerometer's.
+        order: [String; 3],
+        /// Do turns of known angle show it?
+        by_turns: bool,
+    }
+    decided "The rotations or turns fit only with that order."
+    remedy "Correct the columns, or keep the order in mind."
+    says {
+        let [x, y, z] = order;
+        let housing = match by_turns {
+            true => " If both sensors share a housing, correct the order of the turns or of the gyroscope's columns.",
+            false => "",
+        };
+        format!(
+            "the gyroscope's axes are in another order than the accelerometer's: along x, y and z of the accelerometer \
+             lie {x}, {y} and {z} of the gyroscope.{housing}"
+        )
+    };
+
+    /// The gyroscope is mounted with a rotation against the accelerometer.
+    GyroscopeTurned "gyroscope-turned" Warning {
+        /// Angle of the rotation, rad.
+        angle_rad: f64,
+        /// Axis of the rotation, along x.
+        about_x: f64,
+        /// Axis of the rotation, along y.
+        about_y: f64,
+        /// Axis of the rotation, along z.
+        about_z: f64,
+        /// Do its axes point the opposite way?
+        is_mirrored: bool,
+    }
+    decided "The rotations fit with that mounting, and not with the axes as recorded."
+    remedy "Correct the columns, or keep the mounting in mind."
+    says format!(
+        "the gyroscope is mounted with a rotation of {:.0}° against the accelerometer, about the axis ({about_x:.2}, \
+         {about_y:.2}, {about_z:.2}){}",
+        angle_rad.to_degrees(),
+        if *is_mirrored { ". Its axes point the opposite way" } else { "" }
+    );
+
+    /// A rotation is not used.
+    RotationLeftOut "rotation-left-out" Warning {
+        /// Number of the hold before it, from 1.
+        from_hold: usize,
+        /// Number of the hold after it, from 1.
+        to_hold: usize,
+        /// Begin, s.
+        start_s: f64,
+        /// End, s.
+        end_s: f64,
+        /// Rotation error, rad, where the rotation can be integrated.
+        error_rad: Option<f64>,
+        /// The rotation error in its expected standard deviations.
+        deviations: Option<f64>,
+        /// Why.
+        reason: RotationReason,
+    }
+    decided "It cannot be integrated, or its rotation error has too many standard deviations."
+    remedy "Look at the rotation in the report. Record with a larger range, without pauses."
+    says format!(
+        "the rotation from hold {from_hold} to hold {to_hold} ({start_s:.1} to {end_s:.1} s) is not used: {reason}"
+    );
+
+    /// Several consecutive rotations are not used. This is not by chance.
+    RotationsLeftOutInARow "rotations-left-out-in-a-row" Warning {
+        /// Their number.
+        rotations: usize,
+        /// Begin of the first, s.
+        start_s: f64,
+        /// End of the last, s.
+        end_s: f64,
+    }
+    decided "So long a run of unused rotations is improbable, and no change of a sensor explains it."
+    remedy "Check whether the gyroscope saturates there, or a sensor changes."
+    says format!(
+        "the {rotations} consecutive rotations from {start_s:.1} to {end_s:.1} s are not used. This is not by chance. Did \
+         the gyroscope saturate there, or did a sensor change?"
+    );
+}

@@ -1,0 +1,201 @@
+//! Checks of the holds of a recording, and of gravity in them.
+
+use super::check::checks;
+use super::faces::FacePointing;
+use super::hold_span::{HoldReason, HoldSpan};
+use super::parts::{Part, Parts, listed};
+use crate::sensor::ReadingUnit;
+
+checks! {
+    /// A hold is not used.
+    HoldLeftOut "hold-left-out" Warning {
+        /// The hold.
+        hold: HoldSpan,
+        /// Why.
+        why: HoldReason,
+    }
+    decided "The accelerometer saturates in it, or the magnitude of its mean has too large an error, in standard \
+        deviations."
+    remedy "Look at the hold in the report. Record with a larger range, or hold the sensor still."
+    says format!("{hold} is not used: {why}");
+
+    /// Several consecutive holds are not used. This is not by chance.
+    HoldsLeftOutInARow "holds-left-out-in-a-row" Warning {
+        /// Number of holds.
+        holds: usize,
+        /// Begin of the first, s.
+        start_s: f64,
+        /// End of the last, s.
+        end_s: f64,
+    }
+    decided "So long a run of unused holds is improbable, and no change of the sensor explains it."
+    remedy "Calibrate these holds separately (holds.intervals_s) and compare."
+    says format!(
+        "the {holds} consecutive holds from {start_s:.1} to {end_s:.1} s are not used. This is not by chance: the sensor \
+         changed there, or it was not at rest. Calibrate these holds separately (holds.intervals_s), and compare."
+    );
+
+    /// A given hold reaches beyond the recording.
+    HoldBeyondRecording "hold-beyond-recording" Warning {
+        /// Its number, from 1.
+        hold: usize,
+        /// Its begin as given, s.
+        start_s: f64,
+        /// Its end as given, s.
+        end_s: f64,
+        /// First sample of the recording, s.
+        recording_start_s: f64,
+        /// Last sample of the recording, s.
+        recording_end_s: f64,
+        /// Duration within the recording, s.
+        common_s: f64,
+    }
+    decided "More of it lies outside than rounding of the times explains."
+    remedy "Correct holds.intervals_s."
+    says format!(
+        "hold {hold} is given from {start_s} to {end_s} s, but the recording lasts from {recording_start_s} to \
+         {recording_end_s} s. Only {common_s:.1} s of the hold count. Correct holds.intervals_s."
+    );
+
+    /// The gyroscope turns in some holds. Its readings there are not used for its bias.
+    HoldMoved "hold-moved" Warning {
+        /// The holds.
+        holds: Vec<HoldSpan>,
+        /// Root mean square of the rate in the fastest.
+        rate_rms: f64,
+        /// Unit of the rate.
+        unit: ReadingUnit,
+        /// Are the intervals of the holds given?
+        are_given: bool,
+    }
+    decided "Its mean rate in the hold differs from that in the others by more than their scatter."
+    remedy "Put the sensor down, and do not hold it by hand. If holds.intervals_s is given, correct or remove it."
+    says format!(
+        "the gyroscope turns in {}, by up to {rate_rms:.2e} {} rms. Its readings there are not used for its bias. An \
+         accelerometer does not see a rotation about the vertical. {}",
+        listed(holds, ", "),
+        unit.symbol(),
+        match are_given {
+            true => "Correct holds.intervals_s, or remove that key: the program then finds the holds.",
+            false => "Put the sensor down for each hold.",
+        }
+    );
+
+    /// Neighbouring samples are strongly correlated, as behind a slow low-pass filter. This breaks up
+    /// holds.
+    HoldsLostToFilter "holds-lost-to-filter" Warning {
+        /// Their number.
+        lost: LostHolds,
+    }
+    decided "Several segments look stationary but are too short for holds. Samples four apart differ much more than \
+        neighbours."
+    remedy "Give holds.intervals_s, hold longer, or record with a wider bandwidth."
+    says format!(
+        "{} found. {} other segments look stationary, but not for {} s without interruption: {}. Remedy: {}.",
+        match lost.holds {
+            1 => "1 hold is".to_owned(),
+            count => format!("{count} holds are"),
+        },
+        lost.stretches,
+        lost.minimum_s,
+        LostHolds::REASON,
+        LostHolds::HELP
+    );
+
+    /// The directions of the holds are too similar. The data hardly separate some parameters.
+    HoldsSpreadLittle "holds-spread-little" Warning {
+        /// Condition number.
+        condition_number: f64,
+        /// The parameters that the data hardly separate.
+        parameters: Vec<String>,
+    }
+    decided "The condition number of the scaled information is above 100, and two of these parameters are \
+        correlated by more than 0.9."
+    remedy "Add holds in other directions."
+    says format!(
+        "the directions of the holds are too similar (condition number {condition_number:.0}). The data hardly \
+         separate {}. Add holds in other directions.",
+        parameters.join(", ")
+    );
+
+    /// The holds scatter far beyond their noise. The cause is movement, drift, saturation, or a force other
+    /// than gravity.
+    HoldsScatter "holds-scatter" Warning {
+        /// Standard deviation between holds, m/s².
+        between_holds_sd_mps2: f64,
+    }
+    decided "The standard deviation between holds is more than 20 mm/s²."
+    remedy "Hold the sensor still, let it warm up, and check its range."
+    says format!(
+        "the holds scatter by {:.0} mm/s² beyond their noise. Look for movement, drift, saturation, or a force other \
+         than gravity.",
+        1e3 * between_holds_sd_mps2
+    );
+
+    /// No hold has an axis pointing up, or down.
+    OrientationMissing "orientation-missing" Warning {
+        /// The directions.
+        missing: Vec<FacePointing>,
+    }
+    decided "No hold is within 60° of that direction."
+    remedy "Add a hold there."
+    says format!("no hold has {}. Add one.", listed(missing, " or "));
+
+    /// The given gravity occurs nowhere on the Earth. All gains of the accelerometer are wrong by the same
+    /// ratio.
+    GravityOffEarth "gravity-off-earth" Warning {
+        /// Gravity as given, m/s².
+        gravity_mps2: f64,
+        /// The least on the Earth's surface, m/s².
+        least_mps2: f64,
+        /// The most on the Earth's surface, m/s².
+        most_mps2: f64,
+    }
+    decided "The value lies outside the range of the Earth's surface."
+    remedy "Correct holds.gravity_mps2."
+    says format!(
+        "gravity is given as {gravity_mps2} m/s², but on the Earth's surface it is {least_mps2} to {most_mps2}. \
+         Correct holds.gravity_mps2. Otherwise all gains of the accelerometer are wrong by this ratio."
+    );
+
+    /// The given gravity is not that of the Earth. Results are in the unit that makes it true.
+    GravityUnusual "gravity-unusual" Warning {
+        /// Gravity as given, m/s².
+        gravity_mps2: f64,
+    }
+    decided "The value is below 9.7 or above 9.9 m/s²."
+    remedy "Correct holds.gravity_mps2, or read the results in that unit."
+    says format!(
+        "gravity is given as {gravity_mps2} m/s². The results are in the unit that makes this true."
+    );
+}
+
+/// Segments that look stationary but are no holds, because neighbouring samples are strongly correlated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LostHolds {
+    /// Holds that were found.
+    pub holds: usize,
+    /// Other segments that look stationary.
+    pub stretches: usize,
+    /// Shortest hold, s.
+    pub minimum_s: f64,
+}
+
+impl LostHolds {
+    /// Why the holds are broken up.
+    pub(crate) const REASON: &'static str =
+        "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate";
+    /// What to do about it.
+    pub(crate) const HELP: &'static str =
+        "give holds.intervals_s, hold longer, or record with a wider bandwidth";
+}
+
+impl Part for LostHolds {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        parts.numbers.extend([
+            ("holds", self.holds as f64),
+            ("stretches", self.stretches as f64),
+            ("minimum_s", self.minimum_s),
+        ]);
+    }
+}

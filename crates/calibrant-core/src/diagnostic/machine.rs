@@ -1,0 +1,97 @@
+//! Checks of a sensor on a machine.
+
+use super::check::checks;
+use crate::number_format::{counted, significant};
+use crate::sensor::SensorKind;
+
+checks! {
+    /// The residuals of a sensor on a machine are larger than its noise. The machine does not move as its
+    /// model and its log say.
+    MachineResiduals "machine-residuals" Warning {
+        /// The sensor.
+        sensor_kind: SensorKind,
+        /// The noise that the residuals show, in parts of that of neighbouring samples.
+        ratio: f64,
+    }
+    decided "The noise that the residuals show exceeds that of neighbouring samples by 10 %; by 25 % where the log \
+        is trusted."
+    remedy "Model the geometry ([machine.geometry]), trust the log less (trust = \"noisy\"), fasten the sensor, or \
+        look for vibration in the report."
+    says format!(
+        "the residuals of the {sensor_kind} are {ratio:.1} times its noise: the machine does not move as its model and \
+         its log say. Model the geometry, trust the log less, fasten the sensor, or look for vibration in the spectrum \
+         of the report."
+    );
+
+    /// Residuals are correlated in time, as with a tracker's error. The stated standard deviations take it
+    /// into account.
+    ResidualsCorrelated "residuals-correlated" Warning {
+        /// The parameter that it widens most.
+        parameter: String,
+        /// The factor of its standard deviation.
+        factor: f64,
+    }
+    decided "The scores of blocks of time scatter more than independent residuals would let them."
+    remedy "Look at the spectrum of the residuals in the report. Model what moves, or improve the reference."
+    says format!(
+        "the residuals are correlated in time, and standard deviations are wider by this: that of {parameter} by a \
+         factor of {factor:.1}. Look at the spectrum of the residuals."
+    );
+
+    /// The data contradict what was known of the machine beforehand.
+    PriorContradicted "prior-contradicted" Warning {
+        /// The quantity.
+        parameter: String,
+        /// Its distance from what was expected, in prior standard deviations.
+        deviations: f64,
+    }
+    decided "A quantity is more than four of its prior standard deviations from what was expected."
+    remedy "Correct the nominal value or its standard deviation in [machine]. Check the urdf, the mount and the \
+        clocks."
+    says format!(
+        "{parameter} is {deviations:.1} prior standard deviations from what was expected. Correct the nominal value or \
+         its standard deviation in [machine]."
+    );
+
+    /// The poses of a log are interpolated. The measured ones take their place.
+    PosesInterpolated "poses-interpolated" Note {
+        /// Rate of the measured poses, Hz.
+        rate_hz: f64,
+        /// Their number.
+        samples: usize,
+    }
+    decided "Most poses lie on straight lines between two others, at even steps."
+    remedy "Nothing."
+    says format!(
+        "the poses are a linear interpolation of a stream at {} Hz. Its {} take their place",
+        significant(*rate_hz, 7),
+        counted(*samples, "sample")
+    );
+
+    /// The log of the machine has outliers. They have little weight.
+    LogOutliers "log-outliers" Warning {
+        /// Number of outliers.
+        outliers: usize,
+        /// Number of samples.
+        samples: usize,
+    }
+    decided "More than one sample in a thousand is farther from the spline than eight of its robust standard \
+        deviations."
+    remedy "Look for lost markers, jumps of the tracker, or a controller that skips."
+    says format!(
+        "{outliers} of {samples} samples of the log are outliers. They have little weight. Look for lost markers, or \
+         jumps of the tracker."
+    );
+
+    /// A part of the recording is not used, since the log has no samples there.
+    LogCoversPart "log-covers-part" Warning {
+        /// Share of the sensor's samples that are used.
+        used_share: f64,
+    }
+    decided "The log covers less than 95 % of the sensor's samples: it begins later, ends earlier, or has gaps."
+    remedy "Log the whole motion. Samples without a log are lost to the calibration."
+    says format!(
+        "{:.0} % of the sensor's samples are used: the log begins later, ends earlier, or has gaps.",
+        100.0 * used_share
+    );
+}

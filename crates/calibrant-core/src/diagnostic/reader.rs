@@ -1,0 +1,326 @@
+//! Checks of a reader: what it notices in a recording that can be used nevertheless.
+
+use super::check::checks;
+use super::parts::Phrase;
+pub use super::reader_fields::{
+    ClockSourceKind, FileTimes, MissingValue, Span, TemperatureDoubt, Ticks, quoted,
+};
+use super::reader_fields::{first_here, moment, temperature_missing};
+use crate::number_format::{counted, plain};
+use crate::sensor::{Axis, ReadingUnit, SensorKind, Temperatures};
+
+checks! {
+    /// Columns of a recording are not used.
+    ColumnsIgnored "columns-ignored" Note {
+        /// Their names.
+        columns: Vec<String>,
+        /// The sensor that they are of, where another file has it.
+        other: Option<SensorKind>,
+    }
+    decided "They hold nothing that is needed, or they are those of the other file's sensor."
+    remedy "Nothing. Name them in [columns] where they are needed."
+    says match other {
+        None => {
+            let ending = if columns.len() == 1 { "" } else { "s" };
+            format!("ignored column{ending} {}", quoted(columns, 8))
+        }
+        Some(other) => format!(
+            "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
+            columns.join(", ")
+        ),
+    };
+
+    /// The recording states another unit than the experiment.
+    UnitUnexpected "unit-unexpected" Note {
+        /// The header's unit.
+        stated: ReadingUnit,
+        /// The experiment's.
+        expected: ReadingUnit,
+    }
+    decided "The header's unit is compared with that of the experiment."
+    remedy "Correct sensor.unit, where the header is right."
+    says format!(
+        "readings are in {} by their header, the experiment says {}",
+        stated.symbol(),
+        expected.symbol()
+    );
+
+    /// Rows without a time or a reading were dropped.
+    ValuesMissing "values-missing" Note {
+        /// What is missing.
+        missing: MissingValue,
+        /// How often.
+        count: usize,
+    }
+    decided "A field is empty or NaN."
+    remedy "Look for what loses values."
+    says format!(
+        "{}{}",
+        match missing {
+            MissingValue::Time => format!("{} without a time dropped", counted(*count, "row")),
+            MissingValue::Reading => format!("{} without a reading", counted(*count, "row")),
+            MissingValue::Part => format!("{} with a missing or NaN value dropped", counted(*count, "sample")),
+        },
+        first_here(*count)
+    );
+
+    /// Rows that repeat the one before were dropped.
+    RowsRepeated "rows-repeated" Note {
+        /// Their number.
+        rows: usize,
+    }
+    decided "All values are the same."
+    remedy "Look at what writes the file."
+    says format!(
+        "{} equal to the one before dropped{}",
+        counted(*rows, "row"),
+        first_here(*rows)
+    );
+
+    /// Rows with the time of the one before were dropped.
+    TimesRepeated "times-repeated" Note {
+        /// Their number.
+        count: usize,
+        /// Is the row kept for the other sensor?
+        is_of_one_sensor: bool,
+    }
+    decided "The time is the same, the readings are not."
+    remedy "Write times with more digits."
+    says match is_of_one_sensor {
+        true => {
+            format!("{} with the time of the one before dropped{}", counted(*count, "sample"), first_here(*count))
+        }
+        false => format!(
+            "{} with the time of the one before but another reading dropped{}",
+            counted(*count, "row"),
+            first_here(*count)
+        ),
+    };
+
+    /// The last line was cut off and was dropped.
+    LineTruncated "line-truncated" Note {}
+    decided "It has no line end, and too few fields or digits."
+    remedy "Nothing."
+    says "truncated last line dropped";
+
+    /// A bag has no end. The later part of the recording may be missing.
+    FileUnfinished "file-unfinished" Warning {
+        /// Where it was cut off.
+        cut: Phrase,
+        /// Is everything there but the index?
+        is_after_data: bool,
+        /// Messages that were read.
+        messages: usize,
+        /// Their duration, s.
+        duration_s: f64,
+    }
+    decided "The container lacks its footer."
+    remedy "Copy it again, or use `mcap recover`."
+    says format!(
+        "{}: {} were read, the last one {} s after the first; {}; `mcap recover` makes a whole file of it",
+        cut.0,
+        counted(*messages, "message"),
+        plain(*duration_s, 6),
+        match is_after_data {
+            true => "no message is missing, only the index is",
+            false => "what was recorded after them is not in the file",
+        }
+    );
+
+    /// Samples are missing: the time makes a jump.
+    SamplingGap "sampling-gap" Note {
+        /// Length of the gap, s.
+        length_s: f64,
+        /// Time of the sample before it, s.
+        after_s: f64,
+        /// About how many samples are missing.
+        samples: f64,
+        /// How many gaps there are beside those that are told of. This one is then the longest of all.
+        more: Option<usize>,
+    }
+    decided "A step of time is longer than five usual ones."
+    remedy "Look for what loses samples."
+    says match more {
+        None => format!(
+            "gap of {} s after t = {} s: about {samples:.0} samples are missing",
+            plain(*length_s, 6),
+            moment(*after_s)
+        ),
+        Some(gaps) => format!(
+            "and {}; the longest is {} s after t = {} s",
+            counted(*gaps, "more gap"),
+            plain(*length_s, 6),
+            moment(*after_s)
+        ),
+    };
+
+    /// The time steps vary.
+    SamplingIrregular "sampling-irregular" Note {
+        /// The shortest step, s.
+        least_s: f64,
+        /// The longest that is no gap, s.
+        most_s: f64,
+        /// Rate of most samples, Hz.
+        rate_hz: f64,
+        /// Share of the samples that are missing.
+        missing_share: f64,
+    }
+    decided "A step is off the usual one by more than a hundredth."
+    remedy "Take the times from the sensor's clock."
+    says format!(
+        "sampling is irregular: time steps from {} to {} ms, usually {} ms ({} Hz){}",
+        plain(least_s * 1e3, 6),
+        plain(most_s * 1e3, 6),
+        plain(1.0 / rate_hz * 1e3, 6),
+        plain(*rate_hz, 6),
+        match *missing_share > 0.0 {
+            true => format!("; {:.1} % of the samples are missing", 100.0 * missing_share),
+            false => String::new(),
+        }
+    );
+
+    /// An axis never changes.
+    AxisStuck "axis-stuck" Note {
+        /// The axis.
+        axis: Axis,
+        /// Its reading.
+        value: f64,
+        /// When, where it is not so throughout.
+        times: Option<Span>,
+    }
+    decided "All its readings are the same."
+    remedy "Check its connection."
+    says match times {
+        None => format!("axis {axis} never changes: {} throughout; is it connected?", plain(*value, 6)),
+        Some(times) => format!(
+            "axis {axis} stays at {} {times} while the others move: is it connected?",
+            plain(*value, 6)
+        ),
+    };
+
+    /// Two axes have the same reading in every sample.
+    AxesEqual "axes-equal" Note {
+        /// The one.
+        one: Axis,
+        /// The other.
+        other: Axis,
+        /// When, where it is not so throughout.
+        times: Option<Span>,
+    }
+    decided "All readings are compared."
+    remedy "Look for a column that was written twice."
+    says match times {
+        None => format!("axes {one} and {other} are the same in every sample: is one column there twice?"),
+        Some(times) => format!("axes {one} and {other} are the same {times}: is one wired to the other?"),
+    };
+
+    /// Readings may be saturated.
+    ReadingsClipped "readings-clipped" Note {
+        /// The axis.
+        axis: Axis,
+        /// Samples in a row.
+        samples: usize,
+        /// Is it the largest value, not the smallest?
+        is_largest: bool,
+        /// The value.
+        value: f64,
+        /// Its unit.
+        unit: ReadingUnit,
+    }
+    decided "Several in a row have the largest or the smallest value."
+    remedy "Record with a larger range."
+    says format!(
+        "axis {axis} may be saturated: {samples} samples in a row at its {} value {} {}",
+        if *is_largest { "largest" } else { "smallest" },
+        plain(*value, 6),
+        unit.symbol()
+    );
+
+    /// The sample times are not simply those of a column of seconds.
+    ClockSource "clock-source" Note {
+        /// Whence they come.
+        clock: ClockSourceKind,
+    }
+    decided "They follow from a counter, a rate or a large time stamp."
+    remedy "Check the rate that the message names."
+    says clock.to_string();
+
+    /// The times count from the first sample.
+    TimesFromFirst "times-from-first" Note {
+        /// Column of the times.
+        column: String,
+        /// The first, as the column has it.
+        first: Ticks,
+        /// Unit of it.
+        unit: &'static str,
+    }
+    decided "The first is so large a number that the clock counts from an epoch of its own."
+    remedy "Nothing."
+    says format!(
+        "times are counted from the first sample, where `{column}` is {} {unit}",
+        first.0
+    );
+
+    /// The times are most likely in another unit.
+    ClockDoubtful "clock-doubtful" Warning {
+        /// The steps of the times, s.
+        step_s: f64,
+        /// Symbol of the likely unit.
+        unit: &'static str,
+        /// The rate in that unit, Hz.
+        rate_hz: f64,
+    }
+    decided "The sample rate would be below 2.5 Hz."
+    remedy "Give --time-unit, or correct the name of the column."
+    says format!(
+        "the samples are {} s apart: are the times in {unit}? at {} Hz the name of their column ends in _{}",
+        plain(*step_s, 6),
+        plain(*rate_hz, 6),
+        unit.replace('µ', "u")
+    );
+
+    /// A sensor of a pair of files was recorded for a part of the other's time only.
+    FileShorter "file-shorter" Note {
+        /// Their times.
+        files: FileTimes,
+    }
+    decided "Both cover less than 0.9 of the longer recording."
+    remedy "Give the files of one recording."
+    says files.to_string();
+
+    /// The sensors of a pair of files were never recorded at the same time.
+    FilesApart "files-apart" Warning {
+        /// Their times.
+        files: FileTimes,
+    }
+    decided "Their times have nothing in common."
+    remedy "Give the files of one recording, with times of one clock."
+    says files.to_string();
+
+    /// The temperature is missing in some rows. It is interpolated.
+    TemperatureGaps "temperature-gaps" Note {
+        /// Rows without a temperature.
+        missing: usize,
+        /// Number of rows.
+        rows: usize,
+        /// The longest time without one, s.
+        longest_s: f64,
+    }
+    decided "It is missing for 30 s at most."
+    remedy "Nothing."
+    says temperature_missing(*missing, *rows, *longest_s);
+
+    /// The temperature is missing for long, or implausible.
+    TemperatureDoubtful "temperature-doubtful" Warning {
+        /// Why.
+        doubt: TemperatureDoubt,
+    }
+    decided "It is missing for more than 30 s, or no sensor works at it."
+    remedy "Check the column of the temperature and its unit."
+    says match doubt {
+        TemperatureDoubt::Missing { missing, rows, longest_s } => temperature_missing(*missing, *rows, *longest_s),
+        TemperatureDoubt::Implausible(value_c) => {
+            format!("the temperature is {}: {}", plain(*value_c, 6), Temperatures::question(*value_c))
+        }
+    };
+}

@@ -1,0 +1,225 @@
+//! Checks of the samples of a recording: spikes, coarse readings, lost samples, temperatures.
+
+use super::check::checks;
+use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
+
+checks! {
+    /// Spikes were replaced, or invalid samples were removed.
+    Spikes "spikes" Warning {
+        /// The sensor.
+        sensor_kind: SensorKind,
+        /// Unit of its readings.
+        unit: ReadingUnit,
+        /// Number of samples that were replaced.
+        replaced: usize,
+        /// Number of samples that were removed.
+        cut: usize,
+        /// Axis of the sample that is farthest from its neighbours.
+        axis: Axis,
+        /// Its reading.
+        reading: f64,
+        /// Its time, s.
+        time_s: f64,
+        /// Its distance from its neighbours, in standard deviations of a sample's noise. Infinite where the
+        /// noise is zero.
+        deviations: f64,
+    }
+    decided "A spike is far from the median of nine neighbouring samples. The limit is 7 robust standard deviations \
+        of the difference of two samples, and 12 in a movement."
+    remedy "Look for a loose contact, or for bytes that are lost on the way."
+    says {
+        let (reading, deviations) = (ten_digits(*reading), *deviations);
+        let off = match deviations {
+            off if !off.is_finite() => String::new(),
+            off if off < 1e4 => format!(", {off:.0} standard deviations of the noise from its neighbours"),
+            off => format!(", {off:.1e} standard deviations of the noise from its neighbours"),
+        };
+        format!(
+            "{sensor_kind}: {}. The farthest reads {reading:?} {} at {time_s:.3} s on axis {axis}{off}. Look for a loose \
+             contact, or for bytes lost on the way.",
+            taken_out(*replaced, *cut),
+            unit.symbol()
+        )
+    };
+
+    /// The recording of an IMU has no gyroscope. Only the accelerometer was calibrated.
+    GyroscopeMissing "gyroscope-missing" Warning {}
+    decided "The file has no columns of a gyroscope, and no other file gives it."
+    remedy "Give its file with --gyroscope, name its columns in [columns], or leave `kind = \"imu\"` out of the \
+        experiment file."
+    says "the recording has no gyroscope, so only the accelerometer is calibrated. Give the gyroscope's file with \
+     --gyroscope, or name its columns in [columns].";
+
+    /// The readings come in steps of more than twice their noise. The mean of a hold has an error, however
+    /// long the hold is.
+    CoarseSteps "coarse-steps" Warning {
+        /// The sensor.
+        sensor_kind: SensorKind,
+        /// The axis.
+        axis: Axis,
+        /// Unit of its readings.
+        unit: ReadingUnit,
+        /// The step.
+        step: f64,
+        /// The noise before rounding, or 0 where it is too small to be seen.
+        noise: f64,
+        /// Error of the mean of a hold.
+        mean_sd: f64,
+    }
+    decided "Rounding moves the mean of a hold by more than a quarter of the standard deviation that noise gives it."
+    remedy "Choose a smaller range, or write more digits to the file."
+    says format!(
+        "{}{} Choose a smaller range, or write more digits to the file.",
+        steps_in_words((*sensor_kind, *axis, *unit), *step, *noise, *mean_sd),
+        match sensor_kind {
+            SensorKind::Accelerometer => "",
+            SensorKind::Gyroscope => " The standard deviations include this error.",
+        }
+    );
+
+    /// Samples are lost, and the times do not show it. The rotations look too small.
+    SamplesLost "samples-lost" Warning {
+        /// Share of the samples.
+        lost_share: f64,
+        /// Jumps by one whole step.
+        jumps: usize,
+    }
+    decided "Between two samples the gyroscope often changes by twice the step before and after."
+    remedy "Record without losses, or with times of the sensor's own clock. The gyroscope's gains are too small by \
+        the share of lost samples."
+    says format!(
+        "about {:.1} % of the samples are lost, and the times do not show it: in motion, {jumps} steps of the \
+         gyroscope are twice as long as their neighbours. Its gains are too small by that share. Record without \
+         losses, or with times of the sensor's own clock.",
+        100.0 * lost_share
+    );
+
+    /// The recording goes beyond the temperatures of its holds. The polynomials extrapolate there.
+    TemperatureExtrapolated "temperature-extrapolated" Warning {
+        /// Lowest temperature of the recording, °C.
+        coldest_c: f64,
+        /// Highest temperature of the recording, °C.
+        hottest_c: f64,
+        /// Coldest of the holds, °C.
+        holds_coldest_c: f64,
+        /// Hottest of the holds, °C.
+        holds_hottest_c: f64,
+    }
+    decided "The coldest or the hottest sample lies far outside."
+    remedy "Make holds over the whole range of temperatures."
+    says format!(
+        "the recording goes from {coldest_c:.1} to {hottest_c:.1} °C, but its holds only from {holds_coldest_c:.1} to \
+         {holds_hottest_c:.1} °C. Beyond these, the temperature polynomials extrapolate."
+    );
+
+    /// A recording lies far beyond the temperatures of the calibration that corrects it.
+    CalibrationExtrapolated "calibration-extrapolated" Warning {
+        /// Coldest of the calibration, °C.
+        low_c: f64,
+        /// Hottest of the calibration, °C.
+        high_c: f64,
+        /// Coldest of what it corrects, °C.
+        coldest_c: f64,
+        /// Hottest of what it corrects, °C.
+        hottest_c: f64,
+    }
+    decided "The coldest or the hottest temperature lies far outside those of the calibration."
+    remedy "Calibrate over the temperatures of use."
+    says format!(
+        "the calibration was made at {low_c:.1} to {high_c:.1} °C: its polynomials are extrapolated to {} °C",
+        match coldest_c == hottest_c {
+            true => format!("{coldest_c:.1}"),
+            false => format!("{coldest_c:.1} to {hottest_c:.1}"),
+        }
+    );
+
+    /// The reference temperature lies beyond the temperatures of the holds.
+    ReferenceExtrapolated "reference-extrapolated" Warning {
+        /// The reference, °C.
+        reference_c: f64,
+        /// Coldest of the holds, °C.
+        holds_coldest_c: f64,
+        /// Hottest of the holds, °C.
+        holds_hottest_c: f64,
+    }
+    decided "It lies far outside."
+    remedy "Choose another reference, or record at that temperature."
+    says format!(
+        "biases and gains are stated at the reference temperature of {reference_c:.1} °C. The holds cover \
+         {holds_coldest_c:.1} to {holds_hottest_c:.1} °C, and the values are extrapolated. Choose a reference within the holds."
+    );
+}
+
+impl Spikes {
+    /// What was found in the readings of a sensor. `unit`: that of its readings.
+    #[must_use]
+    pub fn of(found: &crate::sensor::Spikes, sensor_kind: SensorKind, unit: ReadingUnit) -> Self {
+        Self {
+            sensor_kind,
+            unit,
+            replaced: found.samples.len(),
+            cut: found.cut.len(),
+            axis: found.axis,
+            reading: found.reading,
+            time_s: found.time_s,
+            deviations: found.deviations,
+        }
+    }
+}
+
+impl CalibrationExtrapolated {
+    /// Temperatures far beyond those at which a calibration was made; `None` where they are not.
+    #[must_use]
+    pub fn of(thermal: &Thermal, [coldest_c, hottest_c]: [f64; 2]) -> Option<Self> {
+        let [low_c, high_c] = thermal.range_c?;
+        let is_beyond = thermal.extrapolates_to(coldest_c) || thermal.extrapolates_to(hottest_c);
+        is_beyond.then_some(Self { low_c, high_c, coldest_c, hottest_c })
+    }
+}
+
+impl CoarseSteps {
+    /// The finding alone, without what it means for a calibration.
+    #[must_use]
+    pub fn finding(&self) -> String {
+        steps_in_words((self.sensor_kind, self.axis, self.unit), self.step, self.noise, self.mean_sd)
+    }
+}
+
+fn steps_in_words(
+    (sensor_kind, axis, unit): (SensorKind, Axis, ReadingUnit),
+    step: f64,
+    noise: f64,
+    mean_sd: f64,
+) -> String {
+    let unit = unit.symbol();
+    let noise = match noise > 0.0 {
+        true => format!("the noise of about {noise:.1e} {unit}"),
+        false => "the noise, which hardly shows".to_owned(),
+    };
+    format!(
+        "the readings of axis {axis} of the {sensor_kind} come in steps of {step:.3e} {unit}, more than twice {noise}. The mean \
+         of a hold has an error of about {mean_sd:.1e} {unit}, however long the hold is."
+    )
+}
+
+/// The number that a reading was written with: the largest integer of 32 bits has ten digits.
+fn ten_digits(reading: f64) -> f64 {
+    format!("{reading:.9e}").parse().unwrap_or(reading)
+}
+
+/// How many samples were replaced or removed.
+fn taken_out(replaced: usize, cut: usize) -> String {
+    let counted = |count: usize| if count == 1 { "1 sample".to_owned() } else { format!("{count} samples") };
+    let invalid = |counted: &str| match cut {
+        1 => format!("{counted} is invalid and was removed"),
+        _ => format!("{counted} are invalid and were removed"),
+    };
+    let (are, were) = if replaced == 1 { ("is a spike", "was") } else { ("are spikes", "were") };
+    let spikes =
+        format!("{} {are} and {were} replaced by the line between the neighbours", counted(replaced));
+    match (replaced, cut) {
+        (0, _) => invalid(&counted(cut)),
+        (_, 0) => spikes,
+        _ => format!("{spikes}; {}", invalid(&format!("{cut} more"))),
+    }
+}
