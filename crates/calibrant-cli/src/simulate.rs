@@ -17,8 +17,8 @@ use calibrant::design::initial_motion;
 use calibrant::diagnostic::settings::SettingUnused;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, read_poses, write_motion,
-    write_motion_truth, write_recording, write_truth,
+    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, Truth, read_motion, read_poses, write_json,
+    write_motion, write_recording,
 };
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
@@ -179,10 +179,8 @@ fn simulate_motion(
     }
     let list = sensor.parameter_list();
     let path = output.join("truth.json");
-    match &gravity {
-        Some(gravity) => write_motion_truth(&path, random.seed, &list, sensor.unit, &truth, gravity)?,
-        None => write_truth(&path, random.seed, &list, sensor.unit, &truth)?,
-    }
+    let file = Truth::of_sensor(random.seed, &list, sensor.unit, &truth).with_gravity(gravity);
+    write_json(&path, &file)?;
     write_recording(&output.join("recording.csv"), &recording)?;
     Ok(recording.len())
 }
@@ -218,7 +216,7 @@ fn simulate_poses(
         }
     };
     let output = &arguments.output;
-    write_truth(&output.join("truth.json"), random.seed, &list, sensor.unit, &truth)?;
+    write_json(&output.join("truth.json"), &Truth::of_sensor(random.seed, &list, sensor.unit, &truth))?;
     write_recording(&output.join("recording.csv"), &recording)?;
     Ok(recording.len())
 }

@@ -6,7 +6,9 @@ mod table;
 use crate::{Exit, budget, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, Plan, ResultPlaces, preset, study_json, write_atomically, write_study};
+use calibrant::io::{
+    Experiment, Plan, ResultPlaces, StudyFile, preset, to_json, write_atomically, write_json,
+};
 use calibrant::report::{About, study_report};
 use calibrant::study::run_studies;
 use plan::{Choice, Material};
@@ -98,7 +100,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     bar.finish_and_clear();
     let studies = outcome?;
     studies.remarks.iter().for_each(|remark| console::note(remark));
-    write_study(&arguments.output.join("study.json"), &studies)?;
+    write_json(&arguments.output.join("study.json"), &StudyFile { studies: &studies })?;
     let report = arguments.output.join("report.html");
     let about = About {
         title: match &arguments.experiment {
@@ -111,7 +113,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let html = study_report(&studies, &about);
     write_atomically(&report, |out| out.write_all(html.as_bytes()))?;
     if arguments.json {
-        console::print_always(&study_json(&studies));
+        console::print_always(&to_json(&StudyFile { studies: &studies }));
     } else {
         console::print(&table::studies(&studies));
         console::print(&format!("\n{}\n", report.display()));

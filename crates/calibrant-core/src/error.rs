@@ -10,6 +10,8 @@ mod refusal;
 
 pub use answer::{Answer, TaskOption};
 pub use refusal::Refusal;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -166,7 +168,7 @@ pub struct NotIdentifiable {
 }
 
 /// Parameters that the data cannot separate, why, and what would fix it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct UndeterminedGroup {
     /// Names of the parameters that are involved.
     pub parameters: Vec<String>,

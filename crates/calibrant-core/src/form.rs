@@ -33,6 +33,12 @@ pub fn block(matrix: &Matrix3<f64>, axes: usize) -> Vec<Vec<f64>> {
     (0..axes).map(|row| (0..axes).map(|column| matrix[(row, column)]).collect()).collect()
 }
 
+/// A matrix, row by row.
+#[must_use]
+pub fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
 /// A number; `None` where it is not finite.
 #[must_use]
 pub fn finite(number: f64) -> Option<f64> {
@@ -101,7 +107,7 @@ impl Form<[[f64; 3]; 3]> for Matrix3<f64> {
 
 impl Form<Vec<Vec<f64>>> for DMatrix<f64> {
     fn form(&self) -> Vec<Vec<f64>> {
-        self.row_iter().map(|row| row.iter().copied().collect()).collect()
+        rows(self)
     }
 }
 

@@ -10,14 +10,14 @@
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | corrected recordings, comparisons | | [`write_corrected_recording`], [`ComparisonFile`] |
-//! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
-//! | `design.json` and `evaluation.json` of poses | | [`write_pose_design`], [`write_pose_evaluation`] |
+//! | `design.json`, `motion_dense.csv` | | [`DesignFile`], [`write_dense_motion`] |
+//! | `design.json` and `evaluation.json` of poses | | [`PoseDesignFile`], [`PoseEvaluationFile`] |
 //! | `poses.csv` | [`read_poses`] | [`write_poses`] |
-//! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
+//! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`EvaluationFile`], [`SweepFile`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`NoiseFile`] |
-//! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_motion_truth`], [`write_imu_truth`] |
+//! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`Truth`] |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
-//! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
+//! | `study.json`, `summary.csv` | | [`StudyFile`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
 //! passes them. Every error names file, line and column and gives a remedy. A reader repairs or notices
@@ -34,7 +34,6 @@ mod dense_motion;
 mod design;
 mod diagnostics;
 mod earlier_calibration;
-mod evaluation;
 mod exact_number;
 mod experiment;
 mod experiment_presets;
@@ -87,10 +86,9 @@ pub use convention::{
 };
 pub use corrected_recording::{check_not_corrected, write_corrected_recording};
 pub use dense_motion::write_dense_motion;
-pub use design::{design_json, write_design};
+pub use design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use diagnostics::DiagnosticWords;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
-pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
     LogNoise, MachinePlan, MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy,
@@ -109,15 +107,15 @@ pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_pres
 pub use machine_calibration::{
     MachineLogInput, MachineResult, machine_calibration_json, write_machine_calibration,
 };
-pub use machine_truth::{MachineTruth, write_machine_truth};
+pub use machine_truth::TrueMachine;
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use name_pattern::NamePattern;
 pub use noise::NoiseFile;
 pub use origin::Origin;
-pub use pose_design::{pose_design_json, pose_evaluation_json, write_pose_design, write_pose_evaluation};
+pub use pose_design::{PoseDesignFile, PoseEvaluationFile};
 pub use poses::{read_poses, write_poses};
 pub use program::program;
-pub use reach::Reached;
+pub use reach::{Reached, ReachedGoal};
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, imu_from_columns,
@@ -137,12 +135,12 @@ pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
 pub use sensor_naming::{NamedRecording, SensorNaming};
 #[cfg(feature = "study")]
-pub use study::{study_json, write_study};
+pub use study::StudyFile;
 pub use summary::{
     Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, spreadsheet_text, unit_ending,
     write_summary,
 };
-pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
+pub use sweep::write_sweep_csv;
 pub use text_decoding::{Checked, open_file, read_text};
-pub use truth::{truth_json, write_imu_truth, write_motion_truth, write_truth};
+pub use truth::Truth;
 pub use utc_time::UtcTime;

@@ -1,210 +1,161 @@
-//! Writes the best poses, `design.json`, and the evaluation of holds.
+//! The files of poses: `design.json` of the best ones, and `evaluation.json` of the holds of a recording.
 
-use super::atomic_output::program;
-use super::json;
-use super::reach::{ReachFields, Reached};
-use super::shared_fields::matrix_rows;
-use calibrant_core::error::Result;
-use calibrant_core::sensor::ReadingUnit;
-use calibrant_design::poses::{DirectionKnowledge, PoseBound, PoseDesign, PoseEvaluation, PoseProblem};
+use super::heading::Heading;
+use super::reach::Reached;
+use calibrant_core::form::rows;
+use calibrant_core::json::{flat, if_some};
+use calibrant_core::json_object;
+use calibrant_core::sensor::{Quantity, ReadingUnit};
+use calibrant_design::poses::{PoseBound, PoseDesign, PoseEvaluation, PoseProblem};
 use nalgebra::{DMatrix, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
-use std::path::Path;
 
-/// Writes the `design.json` of poses. The same design gives the same bytes.
-///
-/// # Errors
-/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_pose_design(
-    path: &Path,
-    design: &PoseDesign,
-    reached: Option<&Reached>,
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> Result<()> {
-    json::write_json(path, &design_file(design, reached, problem, unit))
+/// The content of the `design.json` of poses.
+#[derive(Debug, Clone, Copy)]
+pub struct PoseDesignFile<'a> {
+    /// The poses.
+    pub design: &'a PoseDesign,
+    /// The goals that they reach.
+    pub reached: Option<&'a Reached>,
+    /// What they are for.
+    pub problem: &'a PoseProblem,
+    /// Unit of the readings.
+    pub unit: ReadingUnit,
 }
 
-/// The text that [`write_pose_design`] writes.
-#[must_use]
-pub fn pose_design_json(
-    design: &PoseDesign,
-    reached: Option<&Reached>,
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> String {
-    json::to_json(&design_file(design, reached, problem, unit))
+/// The content of the `evaluation.json` of holds.
+#[derive(Debug, Clone, Copy)]
+pub struct PoseEvaluationFile<'a> {
+    /// How good they are.
+    pub evaluation: &'a PoseEvaluation,
+    /// The direction that was up in each hold, in the sensor's axes.
+    pub directions: &'a [Vector3<f64>],
+    /// What they were for.
+    pub problem: &'a PoseProblem,
+    /// Unit of the readings.
+    pub unit: ReadingUnit,
 }
 
-/// Writes the `evaluation.json` of holds.
-///
-/// # Errors
-/// As [`write_pose_design`].
-pub fn write_pose_evaluation(
-    path: &Path,
-    evaluation: &PoseEvaluation,
-    directions: &[Vector3<f64>],
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> Result<()> {
-    json::write_json(path, &evaluation_file(evaluation, directions, problem, unit))
+json_object! {
+    /// The best poses for a static calibration, with everything that is needed to take and to judge them.
+    PoseDesignFile<'_> as file {
+        heading: flat(Heading::of("poses")),
+        status: if file.design.interrupted { "interrupted" } else { "converged" },
+        poses: flat(file.poses()),
+        /// What the poses give.
+        optimal: file.poses().value(),
+        /// From 0 to 1: at least this share of the best possible.
+        efficiency: file.design.efficiency(&file.problem.criterion),
+        starts: file.design.starts,
+        /// Starts that ended within 0.1 % of the best.
+        starts_at_best: file.design.starts_at_best,
+        reach: if_some(file.reached),
+    }
 }
 
-/// The text that [`write_pose_evaluation`] writes.
-#[must_use]
-pub fn pose_evaluation_json(
-    evaluation: &PoseEvaluation,
-    directions: &[Vector3<f64>],
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> String {
-    json::to_json(&evaluation_file(evaluation, directions, problem, unit))
+json_object! {
+    /// The holds of a recording, beside the best poses.
+    PoseEvaluationFile<'_> as file {
+        heading: flat(Heading::of("evaluation of poses")),
+        poses: flat(file.poses()),
+        /// What the holds give.
+        evaluation: file.poses().value(),
+        /// From 0 to 1: at least this share of the best possible.
+        efficiency: file.evaluation.efficiency,
+    }
 }
 
-#[derive(Serialize)]
-struct PoseFile {
-    schema: u32,
-    program: String,
-    kind: &'static str,
-    status: &'static str,
-    criterion: CriterionFields,
-    parameters: Vec<PredictedFields>,
-    covariance: Vec<Vec<f64>>,
-    /// The direction that is up in each pose, in the sensor's axes.
-    poses: Vec<[f64; 3]>,
-    efficiency: f64,
-    certificate: CertificateFields,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    solver: Option<SolverFields>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reach: Option<ReachFields>,
-    setting: SettingFields,
-}
-
-#[derive(Serialize)]
-struct CriterionFields {
-    name: &'static str,
-    formula: &'static str,
+/// What both files say of poses.
+#[derive(Clone, Copy)]
+struct Poses<'a> {
+    directions: &'a [Vector3<f64>],
+    covariance: &'a DMatrix<f64>,
     value: f64,
+    bound: &'a PoseBound,
+    problem: &'a PoseProblem,
+    unit: ReadingUnit,
 }
 
-#[derive(Serialize)]
-struct PredictedFields {
+json_object! {
+    Poses<'_> as of {
+        criterion: &of.problem.criterion,
+        /// What the poses determine: the order of all lists of parameters.
+        parameters: of.parameters(),
+        /// Number of poses.
+        count: of.directions.len(),
+        /// The direction that is up in each pose, in the sensor's axes, in the order to take.
+        poses: of.directions.iter().map(|up| <[f64; 3]>::from(*up)).collect::<Vec<_>>(),
+        certificate: PoseCertificate {
+            bound: of.bound,
+            gap: of.problem.criterion.gap(of.value, of.bound.value),
+        },
+        setting: of.problem,
+    }
+}
+
+/// The value of poses.
+struct PoseValue<'a>(Poses<'a>);
+
+json_object! {
+    PoseValue<'_> as of {
+        /// Value of the criterion of the holds alone.
+        value: of.0.value,
+        /// Standard deviation that a calibration from the poses will state of each parameter.
+        sd: of.0.covariance.diagonal().iter().map(|variance| variance.sqrt()).collect::<Vec<f64>>(),
+        /// Entry (i, j) in the unit of parameter i times that of parameter j.
+        covariance: rows(of.0.covariance),
+    }
+}
+
+/// The bound that no set of as many poses can beat.
+struct PoseCertificate<'a> {
+    bound: &'a PoseBound,
+    gap: f64,
+}
+
+json_object! {
+    PoseCertificate<'_> as of {
+        bound: flat(of.bound),
+        /// How far the poses are from the bound: relative, for criterion D in nats.
+        gap: of.gap,
+    }
+}
+
+/// A parameter, and the value at which the information is taken.
+#[derive(Serialize, JsonSchema)]
+struct PoseParameter {
     name: String,
     unit: &'static str,
     nominal: f64,
-    sd: f64,
 }
 
-/// The bound, and the approximate design that gives it.
-#[derive(Serialize)]
-struct CertificateFields {
-    lower_bound: f64,
-    gap: f64,
-    directions: Vec<[f64; 3]>,
-    shares: Vec<f64>,
-}
-
-#[derive(Serialize)]
-struct SolverFields {
-    starts: usize,
-    starts_at_best: usize,
-}
-
-#[derive(Serialize)]
-struct SettingFields {
-    poses: usize,
-    gravity_mps2: f64,
-    mean_sd: [f64; 3],
-    directions: &'static str,
-    direction_sd_rad: Option<f64>,
-    has_prior: bool,
-    gravity_sd_mps2: f64,
-    bias_drift_sd: [f64; 3],
-}
-
-fn design_file(
-    design: &PoseDesign,
-    reached: Option<&Reached>,
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> PoseFile {
-    let solver = SolverFields { starts: design.starts, starts_at_best: design.starts_at_best };
-    PoseFile {
-        kind: "poses",
-        status: if design.interrupted { "interrupted" } else { "converged" },
-        efficiency: design.efficiency(&problem.criterion),
-        solver: Some(solver),
-        reach: reached.map(|reached| ReachFields::of(reached, &problem.list.names())),
-        ..file((&design.covariance, design.value, &design.bound), &design.directions, problem, unit)
+impl PoseDesignFile<'_> {
+    fn poses(&self) -> Poses<'_> {
+        let PoseDesign { directions, covariance, value, bound, .. } = self.design;
+        Poses { directions, covariance, value: *value, bound, problem: self.problem, unit: self.unit }
     }
 }
 
-fn evaluation_file(
-    evaluation: &PoseEvaluation,
-    directions: &[Vector3<f64>],
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> PoseFile {
-    PoseFile {
-        kind: "evaluation of poses",
-        efficiency: evaluation.efficiency,
-        ..file((&evaluation.covariance, evaluation.value, &evaluation.bound), directions, problem, unit)
+impl PoseEvaluationFile<'_> {
+    fn poses(&self) -> Poses<'_> {
+        let PoseEvaluation { covariance, value, bound, .. } = self.evaluation;
+        let Self { directions, problem, unit, .. } = *self;
+        Poses { directions, covariance, value: *value, bound, problem, unit }
     }
 }
 
-/// The fields that a design and an evaluation share.
-fn file(
-    (covariance, value, bound): (&DMatrix<f64>, f64, &PoseBound),
-    directions: &[Vector3<f64>],
-    problem: &PoseProblem,
-    unit: ReadingUnit,
-) -> PoseFile {
-    let rows = |vectors: &[Vector3<f64>]| vectors.iter().map(components).collect();
-    let predicted = |(k, quantity): (usize, &calibrant_core::sensor::Quantity)| PredictedFields {
-        name: quantity.name(),
-        unit: quantity.unit(unit),
-        nominal: quantity.value(&problem.at),
-        sd: covariance[(k, k)].sqrt(),
-    };
-    let criterion = &problem.criterion;
-    PoseFile {
-        schema: 1,
-        program: program(),
-        kind: "",
-        status: "converged",
-        criterion: CriterionFields { name: criterion.letter(), formula: criterion.formula(), value },
-        parameters: problem.list.quantities().iter().enumerate().map(predicted).collect(),
-        covariance: matrix_rows(covariance),
-        poses: rows(directions),
-        efficiency: 0.0,
-        certificate: CertificateFields {
-            lower_bound: bound.value,
-            gap: criterion.gap(value, bound.value),
-            directions: rows(&bound.directions),
-            shares: bound.shares.clone(),
-        },
-        solver: None,
-        reach: None,
-        setting: SettingFields {
-            poses: directions.len(),
-            gravity_mps2: problem.gravity_mps2,
-            mean_sd: components(&problem.mean_sd),
-            directions: match problem.directions {
-                DirectionKnowledge::Unknown => "unknown",
-                DirectionKnowledge::Known { .. } => "known",
-            },
-            direction_sd_rad: match problem.directions {
-                DirectionKnowledge::Unknown => None,
-                DirectionKnowledge::Known { sd_rad } => Some(sd_rad),
-            },
-            has_prior: problem.prior.is_some(),
-            gravity_sd_mps2: problem.nuisance.gravity_sd_mps2,
-            bias_drift_sd: components(&problem.nuisance.drift_sd),
-        },
+impl<'a> Poses<'a> {
+    fn value(self) -> PoseValue<'a> {
+        PoseValue(self)
     }
-}
 
-fn components(v: &Vector3<f64>) -> [f64; 3] {
-    [v.x, v.y, v.z]
+    fn parameters(&self) -> Vec<PoseParameter> {
+        let described = |quantity: &Quantity| PoseParameter {
+            name: quantity.name(),
+            unit: quantity.unit(self.unit),
+            nominal: quantity.value(&self.problem.at),
+        };
+        self.problem.list.quantities().iter().map(described).collect()
+    }
 }

@@ -1,7 +1,6 @@
 //! Fields that several of the JSON files share.
 
 use calibrant_core::estimate::{FitStatistics, Whiteness};
-use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::{Axis, ReadingUnit};
 use nalgebra::{DMatrix, Vector3};
 use serde::ser::SerializeMap;
@@ -35,45 +34,9 @@ pub(super) fn per_axis(vector: &Vector3<f64>, axes: usize) -> Vec<f64> {
     vector.iter().take(axes).copied().collect()
 }
 
-/// A row for each vector.
-pub(super) fn rows(vectors: &[Vector3<f64>], axes: usize) -> Vec<Vec<f64>> {
-    vectors.iter().map(|vector| per_axis(vector, axes)).collect()
-}
-
 /// A matrix, row by row.
 pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
-}
-
-#[cfg(feature = "study")]
-/// Number of axes of a list of parameters: that of its biases.
-pub(super) fn axes_of(parameters: &[calibrant_core::sensor::Parameter]) -> usize {
-    parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count().clamp(1, 3)
-}
-
-/// Nodes of a motion and what follows from them.
-#[derive(Serialize)]
-pub(super) struct MotionFields {
-    times_s: Vec<f64>,
-    acceleration_mps2: Vec<Vec<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    acceleration_sd_mps2: Option<Vec<Vec<f64>>>,
-    jerk_mps3: Vec<Vec<f64>>,
-    velocity_mps: Vec<Vec<f64>>,
-    displacement_m: Vec<Vec<f64>>,
-}
-
-impl MotionFields {
-    pub(super) fn of(motion: &JerkControlledMotion, axes: usize, sd: Option<&[Vector3<f64>]>) -> Self {
-        Self {
-            times_s: motion.times_s().to_vec(),
-            acceleration_mps2: rows(motion.acceleration_mps2(), axes),
-            acceleration_sd_mps2: sd.map(|sd| rows(sd, axes)),
-            jerk_mps3: rows(&motion.jerk_mps3(), axes),
-            velocity_mps: rows(&motion.velocity_mps(), axes),
-            displacement_m: rows(&motion.displacement_m(), axes),
-        }
-    }
 }
 
 /// The quality of the fit.

@@ -1,116 +1,132 @@
-//! Writes `truth.json`: the true parameters of a simulated recording.
+//! `truth.json`: the true parameters of a simulated recording.
 
-use super::json;
-use calibrant_core::error::Result;
+use super::heading::Heading;
+use super::machine_truth::TrueMachine;
+use calibrant_core::json::{flat, if_any, if_some};
+use calibrant_core::json_object;
 use calibrant_core::sensor::{
     Gauge, ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
 use calibrant_core::simulate::TrueGravity;
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
-use std::path::Path;
 
-/// Writes `truth.json`: the seed, and the true value of each parameter of the list.
-///
-/// # Errors
-/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_truth(
-    path: &Path,
-    seed: u64,
-    list: &ParameterList,
-    unit: ReadingUnit,
-    truth: &SensorParameters,
-) -> Result<()> {
-    json::write_json(path, &TruthFile::of(seed, list, unit, truth))
-}
-
-/// Writes `truth.json` of a motion with gravity: as [`write_truth`], and the gravity that the sensor sensed.
-///
-/// # Errors
-/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_motion_truth(
-    path: &Path,
-    seed: u64,
-    list: &ParameterList,
-    unit: ReadingUnit,
-    truth: &SensorParameters,
-    gravity: &TrueGravity,
-) -> Result<()> {
-    let gravity =
-        Some(TrueGravityFields { force_mps2: gravity.force_mps2.into(), tilt_rad: gravity.tilt_rad.into() });
-    json::write_json(path, &TruthFile { gravity, ..TruthFile::of(seed, list, unit, truth) })
-}
-
-/// The text that [`write_truth`] writes.
+/// The content of `truth.json`: what a simulated recording was made of.
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::truth_json;
 /// use calibrant_core::sensor::{Sensor, SensorParameters};
+/// use calibrant_io::{Truth, to_json};
 ///
 /// let sensor = Sensor::memsic_mxd2020u();
-/// let text = truth_json(7, &sensor.parameter_list(), sensor.unit, &SensorParameters::identity());
-/// assert!(text.contains("\"seed\": 7"));
+/// let truth = Truth::of_sensor(7, &sensor.parameter_list(), sensor.unit, &SensorParameters::identity());
+/// assert!(to_json(&truth).contains("\"seed\": 7"));
 /// ```
-#[must_use]
-pub fn truth_json(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &SensorParameters) -> String {
-    json::to_json(&TruthFile::of(seed, list, unit, truth))
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    seed: u64,
+    convention: &'static str,
+    gauge: Option<&'static str>,
+    reference_c: Option<f64>,
+    parameters: Vec<TrueParameter>,
+    gravity: Option<TrueGravity>,
+    fixed: Vec<TrueParameter>,
+    machine: Option<TrueMachine>,
 }
 
-/// Writes `truth.json` of an IMU: the seed, the reference temperature where one is followed, and the true
-/// value of each of these quantities. Everything else that differs from an ideal IMU is under `fixed`, so
-/// that the file is complete. `units` are those of accelerometer and gyroscope.
-///
-/// # Errors
-/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_imu_truth(
-    path: &Path,
-    seed: u64,
-    quantities: &[ImuQuantity],
-    units: [ReadingUnit; 2],
-    truth: &ImuParameters,
-) -> Result<()> {
-    json::write_json(path, &imu_truth(seed, quantities, units, truth))
+json_object! {
+    /// What a simulated recording was made of.
+    Truth as of {
+        heading: flat(Heading::of("truth")),
+        seed: of.seed,
+        convention: of.convention,
+        /// The form of the accelerometer's matrix, where it has one.
+        gauge: if_some(of.gauge),
+        /// The reference temperature of an IMU that follows temperature.
+        reference_c: if_some(of.reference_c),
+        /// What a calibration finds, by the same names.
+        parameters: &of.parameters,
+        /// What the sensor sensed beside a commanded motion.
+        gravity: if_some(of.gravity),
+        /// Everything else that differs from an ideal sensor: what a calibration of the experiment takes as given.
+        fixed: if_any(of.fixed.as_slice()),
+        machine: if_some(of.machine.as_ref()),
+    }
 }
 
-/// The content of the file that [`write_imu_truth`] writes.
-pub(super) fn imu_truth(
-    seed: u64,
-    quantities: &[ImuQuantity],
-    units: [ReadingUnit; 2],
-    truth: &ImuParameters,
-) -> TruthFile {
-    let unit = |sensor_kind: SensorKind| units[usize::from(sensor_kind == SensorKind::Gyroscope)];
-    let value = |quantity: &ImuQuantity| TrueParameter {
-        name: quantity.name(),
-        unit: quantity.unit(unit(quantity.sensor_kind())),
-        value: quantity.value(truth),
-    };
-    let parameters = quantities.iter().map(value).collect();
-    let fixed = beside(quantities, truth).iter().map(value).collect();
-    let thermal = quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::Thermal(..)));
-    let (convention, reference_c) = match thermal {
-        false => ("true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f", None),
-        true => (
-            "true to raw: y_a = S_a(T) f + b_a(T), y_g = S_g(T) w + b_g(T) + G f; b(T) = b + b_1 t + b_2 t^2, S(T) = diag(1 + k_1 t + k_2 t^2) S, t = T - reference_c",
-            Some(truth.thermal.reference_c),
-        ),
-    };
-    let of_accelerometer = quantities.iter().filter_map(|quantity| match quantity {
-        ImuQuantity::Of(SensorKind::Accelerometer, of) => Some(of),
-        _ => None,
-    });
-    let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
-    TruthFile {
-        schema: 1,
-        program: crate::atomic_output::program(),
-        seed,
-        convention,
-        gauge,
-        reference_c,
-        parameters,
-        gravity: None,
-        fixed,
+/// A true value.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub(super) struct TrueParameter {
+    pub(super) name: String,
+    pub(super) unit: &'static str,
+    pub(super) value: f64,
+}
+
+impl Truth {
+    /// Of an accelerometer: the true value of each parameter of the list.
+    #[must_use]
+    pub fn of_sensor(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &SensorParameters) -> Self {
+        let parameter = |quantity: &Quantity| TrueParameter {
+            name: ImuQuantity::Of(SensorKind::Accelerometer, *quantity).name(),
+            unit: quantity.unit(unit),
+            value: quantity.value(truth),
+        };
+        Self {
+            seed,
+            convention: "true to raw: y = S s + b",
+            gauge: gauge_of(list.quantities(), &truth.matrix),
+            reference_c: None,
+            parameters: list.quantities().iter().map(parameter).collect(),
+            gravity: None,
+            fixed: Vec::new(),
+            machine: None,
+        }
+    }
+
+    /// The same, with the gravity that the sensor sensed beside a commanded motion.
+    #[must_use]
+    pub fn with_gravity(self, gravity: Option<TrueGravity>) -> Self {
+        Self { gravity, ..self }
+    }
+
+    /// The same, with the machine that carried the sensor.
+    #[must_use]
+    pub fn on_machine(self, machine: TrueMachine) -> Self {
+        Self { machine: Some(machine), ..self }
+    }
+
+    /// Of an IMU: the true value of each of these quantities, and the reference temperature where one is followed. `units` are those of
+    /// accelerometer and gyroscope.
+    #[must_use]
+    pub fn of_imu(
+        seed: u64,
+        quantities: &[ImuQuantity],
+        units: [ReadingUnit; 2],
+        truth: &ImuParameters,
+    ) -> Self {
+        let unit = |sensor_kind: SensorKind| units[usize::from(sensor_kind == SensorKind::Gyroscope)];
+        let value = |quantity: &ImuQuantity| TrueParameter {
+            name: quantity.name(),
+            unit: quantity.unit(unit(quantity.sensor_kind())),
+            value: quantity.value(truth),
+        };
+        let parameters = quantities.iter().map(value).collect();
+        let fixed = beside(quantities, truth).iter().map(value).collect();
+        let thermal = quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::Thermal(..)));
+        let (convention, reference_c) = match thermal {
+            false => ("true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f", None),
+            true => (
+                "true to raw: y_a = S_a(T) f + b_a(T), y_g = S_g(T) w + b_g(T) + G f; b(T) = b + b_1 t + b_2 t^2, S(T) = diag(1 + k_1 t + k_2 t^2) S, t = T - reference_c",
+                Some(truth.thermal.reference_c),
+            ),
+        };
+        let of_accelerometer = quantities.iter().filter_map(|quantity| match quantity {
+            ImuQuantity::Of(SensorKind::Accelerometer, of) => Some(of),
+            _ => None,
+        });
+        let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
+        Self { seed, convention, gauge, reference_c, parameters, gravity: None, fixed, machine: None }
     }
 }
 
@@ -137,61 +153,4 @@ fn beside(quantities: &[ImuQuantity], truth: &ImuParameters) -> Vec<ImuQuantity>
     let rounding = |quantity: &ImuQuantity| 1e-12 * quantity.value(truth).abs();
     all.filter(|quantity| (quantity.value(&reported) - quantity.value(truth)).abs() > rounding(quantity))
         .collect()
-}
-
-#[derive(Serialize)]
-pub(super) struct TruthFile {
-    schema: u32,
-    program: String,
-    seed: u64,
-    convention: &'static str,
-    /// The form of the accelerometer's matrix, where it has one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    gauge: Option<&'static str>,
-    /// The reference temperature of an IMU that follows temperature, °C.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reference_c: Option<f64>,
-    parameters: Vec<TrueParameter>,
-    /// The gravity beside a commanded motion.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    gravity: Option<TrueGravityFields>,
-    /// The values that a calibration of the experiment takes as given.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    fixed: Vec<TrueParameter>,
-}
-
-#[derive(Serialize)]
-struct TrueGravityFields {
-    /// Specific force of the sensor at rest, m/s².
-    force_mps2: [f64; 3],
-    /// Tilt about each axis, rad.
-    tilt_rad: [f64; 3],
-}
-
-#[derive(Serialize)]
-struct TrueParameter {
-    name: String,
-    unit: &'static str,
-    value: f64,
-}
-
-impl TruthFile {
-    fn of(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &SensorParameters) -> Self {
-        let parameter = |quantity: &Quantity| TrueParameter {
-            name: ImuQuantity::Of(SensorKind::Accelerometer, *quantity).name(),
-            unit: quantity.unit(unit),
-            value: quantity.value(truth),
-        };
-        Self {
-            schema: 1,
-            program: crate::atomic_output::program(),
-            seed,
-            convention: "true to raw: y = S s + b",
-            gauge: gauge_of(list.quantities(), &truth.matrix),
-            reference_c: None,
-            parameters: list.quantities().iter().map(parameter).collect(),
-            gravity: None,
-            fixed: Vec::new(),
-        }
-    }
 }

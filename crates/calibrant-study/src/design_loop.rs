@@ -178,10 +178,11 @@ fn go_round(
 
     let after = calibrate_on(problem, settings, &truth, &design.optimal.motion, &mut rng)?;
     let list = sensor.parameter_list();
+    let truth: Vec<f64> = list.quantities().iter().map(|quantity| quantity.value(&truth)).collect();
     let outcome = DesignOutcome {
-        truth: list.quantities().iter().map(|quantity| quantity.value(&truth)).collect(),
-        initial: outcome(before, first, design.initial.value),
-        optimal: outcome(after, design.optimal.motion.clone(), design.optimal.value),
+        initial: outcome(&truth, before, design.initial.motion.clone(), design.initial.value),
+        optimal: outcome(&truth, after, design.optimal.motion.clone(), design.optimal.value),
+        truth,
         design_status: design.status,
     };
     Ok((outcome, design))
@@ -207,6 +208,7 @@ fn calibrate_on(
 }
 
 fn outcome(
+    truth: &[f64],
     calibration: Calibration,
     motion: JerkControlledMotion,
     predicted_criterion: f64,
@@ -215,6 +217,11 @@ fn outcome(
         motion,
         predicted_criterion,
         sd: calibration.sd(),
+        absolute_errors: truth
+            .iter()
+            .zip(&calibration.values)
+            .map(|(truth, value)| (value - truth).abs())
+            .collect(),
         trace: calibration.covariance.trace(),
         values: calibration.values,
         p_value: calibration.fit.p_value,

@@ -2,9 +2,13 @@
 
 use super::ParameterSummary;
 use calibrant_core::information::Criterion;
+use calibrant_core::json::if_some;
+use calibrant_core::json_object;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::sensor::{Parameter, Sensor};
 use calibrant_design::{Design, DesignStatus};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Sensors that went round the thesis's loop (Figure 2). Each was calibrated on a random motion, then again
 /// on the best motion, designed at the estimate.
@@ -49,9 +53,41 @@ pub struct DesignStudy {
     pub trace: TraceSummary,
 }
 
+json_object! {
+    /// Sensors that were calibrated on an initial motion, then on the best motion at that estimate.
+    DesignStudy as of {
+        seed: of.seed,
+        trust: of.trust,
+        known_ends: of.known_ends,
+        input_noise: if_some(of.trust.input_noise()),
+        intervals: of.intervals,
+        interval_s: of.interval_s,
+        rate_hz: of.rate_hz,
+        reading_unit: of.sensor.unit.symbol(),
+        limits: &of.limits,
+        criterion: &of.criterion,
+        /// Of each design.
+        starts: of.starts,
+        /// Was the datasheet a prior of every calibration?
+        datasheet_prior: of.datasheet_prior,
+        /// Was the initial motion given, one for all sensors?
+        initial_given: of.initial_given,
+        /// The order of all lists of values.
+        parameters: &of.parameters,
+        /// Of each parameter.
+        summary: &of.summary,
+        /// Trace of the covariance over the sensors.
+        trace: of.trace,
+        motions_shown: of.motions_shown,
+        sensors: &of.outcomes,
+        /// The whole design of the first sensor.
+        first_design: &of.design,
+    }
+}
+
 /// One sensor: its truth, and its calibrations on both motions. Values are in the order and the units of the
 /// parameters.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct DesignOutcome {
     /// True values.
     pub truth: Vec<f64>,
@@ -64,16 +100,20 @@ pub struct DesignOutcome {
 }
 
 /// A calibration on one motion.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct MotionOutcome {
     /// The commanded motion.
     pub motion: JerkControlledMotion,
     /// Value of the criterion that was predicted for it at the design's guess, before the recording.
     pub predicted_criterion: f64,
     /// Estimates.
+    #[serde(rename = "value")]
     pub values: Vec<f64>,
     /// Their standard deviations, as the calibration states them.
     pub sd: Vec<f64>,
+    /// Absolute error of each.
+    #[serde(rename = "absolute_error")]
+    pub absolute_errors: Vec<f64>,
     /// Trace of the covariance that the calibration states: the sum of the variances in SI, whatever their units.
     pub trace: f64,
     /// p-value of the fit.
@@ -82,16 +122,8 @@ pub struct MotionOutcome {
     pub status: &'static str,
 }
 
-impl MotionOutcome {
-    /// Absolute error of each parameter.
-    #[must_use]
-    pub fn absolute_errors(&self, truth: &[f64]) -> Vec<f64> {
-        self.values.iter().zip(truth).map(|(value, truth)| (value - truth).abs()).collect()
-    }
-}
-
 /// The results of both motions for one parameter, over the sensors.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Improvement {
     /// With the initial motions.
     pub initial: ParameterSummary,
@@ -104,7 +136,7 @@ pub struct Improvement {
 }
 
 /// A ratio of two root mean squares over the sensors, and its Monte Carlo uncertainty.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Factor {
     /// The ratio.
     pub value: f64,
@@ -113,7 +145,7 @@ pub struct Factor {
 }
 
 /// The trace of the covariance over the sensors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct TraceSummary {
     /// With the initial motions.
     pub initial: TraceRange,
@@ -122,7 +154,7 @@ pub struct TraceSummary {
 }
 
 /// The spread of a trace over the sensors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct TraceRange {
     /// Least.
     pub least: f64,

@@ -1,8 +1,11 @@
 //! The result of a calibration study: truth beside estimate of many sensors.
 
 use calibrant_core::estimate::Calibration;
-use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{Parameter, Recording, Sensor, SensorParameters};
+use calibrant_core::json_object;
+use calibrant_core::motion::{JerkControlledMotion, MotionTable};
+use calibrant_core::sensor::{ImuParameters, Parameter, Recording, Sensor, SensorParameters};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A population of simulated sensors, truth beside estimate. Each is calibrated from its own recording of the
 /// same commanded motion.
@@ -30,12 +33,59 @@ pub struct Study {
     pub fine: SingleCase,
 }
 
+json_object! {
+    /// A population of simulated sensors, truth beside estimate.
+    Study as of {
+        seed: of.seed,
+        trust: of.trust,
+        rate_hz: of.rate_hz,
+        reading_unit: of.sensor.unit.symbol(),
+        /// The order of all lists of values.
+        parameters: &of.parameters,
+        /// As commanded.
+        motion: MotionTable { motion: &of.motion, axes: of.sensor.axes, acceleration_sd_mps2: None },
+        /// Of each parameter.
+        summary: &of.summary,
+        sensors: &of.outcomes,
+        /// One sensor in detail.
+        single: &of.single,
+        /// The same at a higher rate.
+        fine: &of.fine,
+    }
+}
+
+json_object! {
+    /// One simulated sensor and its calibration, without its samples.
+    SingleCase as of {
+        rate_hz: of.recording.rate_hz(),
+        samples: of.recording.len(),
+        /// True values of the parameters.
+        truth: of.true_values(),
+        /// What the arm did: the command with process noise.
+        true_motion: MotionTable {
+            motion: &of.true_motion,
+            axes: of.calibration.axes(),
+            acceleration_sd_mps2: None,
+        },
+        calibration: &of.calibration,
+    }
+}
+
+impl SingleCase {
+    /// True values of the parameters, in the order of the calibration.
+    fn true_values(&self) -> Vec<f64> {
+        let imu = ImuParameters { accelerometer: self.truth, ..ImuParameters::identity() };
+        self.calibration.quantities.iter().map(|quantity| quantity.value(&imu)).collect()
+    }
+}
+
 /// Truth and estimate of one sensor.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SensorOutcome {
     /// True values of the parameters.
     pub truth: Vec<f64>,
     /// Estimates.
+    #[serde(rename = "value")]
     pub values: Vec<f64>,
     /// Their standard deviations, as the calibration states them.
     pub sd: Vec<f64>,
@@ -46,7 +96,7 @@ pub struct SensorOutcome {
 }
 
 /// The result of the population for one parameter.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterSummary {
     /// Name of the parameter.
     pub name: String,

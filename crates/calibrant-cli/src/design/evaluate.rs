@@ -9,7 +9,7 @@ use crate::{Exit, console};
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::MotionNotCompared;
-use calibrant::io::{evaluation_json, read_motion, write_atomically, write_evaluation};
+use calibrant::io::{DesignSetting, EvaluationFile, read_motion, to_json, write_atomically, write_json};
 use calibrant::report::evaluation_report;
 use calibrant::report::number_format::{counted, short, significant};
 use std::path::Path;
@@ -32,14 +32,16 @@ pub(super) fn run(
         Err(error) => return Err(in_file(error, &arguments.experiment)),
     };
     let assessment = assess(problem, &motion, optimum)?;
-    write_evaluation(&arguments.output.join("evaluation.json"), &assessment, problem, &job.settings)?;
+    let setting = DesignSetting { problem, settings: &job.settings };
+    let file = EvaluationFile { assessment: &assessment, setting };
+    write_json(&arguments.output.join("evaluation.json"), &file)?;
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let html =
         evaluation_report(&assessment, &job.about(arguments, problem, format!("Assessment of {name}")));
     let page = arguments.output.join("evaluation.html");
     write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
     if arguments.json {
-        console::print_always(&evaluation_json(&assessment, problem, &job.settings));
+        console::print_always(&to_json(&file));
     } else {
         console::print(&text(&assessment, path));
         console::print(&format!("\n{}\n", page.display()));

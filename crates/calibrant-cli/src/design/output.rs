@@ -12,7 +12,10 @@ use calibrant::diagnostic::design::{
     MotionUndetermined, SearchInterrupted, SearchNotConverged, SearchOutOfTime,
 };
 use calibrant::error::UndeterminedGroup;
-use calibrant::io::{Reached, design_json, write_atomically, write_dense_motion, write_design, write_motion};
+use calibrant::io::{
+    DesignFile, DesignSetting, Reached, to_json, write_atomically, write_dense_motion, write_json,
+    write_motion,
+};
 use calibrant::report::design_report;
 
 /// Writes and shows a design, with the goals that it reaches and a sentence on them.
@@ -25,12 +28,7 @@ pub(super) fn finish(
 ) -> calibrant::Result<Exit> {
     write(arguments, job, problem, design, reached)?;
     if arguments.json {
-        console::print_always(&design_json(
-            design,
-            reached.map(|(reached, _)| reached),
-            problem,
-            &job.settings,
-        ));
+        console::print_always(&to_json(&file(job, problem, design, reached)));
     } else {
         console::print(&table::design(design));
         if let Some((_, sentence)) = reached {
@@ -46,6 +44,16 @@ pub(super) fn finish(
     Ok(exit_of(design))
 }
 
+fn file<'a>(
+    job: &'a Job,
+    problem: &'a DesignProblem<'_>,
+    design: &'a Design,
+    reached: Option<(&'a Reached, &str)>,
+) -> DesignFile<'a> {
+    let setting = DesignSetting { problem, settings: &job.settings };
+    DesignFile { design, reached: reached.map(|(reached, _)| reached), setting }
+}
+
 /// Writes all results of a design.
 pub(super) fn write(
     arguments: &Arguments,
@@ -59,13 +67,7 @@ pub(super) fn write(
     if let Some(rate_hz) = arguments.sample_rate {
         write_dense_motion(&output.join("motion_dense.csv"), &design.optimal.motion, axes, rate_hz)?;
     }
-    write_design(
-        &output.join("design.json"),
-        design,
-        reached.map(|(reached, _)| reached),
-        problem,
-        &job.settings,
-    )?;
+    write_json(&output.join("design.json"), &file(job, problem, design, reached))?;
     write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
     let mut about = job.about(arguments, problem, "Design of a motion".into());
     about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));

@@ -7,7 +7,7 @@ use crate::diagnostics::tell_all;
 use crate::{Exit, console};
 use calibrant::design::poses::evaluate_poses;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{pose_evaluation_json, write_pose_evaluation};
+use calibrant::io::{PoseEvaluationFile, to_json, write_json};
 use calibrant::report::{evaluation_in_words, pose_evaluation_report};
 use calibrant::session::{Session, SessionOptions, Source};
 use std::path::Path;
@@ -38,13 +38,15 @@ pub(super) fn run(arguments: &Arguments, job: &Job, recording: &Path) -> calibra
     let unit = job.experiment.sensor.unit;
     let evaluation = evaluate_poses(&problem, &directions, job.settings.seed)?;
     let output = &arguments.output;
-    write_pose_evaluation(&output.join("evaluation.json"), &evaluation, &directions, &problem, unit)?;
+    let file =
+        PoseEvaluationFile { evaluation: &evaluation, directions: &directions, problem: &problem, unit };
+    write_json(&output.join("evaluation.json"), &file)?;
     let name = recording.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let about = about(arguments, &problem, &format!("Poses of {name}"));
     let page = output.join("evaluation.html");
     write_page(&page, &pose_evaluation_report(&evaluation, &directions, &problem, unit, &about))?;
     if arguments.json {
-        console::print_always(&pose_evaluation_json(&evaluation, &directions, &problem, unit));
+        console::print_always(&to_json(&file));
     } else {
         console::print(&pose_table::evaluation(&evaluation, &problem, unit));
         console::print(&console::paragraph(&evaluation_in_words(&evaluation, directions.len())));

@@ -9,7 +9,7 @@ use crate::{Exit, console};
 use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, design_poses, fewest_poses};
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{Reached, pose_design_json, write_pose_design, write_poses};
+use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses};
 use calibrant::report::{pose_in_words, pose_report};
 
 pub(super) fn run(arguments: &Arguments, job: &Job) -> calibrant::Result<Exit> {
@@ -49,14 +49,15 @@ fn design(arguments: &Arguments, job: &Job, problem: &PoseProblem) -> calibrant:
     let words: Vec<String> = design.directions.iter().map(pose_in_words).collect();
     let sentence = reached.as_ref().map(|reached| goal_sentence(arguments, &design, reached));
     let output = &arguments.output;
-    write_pose_design(&output.join("design.json"), &design, reached.as_ref(), problem, unit)?;
+    let file = PoseDesignFile { design: &design, reached: reached.as_ref(), problem, unit };
+    write_json(&output.join("design.json"), &file)?;
     write_poses(&output.join("poses.csv"), &design.directions, &words)?;
     let mut about = about(arguments, problem, "Poses for a static calibration");
     about.facts.push(("Starts".into(), format!("{}, seed {}", design.starts, job.settings.seed)));
     about.findings.extend(sentence.clone());
     write_page(&output.join("report.html"), &pose_report(&design, problem, unit, &about))?;
     if arguments.json {
-        console::print_always(&pose_design_json(&design, reached.as_ref(), problem, unit));
+        console::print_always(&to_json(&file));
     } else {
         console::print(&pose_table::design(&design, problem, unit, &words));
         if let Some(sentence) = sentence {
@@ -90,7 +91,7 @@ fn search(
     let found = fewest_poses(problem, &goals, settings, &|done| bar.inc(done));
     bar.finish_and_clear();
     let FewestPoses { design, at_least } = found?;
-    Ok((design, Some(Reached { goals, at_least: Some(at_least) })))
+    Ok((design, Some(Reached::new(&goals, &problem.list.names(), Some(at_least)))))
 }
 
 /// What came of `--reach`.

@@ -27,6 +27,6 @@ pub(super) fn run(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>)
     let wanted = asked(&arguments.reach);
     let sentence = format!("A motion of {} reaches {wanted}.{proof}", intervals(found.intervals));
     let problem = DesignProblem { intervals: found.intervals, ..problem.clone() };
-    let reached = Reached { goals, at_least: found.at_least };
+    let reached = Reached::new(&goals, &problem.sensor.parameter_list().names(), found.at_least);
     finish(arguments, job, &problem, &found.design, Some((&reached, &sentence)))
 }

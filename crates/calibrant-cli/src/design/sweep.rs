@@ -10,7 +10,7 @@ use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::{
     SearchNotConverged, SweepInterrupted, SweepValueFailed, SweepValueRounded,
 };
-use calibrant::io::{sweep_json, write_atomically, write_sweep, write_sweep_csv};
+use calibrant::io::{DesignSetting, SweepFile, to_json, write_atomically, write_json, write_sweep_csv};
 use calibrant::report::number_format::{counted, short, significant};
 use calibrant::report::sweep_report;
 
@@ -37,14 +37,16 @@ pub(super) fn run(
             return Ok(Exit::INTERRUPTED);
         }
     }
-    write_sweep(&arguments.output.join("sweep.json"), &swept, problem, &job.settings)?;
+    let setting = DesignSetting { problem, settings: &job.settings };
+    let file = SweepFile { sweep: &swept, setting };
+    write_json(&arguments.output.join("sweep.json"), &file)?;
     write_sweep_csv(&arguments.output.join("sweep.csv"), &swept)?;
     let title = format!("Best motions over the {}", swept.variable.name());
     let html = sweep_report(&swept, &job.about(arguments, problem, title));
     write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))?;
     say(&swept);
     if arguments.json {
-        console::print_always(&sweep_json(&swept, problem, &job.settings));
+        console::print_always(&to_json(&file));
     } else {
         console::print(&table(&swept));
         let output = &arguments.output;

@@ -8,7 +8,7 @@ use crate::console;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::Turn;
-use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
+use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, Truth, write_imu_recording, write_json};
 use calibrant::motion::earth_rate;
 use calibrant::sensor::{
     CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, Recording, Sensor, SensorKind,
@@ -85,7 +85,8 @@ pub(super) fn run(
         Some(steps) => simulate_table(&truth, steps, &setup, &mut rng),
         None => simulate_imu(&truth, &setup, &mut rng),
     };
-    write_imu_truth(&arguments.output.join("truth.json"), random.seed, &quantities, units, &truth)?;
+    let file = Truth::of_imu(random.seed, &quantities, units, &truth);
+    write_json(&arguments.output.join("truth.json"), &file)?;
     write_imu_recording(&arguments.output.join("recording.csv"), &recording)?;
     if experiment.columns != ImuReadOptions::default() {
         console::note(&format!(

@@ -7,8 +7,8 @@ use super::{Arguments, imu, length};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    Experiment, MachinePlan, MachineSource, MachineTruth, write_imu_recording, write_joint_log,
-    write_machine_truth, write_pose_log, write_recording,
+    Experiment, MachinePlan, MachineSource, TrueMachine, Truth, write_imu_recording, write_joint_log,
+    write_json, write_pose_log, write_recording,
 };
 use calibrant::machine::chain::KinematicChain;
 use calibrant::machine::estimate::{MachineSetup, MountingPrior};
@@ -74,15 +74,10 @@ pub(super) fn run(
     let log = record_log(&motion, &log_errors, &mut rng);
 
     let output = &arguments.output;
-    let truth = MachineTruth {
-        machine: &machine,
-        quantities: &of_experiment.quantities(),
-        units: of_experiment.units(),
-        chain: chain.as_ref(),
-        sensors: &sensors,
-        log: &log_errors,
-    };
-    write_machine_truth(&output.join("truth.json"), random.seed, &truth)?;
+    let (quantities, units) = (of_experiment.quantities(), of_experiment.units());
+    let truth = Truth::of_imu(random.seed, &quantities, units, &machine.parameters.imu)
+        .on_machine(TrueMachine::new(&machine, chain.as_ref(), &sensors, &log_errors));
+    write_json(&output.join("truth.json"), &truth)?;
     match (&log, &chain) {
         (ReferenceLog::Joints(log), Some(chain)) => {
             let units: Vec<&str> = chain.joints.iter().map(|joint| joint.kind.unit()).collect();

@@ -193,8 +193,8 @@ fn the_study_of_the_report_needs_no_file() {
     for part in ["design", "noisy"] {
         let scale = &study[part]["summary"][3];
         assert_eq!(scale["optimal"]["name"], "scale.x");
-        assert!(scale["predicted_factor"].as_f64().is_some_and(|factor| factor > 1.0), "{scale}");
-        assert!(scale["realised_factor_standard_error"].is_number(), "{scale}");
+        assert!(scale["predicted"]["value"].as_f64().is_some_and(|factor| factor > 1.0), "{scale}");
+        assert!(scale["realised"]["standard_error"].is_number(), "{scale}");
     }
     assert_report(&bench, "study/report.html");
 }

@@ -40,7 +40,7 @@ fn a_design_keeps_its_best_and_is_beyond_the_budget_on_demand() {
     outcome.says("warning: the search was interrupted. The motion is the best so far");
     let design = bench.json("result/design.json");
     assert_eq!(design["status"], "interrupted");
-    assert!(design["solver"]["starts"].as_u64().expect("a number") < 1_000_000, "{}", design["solver"]);
+    assert!(design["starts"].as_array().expect("every start").len() < 1_000_000);
     // the bound that takes no time
     assert!(design["certificate"]["gap"].as_f64().expect("a number") > 0.0, "{}", design["certificate"]);
     assert!(bench.read("result/report.html").contains("! Interrupted."));

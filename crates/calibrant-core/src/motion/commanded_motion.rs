@@ -1,7 +1,9 @@
 //! The commanded motion and how far it is trusted (`[motion] trust`). Plain data: no estimation here.
 
 use super::{JerkControlledMotion, MotionGravity};
+use crate::json_name;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How far the commanded motion is trusted. The thesis's problems (5), (6) and (3) are one problem with three
@@ -16,7 +18,18 @@ pub enum Trust {
     Unknown,
 }
 
+json_name!(Trust);
+
 impl Trust {
+    /// The process noise of a motion that is trusted with noise.
+    #[must_use]
+    pub fn input_noise(&self) -> Option<InputNoise> {
+        match self {
+            Self::Noisy(noise) => Some(*noise),
+            Self::Known | Self::Unknown => None,
+        }
+    }
+
     /// As written in experiment files: `known`, `noisy`, `unknown`.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -29,7 +42,7 @@ impl Trust {
 }
 
 /// Standard deviation of the process noise on the jerk: `σ_u(u) = floor + ratio · |u|`, per axis, m/s³.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct InputNoise {
     /// Noise that is there at any jerk, m/s³.
     pub floor_mps3: f64,
@@ -46,7 +59,7 @@ impl InputNoise {
 }
 
 /// Which ends of the motion have a known acceleration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum KnownEnds {
     /// Only the start.

@@ -5,7 +5,10 @@
 //! (x, u): intercept and jerk of each interval, `α(t) = x_i + u_i t`. Both describe the same motions: the
 //! report's continuity constraint holds identically in node form.
 
+use super::MotionTable;
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::json::flat;
+use crate::json_object;
 use nalgebra::Vector3;
 
 /// A motion of piecewise-linear acceleration.
@@ -28,6 +31,14 @@ use nalgebra::Vector3;
 pub struct JerkControlledMotion {
     times_s: Vec<f64>,
     acceleration_mps2: Vec<Vector3<f64>>,
+    axes: usize,
+}
+
+json_object! {
+    /// A motion of piecewise-linear acceleration.
+    JerkControlledMotion as of {
+        table: flat(MotionTable { motion: of, axes: of.axes, acceleration_sd_mps2: None }),
+    }
 }
 
 impl JerkControlledMotion {
@@ -72,7 +83,7 @@ impl JerkControlledMotion {
                 "sort the rows and remove duplicates",
             );
         }
-        Ok(Self { times_s, acceleration_mps2 })
+        Ok(Self { times_s, acceleration_mps2, axes: 3 })
     }
 
     /// A motion from t = 0 with intervals of equal duration `interval_s`.
@@ -89,7 +100,20 @@ impl JerkControlledMotion {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn plus(&self, constant_mps2: &Vector3<f64>) -> Result<Self> {
-        Self::new(self.times_s.clone(), self.acceleration_mps2.iter().map(|a| a + constant_mps2).collect())
+        let acceleration_mps2 = self.acceleration_mps2.iter().map(|a| a + constant_mps2).collect();
+        Ok(Self::new(self.times_s.clone(), acceleration_mps2)?.on_axes(self.axes))
+    }
+
+    /// The motion of a sensor with this number of axes, 1 or 3. Results have as many.
+    #[must_use]
+    pub fn on_axes(self, axes: usize) -> Self {
+        Self { axes, ..self }
+    }
+
+    /// Number of axes: 3, unless [`on_axes`](Self::on_axes) says otherwise.
+    #[must_use]
+    pub fn axes(&self) -> usize {
+        self.axes
     }
 
     /// Number of intervals N.

@@ -1,10 +1,13 @@
 //! The arm's limits (`[limits]`): acceleration, jerk, velocity, displacement and rest. Plain data, per axis.
 
+use crate::json::if_some;
+use crate::json_object;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Where the arm is at rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Rest {
     /// No rest is prescribed.
@@ -35,6 +38,23 @@ pub struct Limits {
     pub start_acceleration_mps2: Option<Vector3<f64>>,
     /// Prescribed acceleration at the end, m/s².
     pub end_acceleration_mps2: Option<Vector3<f64>>,
+}
+
+json_object! {
+    /// Symmetric limits for each axis; what is not there has none.
+    Limits as of {
+        acceleration_mps2: if_some(of.acceleration_mps2.map(<[f64; 3]>::from)),
+        jerk_mps3: if_some(of.jerk_mps3.map(<[f64; 3]>::from)),
+        /// Of an interval's line at t = 0.
+        intercept_mps2: if_some(of.intercept_mps2.map(<[f64; 3]>::from)),
+        velocity_mps: if_some(of.velocity_mps.map(<[f64; 3]>::from)),
+        displacement_m: if_some(of.displacement_m.map(<[f64; 3]>::from)),
+        rest: of.rest,
+        /// Prescribed.
+        start_acceleration_mps2: if_some(of.start_acceleration_mps2.map(<[f64; 3]>::from)),
+        /// Prescribed.
+        end_acceleration_mps2: if_some(of.end_acceleration_mps2.map(<[f64; 3]>::from)),
+    }
 }
 
 impl Limits {

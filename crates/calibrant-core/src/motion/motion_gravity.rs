@@ -15,6 +15,7 @@
 //! look a hundred times better known than it is: 0.5° moves it by 0.4 mm/s².
 
 use super::Gravity;
+use crate::json_object;
 use nalgebra::{Matrix3, Vector3};
 
 /// Gravity where a motion was recorded, in the axes of the sensor.
@@ -35,6 +36,18 @@ pub struct MotionGravity {
     pub sd_mps2: f64,
     /// Standard deviation of the tilt about each of the two level axes, rad; 0 where the axes are exactly level.
     pub tilt_sd_rad: f64,
+}
+
+json_object! {
+    /// Gravity where a motion was recorded, in the axes of the sensor.
+    MotionGravity as of {
+        /// Specific force of the sensor at rest: it points up.
+        force_mps2: <[f64; 3]>::from(of.force_mps2),
+        /// Standard uncertainty of its magnitude.
+        sd_mps2: of.sd_mps2,
+        /// Standard deviation of the tilt about each of the two level axes.
+        tilt_sd_rad: of.tilt_sd_rad,
+    }
 }
 
 impl MotionGravity {

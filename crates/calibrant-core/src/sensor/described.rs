@@ -1,9 +1,11 @@
 //! Parameters as tables show them: name, unit, nominal value and datasheet spread.
 
 use super::{Axis, ImuQuantity, ParameterList, Quantity, ReadingUnit, Sensor, SensorKind, SensorParameters};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// One parameter as tables show it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Parameter {
     /// Name, as in [`Quantity::name`].
     pub name: String,
@@ -12,6 +14,7 @@ pub struct Parameter {
     /// Nominal value, where the datasheet gives it.
     pub nominal: Option<f64>,
     /// Datasheet spread: the standard deviation over the population, where the datasheet gives it.
+    #[serde(rename = "spread_sd")]
     pub spread: Option<f64>,
 }
 

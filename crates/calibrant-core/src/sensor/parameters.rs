@@ -2,10 +2,11 @@
 
 use super::{Axis, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which errors a sensor's model has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SensorModel {
     /// `S` is diagonal. Each axis has a bias and a scale factor, independent of the other axes.

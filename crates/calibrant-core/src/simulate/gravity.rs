@@ -1,16 +1,21 @@
 //! Draws the gravity that a tilted sensor senses.
 
 use super::Rng;
+use crate::form::As;
 use crate::motion::MotionGravity;
 use nalgebra::{Rotation3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Gravity as it is, where it was only given with its uncertainty.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct TrueGravity {
     /// Specific force of the sensor at rest, m/s².
+    #[serde(with = "As::<[f64; 3]>")]
     pub force_mps2: Vector3<f64>,
     /// Tilt about each axis, rad.
+    #[serde(with = "As::<[f64; 3]>")]
     pub tilt_rad: Vector3<f64>,
 }
 

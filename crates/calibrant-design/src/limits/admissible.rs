@@ -4,6 +4,7 @@
 //! the acceleration passes zero. Displacement is cubic: it may peak where the velocity passes zero. Both
 //! places are roots of polynomials of degree one and two, so the check is exact.
 
+use calibrant_core::json_object;
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits, Rest};
 use calibrant_core::sensor::Axis;
 
@@ -104,6 +105,23 @@ pub struct LimitUse {
     /// velocity allowed (or else reached). For a prescribed acceleration it is relative to the largest
     /// acceleration allowed (or else reached).
     pub violation: f64,
+}
+
+json_object! {
+    /// How far a motion goes towards one limit of one axis, and beyond it. Numbers are in `unit`.
+    LimitUse as of {
+        axis: of.axis.letter(),
+        limit: of.kind.key(),
+        unit: of.kind.unit(),
+        /// When the motion is worst.
+        time_s: of.time_s,
+        value: of.value,
+        allowed: of.limit,
+        /// How far beyond the limit, relative to it.
+        violation: of.violation,
+        /// More than numbers in files are rounded.
+        violated: of.is_violated(),
+    }
 }
 
 impl LimitUse {

@@ -2,6 +2,7 @@
 
 use super::Allowed;
 use calibrant_core::information::Criterion;
+use calibrant_core::json_object;
 use calibrant_core::sensor::{ParameterList, SensorParameters};
 use nalgebra::{DMatrix, Vector3};
 
@@ -15,6 +16,26 @@ pub enum DirectionKnowledge {
         /// The standard deviation, rad.
         sd_rad: f64,
     },
+}
+
+impl DirectionKnowledge {
+    /// As written in files: `unknown`, `known`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unknown => "unknown",
+            Self::Known { .. } => "known",
+        }
+    }
+
+    /// Their standard deviation, rad, where they are known.
+    #[must_use]
+    pub fn sd_rad(self) -> Option<f64> {
+        match self {
+            Self::Unknown => None,
+            Self::Known { sd_rad } => Some(sd_rad),
+        }
+    }
 }
 
 /// Find the n directions whose holds determine the parameters best:
@@ -42,6 +63,23 @@ pub struct PoseProblem {
     pub poses: usize,
     /// What the calibration allows for beside the holds.
     pub nuisance: PoseNuisance,
+}
+
+json_object! {
+    /// The conditions of the calibration.
+    PoseProblem as of {
+        gravity_mps2: of.gravity_mps2,
+        /// Standard deviation of the mean reading of one hold, in the unit of the readings.
+        mean_sd: <[f64; 3]>::from(of.mean_sd),
+        /// What is known of the directions of the holds: `unknown`, `known`.
+        directions: of.directions.name(),
+        direction_sd_rad: of.directions.sd_rad(),
+        /// Was there information before?
+        has_prior: of.prior.is_some(),
+        gravity_sd_mps2: of.nuisance.gravity_sd_mps2,
+        /// Standard deviation of the drift of each bias from the first pose to the last.
+        bias_drift_sd: <[f64; 3]>::from(of.nuisance.drift_sd),
+    }
 }
 
 /// What adds to the standard deviations of a calibration, and is the same for all sets of poses or depends on

@@ -1,6 +1,7 @@
 //! The result of the search for the best poses.
 
 use calibrant_core::information::Criterion;
+use calibrant_core::json_object;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// The best poses that were found, and how near they are to the best possible.
@@ -40,6 +41,16 @@ pub struct PoseBound {
     pub directions: Vec<Vector3<f64>>,
     /// Share of the poses at each of them; their sum is one.
     pub shares: Vec<f64>,
+}
+
+json_object! {
+    /// A lower bound of the criterion, and the approximate design that gives it.
+    PoseBound as of {
+        lower_bound: of.value,
+        directions: of.directions.iter().map(|up| <[f64; 3]>::from(*up)).collect::<Vec<_>>(),
+        /// Share of the poses at each direction.
+        shares: &of.shares,
+    }
 }
 
 impl PoseBound {

@@ -1,10 +1,16 @@
 //! The result of a design: motions, predicted covariances, starts and certificate.
 
+use crate::limit_use;
 use calibrant_core::error::UndeterminedGroup;
+use calibrant_core::form::{finite, rows};
 use calibrant_core::information::Criterion;
+use calibrant_core::json::{if_any, if_some};
 use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::{Axis, Parameter};
+use calibrant_core::{json_name, json_object};
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A start that ends within this of the best (relatively; for criterion D in nats) has reached it.
 ///
@@ -43,7 +49,7 @@ pub struct Design {
 }
 
 /// A gap to the lower bound at which a search ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct GapGoal {
     /// The gap: relative, for criterion D in nats.
     pub gap: f64,
@@ -84,6 +90,34 @@ impl Design {
     }
 }
 
+json_object! {
+    /// The best motion found, beside the initial one, and its distance from the bound.
+    Design as of {
+        status: of.status,
+        /// How good the motion is, and how that was found, in words.
+        statement: of.statement(),
+        criterion: &of.criterion,
+        /// What the motion determines: the order of all lists of parameters.
+        parameters: &of.parameters,
+        optimal: &of.optimal,
+        /// The motion that experience would choose.
+        initial: &of.initial,
+        certificate: &of.certificate,
+        /// The part of the criterion that no motion changes: that of gravity's tilt.
+        floor: of.floor,
+        /// Standard deviation that gravity's tilt alone gives each parameter.
+        floor_sd: if_any(of.floor_sd.as_slice()),
+        limits: &of.limits,
+        /// How far the motion goes towards each limit.
+        limit_use: limit_use(&of.limits, of.optimal.motion.axes(), &of.optimal.motion),
+        gap_goal: if_some(of.gap_goal),
+        gap_is_reached: if_some(of.gap_is_reached()),
+        starts_converged: of.starts_converged(),
+        iterations: of.iterations,
+        starts: &of.starts,
+    }
+}
+
 /// The information that a recording of a motion will give.
 #[derive(Debug, Clone)]
 pub struct Evaluation {
@@ -110,6 +144,21 @@ impl Evaluation {
     }
 }
 
+json_object! {
+    /// The information that a recording of a motion will give.
+    Evaluation as of {
+        /// Value of the criterion; `null` where the motion does not determine the parameters.
+        value: finite(of.value),
+        /// Predicted standard deviation of each parameter.
+        sd: of.sd().into_iter().map(finite).collect::<Vec<_>>(),
+        /// Predicted covariance of the parameters.
+        covariance: of.covariance.as_ref().map(rows),
+        /// Parameters that it leaves undetermined.
+        undetermined: if_any(of.undetermined.as_slice()),
+        motion: &of.motion,
+    }
+}
+
 /// How a design ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DesignStatus {
@@ -122,6 +171,8 @@ pub enum DesignStatus {
     /// The search was interrupted, or its time was over before the best start converged: its motion is the best so far, a better one may be near.
     Interrupted,
 }
+
+json_name!(DesignStatus);
 
 impl DesignStatus {
     /// As written in files: `converged`, `iteration_limit`, `stalled`, `interrupted`.
@@ -154,8 +205,21 @@ pub struct StartOutcome {
     pub status: DesignStatus,
 }
 
+json_object! {
+    /// One start of the search.
+    StartOutcome as of {
+        axes: of.axes.iter().map(|axis| axis.letter()).collect::<Vec<_>>(),
+        /// Among those of these axes; 0 is the initial motion.
+        number: of.number,
+        initial_value: of.initial_value,
+        value: of.value,
+        iterations: of.iterations,
+        status: of.status,
+    }
+}
+
 /// A lower bound on the criterion that no admissible motion can beat.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Certificate {
     /// The bound.
     pub lower_bound: f64,

@@ -27,7 +27,7 @@ pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> R
         }
     }
     Ok(Evaluation {
-        motion: motion.clone(),
+        motion: motion.clone().on_axes(problem.sensor.axes),
         value: c.as_ref().map_or(f64::INFINITY, |c| problem.criterion.value(c)),
         information,
         covariance: c,

@@ -3,8 +3,12 @@
 use crate::{Design, DesignProblem, Evaluation, LimitUse, evaluate, limit_use};
 use calibrant_core::error::Result;
 use calibrant_core::information::Criterion;
+use calibrant_core::json::if_some;
+use calibrant_core::json_object;
 use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::Parameter;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A motion, the information that it gives, and how that compares.
 #[derive(Debug, Clone)]
@@ -24,8 +28,34 @@ pub struct Assessment {
     pub other_setting: Option<OtherSetting>,
 }
 
+json_object! {
+    /// A motion, the information that it gives, and how that compares.
+    Assessment as of {
+        /// Does it keep all limits?
+        admissible: of.violations().is_empty(),
+        /// Does it determine the parameters?
+        determined: of.evaluation.covariance.is_some(),
+        /// Share of the recordings that the best motion found would need, from 0 to 1.
+        efficiency: of.efficiency(),
+        /// The same against the lower bound.
+        efficiency_against_bound: of.certain_efficiency(),
+        criterion: &of.criterion,
+        /// What the motion determines: the order of all lists of parameters.
+        parameters: &of.parameters,
+        evaluation: &of.evaluation,
+        /// How far the motion goes towards each limit.
+        limit_use: &of.limits,
+        /// Where the motion's duration or intervals are not those of the experiment.
+        other_setting: if_some(of.other_setting),
+        /// The best motion for the experiment.
+        design: of.optimum.as_ref().ok(),
+        /// Why there is none.
+        no_design_because: of.optimum.as_ref().err(),
+    }
+}
+
 /// A motion whose duration or intervals are not those of the experiment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct OtherSetting {
     /// Number of intervals of the motion.
     pub intervals: usize,

@@ -4,6 +4,7 @@ use crate::{Design, DesignProblem, DesignSettings, design};
 use calibrant_core::budget::Budget;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::Criterion;
+use calibrant_core::json_object;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{Parameter, Sensor};
 use nalgebra::Vector3;
@@ -106,6 +107,28 @@ pub struct Sweep {
     pub parameters: Vec<Parameter>,
     /// The values, in the requested order.
     pub points: Vec<SweepPoint>,
+}
+
+json_object! {
+    /// One value of a sweep.
+    SweepPoint as of {
+        value: of.value,
+        asked: of.asked,
+        intervals: of.intervals,
+        /// The best design there.
+        design: of.outcome.as_ref().ok(),
+        /// Why there is none.
+        error: of.outcome.as_ref().err(),
+    }
+}
+
+json_object! {
+    /// The best designs over the values of one variable.
+    Sweep as of {
+        variable: of.variable.key(),
+        unit: of.variable.unit(),
+        points: &of.points,
+    }
 }
 
 /// One value of a sweep.

@@ -5,6 +5,7 @@ use crate::result::evaluate::evaluate;
 use calibrant_core::error::Result;
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::AOptimality;
+use calibrant_core::json_object;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
@@ -35,6 +36,18 @@ pub struct TraceSurface {
     /// Entry `[i][j]`: decimal logarithm of the trace (variances in SI) at `u_1 = jerk_mps3[i]`,
     /// `u_2 = jerk_mps3[j]`. `None` where the motion does not determine the parameters, as at (0, 0).
     pub log10_trace: Vec<Vec<Option<f64>>>,
+}
+
+json_object! {
+    /// Decimal logarithm of the trace of a covariance over the jerks of two intervals.
+    TraceSurface as of {
+        start_acceleration_mps2: of.settings.start_mps2,
+        interval_s: of.settings.interval_s,
+        rate_hz: of.settings.rate_hz,
+        jerk_mps3: &of.jerk_mps3,
+        /// Entry `[i][j]` is at `u_1 = jerk_mps3[i]`, `u_2 = jerk_mps3[j]`; variances in SI.
+        log10_trace: &of.log10_trace,
+    }
 }
 
 /// Draws the surface for the first axis of a sensor, at its nominal parameters.

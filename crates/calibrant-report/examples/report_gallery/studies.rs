@@ -83,8 +83,10 @@ fn estimated(truth: &[f64], evaluation: Evaluation, rng: &mut Rng) -> MotionOutc
         let z: f64 = StandardNormal.sample(rng);
         value + sd * z
     };
+    let values: Vec<f64> = truth.iter().zip(&sd).map(draw).collect();
     MotionOutcome {
-        values: truth.iter().zip(&sd).map(draw).collect(),
+        absolute_errors: truth.iter().zip(&values).map(|(truth, value)| (value - truth).abs()).collect(),
+        values,
         trace: sd.iter().map(|sd| sd * sd).sum(),
         sd,
         predicted_criterion: evaluation.value,

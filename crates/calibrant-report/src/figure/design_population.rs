@@ -128,7 +128,7 @@ pub(crate) fn absolute_errors(title: &str, study: &DesignStudy) -> Figure {
             let values = |of: fn(&DesignOutcome) -> &MotionOutcome| {
                 sensors
                     .iter()
-                    .map(|&i| (i, of(&study.outcomes[i]).absolute_errors(&study.outcomes[i].truth)))
+                    .map(|&i| (i, of(&study.outcomes[i]).absolute_errors.clone()))
                     .filter_map(|(i, errors)| errors.get(p).map(|&error| (i, error)))
                     .collect::<Vec<_>>()
             };

@@ -31,6 +31,7 @@ pub use e_optimality::EOptimality;
 pub use i_optimality::IOptimality;
 pub use m_optimality::MOptimality;
 
+use crate::json_object;
 use nalgebra::{DMatrix, DVector};
 
 /// One of the criteria, for given parameters.
@@ -48,6 +49,14 @@ pub enum Criterion {
     C(COptimality),
     /// Mean variance of the corrected reading.
     I(IOptimality),
+}
+
+json_object! {
+    /// What is minimised: its letter, and its formula with the covariance C.
+    Criterion as of {
+        name: of.letter(),
+        formula: of.formula(),
+    }
 }
 
 impl Criterion {

@@ -10,7 +10,7 @@ use calibrant::estimate::{
     Uncalibrated, Whiteness,
 };
 use calibrant::io::{
-    CalibrationFile, Failure, Input, Origin, Summary, SummaryRow, read_motion, to_json, truth_json,
+    CalibrationFile, Failure, Input, Origin, Summary, SummaryRow, Truth, read_motion, to_json,
     write_atomically, write_json, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
@@ -266,7 +266,8 @@ fn calibration_json_of_holds_in_counts() {
 #[test]
 fn truth_and_summary() {
     let sensor = Sensor::memsic_mxd2020u();
-    let text = truth_json(7, &sensor.parameter_list(), sensor.unit, &SensorParameters::identity());
+    let text =
+        to_json(&Truth::of_sensor(7, &sensor.parameter_list(), sensor.unit, &SensorParameters::identity()));
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(
         (&json["seed"], &json["parameters"][3]),
