@@ -96,9 +96,10 @@ pub(super) fn budget<'a>(section: &mut Section<'a>, calibration: &'a MachineCali
     section.folded("Table of the budget", within);
 }
 
-/// Per cent of the variance from each source that has a part.
+/// Per cent of the variance from each source that has a part worth a number.
 fn shares(calibration: &MachineCalibration) -> Table {
-    let is_used = |source: &usize| calibration.budget.iter().any(|row| row.parts[*source] > 0.0);
+    let is_used =
+        |source: &usize| calibration.budget.iter().any(|row| row.parts[*source] >= 0.005 * row.variance);
     let used: Vec<usize> = (0..Source::ALL.len()).filter(is_used).collect();
     let names = used.iter().map(|source| source_in_words(Source::ALL[*source]));
     let mut table = Table::new(std::iter::once("variance from, %".to_owned()).chain(names));
