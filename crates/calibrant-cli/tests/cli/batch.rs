@@ -30,7 +30,7 @@ fn one_bad_recording_does_not_stop_the_others() {
     assert_eq!(outcome.status, 3, "{outcome:?}");
     outcome.says("b.csv:5:5: \"oops\" in column `ax_mps2` is not a number");
     outcome.says("missing.csv: cannot read the recording");
-    assert!(outcome.stdout.contains("2 calibrated, 2 failed: result/summary.csv"), "{outcome:?}");
+    assert!(outcome.printed().contains("2 calibrated, 2 failed: result/summary.csv"), "{outcome:?}");
     for (folder, there) in [("a", true), ("b", false), ("c", true), ("missing", false)] {
         assert_eq!(bench.path(&format!("result/{folder}/calibration.json")).is_file(), there, "{folder}");
         assert_eq!(bench.path(&format!("result/{folder}")).is_dir(), there, "{folder}");
@@ -177,7 +177,7 @@ fn every_imu_is_calibrated_as_if_it_were_alone() {
     let outcome = bench.run("calibrate imu.toml imu1.csv broken.csv imu2.csv imu3.csv -o all");
     assert_eq!(outcome.status, 3, "{outcome:?}");
     outcome.says("broken.csv:2:");
-    assert!(outcome.stdout.contains("3 calibrated, 1 failed: all/summary.csv"), "{outcome:?}");
+    assert!(outcome.printed().contains("3 calibrated, 1 failed: all/summary.csv"), "{outcome:?}");
     let summary = bench.read("all/summary.csv");
     let rows: Vec<Vec<&str>> = summary.lines().map(|row| row.split(',').collect()).collect();
     assert_eq!(

@@ -47,7 +47,7 @@ fn a_design_leaves_a_motion_and_everything_needed_to_judge_it() {
         "6 starts",
         "d/motion.csv",
     ] {
-        assert!(outcome.stdout.contains(word), "{word}\n{}", outcome.stdout);
+        assert!(outcome.printed().contains(word), "{word}\n{}", outcome.stdout);
     }
     assert_eq!(outcome.stderr, "");
     assert!(bench.read("d/report.html").trim_end().ends_with("</html>"));
@@ -159,7 +159,7 @@ fn a_motion_of_ones_own_is_judged() {
     bench.run("simulate arm.toml -o s").done();
     let outcome = bench.run(&format!("design arm.toml {QUICK} --evaluate s/motion.csv -o e")).done();
     for words in ["sd own", "of the best motion found", "all limits are kept, at all times"] {
-        assert!(outcome.stdout.contains(words), "{words}\n{}", outcome.stdout);
+        assert!(outcome.printed().contains(words), "{words}\n{}", outcome.stdout);
     }
     assert!(bench.read("e/evaluation.html").trim_end().ends_with("</html>"));
     let file = bench.json("e/evaluation.json");
@@ -215,7 +215,7 @@ fn counts_and_criteria_are_put_into_words() {
         assert!(stdout.contains(words), "{words}\n{stdout}");
     }
     let outcome = bench.run("design one.toml -o d").done();
-    assert!(outcome.stdout.contains("1 start, 1 converged, 1 within 0.001 % of the best"), "{outcome:?}");
+    assert!(outcome.printed().contains("1 start, 1 converged, 1 within 0.001 % of the best"), "{outcome:?}");
     let outcome = bench.run("design one.toml --no-certificate --sweep duration=0.4,2 -o d").done();
     outcome.says("duration 0.4 s is not a whole number of intervals: 1 s, 1 interval, instead");
 }
@@ -230,7 +230,7 @@ fn too_few_intervals_for_a_full_sensor_are_named() {
     outcome.says("the motion has 3 nodes, too few for the accelerations along x, y and z to be independent of each other (use at least 3 intervals)");
     // there is no best motion to be near to
     assert!(!outcome.stderr.contains("a better one may be near"), "{outcome:?}");
-    assert!(!outcome.stdout.contains("of the best"), "{outcome:?}");
+    assert!(!outcome.printed().contains("of the best"), "{outcome:?}");
 }
 
 #[test]
@@ -238,7 +238,10 @@ fn sweeps_say_what_things_cost() {
     let bench = bench();
     let outcome = bench.run(&format!("design arm.toml {QUICK} --sweep duration=5,10.4 -o d")).done();
     outcome.says("note: duration 10.4 s is not a whole number of intervals: 10 s, 10 intervals, instead");
-    assert!(outcome.stdout.contains("duration s") && outcome.stdout.contains("sd scale.z"), "{outcome:?}");
+    assert!(
+        outcome.printed().contains("duration s") && outcome.printed().contains("sd scale.z"),
+        "{outcome:?}"
+    );
     let file = bench.json("d/sweep.json");
     let value = |k: usize| file["points"][k]["design"]["optimal"]["value"].as_f64().expect("a number");
     assert!(value(1) < value(0), "more time tells more");
@@ -341,7 +344,7 @@ fn a_gap_that_is_proved_ends_the_search() {
     let bench = Bench::new();
     bench.preset("report", "box.toml", &[]);
     let outcome = bench.run("design box.toml --gap 5% -o d").done();
-    assert!(outcome.stdout.contains("that was asked for is proved"), "{}", outcome.stdout);
+    assert!(outcome.printed().contains("that was asked for is proved"), "{}", outcome.stdout);
     let file = bench.json("d/design.json");
     let goal = &file["gap_goal"];
     assert_eq!(

@@ -28,7 +28,7 @@ fn a_design_leaves_poses_a_checklist_and_the_bound() {
     let bench = bench(12);
     let outcome = bench.run(&format!("design static.toml {QUICK} -o d")).done();
     for word in ["criterion A", "pose", "up x", "matrix.yz", "The 12 poses have at least", "d/poses.csv"] {
-        assert!(outcome.stdout.contains(word), "{word}\n{}", outcome.stdout);
+        assert!(outcome.printed().contains(word), "{word}\n{}", outcome.stdout);
     }
     let design = bench.json("d/design.json");
     assert_eq!((&design["schema"], &design["kind"]), (&Value::from(2), &Value::from("poses")));
@@ -48,7 +48,7 @@ fn a_design_leaves_poses_a_checklist_and_the_bound() {
     // the poses are input of a simulation, whose holds are rated
     bench.run("simulate static.toml --poses d/poses.csv -o s").done();
     let rated = bench.run("design static.toml --evaluate s/recording.csv -o e").done();
-    assert!(rated.stdout.contains("Efficiency 99."), "{}", rated.stdout);
+    assert!(rated.printed().contains("Efficiency 99."), "{}", rated.stdout);
     assert!(number(&bench.json("e/evaluation.json")["efficiency"]) > 0.98);
     assert!(bench.read("e/evaluation.html").contains("12 holds"));
     // machine output is the file, for any number of threads
@@ -96,7 +96,7 @@ fn the_next_poses_lower_the_standard_deviations_that_were_there() {
     bench.run("calibrate static.toml s/recording.csv -o c").done();
     let from = "--from c/calibration.json";
     let next = bench.run(&format!("design static.toml {from} --add 3 {QUICK} -o n")).done();
-    assert!(next.stdout.contains("sd before") && next.stdout.contains("sd then"), "{}", next.stdout);
+    assert!(next.printed().contains("sd before") && next.printed().contains("sd then"), "{}", next.stdout);
     let (before, then) = (bench.json("c/calibration.json"), bench.json("n/design.json"));
     for name in names(&then["parameters"]) {
         assert!(sd(&then, name) < sd(&before, &format!("accelerometer.{name}")), "{name}");
@@ -104,7 +104,7 @@ fn the_next_poses_lower_the_standard_deviations_that_were_there() {
     let goal = 0.7 * sd(&then, "scale.x");
     let reach = format!("design static.toml {from} --reach scale.x={goal} {QUICK} -o r");
     let reached = bench.run(&reach).done();
-    assert!(reached.stdout.contains("more poses reach"), "{}", reached.stdout);
+    assert!(reached.printed().contains("more poses reach"), "{}", reached.stdout);
     let file = bench.json("r/design.json");
     assert!(sd(&file, "scale.x") <= goal);
     assert_eq!(file["reach"]["goals"][0]["name"], "scale.x");
@@ -174,7 +174,7 @@ fn the_shortest_motion_that_is_good_enough_is_found_with_its_proof() {
     let bench = Bench::new();
     bench.preset("report", "stage.toml", &[("# acceleration_mps2", "acceleration_mps2")]);
     let outcome = bench.run(&format!("design stage.toml {QUICK} --reach scale.x=1ppm -o d")).done();
-    assert!(outcome.stdout.contains("reaches scale.x to 1ppm"), "{}", outcome.stdout);
+    assert!(outcome.printed().contains("reaches scale.x to 1ppm"), "{}", outcome.stdout);
     let design = bench.json("d/design.json");
     assert!(sd(&design, "scale.x") <= 1e-6);
     let intervals = design["motion"]["jerk_mps3"].as_array().map(Vec::len).expect("a motion");

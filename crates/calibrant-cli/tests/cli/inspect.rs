@@ -48,7 +48,7 @@ fn a_recording_is_described_before_it_is_calibrated() {
         "Expected standard deviations of the accelerometer",
         "matrix.yz",
     ] {
-        assert!(outcome.stdout.contains(words), "{words}\n{}", outcome.stdout);
+        assert!(outcome.printed().contains(words), "{words}\n{}", outcome.stdout);
     }
     bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
     let json = bench.json("inspection.json");
@@ -172,7 +172,7 @@ fn the_pair_of_imu_tk_promises_what_a_calibration_then_finds() {
     std::fs::copy(gyroscope, bench.path("gyr.mat")).expect("copied");
     let units = "--accelerometer-unit counts --gyroscope-unit counts";
     let outcome = bench.run(&format!("inspect acc.mat gyr.mat {units}")).done();
-    assert!(outcome.stdout.contains("38 holds found"), "{}", outcome.stdout);
+    assert!(outcome.printed().contains("38 holds found"), "{}", outcome.stdout);
     bench.write(
         "inspection.json",
         bench.run(&format!("inspect acc.mat gyr.mat {units} --json")).done().stdout,
