@@ -39,7 +39,7 @@ pub(crate) fn print(text: &str) {
     if manner::get().no_tables {
         return;
     }
-    let text = text.replace('−', "-");
+    let text = as_flags(text).replace('−', "-");
     print_always(&match width::of_terminal() {
         Some(width) => wrapped(&text, width),
         None => text,

@@ -58,9 +58,13 @@ impl Explained {
             Self::Refusal(refusal) => (None, refusal.remedy()),
         };
         let decided = decided.map(|decided| format!("Decided: {decided}"));
-        let lines =
-            [Some(meaning.to_owned()), decided, Some(format!("What to do: {}", console::as_flags(remedy)))];
-        format!("{name}\n") + &lines.iter().flatten().map(|line| console::paragraph(line)).collect::<String>()
+        let lines = [Some(meaning.to_owned()), decided, Some(format!("What to do: {remedy}"))];
+        format!("{name}\n")
+            + &lines
+                .iter()
+                .flatten()
+                .map(|line| console::paragraph(&console::as_flags(line)))
+                .collect::<String>()
     }
 }
 

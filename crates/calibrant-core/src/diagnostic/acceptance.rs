@@ -32,7 +32,7 @@ checks! {
         name: String,
     }
     decided "The calibration does not estimate it, or no validation gives it."
-    remedy "Take the limit out, estimate the parameter, or give --validate."
+    remedy "Take the limit out, estimate the parameter, or give option `validate`."
     says format!("the limit of {name} is not checked: the result does not have this value.");
 }
 

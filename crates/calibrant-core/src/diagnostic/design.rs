@@ -10,7 +10,7 @@ checks! {
     decided "The time that was given ends before the best start converged."
     remedy "Give it more time."
     says "the time was over before the best start converged. The motion is the best so far, and a better one may be near \
-        (give it more --seconds)";
+        (give it more option `seconds`)";
 
     /// The search was interrupted. Its result is the best so far.
     SearchInterrupted "search-interrupted" Warning {
@@ -39,7 +39,7 @@ checks! {
         }
         None => format!(
             "the search ended with the status \"{status}\". The motion is admissible, but a better one may be near (increase \
-             --starts, or loosen very tight limits)"
+             option `starts`, or loosen very tight limits)"
         ),
     };
 

@@ -113,7 +113,7 @@ checks! {
         short_time(*longest_s)
     );
 
-    /// The sensor moves in the interval that --hold gives.
+    /// The sensor moves in the interval that option `hold` gives.
     NoiseHoldMoves "noise-hold-moves" Warning {
         /// For how long it moves, s.
         moving_s: f64,
@@ -121,10 +121,10 @@ checks! {
         given_s: f64,
     }
     decided "The holds found in it do not cover all of it."
-    remedy "Omit --hold, or choose an interval at rest."
+    remedy "Omit option `hold`, or choose an interval at rest."
     says format!(
-        "the sensor moves or vibrates in {moving_s:.1} of the {given_s:.1} s given with --hold. The result is not the \
-         noise of a sensor at rest. `calibrant inspect` counts the holds. Without --hold, the longest is used."
+        "the sensor moves or vibrates in {moving_s:.1} of the {given_s:.1} s given with option `hold`. The result is not the \
+         noise of a sensor at rest. `calibrant inspect` counts the holds. Without option `hold`, the longest is used."
     );
 
     /// An axis drifts. The drift is subtracted.

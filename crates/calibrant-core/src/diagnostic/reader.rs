@@ -271,7 +271,7 @@ checks! {
         rate_hz: f64,
     }
     decided "The sample rate would be below 2.5 Hz."
-    remedy "Give --time-unit, or correct the name of the column."
+    remedy "Give option `time_unit`, or correct the name of the column."
     says format!(
         "the samples are {} s apart: are the times in {unit}? at {} Hz the name of their column ends in _{}",
         plain(*step_s, 6),

@@ -120,7 +120,7 @@ impl fmt::Display for ClockSourceKind {
                 }
                 write!(
                     f,
-                    "the samples are taken as even, at {} Hz; --times as-logged, or times = \"as-logged\" in [columns], \
+                    "the samples are taken as even, at {} Hz; option `times` as-logged, or times = \"as-logged\" in [columns], \
                      keeps the logged times",
                     plain(*rate_hz, 6)
                 )

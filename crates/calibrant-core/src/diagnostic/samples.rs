@@ -45,10 +45,10 @@ checks! {
     /// The recording of an IMU has no gyroscope. Only the accelerometer was calibrated.
     GyroscopeMissing "gyroscope-missing" Warning {}
     decided "The file has no columns of a gyroscope, and no other file gives it."
-    remedy "Give its file with --gyroscope, name its columns in [columns], or leave `kind = \"imu\"` out of the \
+    remedy "Give its file with option `gyroscope`, name its columns in [columns], or leave `kind = \"imu\"` out of the \
         experiment file."
     says "the recording has no gyroscope, so only the accelerometer is calibrated. Give the gyroscope's file with \
-     --gyroscope, or name its columns in [columns].";
+     option `gyroscope`, or name its columns in [columns].";
 
     /// The readings come in steps of more than twice their noise. The mean of a hold has an error, however
     /// long the hold is.

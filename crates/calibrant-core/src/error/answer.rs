@@ -40,12 +40,16 @@ options! {
     Gauge "gauge" "The convention that fixes the true frame.";
     Gyroscope "gyroscope" "The file of the gyroscope.";
     GyroscopeUnit "gyroscope_unit" "Unit of the gyroscope's readings.";
+    Hold "hold" "The interval in which the sensor is held still.";
     Motion "motion" "The commanded motion, or the log of the machine.";
     Noise "noise" "A file with noise densities.";
     RateHz "rate_hz" "The sample rate in Hz.";
+    Seconds "seconds" "How long a search may take.";
     Sensor "sensor" "Which sensor a file is of.";
+    Starts "starts" "The number of random starts of a search.";
     Temperature "temperature" "The temperature in °C.";
     TimeUnit "time_unit" "Unit of the times.";
+    Times "times" "Even times, or the logged ones.";
     Topic "topic" "The topic of a bag.";
     Unit "unit" "Unit of the readings.";
     Validate "validate" "A second recording, which validates the result.";

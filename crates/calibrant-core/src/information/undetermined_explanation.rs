@@ -47,7 +47,7 @@ pub fn explain(
             let quantities: Vec<Quantity> = places.iter().map(|&k| list.quantities()[k]).collect();
             let (reason, remedy) = reason(facts, &quantities);
             UndeterminedGroup {
-                parameters: quantities.iter().map(|quantity| quantity.name_in_results()).collect(),
+                parameters: quantities.iter().map(|quantity| quantity.name()).collect(),
                 free_combinations: group.free_combinations,
                 reason,
                 remedy,

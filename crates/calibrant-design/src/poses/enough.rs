@@ -35,7 +35,7 @@ pub(super) fn fewest_that_determine(
             }
             DirectionKnowledge::Known { .. } => "allow more directions in design.allowed",
         };
-        let groups = named(&left, &problem.list.names_in_results(), reason, remedy);
+        let groups = named(&left, &problem.list.names(), reason, remedy);
         return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
     }
     let mut rng = stream(seed, Purpose::Motion, 1);

@@ -61,9 +61,8 @@ pub fn evaluate_poses(
     let f = information.of_parameters(&sum);
     let names = problem.list.names();
     let reason = format!("the directions of the {} holds are too few or too similar", directions.len());
-    let names_in_errors = problem.list.names_in_results();
-    let found = undetermined(&f, &f.diagonal());
-    let groups = named(&found, &names_in_errors, &reason, "hold the sensor in more directions");
+    let groups =
+        named(&undetermined(&f, &f.diagonal()), &names, &reason, "hold the sensor in more directions");
     if !groups.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
     }

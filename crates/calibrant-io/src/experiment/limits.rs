@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// A section with keys of its own and those of limits.
 macro_rules! section_with_limits {
-    ($(#[$doc:meta])* $name:ident { $($own:tt)* }) => {
+    ($(#[$doc:meta])* pub struct $name:ident { $($own:tt)* }) => {
         $(#[$doc])*
         #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -68,5 +68,5 @@ pub(super) use section_with_limits;
 
 section_with_limits! {
     /// `[limits]`: symmetric limits of the arm; a number, or one for each axis.
-    LimitsSection {}
+    pub struct LimitsSection {}
 }

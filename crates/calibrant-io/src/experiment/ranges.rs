@@ -4,7 +4,7 @@ use super::number::{Bounds, Range};
 use calibrant_core::sensor::WORKING_C;
 
 macro_rules! ranges {
-    ($($(#[$doc:meta])* $name:ident $bounds:expr;)*) => {
+    ($($(#[$doc:meta])* pub struct $name:ident: $bounds:expr;)*) => {
         $($(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub struct $name;
@@ -22,109 +22,109 @@ pub(super) const LARGEST_GRAVITY: f64 = 100.0;
 
 ranges! {
     /// Noise of a sample of an accelerometer.
-    NoiseMps2 Bounds::from(1e-7, 1e6, "m/s²");
+    pub struct NoiseMps2: Bounds::from(1e-7, 1e6, "m/s²");
     /// Noise of a sample of a gyroscope.
-    NoiseRadps Bounds::from(1e-9, 1e3, "rad/s");
+    pub struct NoiseRadps: Bounds::from(1e-9, 1e3, "rad/s");
     /// Noise of a sample in counts.
-    NoiseCounts Bounds::from(1e-9, 1e9, "counts");
+    pub struct NoiseCounts: Bounds::from(1e-9, 1e9, "counts");
     /// Datasheet spread of a bias.
-    BiasSpread Bounds::from(0.0, 1e6, "m/s²");
+    pub struct BiasSpread: Bounds::from(0.0, 1e6, "m/s²");
     /// Datasheet spread of scale factors or cross-axis sensitivities, relative.
-    RelativeSpread Bounds::from(0.0, 10.0, "");
+    pub struct RelativeSpread: Bounds::from(0.0, 10.0, "");
     /// Nominal gain of an accelerometer.
-    AccelerometerGain Bounds::above(0.0, 1e12, "counts/(m/s²)");
+    pub struct AccelerometerGain: Bounds::above(0.0, 1e12, "counts/(m/s²)");
     /// Nominal gain of a gyroscope.
-    GyroscopeGain Bounds::above(0.0, 1e12, "counts/(rad/s)");
+    pub struct GyroscopeGain: Bounds::above(0.0, 1e12, "counts/(rad/s)");
     /// Nominal offset.
-    Offset Bounds::from(-1e12, 1e12, "counts");
+    pub struct Offset: Bounds::from(-1e12, 1e12, "counts");
     /// A limit of an acceleration.
-    Acceleration Bounds::above(0.0, 1e9, "m/s²");
+    pub struct Acceleration: Bounds::above(0.0, 1e9, "m/s²");
     /// A prescribed acceleration, of either sign or zero.
-    SignedAcceleration Bounds::from(-1e9, 1e9, "m/s²");
+    pub struct SignedAcceleration: Bounds::from(-1e9, 1e9, "m/s²");
     /// A limit of a jerk.
-    Jerk Bounds::above(0.0, 1e9, "m/s³");
+    pub struct Jerk: Bounds::above(0.0, 1e9, "m/s³");
     /// A limit of a velocity.
-    Velocity Bounds::above(0.0, 1e9, "m/s");
+    pub struct Velocity: Bounds::above(0.0, 1e9, "m/s");
     /// A limit of a displacement.
-    Displacement Bounds::above(0.0, 1e9, "m");
+    pub struct Displacement: Bounds::above(0.0, 1e9, "m");
     /// Constant part of the process noise.
-    JerkNoise Bounds::from(0.0, 1e9, "m/s³");
+    pub struct JerkNoise: Bounds::from(0.0, 1e9, "m/s³");
     /// Process noise relative to the jerk.
-    JerkRatio Bounds::from(0.0, 1e3, "");
+    pub struct JerkRatio: Bounds::from(0.0, 1e3, "");
     /// Magnitude of gravity.
-    GravityMps2 Bounds::from(LEAST_GRAVITY, LARGEST_GRAVITY, "m/s²");
+    pub struct GravityMps2: Bounds::from(LEAST_GRAVITY, LARGEST_GRAVITY, "m/s²");
     /// A component of gravity.
-    GravityComponent Bounds::from(-LARGEST_GRAVITY, LARGEST_GRAVITY, "m/s²");
+    pub struct GravityComponent: Bounds::from(-LARGEST_GRAVITY, LARGEST_GRAVITY, "m/s²");
     /// Standard uncertainty of gravity.
-    GravitySd Bounds::from(0.0, 1.0, "m/s²");
+    pub struct GravitySd: Bounds::from(0.0, 1.0, "m/s²");
     /// A geographic latitude.
-    Latitude Bounds::from(-90.0, 90.0, "degrees");
+    pub struct Latitude: Bounds::from(-90.0, 90.0, "degrees");
     /// A height above the sea.
-    Height Bounds::from(-12_000.0, 100_000.0, "m");
+    pub struct Height: Bounds::from(-12_000.0, 100_000.0, "m");
     /// A component of a direction.
-    DirectionComponent Bounds::from(-1e3, 1e3, "");
+    pub struct DirectionComponent: Bounds::from(-1e3, 1e3, "");
     /// The tilt of faces or of an arm. What is tilted further is not level.
-    SmallTilt Bounds::from(0.0, 10.0, "degrees");
+    pub struct SmallTilt: Bounds::from(0.0, 10.0, "degrees");
     /// The tilt of a machine's base.
-    BaseTilt Bounds::from(0.0, 45.0, "degrees");
+    pub struct BaseTilt: Bounds::from(0.0, 45.0, "degrees");
     /// The angle around an allowed direction.
-    Cone Bounds::from(0.0, 90.0, "degrees");
+    pub struct Cone: Bounds::from(0.0, 90.0, "degrees");
     /// A time.
-    Time Bounds::from(-1e12, 1e12, "s");
+    pub struct Time: Bounds::from(-1e12, 1e12, "s");
     /// A duration.
-    Duration Bounds::above(0.0, 1e6, "s");
+    pub struct Duration: Bounds::above(0.0, 1e6, "s");
     /// A sample rate.
-    Rate Bounds::above(0.0, 1e6, "Hz");
+    pub struct Rate: Bounds::above(0.0, 1e6, "Hz");
     /// The sample rate of a file.
-    FileRate Bounds::from(1e-6, 1e9, "Hz");
+    pub struct FileRate: Bounds::from(1e-6, 1e9, "Hz");
     /// Standard deviation of the rate of a clock.
-    RateSd Bounds::from(0.0, 1e5, "ppm");
+    pub struct RateSd: Bounds::from(0.0, 1e5, "ppm");
     /// Standard deviation of the drift of a bias, or of the scatter between holds.
-    HoldSd Bounds::from(0.0, 100.0, "m/s²");
+    pub struct HoldSd: Bounds::from(0.0, 100.0, "m/s²");
     /// The angle of a turn.
-    TurnAngle Bounds::from(-1e6, 1e6, "degrees");
+    pub struct TurnAngle: Bounds::from(-1e6, 1e6, "degrees");
     /// Standard uncertainty of it. It is above 0: no turn is exact, and nothing in the recording shows its error.
-    TurnSd Bounds::above(0.0, 360.0, "degrees");
+    pub struct TurnSd: Bounds::above(0.0, 360.0, "degrees");
     /// A value of any quantity.
-    Value Bounds::from(-1e12, 1e12, "");
+    pub struct Value: Bounds::from(-1e12, 1e12, "");
     /// Standard deviation of a prior. A smaller one leaves the other data no digits.
-    PriorSd Bounds::from(1e-12, 1e12, "");
+    pub struct PriorSd: Bounds::from(1e-12, 1e12, "");
     /// A limit of a standard deviation.
-    SdLimit Bounds::above(0.0, 1e12, "");
+    pub struct SdLimit: Bounds::above(0.0, 1e12, "");
     /// A weight of criterion c.
-    Weight Bounds::from(0.0, 1e30, "");
+    pub struct Weight: Bounds::from(0.0, 1e30, "");
     /// A temperature.
-    Celsius Bounds::from(*WORKING_C.start(), *WORKING_C.end(), "°C");
+    pub struct Celsius: Bounds::from(*WORKING_C.start(), *WORKING_C.end(), "°C");
     /// A component of a lever arm. A longer one is hardly in m.
-    Lever Bounds::from(-20.0, 20.0, "m");
+    pub struct Lever: Bounds::from(-20.0, 20.0, "m");
     /// Standard deviation of a lever arm.
-    LeverSd Bounds::from(0.0, 10.0, "m");
+    pub struct LeverSd: Bounds::from(0.0, 10.0, "m");
     /// A component of a rotation vector or of a quaternion.
-    RotationComponent Bounds::from(-360.0, 360.0, "degrees");
+    pub struct RotationComponent: Bounds::from(-360.0, 360.0, "degrees");
     /// A component of a quaternion.
-    QuaternionComponent Bounds::from(-1.0, 1.0, "");
+    pub struct QuaternionComponent: Bounds::from(-1.0, 1.0, "");
     /// Standard deviation of the mounting. One that is known less well is unknown.
-    MountingSd Bounds::from(0.0, 20.0, "degrees");
+    pub struct MountingSd: Bounds::from(0.0, 20.0, "degrees");
     /// A delay.
-    Delay Bounds::from(-1e6, 1e6, "s");
+    pub struct Delay: Bounds::from(-1e6, 1e6, "s");
     /// Standard deviation of a delay.
-    DelaySd Bounds::from(0.0, 10.0, "s");
+    pub struct DelaySd: Bounds::from(0.0, 10.0, "s");
     /// Standard deviation of a joint's translation. More is no geometry that is known.
-    JointTranslationSd Bounds::from(0.0, 0.1, "m");
+    pub struct JointTranslationSd: Bounds::from(0.0, 0.1, "m");
     /// Standard deviation of a joint's rotation.
-    JointRotationSd Bounds::from(0.0, 0.1, "rad (0.1 rad is 5.7°)");
+    pub struct JointRotationSd: Bounds::from(0.0, 0.1, "rad (0.1 rad is 5.7°)");
     /// Standard deviation of a joint's zero offset.
-    JointZeroSd Bounds::from(0.0, 0.1, "rad or m (0.1 rad is 5.7°)");
+    pub struct JointZeroSd: Bounds::from(0.0, 0.1, "rad or m (0.1 rad is 5.7°)");
     /// Noise of one sample of a log.
-    SampleOfLog Bounds::above(0.0, 1.0, "rad or m");
+    pub struct SampleOfLog: Bounds::above(0.0, 1.0, "rad or m");
     /// The distance of knots.
-    KnotStep Bounds::from(1e-4, 100.0, "s");
+    pub struct KnotStep: Bounds::from(1e-4, 100.0, "s");
     /// Duration of a simulated motion of a machine. In a shorter time it hardly comes home.
-    MachineDuration Bounds::from(10.0, 1e5, "s");
+    pub struct MachineDuration: Bounds::from(10.0, 1e5, "s");
     /// Acceleration of a joint.
-    JointAcceleration Bounds::above(0.0, 1e3, "rad/s² or m/s²");
+    pub struct JointAcceleration: Bounds::above(0.0, 1e3, "rad/s² or m/s²");
     /// Step of an encoder.
-    Resolution Bounds::from(0.0, 0.1, "rad or m");
+    pub struct Resolution: Bounds::from(0.0, 0.1, "rad or m");
     /// Noise by vibration over the noise at rest.
-    Vibration Bounds::from(0.0, 1e3, "");
+    pub struct Vibration: Bounds::from(0.0, 1e3, "");
 }

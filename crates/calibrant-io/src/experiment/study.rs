@@ -53,7 +53,7 @@ pub struct SurfaceSection {
 
 section_with_limits! {
     /// `[study.unknown]`: what is not there is as in `[motion]`; its limits replace all of `[limits]`.
-    UnknownSection {
+    pub struct UnknownSection {
         /// Number of simulated sensors.
         pub sensors: Option<Sensors>,
         /// Number of intervals.
@@ -69,7 +69,7 @@ section_with_limits! {
 
 section_with_limits! {
     /// `[study.noisy]`: its limits replace all of `[limits]`.
-    NoisySection {
+    pub struct NoisySection {
         /// Process noise; without it, that of `[motion]`.
         pub input_noise: Option<InputNoiseSection>,
     }

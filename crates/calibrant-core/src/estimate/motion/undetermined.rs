@@ -23,7 +23,11 @@ pub(super) fn explain(
     };
     let list = context.problem.sensor.parameter_list();
     let groups = with_biases(groups, &list, slots, context.command.gravity.as_ref());
-    explain_motion(&list, &groups, slots, facts)
+    let mut groups = explain_motion(&list, &groups, slots, facts);
+    for name in groups.iter_mut().flat_map(|group| &mut group.parameters) {
+        *name = format!("accelerometer.{name}");
+    }
+    groups
 }
 
 /// The part of the motion that the samples do not determine, in words.

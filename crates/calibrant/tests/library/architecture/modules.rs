@@ -119,6 +119,12 @@ impl Modules {
                     self.all[module].named.push(vec!["checks".to_owned()]);
                 }
                 word if starts_path(word) && !matches!(at(place.wrapping_sub(1)), "::" | "." | "fn") => {
+                    if depth == 0 && at(place + 1) == "!" && at(place + 2) == "{" {
+                        // types that are handed to a macro are the module's
+                        let body = &tokens[place..after_group(tokens, place + 2)];
+                        let types = body.windows(3).filter(|three| three[0] == "pub" && three[1] == "struct");
+                        self.all[module].items.extend(types.map(|three| three[2].clone()));
+                    }
                     let mut path = vec![word.to_owned()];
                     while at(place + 1) == "::" && starts_path(at(place + 2)) {
                         path.push(at(place + 2).to_owned());
