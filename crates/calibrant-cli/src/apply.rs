@@ -1,21 +1,15 @@
 //! `calibrant apply`: corrects a recording, and writes the standard uncertainty of the correction.
 
 use crate::calibration_file::{Content, in_words};
+use crate::console;
 use crate::diagnostics::{tell, tell_all};
-use crate::{Exit, console};
-use calibrant::Error;
-use calibrant::diagnostic::correction::{SensorAbsent, SensorUncalibrated, SpikesCorrected};
-use calibrant::diagnostic::samples::CalibrationExtrapolated;
+use crate::exit::Exit;
 use calibrant::diagnostic::settings::SettingUnused;
-use calibrant::error::{InputError, Refusal};
-use calibrant::io::{
-    ColumnMeaning, ImuFile, ImuReadOptions, ResultPlaces, check_not_corrected, file_name, imu_tk_files,
-    read_imu_pair, read_imu_recording, read_imu_sensor, write_corrected_recording,
-};
+use calibrant::io::{ResultPlaces, check_not_corrected, file_name, imu_tk_files, write_corrected_recording};
 use calibrant::report::number_format;
-use calibrant::sensor::{
-    CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, ReadingUnit, Recording, SensorKind,
-};
+use calibrant::sensor::{CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, SensorKind};
+use calibrant::session::{Readings, Source};
+use calibrant::{Applied, read_for_correction};
 use std::path::PathBuf;
 
 /// Correct a recording with a calibration. The result is specific force and angular rate, with their standard uncertainty.
@@ -68,35 +62,15 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     let imu = arguments.content.read(&arguments.calibration, arguments.file.raw_units())?.imu;
     let correction = ImuCorrection::of(&imu)?;
-    let mut recording = read_for(&imu, arguments)?;
+    let mut recording = read(&imu, arguments)?;
     match arguments.temperature {
-        Some(temperature_c) if correction.follows_temperature() => {
-            let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
-            recording.temperature_c = Some(vec![temperature_c; sensor.map_or(0, Recording::len)]);
-        }
+        Some(celsius) if correction.follows_temperature() => recording = recording.at_temperature(celsius),
         Some(_) => tell(SettingUnused::of(&["--temperature"], "the calibration has no temperature terms")),
         None => {}
     }
-    let (clean, spikes) = recording.without_spikes();
-    let corrected = correction
-        .apply_feeling(&imu, &recording, clean.accelerometer.as_ref())
-        .map_err(|error| error.in_recording(&arguments.recording))?;
-    for sensor_kind in SensorKind::ALL {
-        match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
-            (Some(_), None) => tell(SensorAbsent { sensor_kind }),
-            (None, Some(_)) => tell(SensorUncalibrated { sensor_kind }),
-            _ => {}
-        }
-    }
-    if let Some(range) =
-        recording.temperature_c.as_deref().and_then(range).filter(|_| correction.follows_temperature())
-    {
-        CalibrationExtrapolated::of(&imu.parameters.thermal, range).into_iter().for_each(tell);
-    }
-    for (sensor_kind, spikes) in spikes {
-        let count = spikes.samples.len() + spikes.cut.len();
-        tell(SpikesCorrected { sensor_kind, spikes: count, time_s: spikes.time_s });
-    }
+    let Applied { corrected, notes } =
+        calibrant::apply(&imu, &recording).map_err(|error| error.in_recording(&arguments.recording))?;
+    tell_all(&notes);
     write_corrected_recording(&arguments.output, &corrected, &file_name(&arguments.calibration))?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
     for (sensor_kind, found) in
@@ -110,63 +84,15 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// Smallest and largest of some values.
-fn range(values: &[f64]) -> Option<[f64; 2]> {
-    values.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
-}
-
-/// Reads the recording to which a calibration is applied.
-fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuRecording> {
-    let path = &arguments.recording;
-    let file = read(imu, arguments)?;
+/// Reads the recording, and prints the findings of its reader.
+fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuRecording> {
+    let options = arguments.file.with_columns(arguments.columns.as_deref())?;
+    let gyroscope = arguments.gyroscope.as_ref().map(Readings::file);
+    let source = Source { gyroscope, ..Source::from_file(&arguments.recording) };
+    let file = read_for_correction(imu, &source, &options)?;
     let second = arguments.gyroscope.as_ref().map(|path| path.display().to_string());
-    let found = file.findings_in(&path.display().to_string(), second.as_deref());
-    tell_all(&found);
-    for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
-        check_usable(&file, sensor_kind).map_err(|error| error.in_recording(path))?;
-    }
+    tell_all(&file.findings_in(&arguments.recording.display().to_string(), second.as_deref()));
     Ok(file.recording)
-}
-
-/// Reads the file. The user must give a unit that the file does not state. A calibration in counts needs no unit:
-/// it corrects counts.
-fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
-    let options = ImuReadOptions {
-        // a sensor without calibration is ignored, whatever its unit
-        counts_unless_stated: SensorKind::ALL
-            .map(|sensor_kind| imu.unit(sensor_kind).is_none_or(|unit| unit == ReadingUnit::Counts)),
-        ..arguments.file.with_columns(arguments.columns.as_deref())?
-    };
-    let path = &arguments.recording;
-    match (&arguments.gyroscope, alone(imu)) {
-        (Some(gyroscope), _) => read_imu_pair(path, gyroscope, &options),
-        (None, Some(sensor_kind)) => read_imu_sensor(path, sensor_kind, &options),
-        (None, None) => read_imu_recording(path, &options),
-    }
-}
-
-/// The sensor of a calibration of one sensor alone.
-fn alone(imu: &CalibratedImu) -> Option<SensorKind> {
-    match (imu.accelerometer_unit, imu.gyroscope_unit) {
-        (Some(_), None) => Some(SensorKind::Accelerometer),
-        (None, Some(_)) => Some(SensorKind::Gyroscope),
-        _ => None,
-    }
-}
-
-/// Returns an error for a sensor whose columns cannot be used. It would be missing from the result.
-fn check_usable(file: &ImuFile, sensor_kind: SensorKind) -> calibrant::Result<()> {
-    let is_of = |meaning| matches!(meaning, ColumnMeaning::Reading(of, _) if of == sensor_kind);
-    let unused = file.columns.iter().filter(|column| is_of(column.meaning));
-    let why = unused.filter_map(|column| column.unused.as_deref()).next();
-    match why.filter(|_| file.recording.sensor(sensor_kind).is_none()) {
-        Some(why) => Err(Error::Recording(Box::new(InputError::new(
-            Refusal::ColumnMissing,
-            format!("the {sensor_kind} has columns, but they cannot be used: {why}"),
-            format!("export it again, or remove the {sensor_kind}'s columns from the file"),
-        )))),
-        None => Ok(()),
-    }
 }
 
 /// Number of samples, mean magnitude and uncertainty of one sensor.

@@ -17,7 +17,7 @@ mod worst_first;
 
 pub(crate) use arguments::Arguments;
 
-use crate::Exit;
+use crate::exit::Exit;
 use calibrant::io::{Experiment, ResultPlaces};
 use job::Job;
 use std::path::PathBuf;

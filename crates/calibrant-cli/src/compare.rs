@@ -1,7 +1,8 @@
 //! `calibrant compare`: compares two calibrations, whatever their conventions.
 
 use crate::calibration_file::{Reading, in_words};
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::Comparison;

@@ -1,6 +1,7 @@
 //! `calibrant completions`: the script with which a shell completes commands, options and files.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use clap_complete::Shell;
 
 /// Print the completions for a shell.

@@ -1,8 +1,9 @@
 //! `calibrant convert`: writes a calibration in another format.
 
 use crate::calibration_file::{Format, Reading, in_words};
+use crate::console;
 use crate::diagnostics::tell;
-use crate::{Exit, console};
+use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::correction::{FormatLoses, GSensitivityOmitted, TemperatureFixed};

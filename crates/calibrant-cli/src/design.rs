@@ -16,11 +16,13 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, rest_remark};
+use crate::diagnostics::tell_in;
+use crate::exit::Exit;
+use calibrant::DesignPlan;
 use calibrant::design::DesignProblem;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{Plan, ResultPlaces};
-use job::{Job, in_file};
+
 use output::{check_dense, finish};
 
 impl crate::run::Run for Arguments {
@@ -53,7 +55,7 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let job = Job::prepare(arguments)?;
+    let job = job::prepare(arguments)?;
     if matches!(job.experiment.plan, Plan::Holds(_)) {
         return poses::run(arguments, &job);
     }
@@ -62,8 +64,8 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         let message = "this experiment has no poses to add to";
         return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
     }
-    let problem = job.problem(&arguments.experiment)?;
-    rest_remark::remark(problem.limits);
+    let problem = job.problem().map_err(|error| error.in_experiment(&arguments.experiment))?;
+    calibrant::rest_remark(problem.limits).iter().for_each(|found| tell_in(found, None));
     check_dense(arguments, &problem)?;
     match (&arguments.evaluate, &arguments.sweep) {
         (Some(path), _) => evaluate::run(arguments, &job, &problem, path),
@@ -73,7 +75,11 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
 }
 
-fn run_design(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> calibrant::Result<Exit> {
-    let design = job.design(problem).map_err(|error| in_file(error, &arguments.experiment))?;
+fn run_design(
+    arguments: &Arguments,
+    job: &DesignPlan,
+    problem: &DesignProblem<'_>,
+) -> calibrant::Result<Exit> {
+    let design = job::run(job, problem).map_err(|error| error.in_experiment(&arguments.experiment))?;
     finish(arguments, job, problem, &design, None)
 }

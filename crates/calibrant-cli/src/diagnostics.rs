@@ -1,6 +1,7 @@
 //! Which diagnostics are printed, and which set the exit status.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::diagnostic::{Code, Diagnostic, Severity, Usability, Verdict};
 use calibrant::io::nearest;
 use std::sync::OnceLock;

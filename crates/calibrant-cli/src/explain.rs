@@ -1,7 +1,8 @@
 //! `calibrant explain`: what a code means, how it is decided, and what to do.
 
+use crate::console;
 use crate::diagnostics::code_named;
-use crate::{Exit, console};
+use crate::exit::Exit;
 use calibrant::diagnostic::Code;
 use calibrant::error::Refusal;
 

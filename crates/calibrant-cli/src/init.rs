@@ -2,7 +2,8 @@
 
 mod next_steps;
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, PRESETS, ResultPlaces, nearest, preset, write_atomically};

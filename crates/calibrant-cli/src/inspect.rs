@@ -5,9 +5,10 @@ mod machine;
 mod reference_log;
 mod sampling;
 
+use crate::console;
 use crate::diagnostics::tell_all;
+use crate::exit::Exit;
 use crate::recording_options::RecordingOptions;
-use crate::{Exit, console};
 use calibrant::diagnostic::{Diagnostic, samples};
 use calibrant::io::{
     FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, file_name, inspect,

@@ -1,7 +1,7 @@
 //! What Ctrl-C and its like do: the first ends a search that keeps its best; every other ends the program.
 
-use crate::Exit;
 use crate::console;
+use crate::exit::Exit;
 use calibrant::design::Interruption;
 use calibrant::io::remove_unfinished;
 use std::sync::LazyLock;

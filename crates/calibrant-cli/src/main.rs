@@ -20,7 +20,6 @@ mod noise;
 mod recording_options;
 #[cfg(feature = "records")]
 mod records;
-mod rest_remark;
 mod run;
 mod simulate;
 #[cfg(feature = "study")]

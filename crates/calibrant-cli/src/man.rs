@@ -1,6 +1,7 @@
 //! `calibrant man`: the manual pages, one for each command.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::io::{ResultPlaces, write_atomically};
 use clap::Command;
 use clap_mangen::Man;

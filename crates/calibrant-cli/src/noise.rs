@@ -1,13 +1,13 @@
 //! `calibrant noise`: estimates the Allan deviation and the noise of a sensor at rest.
 
 mod arguments;
-mod holds;
-mod read;
 
 pub(crate) use arguments::Arguments;
 
+use crate::console;
 use crate::diagnostics::{tell, tell_all};
-use crate::{Exit, console};
+use crate::exit::Exit;
+use crate::recording_options::completed;
 use arguments::Gains;
 use calibrant::Error;
 use calibrant::diagnostic::Phrase;
@@ -16,9 +16,10 @@ use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_atomically, write_json,
 };
-use calibrant::noise::{Segment, SensorNoise};
 use calibrant::report::{About, noise_sheet, number_format};
-use calibrant::sensor::{Recording, SensorKind};
+use calibrant::sensor::SensorKind;
+use calibrant::session::{Readings, Source};
+use calibrant::{NoiseAtRest, NoiseOptions, read_for_noise};
 use nalgebra::Vector3;
 use std::path::Path;
 
@@ -42,63 +43,24 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let gains = gains(arguments)?;
-    let asked = arguments.sensor.map(SensorKind::from);
-    let file = read::read(arguments, asked.unwrap_or(SensorKind::Accelerometer), &gains)?;
-    let imu = &file.recording;
-    let in_file = |error: Error| error.in_recording(&arguments.recording);
-    let is_asked = |sensor_kind: &SensorKind| asked.is_none_or(|asked| asked == *sensor_kind);
-    let there: Vec<(SensorKind, &Recording)> = SensorKind::ALL
-        .into_iter()
-        .filter(is_asked)
-        .filter_map(|sensor_kind| Some((sensor_kind, imu.sensor(sensor_kind)?)))
-        .collect();
-    if there.is_empty() {
-        return Err(in_file(no_sensor(asked.unwrap_or(SensorKind::Accelerometer))));
-    }
-    let found = holds::holds(imu);
-    let (holds, interval) = match arguments.hold.as_deref() {
-        Some(&[start, end]) => (found.unwrap_or_default(), (start, end)),
-        _ => {
-            let holds = found.map_err(in_file)?;
-            let interval = holds::longest(&holds).map(|hold| (hold.start_s, hold.end_s)).map_err(in_file)?;
-            (holds, interval)
-        }
+    let options = NoiseOptions {
+        sensor: arguments.sensor.map(SensorKind::from),
+        hold_s: arguments.hold.as_deref().and_then(|hold| Some((*hold.first()?, *hold.last()?))),
+        gains: gains(arguments)?,
+        ..NoiseOptions::default()
     };
-    let of_sensor = |&(sensor_kind, recording): &(SensorKind, &Recording)| -> calibrant::Result<SensorNoise> {
-        let segment = Segment::between(recording, interval.0, interval.1)?;
-        let mut found = SensorNoise::of(sensor_kind, recording, segment)?;
-        if let Some((_, gain)) = gains.iter().find(|(of, _)| *of == sensor_kind) {
-            found = found.with_gain(recording, gain)?;
-        }
-        let moving = arguments.hold.as_ref().and_then(|_| holds::moves(&holds, &found.segment));
-        if let Some(moving) = moving {
-            found.caveat = Some("the sensor moves in the given interval".into());
-            found.warnings.push(moving);
-        }
-        Ok(found)
-    };
-    let mut noise = Vec::new();
-    let mut failed = None;
-    for sensor in &there {
-        match of_sensor(sensor) {
-            Ok(found) => noise.push(found),
-            // the other sensor may still have its noise
-            Err(error) if there.len() > 1 && failed.is_none() => failed = Some((sensor.0, error)),
-            Err(error) => return Err(in_file(error)),
-        }
-    }
-    let first = &noise[0];
-    let examined = match arguments.hold {
-        Some(_) => None,
-        None => imu.sensor(first.sensor_kind).and_then(|it| holds::examined(&holds, &first.segment, it)),
-    };
-    let inputs = inputs(arguments, &file, first.sensor_kind);
+    let reading = arguments.reading.options_of(options.sensor.unwrap_or(SensorKind::Accelerometer))?;
+    let reading = completed(reading, arguments.columns.as_deref())?;
+    let gyroscope = arguments.gyroscope.as_ref().map(Readings::file);
+    let source = Source { gyroscope, ..Source::from_file(&arguments.recording) };
+    let file = read_for_noise(&source, &reading, &options)?;
+    let NoiseAtRest { sensors: noise, examined, failed } = calibrant::noise(&file.recording, &options)
+        .map_err(|error| error.in_recording(&arguments.recording))?;
+    let inputs = inputs(arguments, &file, noise[0].sensor_kind);
     let result = NoiseFile { noise: &noise, inputs: &inputs };
 
     let second = arguments.gyroscope.as_deref().map(file_name);
-    let found = file.findings_in(&file_name(&arguments.recording), second.as_deref());
-    tell_all(&found);
+    tell_all(&file.findings_in(&file_name(&arguments.recording), second.as_deref()));
     if let Some((sensor_kind, error)) = &failed {
         tell(NoiseImpossible { sensor_kind: *sensor_kind, why: Phrase(error.to_string()) });
     }
@@ -165,15 +127,6 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     }
-}
-
-fn no_sensor(sensor_kind: SensorKind) -> Error {
-    let input_error = InputError::new(
-        Refusal::SensorMissing,
-        format!("the file has no {sensor_kind}"),
-        "choose the other with --sensor",
-    );
-    Error::Recording(Box::new(input_error))
 }
 
 /// The gains by sensor. `--gain` is that of `--sensor`, or of the accelerometer. `--gyroscope-gain` is the gyroscope's.

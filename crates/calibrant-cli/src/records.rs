@@ -9,7 +9,7 @@ mod remove;
 mod selection;
 mod show;
 
-use crate::Exit;
+use crate::exit::Exit;
 use calibrant::io::ResultPlaces;
 
 /// Ask records of calibrations: the history of a sensor, its aging per year, the distribution of all sensors.

@@ -1,17 +1,14 @@
 //! `calibrant study`: simulates many sensors, and compares estimates with the truth.
 
-mod plan;
 mod table;
 
-use crate::{Exit, budget, console};
-use calibrant::Error;
-use calibrant::error::{InputError, Refusal};
-use calibrant::io::{
-    Experiment, Plan, ResultPlaces, StudyFile, preset, to_json, write_atomically, write_json,
-};
+use crate::budget::budget;
+use crate::exit::Exit;
+use crate::{console, interruption};
+use calibrant::io::{Experiment, ResultPlaces, StudyFile, preset, to_json, write_atomically, write_json};
 use calibrant::report::{About, study_report};
-use calibrant::study::run_studies;
-use plan::{Choice, Material};
+use calibrant::session::MotionSource;
+use calibrant::{StudyChoice, StudyPlan};
 use std::path::PathBuf;
 
 /// The experiment without a file: the thesis's chapters 3 and 4.
@@ -66,37 +63,17 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => Experiment::read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
     };
-    let Plan::Motion(plan) = &experiment.plan else {
-        return Err(Error::Experiment(Box::new(InputError::new(
-            Refusal::ExperimentUnsuited,
-            format!("a study needs a [motion] experiment, this one has {}", experiment.plan.section()),
-            "see `calibrant init report-unknown`; a static recording can be made with `calibrant simulate`",
-        ))));
-    };
-    let sensor = &experiment.sensor;
-    if sensor.gain.is_none() {
-        return Err(Error::Experiment(Box::new(
-            InputError::new(
-                Refusal::KeyMissing,
-                "a study needs `gain_counts_per_mps2`",
-                "add it to the experiment file",
-            )
-            .about_key("sensor.gain_counts_per_mps2"),
-        )));
-    }
-    let choice = Choice {
-        motion: arguments.motion.as_deref(),
+    let choice = StudyChoice {
+        motion: arguments.motion.clone().map(MotionSource::File),
         sensors: arguments.sensors.map(|sensors| sensors as usize),
-        seed: arguments.seed.unwrap_or(experiment.study.seed),
+        seed: arguments.seed,
         starts: arguments.starts.map(|starts| starts as usize),
+        budget: budget(),
+        interruption: interruption::keeping_the_best(),
     };
-    let material = Material::new(&experiment, plan, &choice)?;
-    let problem = material.problem();
-    let settings = plan::settings(&experiment, &choice);
-    let what = format!("this study of {} sensors", problem.steps());
-    budget::check(problem.work(&settings), &what, "take fewer sensors, starts, intervals or samples")?;
-    let bar = console::progress(problem.steps(), "sensors");
-    let outcome = run_studies(&problem, &settings, &|done| bar.inc(done));
+    let plan = StudyPlan::new(&experiment, &choice)?;
+    let bar = console::progress(plan.steps(), "sensors");
+    let outcome = plan.run(&|done| bar.inc(done));
     bar.finish_and_clear();
     let studies = outcome?;
     studies.remarks.iter().for_each(|remark| console::note(remark));

@@ -292,6 +292,20 @@ impl Error {
         Self::Recording(Box::new(input_error))
     }
 
+    /// The same error; one about limits, or about a key of an experiment, names this file, where it names none.
+    #[must_use]
+    pub fn in_experiment(self, file: &Path) -> Self {
+        match self {
+            Self::Experiment(input_error) if input_error.key.is_some() && input_error.file.is_none() => {
+                Self::experiment(input_error.in_file(file))
+            }
+            Self::Infeasible(input_error) if input_error.file.is_none() => {
+                Self::infeasible(input_error.in_file(file))
+            }
+            other => other,
+        }
+    }
+
     /// The same error; one about a recording names this file, where it names none.
     #[must_use]
     pub fn in_recording(self, file: &Path) -> Self {

@@ -34,33 +34,57 @@
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
-//! | from a recording's file to the calibration and its report | [`session::Session`], [`session::Outcome`] |
+//! | from a recording, in a file or in memory, to the calibration and its report | [`Session`], [`Outcome`] |
+//! | a sensor on a machine: the chain of its joints, the log of the motion, the result | [`machine::chain::KinematicChain`], [`machine::log::ReferenceLog`], [`machine::estimate::MachineCalibration`] |
 //! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
 //! | many calibrations over the years | [`records::Record`], [`records::Aging`], [`records::Distribution`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
-//! # From files
-//! A sensor that a robot moved, and the commanded motion, as on the command line:
+//! # Five programs
+//! A CSV. The experiment says what is known of the sensor and of what was done with it; it is the text of a file, or one of the [presets](io::PRESETS):
 //! ```
-//! use calibrant::io::Experiment;
-//! use calibrant::session::{Session, SessionOptions, Source};
+//! use calibrant::io::{Experiment, write_recording, preset};
+//! use calibrant::{Session, Source};
 //!
-//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/04_many_sensors");
-//! let text = std::fs::read_to_string(format!("{folder}/experiment.toml")).expect("it is there");
-//! let experiment = Experiment::parse(&text, None)?;
-//! let options = SessionOptions { motion: Some(format!("{folder}/motion.csv").into()), ..SessionOptions::default() };
-//! let outcome = Session::with(experiment.clone(), options)?.calibrate(&Source::from_file(format!("{folder}/sensor-17.csv")))?;
-//!
-//! let calibration = outcome.calibration().expect("of a motion");
+//! # let folder = tempfile::tempdir().expect("a folder");
+//! # let (path, results) = (folder.path().join("recording.csv"), folder.path());
+//! let experiment = Experiment::parse(preset("static-poses").expect("built in"), None)?;
+//! # let simulated = calibrant::simulate(&experiment, &calibrant::SimulationOptions::default())?;
+//! # write_recording(&path, simulated.recording.accelerometer.as_ref().expect("there"))?;
+//! let outcome = Session::new(experiment)?.calibrate(&Source::from_file(&path))?;
+//! let calibration = outcome.calibration().expect("not on a machine");
 //! for (parameter, (value, sd)) in calibration.parameters.iter().zip(calibration.values.iter().zip(calibration.sd().iter())) {
 //!     println!("{} {value} ± {sd} {}", parameter.name, parameter.unit);
 //! }
 //! println!("{}", outcome.verdict());
+//! outcome.write(results)?; // calibration.json and report.html
+//! # assert!(results.join("report.html").exists());
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 //!
-//! # A design
-//! The best ten seconds on a linear stage, and how far from the best possible they are:
+//! Arrays: columns named as those of a CSV. The same units, findings and questions follow from them:
+//! ```
+//! use calibrant::io::{Experiment, preset};
+//! use calibrant::{Session, Source};
+//!
+//! let experiment = Experiment::parse(preset("imu").expect("built in"), None)?;
+//! # let recording = calibrant::simulate(&experiment, &calibrant::SimulationOptions::default())?.recording;
+//! # let (force, rate) = (recording.accelerometer.expect("there"), recording.gyroscope.expect("there"));
+//! # let t = force.times_s().to_vec();
+//! # let column = |of: &calibrant::sensor::Recording, axis: usize| -> Vec<f64> { of.readings().iter().map(|y| y[axis]).collect() };
+//! # let [fx, fy, fz] = [0, 1, 2].map(|axis| column(&force, axis));
+//! # let [wx, wy, wz] = [0, 1, 2].map(|axis| column(&rate, axis));
+//! let table: [(&str, &[f64]); 7] = [
+//!     ("t_s", &t), ("ax_mps2", &fx), ("ay_mps2", &fy), ("az_mps2", &fz), ("gx_radps", &wx), ("gy_radps", &wy), ("gz_radps", &wz),
+//! ];
+//! let outcome = Session::new(experiment)?.calibrate(&Source::from_columns("bench", &table))?;
+//! let imu = outcome.calibration().expect("not on a machine").calibrated();
+//! println!("{} {}", imu.parameters.gyroscope.matrix, outcome.verdict());
+//! # assert_eq!(imu.covariance.map(|of| of.nrows()), Some(imu.quantities.len()));
+//! # Ok::<(), calibrant::Error>(())
+//! ```
+//!
+//! A motion: the best ten seconds on a linear stage, and how far from the best possible they are:
 //! ```
 //! use calibrant::design::{DesignProblem, DesignSettings, design};
 //! use calibrant::motion::{Limits, Rest};
@@ -78,45 +102,75 @@
 //! };
 //! let best = design(&DesignProblem::new(&sensor, &limits, 10.0)?, &DesignSettings::default(), &|_| {})?;
 //! println!("{}", best.statement());
-//! assert!(best.optimal.sd()[1] < 1e-4, "the scale factor to 100 ppm");
+//! # assert!(best.optimal.sd()[1] < 1e-4, "the scale factor to 100 ppm");
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 //!
-//! # Without files
-//! Simulate a sensor of the report on a random motion and calibrate it:
+//! A machine, with arrays: times and readings of the sensor, times and positions of the joints:
 //! ```
-//! use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-//! use calibrant::motion::{CommandedMotion, KnownEnds, Limits, Trust};
-//! use calibrant::sensor::Sensor;
-//! use calibrant::simulate::{Purpose, draw_sensor, initial_motion, sample_times, simulate_recording, stream};
+//! use calibrant::io::{Experiment, preset};
+//! use calibrant::machine::log::{JointLog, ReferenceLog};
+//! use calibrant::session::MotionSource;
+//! use calibrant::{Session, SessionOptions, Source};
 //!
-//! let sensor = Sensor::memsic_mxd2020u();
-//! let motion = initial_motion(10, 1.0, 3, &Limits::default(), &mut stream(1, Purpose::Motion, 0))?;
-//! let mut rng = stream(1, Purpose::Sensor, 0);
-//! let truth = draw_sensor(&sensor, &mut rng);
-//! let noise = sensor.noise_mps2.unwrap();
-//! let times = sample_times(&motion, 10.0);
-//! let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &motion, &times, &mut rng);
+//! let experiment = Experiment::parse(preset("gantry").expect("built in"), None)?;
+//! # let mut short = experiment.clone();
+//! # if let calibrant::io::Plan::Machine(plan) = &mut short.plan { plan.simulation.duration_s = 10.0; }
+//! # let simulated = calibrant::simulate(&short, &calibrant::SimulationOptions::default())?;
+//! # let Some((ReferenceLog::Joints(JointLog { times_s, positions, .. }), _)) = simulated.log else { unreachable!() };
+//! # let recording = simulated.recording;
+//! // positions: x, y, z of the first time, then of the second, …
+//! let names = ["x", "y", "z"].map(str::to_owned).to_vec();
+//! let log = ReferenceLog::Joints(JointLog { names, times_s, positions, velocities: None });
+//! let options = SessionOptions { motion: Some(MotionSource::Logged(log)), ..SessionOptions::default() };
+//! let outcome = Session::with(experiment, options)?.calibrate(&Source::from_recording("gantry", recording))?;
+//! println!("{}", outcome.sheet().text(80));
+//! # assert!(outcome.calibration().is_none(), "it is a calibration on a machine");
+//! # Ok::<(), calibrant::Error>(())
+//! ```
 //!
-//! let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
-//! let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
-//! let calibration = calibrate(&problem, &CalibrationSettings::default())?;
-//! let error = calibration.values[0] - truth.bias.x;
-//! assert!(error.abs() < 4.0 * calibration.sd()[0], "the bias is within four standard deviations");
+//! A calibration that is there, applied to arrays:
+//! ```
+//! use calibrant::nalgebra::Vector3;
+//! use calibrant::sensor::{ImuCorrection, ImuRecording, ReadingUnit, Recording};
+//!
+//! # let mut parameters = calibrant::sensor::ImuParameters::identity();
+//! # parameters.accelerometer.bias.x = 0.1;
+//! # let imu = calibrant::sensor::CalibratedImu {
+//! #     parameters, accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared), gyroscope_unit: None, quantities: vec![],
+//! #     covariance: None, degrees_of_freedom: None, frame: String::new(),
+//! # };
+//! # let (t, y) = (vec![0.0, 0.01], vec![Vector3::new(0.3, 0.0, 9.8); 2]);
+//! // imu: io::read_calibrated_imu reads it from a file of any program
+//! let recording = ImuRecording::from(Recording::new(t, y, 3, ReadingUnit::MetrePerSecondSquared)?);
+//! let corrected = ImuCorrection::of(&imu)?.apply(&recording)?.accelerometer.expect("there");
+//! println!("{:?} {:?}", corrected.values, corrected.sd);
+//! # assert!((corrected.values[0].x - 0.2).abs() < 1e-12);
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 //!
 //! # The modules
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
-//! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; what a user should know of a result is a [`diagnostic`]; [`acceptance`] compares it with limits; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
-//! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all of these, and none uses them.
-//! [`session`] stands above all: it reads a recording, calibrates, validates and writes.
+//! its result into covariance and into words about what is undetermined; [`noise`](mod@noise) examines a sensor at rest; [`estimate`] calibrates; [`machine`] does
+//! so for a sensor on a machine, whose joints or poses are logged; what a user should know of a result is a [`diagnostic`]; [`acceptance`] compares it with
+//! limits; [`design`] finds the motion; [`simulate`](mod@simulate) makes sensors and recordings; [`study`] compares truth and estimate over many.
+//! [`io`] and [`report`] may use all of these, and none uses them. [`session`] stands above all: it reads a recording, calibrates, validates and writes.
+//!
+//! What a command does beside that is a function: [`simulate()`], [`noise()`], [`apply`], [`DesignPlan`], [`StudyPlan`]. [`interruption`] and [`progress`]
+//! reach every task that takes long.
 
+mod correction;
+mod design_plan;
+mod noise_at_rest;
+mod rest_remark;
 pub mod session;
+mod simulation;
+#[cfg(feature = "study")]
+mod study_plan;
 
 pub use calibrant_core::{
-    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, motion, noise,
-    sensor, simulate,
+    Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, interruption,
+    motion, noise, progress, sensor, simulate,
 };
 pub use calibrant_design as design;
 pub use calibrant_io as io;
@@ -126,5 +180,13 @@ pub use calibrant_records as records;
 pub use calibrant_report as report;
 #[cfg(feature = "study")]
 pub use calibrant_study as study;
+pub use correction::{Applied, apply, read_for_correction};
+pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};
 /// The linear algebra in the signatures: vectors and matrices.
 pub use nalgebra;
+pub use noise_at_rest::{NoiseAtRest, NoiseOptions, noise, read_for_noise};
+pub use rest_remark::remark as rest_remark;
+pub use session::{Outcome, Readings, Session, SessionOptions, Source};
+pub use simulation::{Simulation, SimulationOptions, commanded_motion, simulate};
+#[cfg(feature = "study")]
+pub use study_plan::{StudyChoice, StudyPlan};

@@ -2,8 +2,9 @@
 
 use super::job::Job;
 use super::sources::hashed_readings;
+use crate::console;
 use crate::diagnostics::{rules, tell_all};
-use crate::{Exit, console};
+use crate::exit::Exit;
 use calibrant::session::{Outcome, Source};
 
 /// Calibrates from the recording and shows the result.

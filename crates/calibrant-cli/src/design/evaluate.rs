@@ -1,11 +1,13 @@
 //! `calibrant design --evaluate`: compares a user's motion with the best one.
 
 use super::Arguments;
-use super::job::{Job, in_file};
+use super::job::{self, about};
 use super::output::undetermined;
 use super::output::{exit_of, write};
+use crate::console;
 use crate::diagnostics::tell;
-use crate::{Exit, console};
+use crate::exit::Exit;
+use calibrant::DesignPlan;
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::MotionNotCompared;
@@ -16,20 +18,20 @@ use std::path::Path;
 
 pub(super) fn run(
     arguments: &Arguments,
-    job: &Job,
+    job: &DesignPlan,
     problem: &DesignProblem<'_>,
     path: &Path,
 ) -> calibrant::Result<Exit> {
     let motion = read_motion(path, problem.sensor.axes)?;
     // errors of the motion itself come before the search
     calibrant::design::evaluate(problem, &motion)?;
-    let optimum = match job.design(problem) {
+    let optimum = match job::run(job, problem) {
         Ok(design) => {
             write(arguments, job, problem, &design, None)?;
             Ok(design)
         }
         Err(error) if error.is_infeasible() || error.is_not_identifiable() => Err(error.to_string()),
-        Err(error) => return Err(in_file(error, &arguments.experiment)),
+        Err(error) => return Err(error.in_experiment(&arguments.experiment)),
     };
     let assessment = assess(problem, &motion, optimum)?;
     let setting = DesignSetting { problem, settings: &job.settings };
@@ -37,7 +39,7 @@ pub(super) fn run(
     write_json(&arguments.output.join("evaluation.json"), &file)?;
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let html =
-        evaluation_report(&assessment, &job.about(arguments, problem, format!("Assessment of {name}")));
+        evaluation_report(&assessment, &about(job, arguments, problem, format!("Assessment of {name}")));
     let page = arguments.output.join("evaluation.html");
     write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
     if arguments.json {

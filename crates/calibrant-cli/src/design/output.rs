@@ -1,10 +1,12 @@
 //! The output files of a design, and the exit status.
 
 use super::arguments::Arguments;
-use super::job::Job;
+use super::job::about;
 use super::table;
 use crate::diagnostics::tell;
-use crate::{Exit, budget, console, interruption};
+use crate::exit::Exit;
+use crate::{budget, console, interruption};
+use calibrant::DesignPlan;
 use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
 use calibrant::diagnostic::Phrase;
@@ -21,7 +23,7 @@ use calibrant::report::design_report;
 /// Writes and shows a design, with the goals that it reaches and a sentence on them.
 pub(super) fn finish(
     arguments: &Arguments,
-    job: &Job,
+    job: &DesignPlan,
     problem: &DesignProblem<'_>,
     design: &Design,
     reached: Option<(&Reached, &str)>,
@@ -45,7 +47,7 @@ pub(super) fn finish(
 }
 
 fn file<'a>(
-    job: &'a Job,
+    job: &'a DesignPlan,
     problem: &'a DesignProblem<'_>,
     design: &'a Design,
     reached: Option<(&'a Reached, &str)>,
@@ -57,7 +59,7 @@ fn file<'a>(
 /// Writes all results of a design.
 pub(super) fn write(
     arguments: &Arguments,
-    job: &Job,
+    job: &DesignPlan,
     problem: &DesignProblem<'_>,
     design: &Design,
     reached: Option<(&Reached, &str)>,
@@ -69,7 +71,7 @@ pub(super) fn write(
     }
     write_json(&output.join("design.json"), &file(job, problem, design, reached))?;
     write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
-    let mut about = job.about(arguments, problem, "Design of a motion".into());
+    let mut about = about(job, arguments, problem, "Design of a motion".into());
     about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));
     let html = design_report(design, &about);
     write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))

@@ -1,27 +1,25 @@
 //! `calibrant design` of a `[holds]` experiment: the best poses.
 
-use super::job::{Job, in_file};
 use super::pose_output::{about, write_page};
 use super::reach_request::{asked, goals};
 use super::{Arguments, pose_evaluation, pose_table};
+use crate::console;
 use crate::diagnostics::tell;
-use crate::{Exit, console};
-use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, design_poses, fewest_poses};
+use crate::exit::Exit;
+use calibrant::DesignPlan;
+use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, fewest_poses};
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses};
 use calibrant::report::{pose_in_words, pose_report};
 
-pub(super) fn run(arguments: &Arguments, job: &Job) -> calibrant::Result<Exit> {
+pub(super) fn run(arguments: &Arguments, job: &DesignPlan) -> calibrant::Result<Exit> {
     refuse_options_of_a_motion(arguments)?;
     if let Some(recording) = &arguments.evaluate {
         return pose_evaluation::run(arguments, job, recording);
     }
     let poses = arguments.add.map(|count| count as usize);
-    let problem = job
-        .experiment
-        .pose_problem(&job.earlier, poses)
-        .map_err(|error| in_file(error, &arguments.experiment))?;
+    let problem = job.pose_problem(poses).map_err(|error| error.in_experiment(&arguments.experiment))?;
     design(arguments, job, &problem)
 }
 
@@ -43,7 +41,7 @@ fn refuse_options_of_a_motion(arguments: &Arguments) -> calibrant::Result<()> {
     }
 }
 
-fn design(arguments: &Arguments, job: &Job, problem: &PoseProblem) -> calibrant::Result<Exit> {
+fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> calibrant::Result<Exit> {
     let unit = job.experiment.sensor.unit;
     let (design, reached) = search(arguments, job, problem)?;
     let words: Vec<String> = design.directions.iter().map(pose_in_words).collect();
@@ -76,13 +74,13 @@ fn design(arguments: &Arguments, job: &Job, problem: &PoseProblem) -> calibrant:
 /// The design, and the goals that it reaches, where there are goals.
 fn search(
     arguments: &Arguments,
-    job: &Job,
+    job: &DesignPlan,
     problem: &PoseProblem,
 ) -> calibrant::Result<(PoseDesign, Option<Reached>)> {
     let settings = &job.settings;
     if arguments.reach.is_empty() {
         let bar = console::progress(settings.starts as u64, "starts");
-        let found = design_poses(problem, settings, &|done| bar.inc(done));
+        let found = job.design_poses(problem, &|done| bar.inc(done));
         bar.finish_and_clear();
         return Ok((found?, None));
     }

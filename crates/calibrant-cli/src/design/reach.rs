@@ -1,21 +1,26 @@
 //! `calibrant design --reach` of a motion: the shortest one that is good enough.
 
 use super::Arguments;
-use super::job::{Job, in_file};
 use super::output::finish;
 use super::reach_request::{asked, goals};
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
+use calibrant::DesignPlan;
 use calibrant::design::{DesignProblem, shortest_motion};
 use calibrant::io::Reached;
 use calibrant::report::number_format::{counted, short};
 
-pub(super) fn run(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> calibrant::Result<Exit> {
+pub(super) fn run(
+    arguments: &Arguments,
+    job: &DesignPlan,
+    problem: &DesignProblem<'_>,
+) -> calibrant::Result<Exit> {
     job.check_work(problem)?;
     let goals = goals(&arguments.reach, &problem.sensor.parameter_list(), problem.sensor.unit, &problem.at)?;
     let bar = console::spinner("starts");
     let found = shortest_motion(problem, &goals, &job.settings, &|done| bar.inc(done));
     bar.finish_and_clear();
-    let found = found.map_err(|error| in_file(error, &arguments.experiment))?;
+    let found = found.map_err(|error| error.in_experiment(&arguments.experiment))?;
     let intervals = |count: usize| {
         format!("{} ({} s)", counted(count, "interval"), short(count as f64 * problem.interval_s))
     };

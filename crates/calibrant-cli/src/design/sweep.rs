@@ -1,10 +1,12 @@
 //! `calibrant design --sweep`: designs the best motion for several values of one quantity.
 
 use super::Arguments;
-use super::job::{Job, in_file};
+use super::job::about;
 use super::sweep_request::Request;
 use crate::diagnostics::tell;
-use crate::{Exit, budget, console, interruption};
+use crate::exit::Exit;
+use crate::{budget, console, interruption};
+use calibrant::DesignPlan;
 use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep, sweep_work};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::{
@@ -16,12 +18,12 @@ use calibrant::report::sweep_report;
 
 pub(super) fn run(
     arguments: &Arguments,
-    job: &Job,
+    job: &DesignPlan,
     problem: &DesignProblem<'_>,
     request: &Request,
 ) -> calibrant::Result<Exit> {
     let work = sweep_work(problem, &job.settings, request.variable, &request.values)
-        .map_err(|error| in_file(error, &arguments.experiment))?;
+        .map_err(|error| error.in_experiment(&arguments.experiment))?;
     let what = counted(request.values.len(), "value") + " of the sweep";
     budget::check(work, &what, "sweep less far, or take fewer starts")?;
     let bar = console::progress(request.values.len() as u64, "values");
@@ -29,7 +31,7 @@ pub(super) fn run(
         bar.set_position(number as u64);
     });
     bar.finish_and_clear();
-    let swept = outcome.map_err(|error| in_file(error, &arguments.experiment))?;
+    let swept = outcome.map_err(|error| error.in_experiment(&arguments.experiment))?;
     if interruption::is_asked() {
         let (finished, all) = (swept.points.len(), request.values.len());
         tell(SweepInterrupted { finished, all });
@@ -42,7 +44,7 @@ pub(super) fn run(
     write_json(&arguments.output.join("sweep.json"), &file)?;
     write_sweep_csv(&arguments.output.join("sweep.csv"), &swept)?;
     let title = format!("Best motions over the {}", swept.variable.name());
-    let html = sweep_report(&swept, &job.about(arguments, problem, title));
+    let html = sweep_report(&swept, &about(job, arguments, problem, title));
     write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))?;
     say(&swept);
     if arguments.json {

@@ -1,7 +1,8 @@
 //! The joints of a machine.
 
+use crate::console;
 use crate::diagnostics::tell;
-use crate::{Exit, console};
+use crate::exit::Exit;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::files::MeshMissing;
 use calibrant::error::{Error, InputError, Refusal};

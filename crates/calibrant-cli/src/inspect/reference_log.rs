@@ -1,8 +1,9 @@
 //! What a log of a machine's motion contains.
 
 use super::sampling;
+use crate::console;
 use crate::diagnostics::tell;
-use crate::{Exit, console};
+use crate::exit::Exit;
 use calibrant::io::{
     ImuReadOptions, Jumps, PoseInspection, ReferenceInspection, ReferenceLogFile, ReferenceLogOptions, Seen,
     file_name, inspect_reference_log, is_reference_log, read_reference_log, reference_inspection_json,

@@ -1,6 +1,7 @@
 //! `calibrant records add`: calibrations that are there already become records.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::records::{Record, Records};
 use calibrant::report::number_format;
 use std::path::PathBuf;

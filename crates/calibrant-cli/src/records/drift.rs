@@ -1,6 +1,7 @@
 //! `calibrant records drift`: what changes from calibration to calibration, and per year.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::ComparedQuantity;

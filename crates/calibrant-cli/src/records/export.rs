@@ -1,7 +1,8 @@
 //! `calibrant records export`: the records as a table for other programs.
 
 use super::selection::Selection;
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::ResultPlaces;

@@ -1,6 +1,7 @@
 //! `calibrant records fleet`: how the parameters differ from sensor to sensor.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::io::to_json;
 use calibrant::records::{Fleet, FleetParameter, Records};
 use calibrant::report::number_format::{counted, rounded_to, short, signed, significant};

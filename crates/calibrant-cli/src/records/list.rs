@@ -1,7 +1,8 @@
 //! `calibrant records list`: the calibrations, a line for each.
 
 use super::selection::Selection;
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::io::to_json;
 use calibrant::records::{KeptRecord, Records};
 use std::path::PathBuf;

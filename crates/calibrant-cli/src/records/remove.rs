@@ -1,6 +1,7 @@
 //! `calibrant records remove`: calibrations that do not belong there.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::records::Records;
 use calibrant::report::number_format;
 use std::path::PathBuf;

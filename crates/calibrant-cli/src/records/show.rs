@@ -1,6 +1,7 @@
 //! `calibrant records show`: one calibration with its parameters.
 
-use crate::{Exit, console};
+use crate::console;
+use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::to_json;

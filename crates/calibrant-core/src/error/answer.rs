@@ -30,6 +30,7 @@ macro_rules! options {
 options! {
     Accept "accept" "A file with the limits that a result must keep.";
     AccelerometerUnit "accelerometer_unit" "Unit of the accelerometer's readings.";
+    Add "add" "Number of poses to add to those of earlier calibrations.";
     Columns "columns" "A file that says what the columns of a recording hold.";
     DropGSensitivity "drop_g_sensitivity" "Leave out the g-sensitivity on purpose.";
     Folds "folds" "The number of parts of the recording that validate it.";
@@ -37,12 +38,14 @@ options! {
     Format "format" "The format of a recording.";
     From "from" "An earlier calibration, or the format of a calibration.";
     Gain "gain" "The nominal gain of the readings.";
+    Gap "gap" "The gap to the bound at which a search ends.";
     Gauge "gauge" "The convention that fixes the true frame.";
     Gyroscope "gyroscope" "The file of the gyroscope.";
     GyroscopeUnit "gyroscope_unit" "Unit of the gyroscope's readings.";
     Hold "hold" "The interval in which the sensor is held still.";
     Motion "motion" "The commanded motion, or the log of the machine.";
     Noise "noise" "A file with noise densities.";
+    Poses "poses" "The directions of holds.";
     RateHz "rate_hz" "The sample rate in Hz.";
     Seconds "seconds" "How long a search may take.";
     Sensor "sensor" "Which sensor a file is of.";

@@ -55,7 +55,7 @@ mod tests {
         };
         let rates = |of: &ImuRecording| {
             let (clean, _) = of.without_spikes();
-            let found = correction.apply_feeling(&imu, of, clean.accelerometer.as_ref());
+            let found = correction.apply_feeling(of, clean.accelerometer.as_ref());
             found.expect("both there").gyroscope.expect("there").values
         };
         let clean = rates(&whole);

@@ -34,6 +34,13 @@ impl ImuRecording {
         }
     }
 
+    /// The recording at one temperature, °C, whatever temperature was recorded.
+    #[must_use]
+    pub fn at_temperature(self, celsius: f64) -> Self {
+        let first = self.accelerometer.as_ref().or(self.gyroscope.as_ref());
+        Self { temperature_c: Some(vec![celsius; first.map_or(0, Recording::len)]), ..self }
+    }
+
     /// The recording without spikes and invalid readings of either sensor ([`Recording::without_spikes`]),
     /// and those that were removed.
     #[must_use]

@@ -8,7 +8,8 @@
 use super::entry_vector::{self, ENTRIES, EntryMatrix};
 use super::{
     CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
-    ImuQuantity, ImuRecording, Recording, SensorKind, Temperatures, ThermalPart, interpolated, times,
+    ImuQuantity, ImuRecording, ReadingUnit, Recording, SensorKind, Temperatures, ThermalPart, interpolated,
+    times,
 };
 use crate::error::{Error, InputError, Refusal, Result, TaskOption};
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -45,6 +46,8 @@ pub struct ImuCorrection {
     pub gyroscope: Option<Correction>,
     /// `Γ`, in the unit of the gyroscope's readings per m/s².
     pub g_sensitivity: Matrix3<f64>,
+    /// Units of the readings of accelerometer and gyroscope.
+    units: [Option<ReadingUnit>; 2],
     imu: ImuParameters,
     temperature_c: f64,
     covariance: Option<Arc<EntryMatrix>>,
@@ -90,6 +93,7 @@ impl ImuCorrection {
             accelerometer,
             gyroscope,
             g_sensitivity,
+            units: SensorKind::ALL.map(|sensor_kind| imu.unit(sensor_kind)),
             imu: imu.parameters,
             temperature_c,
             covariance,
@@ -231,12 +235,8 @@ impl ImuCorrection {
     /// # Errors
     /// [`Error::Recording`] where the readings are in another unit than the calibration's. Also where the
     /// recording lacks the accelerometer or the temperature that the correction needs.
-    pub fn apply<'a>(
-        &self,
-        imu: &CalibratedImu,
-        recording: &'a ImuRecording,
-    ) -> Result<CorrectedRecording<'a>> {
-        self.apply_feeling(imu, recording, recording.accelerometer.as_ref())
+    pub fn apply<'a>(&self, recording: &'a ImuRecording) -> Result<CorrectedRecording<'a>> {
+        self.apply_feeling(recording, recording.accelerometer.as_ref())
     }
 
     /// The same with the accelerometer's readings `felt` without spikes ([`Recording::without_spikes`]).
@@ -245,12 +245,11 @@ impl ImuCorrection {
     /// As [`apply`](Self::apply).
     pub fn apply_feeling<'a>(
         &self,
-        imu: &CalibratedImu,
         recording: &'a ImuRecording,
         felt: Option<&Recording>,
     ) -> Result<CorrectedRecording<'a>> {
-        for sensor_kind in SensorKind::ALL {
-            if let (Some(unit), Some(readings)) = (imu.unit(sensor_kind), recording.sensor(sensor_kind))
+        for (sensor_kind, unit) in SensorKind::ALL.into_iter().zip(self.units) {
+            if let (Some(unit), Some(readings)) = (unit, recording.sensor(sensor_kind))
                 && unit != readings.unit
             {
                 return Err(Error::recording(InputError::new(

@@ -68,7 +68,7 @@ pub(crate) fn recording_before_and_after(
     let accelerometer = recording.accelerometer.as_ref()?;
     // the figure needs the values only, not their uncertainty
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
-    let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?;
+    let corrected = ImuCorrection::of(&imu).ok()?.apply(recording).ok()?;
     let forces = corrected.accelerometer?;
     let rates = || {
         rate_panels(

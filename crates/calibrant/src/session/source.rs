@@ -4,7 +4,7 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{
     ImuFile, ImuReadOptions, Section, file_name, imu_from_columns, imu_pair_of, read_imu_pair,
-    read_imu_recording, read_sections,
+    read_imu_recording, read_imu_sensor, read_sections,
 };
 use std::path::{Path, PathBuf};
 
@@ -151,6 +151,14 @@ impl Source {
                 read_imu_pair(self.recording.path(), gyroscope.path(), options)
             }
             Some(gyroscope) => Ok(imu_pair_of(self.recording.read(options)?, gyroscope.read(options)?)),
+        }
+    }
+
+    /// Reads a recording that holds this sensor, whose columns need not name it.
+    pub(crate) fn read_sensor(&self, sensor_kind: SensorKind, options: &ImuReadOptions) -> Result<ImuFile> {
+        match &self.gyroscope {
+            None if self.recording.is_file() => read_imu_sensor(self.path(), sensor_kind, options),
+            _ => self.read_imu(options),
         }
     }
 

@@ -167,7 +167,7 @@ fn the_correction_of_each_sample_is_that_at_its_temperature() {
         degrees_of_freedom: None,
         frame: String::new(),
     };
-    let corrected = ImuCorrection::of(&imu).and_then(|of| of.apply(&imu, &recording)).expect("regular");
+    let corrected = ImuCorrection::of(&imu).and_then(|of| of.apply(&recording)).expect("regular");
     let temperature = recording.temperature_c.as_ref().expect("simulated");
     for (sensor_kind, found) in [
         (SensorKind::Accelerometer, corrected.accelerometer.expect("there")),

@@ -88,14 +88,15 @@ fn the_force_is_interpolated_at_the_gyroscopes_times() {
         temperature_c: None,
     };
     let correction = ImuCorrection::of(&imu).expect("regular");
-    let found = correction.apply(&imu, &recording).expect("both there").gyroscope.expect("there");
+    let found = correction.apply(&recording).expect("both there").gyroscope.expect("there");
     assert_eq!(found.values.len(), 4);
     assert!(found.values.iter().all(|rate| (rate - Vector3::new(0.4, -1.2, 0.3)).amax() < 1e-10));
     assert_eq!(found.sd.expect("known").len(), 4);
     recording.accelerometer = None;
-    let error = correction.apply(&imu, &recording).expect_err("g-sensitivity").to_string();
+    let error = correction.apply(&recording).expect_err("g-sensitivity").to_string();
     assert!(error.contains("has no accelerometer"), "{error}");
     let of_si = CalibratedImu { gyroscope_unit: Some(ReadingUnit::RadianPerSecond), ..imu };
-    let error = correction.apply(&of_si, &recording).expect_err("another unit");
+    let of_si = ImuCorrection::of(&of_si).expect("regular");
+    let error = of_si.apply(&recording).expect_err("another unit");
     assert!(error.is_invalid_recording() && error.to_string().contains("in counts, the calibration is of"));
 }

@@ -65,7 +65,7 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
         gyroscope: Some(sensor_kind(&times_g, &readings_g, SI[1])),
         temperature_c: None,
     };
-    let corrected = ImuCorrection::of(&imu).expect("regular").apply(&imu, &recording).expect("both");
+    let corrected = ImuCorrection::of(&imu).expect("regular").apply(&recording).expect("both");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("corrected.csv");
     write_corrected_recording(&path, &corrected, "imu.json").expect("written");

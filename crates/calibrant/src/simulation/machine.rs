@@ -1,25 +1,20 @@
-//! `calibrant simulate` for a sensor on a machine.
+//! Simulates a sensor on a machine, and the log of its motion.
 
 use super::gains::gains;
 use super::machine_motion::{TrueMotion, motion};
 use super::random::Random;
-use super::{Arguments, imu, length};
-use calibrant::Error;
-use calibrant::error::{InputError, Refusal};
-use calibrant::io::{
-    Experiment, MachinePlan, MachineSource, TrueMachine, Truth, write_imu_recording, write_joint_log,
-    write_json, write_pose_log, write_recording,
+use super::{Simulation, SimulationOptions, imu, length};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::{
+    ImuParameters, ImuQuantity, ParameterList, ReadingUnit, SensorKind, SensorModel,
 };
-use calibrant::machine::chain::KinematicChain;
-use calibrant::machine::estimate::{MachineSetup, MountingPrior};
-use calibrant::machine::log::ReferenceLog;
-use calibrant::machine::simulate::{
+use calibrant_core::simulate::{GyroscopeToDraw, ImuSimulation, Rng, draw_imu};
+use calibrant_io::{Experiment, MachinePlan, MachineSource, TrueMachine, Truth};
+use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::estimate::{MachineSetup, MountingPrior};
+use calibrant_machine::simulate::{
     LogErrors, SensorErrors, SensorSampling, draw_machine, record_log, record_sensors,
 };
-use calibrant::sensor::{
-    ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, SensorKind, SensorModel,
-};
-use calibrant::simulate::{GyroscopeToDraw, ImuSimulation, Rng, draw_imu};
 use nalgebra::Vector3;
 
 /// Noise of a joint's encoder where none is given, rad or m.
@@ -27,12 +22,12 @@ const ENCODER_NOISE: f64 = 2e-5;
 /// Noise of a pose where none is given: position, m, and orientation, rad.
 const POSE_NOISE: [f64; 2] = [2e-4, 1e-3];
 
-pub(super) fn run(
-    arguments: &Arguments,
+pub(super) fn simulate(
     experiment: &Experiment,
     plan: &MachinePlan,
+    options: &SimulationOptions,
     random: Random,
-) -> calibrant::Result<usize> {
+) -> Result<Simulation> {
     let chain = plan.source.as_ref().map(MachineSource::chain).transpose()?;
     let joints = chain.as_ref().map_or(0, |chain| chain.joints.len());
     if chain.is_some() && joints == 0 {
@@ -47,23 +42,21 @@ pub(super) fn run(
         noise: log_noise(&setup, chain.as_ref())?,
         resolution: asked.resolution,
     };
-    let TrueMotion { motion, edge_s } = motion(arguments, plan, chain.as_ref(), &setup, random)?;
+    let (mut notes, mut remarks) = (Vec::new(), Vec::new());
+    let given = (options.motion.as_ref(), &mut notes, &mut remarks);
+    let TrueMotion { motion, edge_s } = motion(given, plan, chain.as_ref(), &setup, random)?;
     let knots = motion.knots();
     let duration_s = knots.end_s() - knots.start_s;
     let less = "lower duration_s, rate_hz or log_rate_hz in [machine.simulate], or give a shorter log";
-    length::check(duration_s, asked.rate_hz + asked.log_rate_hz, less)?;
+    length::check(duration_s, asked.rate_hz + asked.log_rate_hz, less, options.budget)?;
     let sampling = SensorSampling {
         start_s: knots.start_s + edge_s - setup.delay_s,
         samples: ((duration_s - 2.0 * edge_s) * asked.rate_hz).round() as usize + 1,
         rate_hz: asked.rate_hz,
     };
 
-    let of_experiment = Sensors {
-        experiment,
-        setup: &setup,
-        gains: gains(experiment, &arguments.experiment)?,
-        vibration: asked.vibration,
-    };
+    let of_experiment =
+        Sensors { experiment, setup: &setup, gains: gains(experiment)?, vibration: asked.vibration };
     let sensors = of_experiment.errors();
     let kinds: Vec<SensorKind> = sensors.iter().map(|of| of.sensor).collect();
     let mut rng = random.sensor();
@@ -73,29 +66,21 @@ pub(super) fn run(
     let recording = record_sensors(&motion, &machine.parameters, &setup, &sampling, &sensors, &mut rng)?;
     let log = record_log(&motion, &log_errors, &mut rng);
 
-    let output = &arguments.output;
+    let joints = chain.iter().flat_map(|chain| &chain.joints);
+    let log_units = joints.map(|joint| joint.kind.unit()).collect();
     let (quantities, units) = (of_experiment.quantities(), of_experiment.units());
     let truth = Truth::of_imu(random.seed, &quantities, units, &machine.parameters.imu)
         .on_machine(TrueMachine::new(&machine, chain.as_ref(), &sensors, &log_errors));
-    write_json(&output.join("truth.json"), &truth)?;
-    match (&log, &chain) {
-        (ReferenceLog::Joints(log), Some(chain)) => {
-            let units: Vec<&str> = chain.joints.iter().map(|joint| joint.kind.unit()).collect();
-            write_joint_log(&output.join("joints.csv"), log, &units)?;
-        }
-        (ReferenceLog::Poses(log), _) => write_pose_log(&output.join("poses.csv"), log)?,
-        (ReferenceLog::Joints(_), None) => {}
-    }
-    let file = output.join("recording.csv");
-    match &recording {
-        ImuRecording { accelerometer: Some(alone), gyroscope: None, .. } => write_recording(&file, alone)?,
-        both => write_imu_recording(&file, both)?,
-    }
-    Ok(sampling.samples)
+    Ok(Simulation {
+        log: Some((log, log_units)),
+        notes,
+        remarks,
+        ..Simulation::new(random.seed, recording, truth)
+    })
 }
 
 /// The noise of each component of the log: what the experiment states, or what is usual.
-fn log_noise(setup: &MachineSetup, chain: Option<&KinematicChain>) -> calibrant::Result<Vec<f64>> {
+fn log_noise(setup: &MachineSetup, chain: Option<&KinematicChain>) -> Result<Vec<f64>> {
     let usual = match chain {
         Some(chain) => vec![ENCODER_NOISE; chain.joints.len()],
         None => POSE_NOISE.map(|noise| [noise; 3]).concat(),
@@ -143,7 +128,7 @@ impl Sensors<'_> {
     }
 
     /// A sensor drawn from the datasheet. Where its mounting is unknown, its accelerometer fixes the frame.
-    fn drawn(&self, rng: &mut Rng) -> calibrant::Result<ImuParameters> {
+    fn drawn(&self, rng: &mut Rng) -> Result<ImuParameters> {
         let [_, gain] = self.gains;
         let gyroscope = self.experiment.imu.as_ref().map(|imu| &imu.gyroscope);
         let gyroscope = GyroscopeToDraw {

@@ -1,6 +1,6 @@
 //! The random streams of a simulation.
 
-use calibrant::simulate::{Purpose, Rng, stream};
+use calibrant_core::simulate::{Purpose, Rng, stream};
 
 /// The source of everything random.
 #[derive(Clone, Copy)]

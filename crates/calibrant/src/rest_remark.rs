@@ -1,14 +1,13 @@
 //! The remark on limits that count from rest, where the experiment does not say where the arm is at rest.
 
-use crate::diagnostics::tell;
-use calibrant::diagnostic::design::RestAssumed;
-use calibrant::motion::{Limits, Rest};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::design::RestAssumed;
+use calibrant_core::motion::{Limits, Rest};
 
 /// Says that the motion starts at rest, where limits imply it and `rest` is not set.
-pub(crate) fn remark(limits: &Limits) {
-    if let Some(limit) = counts_from_rest(limits) {
-        tell(RestAssumed { limit });
-    }
+#[must_use]
+pub fn remark(limits: &Limits) -> Option<Diagnostic> {
+    counts_from_rest(limits).map(|limit| RestAssumed { limit }.into())
 }
 
 /// The first limit that counts from rest, where `rest` is not set.

@@ -1,21 +1,18 @@
 //! The true motion of a simulated machine: a given one, or one at random.
 
-use super::Arguments;
 use super::random::Random;
-use crate::console;
-use crate::diagnostics::tell;
-use calibrant::Error;
-use calibrant::error::{InputError, Refusal};
-use calibrant::io::{MachinePlan, ReferenceLogOptions, file_name, read_reference_log};
-use calibrant::machine::chain::KinematicChain;
-use calibrant::machine::estimate::MachineSetup;
-use calibrant::machine::reference::Motion;
-use calibrant::machine::simulate::{
+use crate::session::MotionSource;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::number_format::significant;
+use calibrant_core::simulate::{Purpose, stream};
+use calibrant_io::{MachinePlan, ReferenceLogOptions, file_name};
+use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::estimate::MachineSetup;
+use calibrant_machine::reference::Motion;
+use calibrant_machine::simulate::{
     MotionOfLog, MotionToDraw, draw_body_motion, draw_joint_motion, motion_of_log,
 };
-use calibrant::report::number_format::significant;
-use calibrant::simulate::{Purpose, stream};
-use std::path::Path;
 
 /// Shortest recording, s.
 const SHORTEST_S: f64 = 1.0;
@@ -35,16 +32,16 @@ fn least_edge_s(setup: &MachineSetup) -> f64 {
     0.5 + 5.0 * setup.delay_sd_s.hypot(0.5 * setup.delay_difference_sd_s)
 }
 
-/// The motion that `--motion` gives, or a random one for this recording.
+/// The motion of the log that is given, or a random one for this recording.
 pub(super) fn motion(
-    arguments: &Arguments,
+    (log, notes, remarks): (Option<&MotionSource>, &mut Vec<Diagnostic>, &mut Vec<String>),
     plan: &MachinePlan,
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
     random: Random,
-) -> calibrant::Result<TrueMotion> {
-    if let Some(path) = &arguments.motion {
-        return given(path, plan, chain, setup);
+) -> Result<TrueMotion> {
+    if let Some(log) = log {
+        return given((log, notes, remarks), plan, chain, setup);
     }
     let recorded_s = plan.simulation.duration_s;
     // whole seconds, which most rates and distances of knots divide
@@ -65,14 +62,14 @@ pub(super) fn motion(
 }
 
 fn given(
-    path: &Path,
+    (source, notes, remarks): (&MotionSource, &mut Vec<Diagnostic>, &mut Vec<String>),
     plan: &MachinePlan,
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
-) -> calibrant::Result<TrueMotion> {
+) -> Result<TrueMotion> {
     let options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
-    let file = read_reference_log(path, &options)?;
-    file.findings.iter().for_each(|found| tell(found.clone().in_file(file_name(path))));
+    let (file, path) = (source.logged(&options)?, source.path());
+    notes.extend(file.findings.iter().map(|found| found.clone().in_file(file_name(path))));
     let log = file.of_machine(chain, path)?;
     let refused = |message: String, help: &str| {
         Error::recording(InputError::new(Refusal::MachineUnsolved, message, help).in_file(path))
@@ -90,7 +87,7 @@ fn given(
         );
         return Err(refused(message, "give a longer log, or a smaller delay_sd_s in [machine.clock]"));
     }
-    console::note(&format!(
+    remarks.push(format!(
         "the motion is a spline through {}, with knots every {} s; the log scatters about it by at most {} rad or m",
         file_name(path),
         significant(knots.step_s, 2),

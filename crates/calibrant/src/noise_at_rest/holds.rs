@@ -1,13 +1,12 @@
 //! The part of a recording at rest: its longest hold, or a given interval that is checked for movement.
 
-use calibrant::Error;
-use calibrant::diagnostic::Diagnostic;
-use calibrant::diagnostic::noise::NoiseHoldMoves;
-use calibrant::error::{InputError, Refusal};
-use calibrant::estimate::{find_holds, find_imu_holds};
-use calibrant::motion::Hold;
-use calibrant::noise::Segment;
-use calibrant::sensor::{ImuRecording, Recording};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::noise::NoiseHoldMoves;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::{find_holds, find_imu_holds};
+use calibrant_core::motion::Hold;
+use calibrant_core::noise::Segment;
+use calibrant_core::sensor::{ImuRecording, Recording};
 
 /// Shortest hold of the search, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
@@ -20,7 +19,7 @@ const MOST: f64 = 0.9;
 /// rate.
 ///
 /// A spike is not a movement, and does not divide a hold.
-pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
+pub(super) fn holds(imu: &ImuRecording) -> Result<Vec<Hold>> {
     let (clean, _) = imu.without_spikes();
     match (&clean.accelerometer, &clean.gyroscope) {
         (None, Some(gyroscope)) => find_holds(gyroscope, SHORTEST_HOLD_S),
@@ -29,12 +28,12 @@ pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
 }
 
 /// The longest hold.
-pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
+pub(super) fn longest(holds: &[Hold]) -> Result<&Hold> {
     Hold::longest(holds).map(|number| &holds[number]).ok_or_else(|| {
         Error::Recording(Box::new(InputError::new(
             Refusal::HoldsMissing,
             format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
-            "noise needs a sensor at rest; if it was at rest, give the interval with --hold START END",
+            "noise needs a sensor at rest; if it was at rest, give the interval with option `hold` START END",
         )))
     })
 }
@@ -49,7 +48,7 @@ pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording)
             n => format!("the longest of {n} holds"),
         };
         format!(
-            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}. Elsewhere the sensor moves, vibrates, or has no samples (--hold START END chooses another interval)"
+            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}. Elsewhere the sensor moves, vibrates, or has no samples (option `hold` START END chooses another interval)"
         )
     })
 }
