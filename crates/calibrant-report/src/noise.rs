@@ -132,7 +132,7 @@ fn coefficient(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw) -> [Cel
 }
 
 fn in_short(words: &[String]) -> Cell {
-    if words.is_empty() { Cell::Missing } else { Cell::Text(words.join("; ")) }
+    if words.is_empty() { Cell::Missing } else { Cell::Words(words.join("; ")) }
 }
 
 /// Why coefficients are not determined, each reason once.
