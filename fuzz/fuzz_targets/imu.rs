@@ -2,7 +2,7 @@
 //! and its times increase.
 #![no_main]
 
-use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, inspect, inspection_json, parse_imu_pair, parse_imu_recording};
+use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, inspect, InspectionFile, to_json, parse_imu_pair, parse_imu_recording};
 use calibrant::sensor::SensorKind;
 use libfuzzer_sys::fuzz_target;
 
@@ -20,7 +20,7 @@ fn check(outcome: calibrant::Result<ImuFile>) {
             if let Some(temperature) = &file.recording.temperature_c {
                 assert!(temperature.len() == sensors[0].len() && temperature.iter().all(|t| t.is_finite()));
             }
-            assert!(!inspection_json(&file, &inspect(&file)).is_empty());
+            assert!(!to_json(&InspectionFile { file: &file, inspection: &inspect(&file) }).is_empty());
         }
         Err(error) => assert!(error.is_invalid_recording() && !error.to_string().is_empty()),
     }

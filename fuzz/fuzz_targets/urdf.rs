@@ -1,7 +1,7 @@
 //! Fuzz target: a URDF file is refused with an error that points at it, or gives chains that move finitely.
 #![no_main]
 
-use calibrant::io::{Urdf, machine_json, missing_limits};
+use calibrant::io::{MachineFile, Urdf, missing_limits, to_json};
 use calibrant::machine::chain::{FrameMotion, JointState};
 use libfuzzer_sys::fuzz_target;
 use nalgebra::Vector3;
@@ -30,6 +30,6 @@ fuzz_target!(|bytes: &[u8]| {
         let numbers = [tip.specific_force, tip.rate, tip.angular_acceleration];
         assert!(numbers.iter().all(|vector| vector.iter().all(|number| number.is_finite())));
         assert!(chain.joints.iter().all(|joint| missing_limits(joint).len() < 5));
-        assert!(machine_json(&machine, &chain, &machine.missing_meshes(&[])).ends_with("}\n"));
+        assert!(to_json(&MachineFile { machine: &machine, chain: &chain, meshes: &machine.missing_meshes(&[]) }).ends_with("}\n"));
     }
 });

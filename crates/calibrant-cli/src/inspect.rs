@@ -11,8 +11,8 @@ use crate::exit::Exit;
 use crate::recording_options::RecordingOptions;
 use calibrant::diagnostic::{Diagnostic, samples};
 use calibrant::io::{
-    FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, file_name, inspect,
-    inspection_json, read_imu_pair, read_imu_recording,
+    FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, InspectionFile, SensorInspection, file_name,
+    inspect, read_imu_pair, read_imu_recording, to_json,
 };
 use calibrant::motion::Hold;
 use calibrant::report::number_format::{count, counted, short, significant};
@@ -84,7 +84,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     tell_all(found.iter().filter(|found| found.is_warning()));
     let inspection = inspect(&file);
     if arguments.json {
-        console::print_always(&inspection_json(&file, &inspection));
+        console::print_always(&to_json(&InspectionFile { file: &file, inspection: &inspection }));
     } else {
         console::print(&text(&file, &inspection, arguments));
     }

@@ -1,9 +1,9 @@
 //! Inspection of a recording before its calibration: what it contains and what to expect of it, as data and
 //! as JSON.
 
-use super::json;
-use super::recording::{ImuColumn, ImuFile};
-use super::sampling::{Sampling, SamplingFields};
+use super::heading::Heading;
+use super::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
+use super::sampling::Sampling;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::holds::HoldsLostToFilter;
 use calibrant_core::error::Result;
@@ -11,11 +11,14 @@ use calibrant_core::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
     find_clean_imu_holds, holds_lost_to_filter, swapped_sensors,
 };
+use calibrant_core::json::{flat, if_any, if_some};
+use calibrant_core::json_object;
 use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{
-    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, SensorKind, Spikes,
+    Gauge, ImuRecording, MeanReading, Quantity, ReadingUnit, Recording, Saturation, SensorKind, Spikes,
 };
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Gravity that is assumed, m/s²: the location changes a prediction by less than one per cent.
@@ -175,118 +178,165 @@ fn at_rest(recording: &Recording, holds: &[Hold]) -> Option<(Vector3<f64>, Vecto
     (samples > 0).then(|| (sum / samples as f64, MeanReading::pooled_sd(&stills)))
 }
 
-/// The text of `calibrant inspect --json`.
-#[must_use]
-pub fn inspection_json(file: &ImuFile, inspection: &Inspection) -> String {
-    json::to_json(&InspectionFile::of(file, inspection))
+/// A recording and its inspection, as `calibrant inspect --json` prints them.
+#[derive(Debug, Clone, Copy)]
+pub struct InspectionFile<'a> {
+    /// The recording.
+    pub file: &'a ImuFile,
+    /// What it contains.
+    pub inspection: &'a Inspection,
 }
 
-#[derive(Serialize)]
-struct InspectionFile<'a> {
-    schema: u32,
-    format: &'static str,
-    /// The hash of each file, with spaces between.
-    sha256: String,
-    rows: usize,
-    /// The gyroscope's file of a pair.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_file: Option<SecondFields>,
-    columns: Vec<ColumnFields<'a>>,
-    findings: Vec<String>,
-    sensors: Vec<SensorFields>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[serde(rename = "sparks")]
-    spikes: Vec<SpikesFields>,
-    temperature_c: Option<[f64; 2]>,
-    holds: Option<HoldsFields<'a>>,
-    no_holds_because: Option<&'a str>,
+json_object! {
+    /// What a recording contains, and what to expect of its calibration.
+    InspectionFile<'_> as of {
+        heading: flat(Heading::of("recording")),
+        format: of.file.format.name(),
+        /// The hash of each file, with spaces between.
+        sha256: of.file.sha256.join(" "),
+        rows: of.file.rows,
+        /// The gyroscope's file of a pair. Its columns come last.
+        second_file: if_some(of.file.second.as_ref()),
+        columns: &of.file.columns,
+        /// What the reader noticed.
+        findings: of.file.all_findings().map(ToString::to_string).collect::<Vec<_>>(),
+        sensors: &of.inspection.sensors,
+        /// Samples that were removed.
+        spikes: if_any(of.inspection.spikes.iter().map(|(sensor_kind, spikes)| SpikesOf { sensor_kind: *sensor_kind, spikes }).collect::<Vec<_>>()),
+        /// Least and greatest temperature.
+        temperature_c: of.file.recording.temperature_c.as_deref().map(range),
+        holds: of.holds().and_then(|holds| holds.as_ref().ok()),
+        no_holds_because: of.holds().and_then(|holds| holds.as_ref().err()),
+    }
 }
 
-#[derive(Serialize)]
-struct ColumnFields<'a> {
-    name: &'a str,
-    meaning: String,
-    unit: Option<&'static str>,
-    used: bool,
-    not_used_because: Option<&'a str>,
+impl<'a> InspectionFile<'a> {
+    fn holds(&self) -> Option<&'a std::result::Result<HoldsInspection, String>> {
+        self.inspection.holds.as_ref()
+    }
 }
 
-#[derive(Serialize)]
-struct SensorFields {
-    sensor: &'static str,
-    unit: &'static str,
-    #[serde(flatten)]
-    sampling: SamplingFields,
-    least: Vec<f64>,
-    mean: Vec<f64>,
-    most: Vec<f64>,
+fn range(values: &[f64]) -> [f64; 2] {
+    let wider = |[least, most]: [f64; 2], value: &f64| [least.min(*value), most.max(*value)];
+    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wider)
 }
 
-/// The gyroscope's file of a pair; `columns` is the number of its columns, which come last.
-#[derive(Serialize)]
-struct SecondFields {
-    format: &'static str,
-    rows: usize,
-    columns: usize,
+json_object! {
+    SecondFile as second {
+        format: second.format.name(),
+        rows: second.rows,
+        /// Number of its columns.
+        columns: second.columns,
+    }
 }
 
-/// Samples that were removed, and the one that is farthest off.
-#[derive(Serialize)]
-struct SpikesFields {
-    sensor: &'static str,
-    samples: usize,
-    cut_samples: usize,
-    axis: String,
-    time_s: f64,
-    reading: f64,
+json_object! {
+    ImuColumn as column {
+        name: &column.name,
+        meaning: column.meaning.to_string(),
+        unit: column.unit.map(ColumnUnit::symbol),
+        used: column.is_used(),
+        not_used_because: column.unused.as_deref(),
+    }
 }
 
-#[derive(Serialize)]
-struct HoldsFields<'a> {
-    count: usize,
-    minimum_hold_s: f64,
-    table: Vec<HoldFields>,
-    largest_gap_deg: Option<f64>,
-    emptiest_direction: Option<Vec<f64>>,
-    gyroscope_mean: Option<Vec<f64>>,
-    gyroscope_noise: Option<Vec<f64>>,
-    coarse_axes: Vec<CoarseFields>,
-    expected: Option<ExpectedFields>,
-    not_determined_because: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lost: Option<&'a str>,
+json_object! {
+    /// Sampling and values of one sensor.
+    SensorInspection as of {
+        sensor: of.sensor_kind,
+        /// Of its readings, after the conversion.
+        unit: of.unit,
+        sampling: flat(&of.sampling),
+        least: list(&of.least),
+        mean: list(&of.mean),
+        most: list(&of.most),
+    }
 }
 
-/// An axis whose quantisation step is coarser than its noise, in the unit of the readings.
-#[derive(Serialize)]
-struct CoarseFields {
-    sensor: &'static str,
-    axis: String,
-    step: f64,
-    noise: f64,
-    mean_sd: f64,
+struct SpikesOf<'a> {
+    sensor_kind: SensorKind,
+    spikes: &'a Spikes,
 }
 
-#[derive(Serialize)]
-struct HoldFields {
-    start_s: f64,
-    end_s: f64,
-    samples: usize,
-    mean: Vec<f64>,
-    sd: Vec<f64>,
-    saturated_axis: Option<String>,
+json_object! {
+    /// Samples of a sensor that were removed, and the one that is farthest off.
+    SpikesOf<'_> as of {
+        sensor: of.sensor_kind,
+        samples: of.spikes.samples.len(),
+        /// Samples that were removed and not replaced.
+        cut_samples: of.spikes.cut.len(),
+        axis: of.spikes.axis,
+        time_s: of.spikes.time_s,
+        reading: of.spikes.reading,
+    }
 }
 
-#[derive(Serialize)]
-struct ExpectedFields {
-    gauge: &'static str,
-    gravity_mps2: f64,
-    noise: Vec<f64>,
-    condition_number: f64,
-    parameters: Vec<ExpectedParameter>,
+json_object! {
+    /// The holds of a recording and their use for a calibration.
+    HoldsInspection as of {
+        count: of.holds.len(),
+        minimum_hold_s: MINIMUM_HOLD_S,
+        table: of.holds.iter().zip(&of.clipped).map(|(hold, clipped)| HoldOf { hold, clipped: *clipped }).collect::<Vec<_>>(),
+        /// The widest part of the sphere without a direction, and its middle.
+        largest_gap_deg: of.coverage.map(|coverage| coverage.gap_rad.to_degrees()),
+        emptiest_direction: of.coverage.map(|coverage| list(&coverage.emptiest)),
+        gyroscope_mean: of.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),
+        gyroscope_noise: of.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
+        coarse_axes: of.coarse.iter().map(|(sensor_kind, axis)| CoarseOf { sensor_kind: *sensor_kind, axis }).collect::<Vec<_>>(),
+        /// The parameters that they will determine.
+        expected: of.expected.as_ref().ok().map(ExpectedOf),
+        not_determined_because: of.expected.as_ref().err(),
+        /// Why there may be fewer holds than there should be.
+        lost: if_some(of.lost.as_deref()),
+    }
 }
 
-#[derive(Serialize)]
+struct HoldOf<'a> {
+    hold: &'a Hold,
+    clipped: Option<Saturation>,
+}
+
+json_object! {
+    HoldOf<'_> as of {
+        start_s: of.hold.start_s,
+        end_s: of.hold.end_s,
+        samples: of.hold.samples(),
+        mean: list(&of.hold.mean),
+        sd: list(&of.hold.sd),
+        saturated_axis: of.clipped.map(|end| end.axis),
+    }
+}
+
+struct CoarseOf<'a> {
+    sensor_kind: SensorKind,
+    axis: &'a CoarseAxis,
+}
+
+json_object! {
+    /// An axis whose quantisation step is coarser than its noise, in the unit of the readings.
+    CoarseOf<'_> as of {
+        sensor: of.sensor_kind,
+        axis: of.axis.axis,
+        step: of.axis.step,
+        noise: of.axis.noise,
+        mean_sd: of.axis.mean_sd,
+    }
+}
+
+struct ExpectedOf<'a>(&'a ExpectedCalibration);
+
+json_object! {
+    /// The parameters of the accelerometer that the holds will determine.
+    ExpectedOf<'_> as of {
+        gauge: Gauge::Upper.name(),
+        gravity_mps2: GRAVITY_MPS2,
+        noise: list(&of.0.noise),
+        condition_number: of.0.condition_number,
+        parameters: of.parameters(),
+    }
+}
+
+#[derive(Serialize, JsonSchema)]
 struct ExpectedParameter {
     name: String,
     unit: &'static str,
@@ -295,125 +345,19 @@ struct ExpectedParameter {
     sd_in_si: f64,
 }
 
-fn list(vector: &Vector3<f64>) -> Vec<f64> {
-    vector.as_slice().to_vec()
-}
-
-impl<'a> InspectionFile<'a> {
-    fn of(file: &'a ImuFile, inspection: &'a Inspection) -> Self {
-        let range = |values: &Vec<f64>| {
-            values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], &value| {
-                [least.min(value), most.max(value)]
-            })
-        };
-        let found = inspection.holds.as_ref();
-        Self {
-            schema: 1,
-            format: file.format.name(),
-            sha256: file.sha256.join(" "),
-            rows: file.rows,
-            second_file: file.second.as_ref().map(|second| SecondFields {
-                format: second.format.name(),
-                rows: second.rows,
-                columns: second.columns,
-            }),
-            columns: file.columns.iter().map(ColumnFields::of).collect(),
-            findings: file.all_findings().map(ToString::to_string).collect(),
-            sensors: inspection.sensors.iter().map(SensorFields::of).collect(),
-            spikes: inspection.spikes.iter().map(SpikesFields::of).collect(),
-            temperature_c: file.recording.temperature_c.as_ref().map(range),
-            holds: found.and_then(|holds| holds.as_ref().ok()).map(HoldsFields::of),
-            no_holds_because: found.and_then(|holds| holds.as_ref().err()).map(String::as_str),
-        }
-    }
-}
-
-impl<'a> ColumnFields<'a> {
-    fn of(column: &'a ImuColumn) -> Self {
-        Self {
-            name: &column.name,
-            meaning: column.meaning.to_string(),
-            unit: column.unit.map(super::ColumnUnit::symbol),
-            used: column.is_used(),
-            not_used_because: column.unused.as_deref(),
-        }
-    }
-}
-
-impl SpikesFields {
-    fn of((sensor_kind, spikes): &(SensorKind, Spikes)) -> Self {
-        Self {
-            sensor: sensor_kind.name(),
-            samples: spikes.samples.len(),
-            cut_samples: spikes.cut.len(),
-            axis: spikes.axis.to_string(),
-            time_s: spikes.time_s,
-            reading: spikes.reading,
-        }
-    }
-}
-
-impl SensorFields {
-    fn of(sensor: &SensorInspection) -> Self {
-        Self {
-            sensor: sensor.sensor_kind.name(),
-            unit: sensor.unit.symbol(),
-            sampling: SamplingFields::of(&sensor.sampling),
-            least: list(&sensor.least),
-            mean: list(&sensor.mean),
-            most: list(&sensor.most),
-        }
-    }
-}
-
-impl<'a> HoldsFields<'a> {
-    fn of(holds: &'a HoldsInspection) -> Self {
-        let hold = |(hold, clipped): (&Hold, &Option<Saturation>)| HoldFields {
-            start_s: hold.start_s,
-            end_s: hold.end_s,
-            samples: hold.samples(),
-            mean: list(&hold.mean),
-            sd: list(&hold.sd),
-            saturated_axis: clipped.map(|end| end.axis.to_string()),
-        };
-        let coarse = |(sensor_kind, found): &(SensorKind, CoarseAxis)| CoarseFields {
-            sensor: sensor_kind.name(),
-            axis: found.axis.to_string(),
-            step: found.step,
-            noise: found.noise,
-            mean_sd: found.mean_sd,
-        };
-        Self {
-            count: holds.holds.len(),
-            minimum_hold_s: MINIMUM_HOLD_S,
-            table: holds.holds.iter().zip(&holds.clipped).map(hold).collect(),
-            largest_gap_deg: holds.coverage.map(|coverage| coverage.gap_rad.to_degrees()),
-            emptiest_direction: holds.coverage.map(|coverage| list(&coverage.emptiest)),
-            gyroscope_mean: holds.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),
-            gyroscope_noise: holds.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
-            coarse_axes: holds.coarse.iter().map(coarse).collect(),
-            expected: holds.expected.as_ref().ok().map(ExpectedFields::of),
-            not_determined_because: holds.expected.as_ref().err().map(String::as_str),
-            lost: holds.lost.as_deref(),
-        }
-    }
-}
-
-impl ExpectedFields {
-    fn of(expected: &ExpectedCalibration) -> Self {
-        let (sd, relative) = (expected.sd(), expected.relative_sd());
-        let parameter = |(k, quantity): (usize, &calibrant_core::sensor::Quantity)| ExpectedParameter {
+impl ExpectedOf<'_> {
+    fn parameters(&self) -> Vec<ExpectedParameter> {
+        let (sd, relative) = (self.0.sd(), self.0.relative_sd());
+        let parameter = |(k, quantity): (usize, &Quantity)| ExpectedParameter {
             name: quantity.name(),
-            unit: quantity.unit(expected.unit),
+            unit: quantity.unit(self.0.unit),
             sd: sd[k],
             sd_in_si: relative[k],
         };
-        Self {
-            gauge: Gauge::Upper.name(),
-            gravity_mps2: GRAVITY_MPS2,
-            noise: list(&expected.noise),
-            condition_number: expected.condition_number,
-            parameters: expected.list.quantities().iter().enumerate().map(parameter).collect(),
-        }
+        self.0.list.quantities().iter().enumerate().map(parameter).collect()
     }
+}
+
+fn list(vector: &Vector3<f64>) -> [f64; 3] {
+    (*vector).into()
 }

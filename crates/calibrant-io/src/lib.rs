@@ -3,9 +3,9 @@
 //! | file | in | out |
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
-//! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`inspection_json`] |
+//! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`InspectionFile`] |
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
-//! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`machine_json`] |
+//! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`MachineFile`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -101,9 +101,9 @@ pub use finished::Finished;
 pub use hashed_file::HashedFile;
 pub use heading::Heading;
 pub use input::{Input, file_name};
-pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
+pub use inspection::{HoldsInspection, Inspection, InspectionFile, SensorInspection, inspect};
 pub use json::{SCHEMA, to_json, write_json};
-pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_preset, missing_limits};
+pub use machine::{MACHINE_PRESETS, MachineFile, MissingMesh, Urdf, machine_preset, missing_limits};
 pub use machine_calibration::{
     MachineLogInput, MachineResult, machine_calibration_json, write_machine_calibration,
 };
@@ -123,8 +123,8 @@ pub use recording::{
     write_imu_recording, write_recording,
 };
 pub use reference_inspection::{
-    JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,
-    reference_inspection_json,
+    JointInspection, Jumps, PoseInspection, ReferenceInspection, ReferenceInspectionFile, Seen,
+    inspect_reference_log,
 };
 pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,

@@ -1,10 +1,13 @@
 //! Inspection of a log of a machine's motion: what was recorded of it and how well, as data and as JSON.
 
-use super::json;
+use super::heading::Heading;
 use super::reference_log::ReferenceLogFile;
-use super::sampling::{Sampling, SamplingFields};
+use super::sampling::Sampling;
+use calibrant_core::json::flat;
+use calibrant_core::json_object;
 use calibrant_machine::log::{JointLog, PoseLog, RecoveredStream, ReferenceLog, recover_interpolated};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A step is a jump where it is this many times as large as 99.5 % of all,
@@ -27,7 +30,7 @@ pub struct ReferenceInspection {
 }
 
 /// How often something was recorded.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Seen {
     /// Number of samples that have it.
     pub samples: usize,
@@ -38,7 +41,7 @@ pub struct Seen {
 }
 
 /// Steps from sample to sample that no motion made.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Jumps {
     /// How many.
     pub count: usize,
@@ -186,103 +189,76 @@ impl Jumps {
     }
 }
 
-/// The text of `calibrant inspect --json` for a log of a motion.
-#[must_use]
-pub fn reference_inspection_json(file: &ReferenceLogFile, inspection: &ReferenceInspection) -> String {
-    json::to_json(&InspectionFile {
-        schema: 1,
-        format: file.format.name(),
-        sha256: &file.sha256,
-        rows: file.rows,
-        findings: file.findings.iter().map(ToString::to_string).collect(),
-        sampling: SamplingFields::of(&inspection.sampling),
-        repeated_times: inspection.repeated,
-        joints: inspection.joints.iter().map(JointFields::of).collect(),
-        poses: inspection.poses.as_ref().map(PoseFields::of),
-    })
+/// A log of a motion and its inspection, as `calibrant inspect --json` prints them.
+#[derive(Debug, Clone, Copy)]
+pub struct ReferenceInspectionFile<'a> {
+    /// The log.
+    pub file: &'a ReferenceLogFile,
+    /// What it contains.
+    pub inspection: &'a ReferenceInspection,
 }
 
-#[derive(Serialize)]
-struct InspectionFile<'a> {
-    schema: u32,
-    format: &'static str,
-    sha256: &'a str,
-    rows: usize,
-    findings: Vec<String>,
-    sampling: SamplingFields,
-    repeated_times: usize,
-    joints: Vec<JointFields<'a>>,
-    poses: Option<PoseFields>,
-}
-
-/// A joint; positions in rad or m.
-#[derive(Serialize)]
-struct JointFields<'a> {
-    name: &'a str,
-    least: f64,
-    most: f64,
-    seen: Seen,
-    has_velocities: bool,
-    jumps: Option<Jumps>,
-}
-
-impl<'a> JointFields<'a> {
-    fn of(joint: &'a JointInspection) -> Self {
-        let &JointInspection { ref name, range: (least, most), seen, has_velocities, jumps } = joint;
-        Self { name, least, most, seen, has_velocities, jumps }
+json_object! {
+    /// What a log of a motion contains.
+    ReferenceInspectionFile<'_> as of {
+        heading: flat(Heading::of("log")),
+        format: of.file.format.name(),
+        sha256: &of.file.sha256,
+        rows: of.file.rows,
+        /// What the reader noticed.
+        findings: of.file.findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        sampling: &of.inspection.sampling,
+        /// Number of samples with the time of the one before.
+        repeated_times: of.inspection.repeated,
+        joints: &of.inspection.joints,
+        poses: of.inspection.poses.as_ref(),
     }
 }
 
-#[derive(Serialize)]
-struct PoseFields {
-    position: BodyFields,
-    orientation: BodyFields,
-    least_m: Option<Vec<f64>>,
-    most_m: Option<Vec<f64>>,
-    interpolated: Option<InterpolatedFields>,
+json_object! {
+    /// A joint; positions in rad or m.
+    JointInspection as joint {
+        name: &joint.name,
+        least: joint.range.0,
+        most: joint.range.1,
+        seen: joint.seen,
+        has_velocities: joint.has_velocities,
+        jumps: joint.jumps,
+    }
 }
 
-/// Position, m, or orientation, rad.
-#[derive(Serialize)]
-struct BodyFields {
+json_object! {
+    /// The poses of a body.
+    PoseInspection as poses {
+        /// In m.
+        position: OfBody { seen: poses.position_seen, jumps: poses.position_jumps },
+        /// In rad.
+        orientation: OfBody { seen: poses.orientation_seen, jumps: poses.orientation_jumps },
+        least_m: poses.range_m.map(|(least, _)| <[f64; 3]>::from(least)),
+        most_m: poses.range_m.map(|(_, most)| <[f64; 3]>::from(most)),
+        /// The slower stream whose interpolation the poses are.
+        interpolated: poses.interpolated.as_ref().map(StreamOf),
+    }
+}
+
+#[derive(Serialize, JsonSchema)]
+struct OfBody {
     seen: Seen,
     jumps: Option<Jumps>,
 }
 
-/// The slower stream.
-#[derive(Serialize)]
-struct InterpolatedFields {
-    samples: usize,
-    rate_hz: f64,
-    period_s: f64,
-    period_sd_s: f64,
-    first_s: f64,
-    nominal_rate_hz: Option<f64>,
-    clock_fast_ppm: Option<f64>,
-    rms_m: f64,
-    rms_rad: Option<f64>,
-}
+struct StreamOf<'a>(&'a RecoveredStream);
 
-impl PoseFields {
-    fn of(poses: &PoseInspection) -> Self {
-        let list = |vector: Vector3<f64>| vector.as_slice().to_vec();
-        let interpolated = |stream: &RecoveredStream| InterpolatedFields {
-            samples: stream.log.positions_m.iter().flatten().count(),
-            rate_hz: stream.rate_hz(),
-            period_s: stream.period_s,
-            period_sd_s: stream.period_sd_s,
-            first_s: stream.first_s,
-            nominal_rate_hz: stream.clock().map(|(nominal_hz, _)| nominal_hz),
-            clock_fast_ppm: stream.clock().map(|(_, faster)| 1e6 * faster),
-            rms_m: stream.rms_m,
-            rms_rad: stream.rms_rad,
-        };
-        Self {
-            position: BodyFields { seen: poses.position_seen, jumps: poses.position_jumps },
-            orientation: BodyFields { seen: poses.orientation_seen, jumps: poses.orientation_jumps },
-            least_m: poses.range_m.map(|(least, _)| list(least)),
-            most_m: poses.range_m.map(|(_, most)| list(most)),
-            interpolated: poses.interpolated.as_ref().map(interpolated),
-        }
+json_object! {
+    StreamOf<'_> as stream {
+        samples: stream.0.log.positions_m.iter().flatten().count(),
+        rate_hz: stream.0.rate_hz(),
+        period_s: stream.0.period_s,
+        period_sd_s: stream.0.period_sd_s,
+        first_s: stream.0.first_s,
+        nominal_rate_hz: stream.0.clock().map(|(nominal_hz, _)| nominal_hz),
+        clock_fast_ppm: stream.0.clock().map(|(_, faster)| 1e6 * faster),
+        rms_m: stream.0.rms_m,
+        rms_rad: stream.0.rms_rad,
     }
 }

@@ -1,8 +1,8 @@
 //! The times of samples, as `inspect` shows them: rate, jitter, gaps.
 
 use super::stated_rate::stated_rate_hz;
+use calibrant_core::json_object;
 use calibrant_core::sensor::{missing, rate_hz};
-use serde::Serialize;
 
 /// A time step is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
@@ -61,34 +61,23 @@ impl Sampling {
     }
 }
 
-/// The same as fields of JSON.
-#[derive(Serialize)]
-pub(super) struct SamplingFields {
-    samples: usize,
-    start_s: f64,
-    end_s: f64,
-    rate_hz: f64,
-    shortest_step_s: f64,
-    longest_step_s: f64,
-    jitter_s: f64,
-    gaps: usize,
-    lost_s: f64,
-    missing_share: f64,
-}
-
-impl SamplingFields {
-    pub(super) fn of(sampling: &Sampling) -> Self {
-        Self {
-            samples: sampling.samples,
-            start_s: sampling.span_s.0,
-            end_s: sampling.span_s.1,
-            rate_hz: stated_rate_hz(sampling.rate_hz, sampling.span_s.1),
-            shortest_step_s: sampling.steps_s.0,
-            longest_step_s: sampling.steps_s.1,
-            jitter_s: sampling.jitter_s,
-            gaps: sampling.gaps,
-            lost_s: sampling.lost_s,
-            missing_share: sampling.missing,
-        }
+json_object! {
+    /// The times of samples.
+    Sampling as of {
+        samples: of.samples,
+        start_s: of.span_s.0,
+        end_s: of.span_s.1,
+        /// Gaps left out, with the digits that the times have.
+        rate_hz: stated_rate_hz(of.rate_hz, of.span_s.1),
+        shortest_step_s: of.steps_s.0,
+        longest_step_s: of.steps_s.1,
+        /// Standard deviation of the steps.
+        jitter_s: of.jitter_s,
+        /// Number of steps of more than five usual ones.
+        gaps: of.gaps,
+        /// Time that is lost in gaps.
+        lost_s: of.lost_s,
+        /// Share of the samples that are missing one by one.
+        missing_share: of.missing,
     }
 }

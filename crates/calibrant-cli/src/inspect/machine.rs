@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::files::MeshMissing;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{MissingMesh, Urdf, machine_json, missing_limits};
+use calibrant::io::{MachineFile, MissingMesh, Urdf, missing_limits, to_json};
 use calibrant::machine::chain::{Joint, JointKind, KinematicChain, reach_m};
 use calibrant::report::number_format::{counted, short, significant};
 use std::path::{Path, PathBuf};
@@ -50,7 +50,11 @@ impl Options {
             if self.packages.is_empty() { Vec::new() } else { machine.missing_meshes(&self.packages) };
         meshes.iter().for_each(|mesh: &MissingMesh| tell(MeshMissing { mesh: Phrase(mesh.to_string()) }));
         if json {
-            console::print_always(&machine_json(&machine, &chain, &meshes));
+            console::print_always(&to_json(&MachineFile {
+                machine: &machine,
+                chain: &chain,
+                meshes: &meshes,
+            }));
         } else {
             console::print(&text(file, &machine, &chain));
         }

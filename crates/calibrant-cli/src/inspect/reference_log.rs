@@ -5,8 +5,9 @@ use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
 use calibrant::io::{
-    ImuReadOptions, Jumps, PoseInspection, ReferenceInspection, ReferenceLogFile, ReferenceLogOptions, Seen,
-    file_name, inspect_reference_log, is_reference_log, read_reference_log, reference_inspection_json,
+    ImuReadOptions, Jumps, PoseInspection, ReferenceInspection, ReferenceInspectionFile, ReferenceLogFile,
+    ReferenceLogOptions, Seen, file_name, inspect_reference_log, is_reference_log, read_reference_log,
+    to_json,
 };
 use calibrant::machine::log::RecoveredStream;
 use calibrant::report::number_format::{count, counted, short, significant};
@@ -25,7 +26,7 @@ pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calib
     in_file.filter(|found| found.is_warning()).for_each(tell);
     let inspection = inspect_reference_log(&file);
     if as_json {
-        console::print_always(&reference_inspection_json(&file, &inspection));
+        console::print_always(&to_json(&ReferenceInspectionFile { file: &file, inspection: &inspection }));
     } else {
         console::print(&text(path, &file, &inspection));
     }

@@ -1,9 +1,10 @@
 //! What `inspect` says of a machine, as JSON.
 
 use super::{MissingMesh, Urdf};
-use crate::json;
+use crate::heading::Heading;
+use calibrant_core::json::flat;
+use calibrant_core::json_object;
 use calibrant_machine::chain::{Joint, JointKind, KinematicChain, reach_m};
-use serde::Serialize;
 
 /// The limits that a joint should have and its file does not say, in words.
 ///
@@ -28,63 +29,53 @@ pub fn missing_limits(joint: &Joint) -> Vec<&'static str> {
     all.into_iter().filter_map(|(name, missing)| missing.then_some(name)).collect()
 }
 
-/// A machine, a chain of it, and the meshes that were not found, as JSON.
-#[must_use]
-pub fn machine_json(machine: &Urdf, chain: &KinematicChain, meshes: &[MissingMesh]) -> String {
-    json::to_json(&MachineFile {
-        schema: 1,
-        machine: &machine.name,
-        links: machine.links().collect(),
-        base: &chain.base,
-        tip: &chain.tip,
-        reach_m: reach_m(chain),
-        joints: chain.joints.iter().map(JointFields::of).collect(),
-        missing_meshes: meshes.iter().map(|one| MeshFields { link: &one.link, mesh: &one.mesh }).collect(),
-    })
+/// A machine, a chain of it, and the meshes that were not found.
+#[derive(Clone, Copy)]
+pub struct MachineFile<'a> {
+    /// The machine.
+    pub machine: &'a Urdf,
+    /// The chain.
+    pub chain: &'a KinematicChain,
+    /// Meshes that were not found.
+    pub meshes: &'a [MissingMesh],
 }
 
-#[derive(Serialize)]
-struct MachineFile<'a> {
-    schema: u32,
-    machine: &'a str,
-    links: Vec<&'a str>,
-    base: &'a str,
-    tip: &'a str,
-    reach_m: Option<f64>,
-    joints: Vec<JointFields<'a>>,
-    missing_meshes: Vec<MeshFields<'a>>,
-}
-
-#[derive(Serialize)]
-struct JointFields<'a> {
-    name: &'a str,
-    kind: &'static str,
-    /// Of its position; its velocity is per second, its effort in N·m or N.
-    unit: &'static str,
-    lower: Option<f64>,
-    upper: Option<f64>,
-    velocity: Option<f64>,
-    effort: Option<f64>,
-    missing: Vec<&'static str>,
-}
-
-impl<'a> JointFields<'a> {
-    fn of(joint: &'a Joint) -> Self {
-        Self {
-            name: &joint.name,
-            kind: joint.kind.name(),
-            unit: joint.kind.unit(),
-            lower: joint.limits.lower,
-            upper: joint.limits.upper,
-            velocity: joint.limits.velocity,
-            effort: joint.limits.effort,
-            missing: missing_limits(joint),
-        }
+json_object! {
+    /// A machine and a chain of it.
+    MachineFile<'_> as of {
+        heading: flat(Heading::of("machine")),
+        machine: &of.machine.name,
+        links: of.machine.links().collect::<Vec<_>>(),
+        base: &of.chain.base,
+        tip: &of.chain.tip,
+        reach_m: reach_m(of.chain),
+        joints: of.chain.joints.iter().map(JointOf).collect::<Vec<_>>(),
+        missing_meshes: of.meshes.iter().map(MeshOf).collect::<Vec<_>>(),
     }
 }
 
-#[derive(Serialize)]
-struct MeshFields<'a> {
-    link: &'a str,
-    mesh: &'a str,
+struct JointOf<'a>(&'a Joint);
+
+json_object! {
+    JointOf<'_> as joint {
+        name: &joint.0.name,
+        kind: joint.0.kind.name(),
+        /// Of its position; its velocity is per second, its effort in N·m or N.
+        unit: joint.0.kind.unit(),
+        lower: joint.0.limits.lower,
+        upper: joint.0.limits.upper,
+        velocity: joint.0.limits.velocity,
+        effort: joint.0.limits.effort,
+        /// Limits that it should have and its file does not say.
+        missing: missing_limits(joint.0),
+    }
+}
+
+struct MeshOf<'a>(&'a MissingMesh);
+
+json_object! {
+    MeshOf<'_> as of {
+        link: &of.0.link,
+        mesh: &of.0.mesh,
+    }
 }

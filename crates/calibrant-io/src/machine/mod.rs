@@ -11,7 +11,7 @@ mod meshes;
 mod presets;
 mod urdf;
 
-pub use inspection::{machine_json, missing_limits};
+pub use inspection::{MachineFile, missing_limits};
 pub use meshes::MissingMesh;
 pub use presets::{MACHINE_PRESETS, machine_preset};
 pub use urdf::Urdf;
