@@ -21,6 +21,7 @@ mod recording_options;
 #[cfg(feature = "records")]
 mod records;
 mod run;
+mod schema;
 mod simulate;
 #[cfg(feature = "study")]
 mod study;
@@ -76,6 +77,7 @@ enum Command {
     #[cfg(feature = "records")]
     Records(records::Arguments),
     Explain(explain::Arguments),
+    Schema(schema::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -115,6 +117,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "records")]
         Command::Records(arguments) => arguments,
         Command::Explain(arguments) => arguments,
+        Command::Schema(arguments) => arguments,
         Command::Completions(arguments) => arguments,
         Command::Man(arguments) => arguments,
     };

@@ -63,8 +63,8 @@ mod reference_log;
 mod result_places;
 mod resume_key;
 mod sampling;
+mod schema;
 mod sensor_naming;
-mod shared_fields;
 mod standard_input;
 mod stated_rate;
 #[cfg(feature = "study")]
@@ -104,9 +104,7 @@ pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, InspectionFile, SensorInspection, inspect};
 pub use json::{SCHEMA, to_json, write_json};
 pub use machine::{MACHINE_PRESETS, MachineFile, MissingMesh, Urdf, machine_preset, missing_limits};
-pub use machine_calibration::{
-    MachineLogInput, MachineResult, machine_calibration_json, write_machine_calibration,
-};
+pub use machine_calibration::{MachineCalibrationFile, MachineLogInput, MachineResult};
 pub use machine_truth::TrueMachine;
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use name_pattern::NamePattern;
@@ -133,6 +131,7 @@ pub use reference_log::{
 pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
+pub use schema::FileKind;
 pub use sensor_naming::{NamedRecording, SensorNaming};
 #[cfg(feature = "study")]
 pub use study::StudyFile;

@@ -1,24 +1,24 @@
-//! Writes `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
+//! `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
 use super::diagnostics::DiagnosticWords;
 use super::heading::Heading;
-use super::json;
-use super::machine_validation::{ValidationFields, validation_fields};
+use super::machine_validation::ValidationOf;
 use super::origin::Origin;
-use super::shared_fields::{FitFields, matrix_rows};
-use calibrant_core::acceptance::CheckedLimit;
-use calibrant_core::diagnostic::{Diagnostic, Verdict};
-use calibrant_core::error::Result;
+use calibrant_core::estimate::FitInUnit;
+use calibrant_core::form::rows;
+use calibrant_core::json::{flat, if_any, if_some};
+use calibrant_core::json_object;
 use calibrant_core::sensor::{ImuFields, ReadingUnit, SensorKind};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
-    MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, ReferenceNoise,
-    SensorResidual, Source,
+    MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, SensorResidual,
+    Source,
 };
 use calibrant_machine::reference::Motion;
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
-use std::path::Path;
+use std::collections::BTreeMap;
 
 /// A calibration on a machine with what it is from.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,7 @@ pub struct MachineResult<'a> {
 }
 
 /// The file of a log of a machine's motion.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MachineLogInput {
     /// Name of the file, without its directory.
     pub file: String,
@@ -76,210 +76,192 @@ impl<'a> MachineResult<'a> {
     }
 }
 
-/// Writes `calibration.json`, which [`read_calibrated_imu`](super::read_calibrated_imu) reads.
-///
-/// # Errors
-/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_machine_calibration(
-    path: &Path,
-    result: &MachineResult<'_>,
-    origin: &Origin,
-    words: &DiagnosticWords<'_>,
-) -> Result<()> {
-    json::write_json(path, &CalibrationFile::of(result, origin, words))
+/// The content of `calibration.json` of a sensor on a machine, which [`read_calibrated_imu`](super::read_calibrated_imu) reads.
+#[derive(Clone, Copy)]
+pub struct MachineCalibrationFile<'a> {
+    /// The calibration with what it is from.
+    pub result: MachineResult<'a>,
+    /// Of which sensor it is, and from which files.
+    pub origin: &'a Origin,
+    /// The verdict's codes, and the limits.
+    pub words: DiagnosticWords<'a>,
 }
 
-/// The text that [`write_machine_calibration`] writes.
-#[must_use]
-pub fn machine_calibration_json(
-    result: &MachineResult<'_>,
-    origin: &Origin,
-    words: &DiagnosticWords<'_>,
-) -> String {
-    json::to_json(&CalibrationFile::of(result, origin, words))
-}
-
-#[derive(Serialize)]
-struct CalibrationFile<'a> {
-    #[serde(flatten)]
-    heading: Heading,
-    #[serde(flatten)]
-    origin: &'a Origin,
-    verdict: Verdict,
-    status: &'static str,
-    iterations: usize,
-    gradient_norm: f64,
-    #[serde(flatten)]
-    core: ImuFields,
-    correlation: Vec<Vec<f64>>,
-    fit: FitFields,
-    machine: MachineFields<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    validation: Option<ValidationFields>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    limits: Vec<CheckedLimit>,
-    warnings: Vec<Diagnostic>,
-}
-
-impl<'a> CalibrationFile<'a> {
-    fn of(result: &MachineResult<'a>, origin: &'a Origin, words: &'a DiagnosticWords<'a>) -> Self {
-        let calibration = result.calibration;
-        let imu = calibration.calibrated();
-        Self {
-            heading: Heading::of("calibration"),
-            origin,
-            verdict: words.verdict(&calibration.warnings),
-            status: calibration.status.name(),
-            iterations: calibration.iterations,
-            gradient_norm: calibration.gradient_norm,
-            core: ImuFields::of(imu.clone()),
-            correlation: imu.covariance.as_ref().map_or(Vec::new(), |sigma| matrix_rows(&correlation(sigma))),
-            fit: FitFields::of(&calibration.fit, ReadingUnit::MetrePerSecondSquared, 3),
-            machine: MachineFields::of(result),
-            validation: validation_fields(result.validations, &calibration.joints),
-            limits: words.limits.to_vec(),
-            warnings: words.stated(&calibration.warnings),
-        }
+json_object! {
+    /// A calibration of a sensor on a machine, where it comes from, and what judges it.
+    MachineCalibrationFile<'_> as file {
+        heading: flat(Heading::of("calibration")),
+        origin: flat(file.origin),
+        verdict: file.words.verdict(&file.result.calibration.warnings),
+        status: file.result.calibration.status.name(),
+        iterations: file.result.calibration.iterations,
+        /// Length of the last step, in standard deviations.
+        gradient_norm: file.result.calibration.gradient_norm,
+        imu: flat(ImuFields::of(file.result.calibration.calibrated())),
+        correlation: file.result.correlation(),
+        fit: FitInUnit {
+            fit: &file.result.calibration.fit,
+            unit: ReadingUnit::MetrePerSecondSquared,
+            axes: 3,
+        },
+        /// What was found of the machine.
+        machine: file.result,
+        /// How far the parameters move with other data, by its source: `recording`, `folds`.
+        validation: if_any(file.validation()),
+        /// The figures beside their limits.
+        limits: if_any(file.words.limits),
+        warnings: file.words.stated(&file.result.calibration.warnings),
     }
 }
 
-fn correlation(sigma: &DMatrix<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(sigma.nrows(), sigma.ncols(), |i, j| {
-        if i == j { 1.0 } else { sigma[(i, j)] / (sigma[(i, i)] * sigma[(j, j)]).sqrt() }
-    })
+json_object! {
+    /// What was found of the machine, and of the noise.
+    MachineResult<'_> as of {
+        /// Trust in the log.
+        trust: match of.calibration.trust {
+            MachineTrust::Known => "known",
+            MachineTrust::Noisy => "noisy",
+        },
+        log: of.log,
+        base: if_some(of.chain().map(|chain| &chain.base)),
+        tip: if_some(of.chain().map(|chain| &chain.tip)),
+        /// Part of the sensor's samples that lie in the log's time and in none of its gaps.
+        used_share: of.calibration.used_share,
+        knots: of.knots(),
+        /// What was estimated beside the sensor's parameters.
+        quantities: of.quantities(),
+        /// By how much correlation in time widens the standard deviation of each of the sensor's parameters.
+        inflation: of.inflation(),
+        gravity_mps2: of.calibration.parameters.gravity_mps2,
+        /// From the tip to the sensor.
+        lever_m: <[f64; 3]>::from(of.calibration.parameters.mount.lever_m),
+        tip_from_sensor_wxyz: of.tip_from_sensor_wxyz(),
+        sensor_noise: of.calibration.noise.iter().map(|noise| of.noise_of(noise)).collect::<Vec<_>>(),
+        log_noise: &of.calibration.reference_noise,
+        budget: of.budget(),
+    }
 }
 
-#[derive(Serialize)]
-struct MachineFields<'a> {
-    trust: &'static str,
-    log: &'a MachineLogInput,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    base: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tip: Option<&'a str>,
-    used_share: f64,
-    knots: KnotFields,
-    quantities: Vec<QuantityFields>,
-    /// Of each of the sensor's parameters, in their order.
-    inflation: Vec<f64>,
-    gravity_mps2: f64,
-    lever_m: Vec<f64>,
-    tip_from_sensor_wxyz: [f64; 4],
-    sensor_noise: Vec<SensorNoiseFields>,
-    log_noise: Vec<LogNoiseFields<'a>>,
-    budget: BudgetFields,
-}
-
-#[derive(Serialize)]
-struct KnotFields {
+/// The knots of the spline.
+#[derive(Serialize, JsonSchema)]
+struct Knots {
     start_s: f64,
     step_s: f64,
     intervals: usize,
     degree: usize,
 }
 
-#[derive(Serialize)]
-struct QuantityFields {
+/// A quantity that was estimated beside the sensor's parameters.
+#[derive(Serialize, JsonSchema)]
+struct Quantity {
     name: String,
     unit: &'static str,
     value: f64,
     sd: f64,
     prior_sd: f64,
+    /// By how much correlation in time widens the standard deviation.
     inflation: f64,
 }
 
-#[derive(Serialize)]
-struct SensorNoiseFields {
+/// The noise of one sample of a sensor, in `unit`.
+#[derive(Serialize, JsonSchema)]
+struct NoiseOfSensor {
     sensor: &'static str,
     unit: &'static str,
-    noise: Vec<f64>,
-    white_noise: Vec<f64>,
-    residual_rms: Vec<f64>,
+    noise: [f64; 3],
+    white_noise: [f64; 3],
+    residual_rms: [f64; 3],
+    /// Of the variance with the activity of the motion.
     growth: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct LogNoiseFields<'a> {
-    name: &'a str,
-    unit: &'static str,
-    sd: f64,
-    growth: Option<f64>,
-    outliers: usize,
-    samples: usize,
 }
 
 /// The variance of each of the sensor's parameters, by source.
-#[derive(Serialize)]
-struct BudgetFields {
+#[derive(Serialize, JsonSchema)]
+struct Budget {
     sources: [&'static str; Source::ALL.len()],
     /// Shares of the variance, a row for each parameter.
     shares: Vec<Vec<f64>>,
 }
 
-impl<'a> MachineFields<'a> {
-    fn of(result: &MachineResult<'a>) -> Self {
-        let MachineResult { calibration, setup, log, .. } = *result;
-        let (chain, sensors) = (result.chain(), calibration.noise.len());
-        let (knots, mount) = (calibration.motion.knots(), &calibration.parameters.mount);
-        let imu = |quantity: &MachineQuantity| matches!(quantity, MachineQuantity::Imu(_));
-        let (names, units, sd) = (calibration.names(), result.units(), calibration.sd());
-        let quantity = |k: usize| QuantityFields {
+impl MachineCalibrationFile<'_> {
+    fn validation(&self) -> BTreeMap<&'static str, ValidationOf<'_>> {
+        let joints = &self.result.calibration.joints;
+        let named = |validation| (ValidationOf::name(validation), ValidationOf { validation, joints });
+        self.result.validations.iter().map(named).collect()
+    }
+}
+
+impl MachineResult<'_> {
+    fn correlation(&self) -> Vec<Vec<f64>> {
+        let of = |sigma: &DMatrix<f64>| {
+            DMatrix::from_fn(sigma.nrows(), sigma.ncols(), |i, j| {
+                if i == j { 1.0 } else { sigma[(i, j)] / (sigma[(i, i)] * sigma[(j, j)]).sqrt() }
+            })
+        };
+        self.calibration.calibrated().covariance.as_ref().map_or(Vec::new(), |sigma| rows(&of(sigma)))
+    }
+
+    fn knots(&self) -> Knots {
+        let knots = self.calibration.motion.knots();
+        Knots {
+            start_s: knots.start_s,
+            step_s: knots.step_s,
+            intervals: knots.intervals,
+            degree: knots.degree.number(),
+        }
+    }
+
+    /// The places of the quantities that are the sensor's, or that are not.
+    fn places(&self, of_imu: bool) -> impl Iterator<Item = usize> {
+        let quantities = self.calibration.quantities.iter().enumerate();
+        quantities
+            .filter(move |(_, quantity)| matches!(quantity, MachineQuantity::Imu(_)) == of_imu)
+            .map(|(k, _)| k)
+    }
+
+    fn quantities(&self) -> Vec<Quantity> {
+        let Self { calibration, setup, .. } = *self;
+        let (names, units, sd) = (calibration.names(), self.units(), calibration.sd());
+        let quantity = |k: usize| Quantity {
             name: names[k].clone(),
             unit: units[k],
             value: calibration.values[k],
             sd: sd[k],
-            prior_sd: setup.prior_sd(calibration.quantities[k], sensors),
+            prior_sd: setup.prior_sd(calibration.quantities[k], calibration.noise.len()),
             inflation: calibration.inflation[k],
         };
-        let (of_imu, of_machine): (Vec<usize>, Vec<usize>) =
-            (0..calibration.quantities.len()).partition(|k| imu(&calibration.quantities[*k]));
-        let rotation = mount.tip_from_sensor;
-        Self {
-            trust: match calibration.trust {
-                MachineTrust::Known => "known",
-                MachineTrust::Noisy => "noisy",
-            },
-            log,
-            base: chain.map(|chain| chain.base.as_str()),
-            tip: chain.map(|chain| chain.tip.as_str()),
-            used_share: calibration.used_share,
-            knots: KnotFields {
-                start_s: knots.start_s,
-                step_s: knots.step_s,
-                intervals: knots.intervals,
-                degree: knots.degree.number(),
-            },
-            quantities: of_machine.into_iter().map(quantity).collect(),
-            inflation: of_imu.into_iter().map(|k| calibration.inflation[k]).collect(),
-            gravity_mps2: calibration.parameters.gravity_mps2,
-            lever_m: mount.lever_m.iter().copied().collect(),
-            tip_from_sensor_wxyz: [rotation.w, rotation.i, rotation.j, rotation.k],
-            sensor_noise: calibration.noise.iter().map(|noise| of_sensor(calibration, noise)).collect(),
-            log_noise: calibration.reference_noise.iter().map(of_log).collect(),
-            budget: BudgetFields {
-                sources: Source::ALL.map(Source::name),
-                shares: (calibration.budget.iter())
-                    .map(|row| row.parts.iter().map(|part| part / row.variance).collect())
-                    .collect(),
-            },
+        self.places(false).map(quantity).collect()
+    }
+
+    fn inflation(&self) -> Vec<f64> {
+        self.places(true).map(|k| self.calibration.inflation[k]).collect()
+    }
+
+    fn tip_from_sensor_wxyz(&self) -> [f64; 4] {
+        let rotation = self.calibration.parameters.mount.tip_from_sensor;
+        [rotation.w, rotation.i, rotation.j, rotation.k]
+    }
+
+    fn noise_of(&self, residual: &SensorResidual) -> NoiseOfSensor {
+        let kind = residual.sensor;
+        let unit = self.calibration.units[usize::from(kind != SensorKind::Accelerometer)];
+        NoiseOfSensor {
+            sensor: kind.name(),
+            unit: unit.unwrap_or(kind.stimulus_unit()).symbol(),
+            noise: residual.noise.into(),
+            white_noise: residual.white_noise.into(),
+            residual_rms: residual.rms.into(),
+            growth: residual.growth,
         }
     }
-}
 
-fn of_sensor(calibration: &MachineCalibration, residual: &SensorResidual) -> SensorNoiseFields {
-    let kind = residual.sensor;
-    let unit = calibration.units[usize::from(kind != SensorKind::Accelerometer)];
-    SensorNoiseFields {
-        sensor: kind.name(),
-        unit: unit.unwrap_or(kind.stimulus_unit()).symbol(),
-        noise: residual.noise.iter().copied().collect(),
-        white_noise: residual.white_noise.iter().copied().collect(),
-        residual_rms: residual.rms.iter().copied().collect(),
-        growth: residual.growth,
+    fn budget(&self) -> Budget {
+        let shares = |row: &calibrant_machine::estimate::BudgetRow| {
+            row.parts.iter().map(|part| part / row.variance).collect()
+        };
+        Budget {
+            sources: Source::ALL.map(Source::name),
+            shares: self.calibration.budget.iter().map(shares).collect(),
+        }
     }
-}
-
-fn of_log(noise: &ReferenceNoise) -> LogNoiseFields<'_> {
-    let ReferenceNoise { name, unit, sd, growth, outliers, samples } = noise;
-    LogNoiseFields { name, unit, sd: *sd, growth: *growth, outliers: *outliers, samples: *samples }
 }

@@ -1,101 +1,92 @@
-//! The fields of a validation on a machine: how far the parameters move with other data.
+//! A validation on a machine as JSON: how far the parameters move with other data.
 
-use calibrant_machine::estimate::{MachineValidation, MachineValidationSource, ParameterShift};
-use serde::Serialize;
+use calibrant_core::json::{if_any, if_some};
+use calibrant_core::json_object;
+use calibrant_machine::estimate::{FailedBlock, MachineValidation, MachineValidationSource, ParameterShift};
 use std::collections::BTreeMap;
 
-/// `validation`: its data (`recording`, `folds`) and the results.
-pub(super) type ValidationFields = BTreeMap<&'static str, SourceFields>;
-
-#[derive(Serialize)]
-pub(super) struct SourceFields {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    folds: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    block_s: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    failed_folds: Vec<FailedFields>,
-    /// Of each sensor, by its name.
-    parameters: BTreeMap<String, ShiftFields>,
+/// A validation, with the names of the joints.
+pub(super) struct ValidationOf<'a> {
+    pub(super) validation: &'a MachineValidation,
+    pub(super) joints: &'a [String],
 }
 
-#[derive(Serialize)]
-struct FailedFields {
-    start_s: f64,
-    end_s: f64,
-    reason: String,
-}
-
-#[derive(Serialize)]
-struct ShiftFields {
-    chi2: f64,
-    degrees_of_freedom: usize,
-    factor: f64,
-    factor_interval_99: [f64; 2],
-    verdict: &'static str,
-    largest: LargestFields,
-}
-
-#[derive(Serialize)]
-struct LargestFields {
-    parameter: String,
-    shift: f64,
-    in_sd: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    without_s: Option<f64>,
-}
-
-/// All validations; `None` where there is none.
-pub(super) fn validation_fields(
-    validations: &[MachineValidation],
-    joints: &[String],
-) -> Option<ValidationFields> {
-    let fields: ValidationFields = validations.iter().map(|of| named(of, joints)).collect();
-    (!fields.is_empty()).then_some(fields)
-}
-
-fn named(validation: &MachineValidation, joints: &[String]) -> (&'static str, SourceFields) {
-    let of_sensor = |of: &ParameterShift| (of.sensor.to_string(), ShiftFields::of(of, joints));
-    let none = SourceFields {
-        file: None,
-        folds: None,
-        block_s: None,
-        failed_folds: Vec::new(),
-        parameters: validation.shifts.iter().map(of_sensor).collect(),
-    };
-    match &validation.source {
-        MachineValidationSource::Recording { name } => {
-            ("recording", SourceFields { file: Some(name.clone()), ..none })
-        }
-        MachineValidationSource::Blocks { folds, length_s, failed } => {
-            let failed = failed.iter().map(|block| FailedFields {
-                start_s: block.start_s,
-                end_s: block.end_s,
-                reason: block.reason.clone(),
-            });
-            let (folds, block_s) = (Some(*folds), Some(*length_s));
-            ("folds", SourceFields { folds, block_s, failed_folds: failed.collect(), ..none })
-        }
+json_object! {
+    /// How far the parameters of each sensor move with other data.
+    ValidationOf<'_> as of {
+        file: if_some(of.recording()),
+        folds: if_some(of.blocks().map(|(folds, ..)| folds)),
+        /// Length of a block.
+        block_s: if_some(of.blocks().map(|(_, length_s, _)| length_s)),
+        /// Blocks without which there is no calibration.
+        failed_folds: if_any(of.blocks().map_or(&[][..], |(.., failed)| failed)),
+        /// Of each sensor, by its name.
+        parameters: of.shifts(),
     }
 }
 
-impl ShiftFields {
-    fn of(shift: &ParameterShift, joints: &[String]) -> Self {
-        let largest = &shift.largest;
-        Self {
-            chi2: shift.chi2,
-            degrees_of_freedom: shift.degrees_of_freedom,
-            factor: shift.factor,
-            factor_interval_99: shift.factor_interval.into(),
-            verdict: shift.verdict.name(),
-            largest: LargestFields {
-                parameter: largest.quantity.name(joints),
-                shift: largest.shift,
-                in_sd: largest.in_sd,
-                without_s: largest.without_s,
-            },
+/// The movement of one sensor's parameters, with the names of the joints.
+struct ShiftOf<'a> {
+    shift: &'a ParameterShift,
+    joints: &'a [String],
+}
+
+json_object! {
+    /// The movement of one sensor's parameters beside what their covariance predicts.
+    ShiftOf<'_> as of {
+        chi2: of.shift.chi2,
+        degrees_of_freedom: of.shift.degrees_of_freedom,
+        /// By how much the standard deviations are too small.
+        factor: of.shift.factor,
+        factor_interval_99: <[f64; 2]>::from(of.shift.factor_interval),
+        verdict: of.shift.verdict.name(),
+        /// The parameter that moves most.
+        largest: LargestOf { shift: of.shift, joints: of.joints },
+    }
+}
+
+struct LargestOf<'a> {
+    shift: &'a ParameterShift,
+    joints: &'a [String],
+}
+
+json_object! {
+    LargestOf<'_> as of {
+        parameter: of.shift.largest.quantity.name(of.joints),
+        /// In the unit of the parameter.
+        shift: of.shift.largest.shift,
+        /// In predicted standard deviations.
+        in_sd: of.shift.largest.in_sd,
+        /// Beginning of the block that was left out.
+        without_s: if_some(of.shift.largest.without_s),
+    }
+}
+
+impl<'a> ValidationOf<'a> {
+    /// By what a file names it.
+    pub(super) fn name(validation: &MachineValidation) -> &'static str {
+        match validation.source {
+            MachineValidationSource::Recording { .. } => "recording",
+            MachineValidationSource::Blocks { .. } => "folds",
         }
+    }
+
+    fn recording(&self) -> Option<&'a str> {
+        match &self.validation.source {
+            MachineValidationSource::Recording { name } => Some(name),
+            MachineValidationSource::Blocks { .. } => None,
+        }
+    }
+
+    fn blocks(&self) -> Option<(usize, f64, &'a [FailedBlock])> {
+        match &self.validation.source {
+            MachineValidationSource::Blocks { folds, length_s, failed } => Some((*folds, *length_s, failed)),
+            MachineValidationSource::Recording { .. } => None,
+        }
+    }
+
+    fn shifts(&self) -> BTreeMap<&'static str, ShiftOf<'a>> {
+        let joints = self.joints;
+        self.validation.shifts.iter().map(|shift| (shift.sensor.name(), ShiftOf { shift, joints })).collect()
     }
 }

@@ -8,8 +8,8 @@ use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{
-    CalibrationFile, DiagnosticWords, Origin, Summary, machine_calibration_json, to_json, write_atomically,
-    write_json, write_machine_calibration,
+    CalibrationFile, DiagnosticWords, MachineCalibrationFile, Origin, Summary, to_json, write_atomically,
+    write_json,
 };
 use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet};
 use std::path::Path;
@@ -93,9 +93,7 @@ impl Outcome {
             Calibrated::Sensors(calibration) => {
                 to_json(&CalibrationFile::of(calibration, &self.validations, &self.origin, &self.words()))
             }
-            Calibrated::OnMachine(machine) => {
-                machine_calibration_json(&machine.result(), &self.origin, &self.words())
-            }
+            Calibrated::OnMachine(machine) => to_json(&self.machine_file(machine)),
         }
     }
 
@@ -120,6 +118,10 @@ impl Outcome {
         DiagnosticWords { allowed: &self.allowed, findings: &self.findings, limits: &self.limits }
     }
 
+    fn machine_file<'a>(&'a self, machine: &'a MachineOutcome) -> MachineCalibrationFile<'a> {
+        MachineCalibrationFile { result: machine.result(), origin: &self.origin, words: self.words() }
+    }
+
     fn write_json(&self, directory: &Path) -> Result<()> {
         let path = directory.join("calibration.json");
         match &self.calibrated {
@@ -127,9 +129,7 @@ impl Outcome {
                 &path,
                 &CalibrationFile::of(calibration, &self.validations, &self.origin, &self.words()),
             ),
-            Calibrated::OnMachine(machine) => {
-                write_machine_calibration(&path, &machine.result(), &self.origin, &self.words())
-            }
+            Calibrated::OnMachine(machine) => write_json(&path, &self.machine_file(machine)),
         }
     }
 

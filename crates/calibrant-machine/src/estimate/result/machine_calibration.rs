@@ -6,6 +6,8 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{CalibrationStatus, FitStatistics};
 use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, ReadingUnit, SensorKind};
 use nalgebra::{DMatrix, Vector3};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Parameters of a sensor on a machine, of the machine, and everything needed to judge them.
 #[derive(Debug, Clone)]
@@ -71,7 +73,7 @@ pub struct SensorResidual {
 }
 
 /// The noise of a part of the log.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReferenceNoise {
     /// `shoulder_pan_joint`, `position.x`, `orientation.z`.
     pub name: String,

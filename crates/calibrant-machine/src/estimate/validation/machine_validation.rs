@@ -3,6 +3,8 @@
 use crate::estimate::MachineQuantity;
 use calibrant_core::estimate::CovarianceVerdict;
 use calibrant_core::sensor::SensorKind;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// How far the sensor's parameters move with other data, beside what their covariance predicts.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +35,7 @@ pub enum MachineValidationSource {
 }
 
 /// A block of time without which there is no calibration.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FailedBlock {
     /// Its beginning on the clock of the IMU, s.
     pub start_s: f64,
