@@ -18,7 +18,7 @@ use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{
     ClockSource, ClockSourceKind, LineTruncated, MissingValue, RowsRepeated, TemperatureDoubt,
-    TemperatureDoubtful, TemperatureGaps, TimesRepeated, ValuesMissing,
+    TemperatureDoubtful, TemperatureGaps, TimesFromFirst, TimesRepeated, ValuesMissing,
 };
 use calibrant_core::error::{Answer, Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
@@ -280,7 +280,8 @@ fn readings(
             counted(samples.rows, "row")
         );
         let mut help = vec![TWO.to_owned()];
-        let dropped = findings.iter().filter(|finding| finding.code() != ClockSource::CODE);
+        let of_clock = [ClockSource::CODE, TimesFromFirst::CODE];
+        let dropped = findings.iter().filter(|finding| !of_clock.contains(&finding.code()));
         help.extend(dropped.map(ToString::to_string));
         let input_error = InputError::new(Refusal::RecordingShort, message, help.join("; "));
         return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());

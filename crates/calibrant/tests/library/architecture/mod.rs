@@ -33,7 +33,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("arrowhead", &[]),
     ("form", &[]),
     ("json", &[]),
+    ("interruption", &["error"]),
     ("number_format", &[]),
+    ("progress", &[]),
     ("root", &[]),
     ("sensor", &["form", "json", "error"]),
     ("motion", &["form", "json", "error", "sensor"]),
@@ -42,7 +44,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "estimate",
         &["form", "json", "diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"],
     ),
-    ("noise", &["json", "diagnostic", "error", "sensor", "motion", "root", "number_format"]),
+    ("noise", &["json", "diagnostic", "error", "interruption", "sensor", "motion", "root", "number_format"]),
     ("simulate", &["error", "sensor", "motion", "noise"]),
 ];
 

@@ -32,6 +32,8 @@ pub(crate) struct Modules {
     pub(crate) roots: BTreeMap<String, usize>,
     /// modules that are declared and have no file
     pub(crate) without_file: Vec<String>,
+    /// macros that stand in the root of their crate, each with the module that holds it
+    exported: Vec<(usize, String)>,
 }
 
 impl Modules {
@@ -39,6 +41,18 @@ impl Modules {
     pub(crate) fn read_crate(&mut self, name: &str, root: &str, sources: &BTreeMap<String, String>) {
         let index = self.read_file(None, root, sources);
         self.roots.insert(name.replace('-', "_"), index);
+        for (module, name) in std::mem::take(&mut self.exported) {
+            let path = self.path_of(module).into_iter().chain([name.clone()]).collect();
+            self.all[index].imports.entry(name).or_default().push(path);
+        }
+    }
+
+    /// The path of a module: `crate::json::name`.
+    fn path_of(&self, module: usize) -> Path {
+        let Some(parent) = self.all[module].parent else { return vec!["crate".to_owned()] };
+        let children = &self.all[parent].children;
+        let name = children.iter().find(|(_, child)| **child == module).map(|(name, _)| name.clone());
+        self.path_of(parent).into_iter().chain(name).collect()
     }
 
     /// The files from which the modules were read.
@@ -107,16 +121,21 @@ impl Modules {
                     let types = body.windows(2).filter(|two| matches!(two[0].as_str(), "enum" | "struct"));
                     let names = types.map(|two| two[1].clone()).filter(|name| starts_path(name));
                     self.all[module].items.extend(names);
+                    if at(place.wrapping_sub(2)) == "macro_export" {
+                        self.exported.push((module, at(place + 2).to_owned()));
+                    }
                     place += 2;
                 }
-                "checks" if depth == 0 && at(place + 1) == "!" => {
-                    // a type for each entry: `HoldMoved "hold-moved" Warning`
-                    let severity = |word: &str| matches!(word, "Note" | "Warning" | "Error");
-                    let body = &tokens[place..after_group(tokens, place + 2)];
-                    let entries = body.windows(3).filter(|three| three[1] == "\"" && severity(&three[2]));
-                    let names = entries.map(|three| three[0].clone()).chain(["CODES".to_owned()]);
+                word if depth == 0 && at(place + 1) == "!" && at(place + 2) == "{" => {
+                    // types that a macro defines: each begins an entry
+                    let body = &tokens[place + 2..after_group(tokens, place + 2)];
+                    let defines = word != "macro_rules" && !word.starts_with("json_");
+                    let names = entries(body).filter(|_| defines);
                     self.all[module].items.extend(names);
-                    self.all[module].named.push(vec!["checks".to_owned()]);
+                    // the list of the codes of an area
+                    let codes = (word == "checks").then(|| "CODES".to_owned());
+                    self.all[module].items.extend(codes);
+                    self.all[module].named.push(vec![word.to_owned()]);
                 }
                 word if starts_path(word) && !matches!(at(place.wrapping_sub(1)), "::" | "." | "fn") => {
                     if depth == 0 && at(place + 1) == "!" && at(place + 2) == "{" {
@@ -228,4 +247,18 @@ fn next_comma(tree: &[String], start: usize, end: usize) -> usize {
         place = if tree[place] == "{" { after_group(tree, place) } else { place + 1 };
     }
     place
+}
+
+/// The words that begin an entry of a macro's body and may name a type.
+fn entries(body: &[String]) -> impl Iterator<Item = String> + '_ {
+    let mut depth = 0_usize;
+    body.windows(2).filter_map(move |two| {
+        match two[0].as_str() {
+            "{" | "(" | "[" => depth += 1,
+            "}" | ")" | "]" => depth -= 1,
+            _ => {}
+        }
+        let begins = depth == 1 && matches!(two[0].as_str(), "{" | "}" | ";" | "]");
+        (begins && two[1].starts_with(char::is_uppercase)).then(|| two[1].clone())
+    })
 }
