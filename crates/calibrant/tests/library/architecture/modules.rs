@@ -126,16 +126,14 @@ impl Modules {
                     }
                     place += 2;
                 }
-                word if depth == 0 && at(place + 1) == "!" && at(place + 2) == "{" => {
-                    // types that a macro defines: each begins an entry
-                    let body = &tokens[place + 2..after_group(tokens, place + 2)];
-                    let defines = word != "macro_rules" && !word.starts_with("json_");
-                    let names = entries(body).filter(|_| defines);
+                "checks" if depth == 0 && at(place + 1) == "!" => {
+                    // a type for each entry, `HoldMoved "hold-moved" Warning`, and the list of the codes
+                    let severity = |word: &str| matches!(word, "Note" | "Warning" | "Error");
+                    let body = &tokens[place..after_group(tokens, place + 2)];
+                    let entries = body.windows(3).filter(|three| three[1] == "\"" && severity(&three[2]));
+                    let names = entries.map(|three| three[0].clone()).chain(["CODES".to_owned()]);
                     self.all[module].items.extend(names);
-                    // the list of the codes of an area
-                    let codes = (word == "checks").then(|| "CODES".to_owned());
-                    self.all[module].items.extend(codes);
-                    self.all[module].named.push(vec![word.to_owned()]);
+                    self.all[module].named.push(vec!["checks".to_owned()]);
                 }
                 word if starts_path(word) && !matches!(at(place.wrapping_sub(1)), "::" | "." | "fn") => {
                     if depth == 0 && at(place + 1) == "!" && at(place + 2) == "{" {
@@ -247,18 +245,4 @@ fn next_comma(tree: &[String], start: usize, end: usize) -> usize {
         place = if tree[place] == "{" { after_group(tree, place) } else { place + 1 };
     }
     place
-}
-
-/// The words that begin an entry of a macro's body and may name a type.
-fn entries(body: &[String]) -> impl Iterator<Item = String> + '_ {
-    let mut depth = 0_usize;
-    body.windows(2).filter_map(move |two| {
-        match two[0].as_str() {
-            "{" | "(" | "[" => depth += 1,
-            "}" | ")" | "]" => depth -= 1,
-            _ => {}
-        }
-        let begins = depth == 1 && matches!(two[0].as_str(), "{" | "}" | ";" | "]");
-        (begins && two[1].starts_with(char::is_uppercase)).then(|| two[1].clone())
-    })
 }
