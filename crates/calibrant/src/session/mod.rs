@@ -1,4 +1,4 @@
-//! From a recording's file to a calibration and its report, in one call.
+//! From a recording, in a file or in memory, to a calibration and its report, in one call.
 //!
 //! | stage | what it does | where |
 //! |---|---|---|
@@ -31,8 +31,8 @@
 //! write_recording(&file, &recording)?;
 //!
 //! let experiment = Experiment::parse(preset("static-poses").expect("it exists"), None)?;
-//! let session = Session::from_experiment(&experiment, SessionOptions::default())?;
-//! let outcome = session.run(&Source::from_file(&file))?;
+//! let session = Session::new(experiment)?;
+//! let outcome = session.calibrate(&Source::from_file(&file))?;
 //! outcome.write(directory.path())?;
 //!
 //! let calibration = outcome.calibration().expect("of holds");
