@@ -419,11 +419,15 @@ impl Newton<'_> {
             let wanted = dot(&cone.metric, &triangle(pull)) - 1.0;
             let t = (metric.dot(&y) - wanted) / metric.dot(&along);
             y.axpy(-t, &along, 1.0);
-            step = Some(cone.scaling.step(t, &y.as_slice()[own], pull));
+            step = Some((t, y.as_slice()[own.clone()].to_vec(), own));
         }
         self.border.iter().zip(y.iter()).for_each(|(row, y)| row.add_to(r, -y));
         self.chains(r);
-        step
+        // X follows the step itself and Z the multipliers y, so that rounding leaves each where its conditions want it
+        let ((cone, pull), (t, y, own)) = self.cone.as_ref().zip(pull).zip(step)?;
+        let rows = self.border[own].iter().zip(&cone.metric);
+        let entries: Vec<f64> = rows.map(|(row, metric)| row.at(r) - metric * t).collect();
+        Some(cone.scaling.step(t, &entries, &y, &pull))
     }
 }
 

@@ -145,10 +145,16 @@ impl Scaling {
         })
     }
 
-    /// The direction with these scaled entries of dX.
-    pub(crate) fn step(&self, t: f64, entries: &[f64], pull: &DMatrix<f64>) -> ConeStep {
+    /// The direction with these scaled entries of dX, and the same as the multipliers have them.
+    pub(crate) fn step(
+        &self,
+        t: f64,
+        entries: &[f64],
+        of_multipliers: &[f64],
+        pull: &DMatrix<f64>,
+    ) -> ConeStep {
         let x = from_triangle(entries, self.d.len());
-        let mut z = pull - &x;
+        let mut z = pull - from_triangle(of_multipliers, self.d.len());
         (0..self.d.len()).for_each(|i| z[(i, i)] -= self.d[i]);
         ConeStep { t, x, z }
     }
