@@ -13,7 +13,6 @@ mod record_keeper;
 mod recorded;
 mod sources;
 mod unused;
-mod worst_first;
 
 pub(crate) use arguments::Arguments;
 

@@ -6,13 +6,11 @@ mod job;
 mod output;
 mod pose_evaluation;
 mod pose_output;
-mod pose_table;
 mod poses;
 mod reach;
 mod reach_request;
 mod sweep;
 mod sweep_request;
-mod table;
 
 pub(crate) use arguments::Arguments;
 

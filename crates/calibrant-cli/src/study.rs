@@ -1,12 +1,10 @@
 //! `calibrant study`: simulates many sensors, and compares estimates with the truth.
 
-mod table;
-
 use crate::budget::budget;
 use crate::exit::Exit;
 use crate::{console, interruption};
 use calibrant::io::{Experiment, ResultPlaces, StudyFile, preset, to_json, write_atomically, write_json};
-use calibrant::report::{About, study_report};
+use calibrant::report::{About, study_sheet};
 use calibrant::session::MotionSource;
 use calibrant::{StudyChoice, StudyPlan};
 use std::path::PathBuf;
@@ -87,12 +85,12 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
-    let html = study_report(&studies, &about);
-    write_atomically(&report, |out| out.write_all(html.as_bytes()))?;
+    let sheet = study_sheet(&studies, &about);
+    write_atomically(&report, |out| out.write_all(sheet.html().as_bytes()))?;
     if arguments.json {
         console::print_always(&to_json(&StudyFile { studies: &studies }));
     } else {
-        console::print(&table::studies(&studies));
+        console::sheet(&sheet);
         console::print(&format!("\n{}\n", report.display()));
     }
     Ok(Exit::DONE)

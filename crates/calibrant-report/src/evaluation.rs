@@ -1,16 +1,14 @@
-//! The report page on a user's motion, compared with the best motion and the limits.
+//! The sheet of a user's motion, compared with the best motion and the limits.
 
 use super::About;
-use super::design::{axes, limit_table, promised_table, times, undetermined_items, violation};
-use super::figure::{
-    DisplayUnit, Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, states,
-    velocity_and_displacement,
+use super::design::{
+    axes, confidence_section, criterion_in_words, motion_section, promised_table, times, undetermined_items,
+    violation,
 };
-use super::html::{Page, verdict_box};
-use super::number_format;
-use crate::sheet::{Cell, Table};
+use super::figure::Drawn;
+use super::number_format::{self, counted, short, significant};
+use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::motion::Limits;
-use calibrant_core::sensor::Parameter;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
 use nalgebra::Vector3;
 
@@ -21,61 +19,112 @@ const BLIND: f64 = 0.8;
 /// A better motion is worth the effort beyond this factor.
 const WORTH_IT: f64 = 1.5;
 
-/// A user's motion as one HTML file: a verdict, and its predicted standard deviations beside those of the best motion
+/// A user's motion as a sheet: a verdict, and its predicted standard deviations beside those of the best motion
 /// found. It lists broken limits and undetermined parameters.
-///
-/// Self-contained as [`Sheet::html`](crate::Sheet::html) is.
 #[must_use]
-pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
-    let title = if about.title.is_empty() { "Evaluation of a motion" } else { &about.title };
-    let mut page = Page::opened(title, verdict(assessment, about));
-
+pub fn evaluation_sheet<'a>(assessment: &'a Assessment, about: &'a About) -> Sheet<'a> {
     let (own, parameters) = (&assessment.evaluation, &assessment.parameters);
     let optimum = assessment.optimum.as_ref().ok();
-    page.section(
-        "Predicted standard deviations",
-        "A calibration from a recording of the motion has these standard deviations.",
-    );
-    match optimum {
-        Some(design) => {
-            let bound = design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice());
-            page.push(promised_table(
-                parameters,
-                ("your motion", own),
-                ("optimal motion", &design.optimal),
-                bound,
-            ));
-        }
-        None => page.push(own_table(parameters, &own.sd())),
-    }
-    page.push(criterion_table(assessment));
-
-    let (axes, limits) = (axes(parameters), drawn_limits(&assessment.limits));
-    page.section("The motion", "The motion of the arm on each axis, with the limits.");
     let mut motions = vec![Drawn::before("your motion", &own.motion)];
     motions.extend(optimum.map(|design| Drawn::after("optimal", &design.optimal.motion)));
-    page.push(jerk_and_acceleration("Jerk (a) and acceleration (b)", &motions, axes, &limits).html());
-    page.push(velocity_and_displacement(&motions, axes, &limits).html());
-    if let Some(figure) = states(&motions, axes, &limits) {
-        page.push(figure.html());
-    }
-    page.subsection("Use of the limits");
-    page.push(limit_table(&assessment.limits, "motion"));
-
-    page.section("Confidence", "The uncertainty of the parameters, and which errors are correlated.");
+    let motion = motion_section(
+        "The motion of the arm on each axis, with the limits.",
+        "Jerk (a) and acceleration (b)",
+        motions,
+        axes(parameters),
+        drawn_limits(&assessment.limits),
+        (&assessment.limits, "motion"),
+    );
     let best = optimum.map(|design| ("optimal", &design.optimal));
-    let ellipses = confidence_ellipses(parameters, ("your motion", own), best);
-    if let Some(figure) = ellipses {
-        page.push(figure.html());
+    let confidence = confidence_section(parameters, ("your motion", own), best, own);
+    Sheet {
+        title: if about.title.is_empty() { "Evaluation of a motion".into() } else { about.title.clone() },
+        verdict: Some(verdict(assessment, about)),
+        sections: vec![predicted(assessment), motion, confidence],
+        inputs: about.facts.clone(),
+        footer: about.footer(),
     }
-    match &own.covariance {
-        Some(covariance) => page.push(correlation_map(parameters, covariance)),
-        None => page.paragraph("The motion does not determine the parameters, so they have no covariance."),
-    }
-    page.finish(title, &about.facts, &about.footer())
 }
 
-fn verdict(assessment: &Assessment, about: &About) -> String {
+fn predicted(assessment: &Assessment) -> Section<'_> {
+    let optimum = assessment.optimum.as_ref().ok();
+    let mut section = Section::new("Predicted standard deviations")
+        .lead("A calibration from a recording of the motion has these standard deviations.");
+    section.line(format!(
+        "{}: {} own, {} optimal",
+        criterion_in_words(&assessment.criterion),
+        significant(assessment.evaluation.value, 5),
+        optimum.map_or_else(|| number_format::UNKNOWN.into(), |design| significant(design.optimal.value, 5))
+    ));
+    section.table(promised_table(
+        &assessment.parameters,
+        ("own", &assessment.evaluation),
+        optimum.map(|design| ("optimal", &design.optimal)),
+        optimum
+            .and_then(|design| design.certificate.as_ref())
+            .map(|certificate| certificate.sd_lower_bound.as_slice()),
+    ));
+    section.table(criterion_table(assessment).on_page());
+    if let Some(other) = &assessment.other_setting {
+        section.line(not_alike(other));
+    }
+    efficiency(assessment).into_iter().for_each(|line| section.line(line));
+    let broken = assessment.violations();
+    if broken.is_empty() {
+        section.line("all limits are kept, at all times");
+    }
+    broken.iter().for_each(|found| section.line(broken_limit(found)));
+    section
+}
+
+/// The efficiency, and what it means.
+fn efficiency(assessment: &Assessment) -> Option<String> {
+    let efficiency = assessment.efficiency()?;
+    let certain = assessment.certain_efficiency().map_or_else(String::new, |certain| {
+        format!(" (at least {} % of any admissible motion)", significant(100.0 * certain, 3))
+    });
+    let meaning = if efficiency > 1.0 + 1e-6 {
+        "the motion is better than the best motion within the limits".into()
+    } else if efficiency > 0.99 {
+        "no better motion exists".into()
+    } else {
+        format!(
+            "{} recordings of this motion give as much information as one of the best motion",
+            significant(1.0 / efficiency, 3)
+        )
+    };
+    let percent = significant(100.0 * efficiency, 3);
+    Some(format!("Efficiency {percent} % of the best motion found{certain}: {meaning}."))
+}
+
+/// A broken limit, and by how much.
+fn broken_limit(found: &LimitUse) -> String {
+    let (axis, unit) = (found.axis, found.kind.unit());
+    let number = |value: f64| significant(value, 4);
+    match found.kind {
+        LimitKind::RestAtEnd => {
+            format!("BROKEN: axis {axis} still moves at the end, at {} {unit}", number(found.value))
+        }
+        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
+            "BROKEN: {} of axis {axis} is {} {unit}, prescribed is {}",
+            found.kind.name(),
+            number(found.value),
+            number(found.limit)
+        ),
+        kind => format!(
+            "BROKEN: {} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
+            kind.name(),
+            number(found.value),
+            number(found.time_s),
+            number(found.excess()),
+            number(found.limit),
+            significant(100.0 * found.violation, 3)
+        ),
+    }
+}
+
+/// The verdict of the page. Terminals show its sentences below the table.
+fn verdict(assessment: &Assessment, about: &About) -> SheetVerdict {
     let broken: Vec<String> = assessment.violations().iter().map(violation).collect();
     let mut sentences = Vec::new();
     let determined = assessment.evaluation.covariance.is_some();
@@ -90,27 +139,26 @@ fn verdict(assessment: &Assessment, about: &About) -> String {
     if let Some(other) = &assessment.other_setting {
         sentences.push(not_alike(other));
     }
-    let (class, word) = match factor {
+    let (grade, word) = match factor {
         _ if !determined => {
             sentences.insert(
                 0,
                 "No recording of this motion can calibrate the sensor: it leaves parameters undetermined."
                     .into(),
             );
-            ("bad", "✗ Useless for calibration.")
+            (Grade::Bad, "✗ Useless for calibration.")
         }
-        _ if !broken.is_empty() => ("bad", "✗ Breaks limits."),
-        Some(factor) if factor <= AS_GOOD => ("good", "✓ As good as the best motion found."),
-        Some(factor) if factor <= WORTH_IT => ("good", "✓ Usable, a little better is possible."),
-        Some(_) => ("caution", "! Usable, but a better motion is worth the effort."),
-        None => ("good", "✓ Usable."),
+        _ if !broken.is_empty() => (Grade::Bad, "✗ Breaks limits."),
+        Some(factor) if factor <= AS_GOOD => (Grade::Good, "✓ As good as the best motion found."),
+        Some(factor) if factor <= WORTH_IT => (Grade::Good, "✓ Usable, a little better is possible."),
+        Some(_) => (Grade::Caution, "! Usable, but a better motion is worth the effort."),
+        None => (Grade::Good, "✓ Usable."),
     };
-    let remarks = [
-        ("Broken limits", broken),
-        ("Undetermined", undetermined_items(&assessment.evaluation)),
-        ("Findings", about.findings.clone()),
-    ];
-    verdict_box(class, word, &sentences.join(" "), &remarks)
+    SheetVerdict::new(grade, word, sentences.join(" "))
+        .with("Broken limits", broken)
+        .with("Undetermined", undetermined_items(&assessment.evaluation))
+        .with("Findings", about.findings.clone())
+        .on_terminal("")
 }
 
 /// Adds the comparison with the best motion. Returns the largest factor of improvement.
@@ -137,7 +185,7 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
             "By criterion {}, its efficiency is {}: 100 recordings of it give as much information as {} of the best motion",
             assessment.criterion.letter(),
             number_format::percent(efficiency),
-            number_format::significant(100.0 * efficiency, 2)
+            significant(100.0 * efficiency, 2)
         );
         if let Some(certain) = assessment.certain_efficiency() {
             sentence.push_str(&format!(
@@ -160,48 +208,20 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
 fn not_alike(other: &OtherSetting) -> String {
     format!(
         "The motion takes {} s in {}, but the best motion is for the experiment's {} s in {}.",
-        number_format::short(other.duration_s),
-        number_format::counted(other.intervals, "interval"),
-        number_format::short(other.experiment_duration_s),
-        number_format::counted(other.experiment_intervals, "interval")
+        short(other.duration_s),
+        counted(other.intervals, "interval"),
+        short(other.experiment_duration_s),
+        counted(other.experiment_intervals, "interval")
     )
 }
 
-fn own_table(parameters: &[Parameter], sd: &[f64]) -> String {
-    let mut table = Table::new(["parameter", "unit", "sd"]);
-    for (parameter, &sd) in parameters.iter().zip(sd) {
-        let unit = DisplayUnit::suited_to(parameter.unit, [sd]);
-        let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
-        let shown = if sd.is_finite() {
-            number_format::significant(sd * unit.factor, 4)
-        } else {
-            "undetermined".into()
-        };
-        table.row(vec![
-            Cell::Name(parameter.name.clone()),
-            Cell::Text(symbol.to_string()),
-            Cell::Number(shown),
-        ]);
-    }
-    table.html()
-}
-
-fn criterion_table(assessment: &Assessment) -> String {
-    let name = format!(
-        "criterion {}, {}{}",
-        assessment.criterion.letter(),
-        assessment.criterion.formula(),
-        assessment.criterion.scaling()
-    );
+fn criterion_table(assessment: &Assessment) -> Table {
+    let criterion = &assessment.criterion;
+    let name = format!("criterion {}, {}{}", criterion.letter(), criterion.formula(), criterion.scaling());
     let mut table = Table::new([name.as_str(), "value", "efficiency of your motion"]);
     let mut row = |name: &str, value: f64, efficiency: Option<f64>| {
-        table.row(vec![
-            Cell::Name(name.to_string()),
-            Cell::Number(number_format::significant(value, 6)),
-            Cell::Number(
-                efficiency.map_or_else(|| number_format::UNKNOWN.to_string(), number_format::percent),
-            ),
-        ]);
+        let efficiency = efficiency.map_or(Cell::Missing, Cell::percent);
+        table.row(vec![Cell::name(name), Cell::significant(value, 6), efficiency]);
     };
     row("your motion", assessment.evaluation.value, None);
     if let Ok(design) = &assessment.optimum {
@@ -210,7 +230,7 @@ fn criterion_table(assessment: &Assessment) -> String {
             row("lower bound", certificate.lower_bound, assessment.certain_efficiency());
         }
     }
-    table.html()
+    table
 }
 
 /// The limits to draw, from how far they are used.

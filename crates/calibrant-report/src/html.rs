@@ -2,7 +2,6 @@
 
 use super::contents;
 use super::figure::{CHART_SCRIPT, renumbered};
-use rayon::prelude::*;
 
 /// Text made safe for HTML, also within attributes.
 pub(super) fn escape(text: &str) -> String {
@@ -44,12 +43,6 @@ enum Piece {
 }
 
 impl Page {
-    /// Several parts, made in parallel, one below the other.
-    pub(super) fn of_parts<const N: usize>(parts: [&(dyn Fn() -> Self + Sync); N]) -> Self {
-        let pages: Vec<Self> = parts.par_iter().map(|part| part()).collect();
-        Self { pieces: pages.into_iter().flat_map(|page| page.pieces).collect() }
-    }
-
     /// A page that opens with its title, the verdict, and the contents.
     pub(super) fn opened(title: &str, verdict: String) -> Self {
         let mut page = Self::default();
@@ -70,11 +63,6 @@ impl Page {
         if !lead.is_empty() {
             self.paragraph(lead);
         }
-    }
-
-    /// A heading within a section.
-    pub(super) fn subsection(&mut self, heading: &str) {
-        self.push(format!("<h3>{}</h3>", escape(heading)));
     }
 
     /// A paragraph of plain text.

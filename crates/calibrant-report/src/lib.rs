@@ -27,19 +27,19 @@ pub use calibrant_core::number_format;
 #[cfg(test)]
 mod tests;
 
-pub use batch::{Batch, BatchParameter, BatchSensor, batch_report};
+pub use batch::{Batch, BatchParameter, BatchSensor, batch_sheet};
 pub use calibration::calibration_sheet;
 pub use comparison::comparison_sheet;
-pub use design::design_report;
-pub use evaluation::evaluation_report;
+pub use design::{design_sheet, gap_in_words};
+pub use evaluation::evaluation_sheet;
 pub use machine::machine_sheet;
 pub use noise::noise_sheet;
-pub use poses::{design_in_words, evaluation_in_words, pose_evaluation_report, pose_in_words, pose_report};
+pub use poses::{pose_evaluation_sheet, pose_in_words, pose_sheet};
 pub use report_context::About;
 pub use sheet::{
     Cell, Column, Digits, Grade, Section, Sheet, SheetVerdict, Shown, Table, paragraph, wrapped,
 };
 #[cfg(feature = "study")]
-pub use study::study_report;
-pub use sweep::sweep_report;
+pub use study::study_sheet;
+pub use sweep::sweep_sheet;
 pub use validation::validation_sentences;

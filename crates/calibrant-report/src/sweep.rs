@@ -1,41 +1,37 @@
-//! The report page on a sweep: the best designs for several values of one quantity.
+//! The sheet of a sweep: the best designs for several values of one quantity.
 
 use super::About;
 use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
-use super::html::{Page, verdict_box};
 use super::number_format;
-use crate::sheet::{Cell, Table};
+use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
 
-/// A sweep as one HTML file: the effect of the quantity in a sentence, the curves, a table of all values.
-///
-/// Self-contained as [`Sheet::html`](crate::Sheet::html) is.
+/// A sweep as a sheet: the effect of the quantity in a sentence, the curves, a table of all values.
 #[must_use]
-pub fn sweep_report(sweep: &Sweep, about: &About) -> String {
-    let title = if about.title.is_empty() { "Sweep" } else { &about.title };
-    let mut page = Page::opened(title, verdict(sweep, about));
-
-    page.section(
-        "Curves",
+pub fn sweep_sheet<'a>(sweep: &'a Sweep, about: &'a About) -> Sheet<'a> {
+    let mut curves = Section::on_page("Curves").lead(
         "The best motion was designed for each value. The figure shows the standard deviation of a calibration from one recording of it.",
     );
-    page.push(sweep_curves(sweep).html());
-    page.section(
-        "Table",
-        &format!(
-            "The design minimises criterion {}, {}{}.",
-            sweep.criterion.letter(),
-            sweep.criterion.formula(),
-            sweep.criterion.scaling()
-        ),
-    );
-    page.push(table(sweep));
-    page.finish(title, &about.facts, &about.footer())
+    curves.figure(|| Some(sweep_curves(sweep)));
+    let mut values = Section::new("Best motion for each value").lead(format!(
+        "The design minimises criterion {}, {}{}.",
+        sweep.criterion.letter(),
+        sweep.criterion.formula(),
+        sweep.criterion.scaling()
+    ));
+    values.table(table(sweep));
+    Sheet {
+        title: if about.title.is_empty() { "Sweep".into() } else { about.title.clone() },
+        verdict: Some(verdict(sweep, about)),
+        sections: vec![curves, values],
+        inputs: about.facts.clone(),
+        footer: about.footer(),
+    }
 }
 
-fn verdict(sweep: &Sweep, about: &About) -> String {
+fn verdict(sweep: &Sweep, about: &About) -> SheetVerdict {
     let failed: Vec<String> = sweep
         .points
         .iter()
@@ -48,18 +44,15 @@ fn verdict(sweep: &Sweep, about: &About) -> String {
         .filter(|(_, ended)| *ended != DesignStatus::Converged)
         .map(|(point, ended)| format!("{}: {}", value(sweep, point), status(ended)))
         .collect();
-    let (class, word) = match () {
-        () if failed.len() == sweep.points.len() => ("bad", "✗ No motion is possible."),
-        () if failed.is_empty() && unfinished.is_empty() => ("good", "✓ All designs converged."),
-        () => ("caution", "! Look closer."),
+    let (grade, word) = match () {
+        () if failed.len() == sweep.points.len() => (Grade::Bad, "✗ No motion is possible."),
+        () if failed.is_empty() && unfinished.is_empty() => (Grade::Good, "✓ All designs converged."),
+        () => (Grade::Caution, "! Look closer."),
     };
-    let sentence = worth(sweep).unwrap_or_default();
-    verdict_box(
-        class,
-        word,
-        &sentence,
-        &[("No design", failed), ("Not converged", unfinished), ("Findings", about.findings.clone())],
-    )
+    SheetVerdict::new(grade, word, worth(sweep).unwrap_or_default())
+        .with("No design", failed)
+        .with("Not converged", unfinished)
+        .with("Findings", about.findings.clone())
 }
 
 /// The effect of the quantity on the parameter that depends on it most, from the smallest value to the largest.
@@ -111,7 +104,7 @@ fn value(sweep: &Sweep, point: &SweepPoint) -> String {
     format!("{} {}", number_format::short(point.value), sweep.variable.unit()).trim_end().to_string()
 }
 
-fn table(sweep: &Sweep) -> String {
+fn table(sweep: &Sweep) -> Table {
     let count = sweep.parameters.len();
     let sd: Vec<Vec<f64>> = sweep.points.iter().map(|point| point.sd(count)).collect();
     let units: Vec<DisplayUnit> = (0..count)
@@ -121,46 +114,42 @@ fn table(sweep: &Sweep) -> String {
         })
         .collect();
     let nats = matches!(sweep.criterion, Criterion::D(_));
-    let name = format!("{} ({})", sweep.variable.name(), sweep.variable.unit());
-    let of_parameters =
-        sweep.parameters.iter().zip(&units).map(|(p, unit)| unit.label(&format!("sd {}", p.name)));
-    let above_label = if nats { "above the bound (nats)" } else { "above the bound" };
-    let columns: Vec<String> = [name, "intervals".to_string()]
-        .into_iter()
-        .chain(of_parameters)
-        .chain(["criterion".to_string(), above_label.to_string(), "ended".to_string()])
-        .collect();
+    let mut columns = vec![
+        Column::new(sweep.variable.name()).in_unit(sweep.variable.unit()),
+        Column::on_page("intervals"),
+        format!("criterion {}", sweep.criterion.letter()).into(),
+        if nats { "above the bound (nats)" } else { "above the bound" }.into(),
+    ];
+    let of_parameters = sweep.parameters.iter().zip(&units);
+    columns.extend(of_parameters.map(|(p, unit)| Column::from(unit.label(&format!("sd {}", p.name)))));
+    columns.push(Column::on_page("ended"));
     let mut table = Table::new(columns);
     for (point, sd) in sweep.points.iter().zip(&sd) {
-        let mut cells =
-            vec![Cell::Name(number_format::short(point.value)), Cell::Number(point.intervals.to_string())];
-        cells.extend(
-            sd.iter()
-                .zip(&units)
-                .map(|(sd, unit)| Cell::Number(number_format::significant(sd * unit.factor, 4))),
-        );
-        match &point.outcome {
-            Ok(design) => {
-                cells.push(Cell::Number(number_format::significant(design.optimal.value, 5)));
-                cells.push(Cell::Number(match &design.certificate {
-                    Some(certificate) if nats => number_format::significant(certificate.gap, 2),
-                    Some(certificate) => above(certificate.gap),
-                    None => number_format::UNKNOWN.to_string(),
-                }));
-                let ended = status(design.status).to_string();
+        let design = point.outcome.as_ref().ok();
+        let gap = design.and_then(|design| design.certificate.as_ref()).map(|certificate| certificate.gap);
+        let mut cells = vec![
+            Cell::name(number_format::short(point.value)),
+            Cell::Number(point.intervals.to_string()),
+            design.map_or(Cell::Missing, |design| Cell::significant(design.optimal.value, 5)),
+            gap.map_or(Cell::Missing, |gap| match nats {
+                true => Cell::significant(gap, 2),
+                false => Cell::Number(above(gap)),
+            }),
+        ];
+        let in_unit = |(sd, unit): (&f64, &DisplayUnit)| Cell::significant(sd * unit.factor, 4);
+        cells.extend(sd.iter().zip(&units).map(in_unit));
+        match design {
+            Some(design) => {
+                let ended = status(design.status).to_owned();
                 let converged = design.status == DesignStatus::Converged;
                 cells.push(if converged { Cell::Text(ended) } else { Cell::Mark(ended) });
                 table.row(cells);
             }
-            Err(_) => {
-                cells.extend([
-                    Cell::Number(number_format::UNKNOWN.into()),
-                    Cell::Number(number_format::UNKNOWN.into()),
-                ]);
-                cells.push(Cell::Mark("no design, see above".to_string()));
+            None => {
+                cells.push(Cell::Mark("no design, see above".to_owned()));
                 table.row_left_out(cells);
             }
         }
     }
-    table.html()
+    table
 }

@@ -4,15 +4,13 @@ use super::batch_page::batch_of;
 use super::copies;
 use super::job::Job;
 use super::parallel::in_parallel;
-use super::quality;
 use super::recorded::Recorded;
 use super::sources::hashed_readings;
-use super::worst_first::{Row, table_of};
 use crate::console;
 use crate::diagnostics::{rules, tell_in};
 use crate::exit::Exit;
 use calibrant::io::{SummaryRow, calibrations_json, write_atomically, write_summary};
-use calibrant::report::{About, batch_report};
+use calibrant::report::{About, batch_sheet};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
@@ -60,8 +58,9 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     let path = arguments.output.join("summary.csv");
     write_summary(&path, &summary)?;
     let page_path = arguments.output.join("batch.html");
-    let page = batch_report(&batch_of(job, &folders, &recorded), &about(job));
-    write_atomically(&page_path, |out| out.write_all(page.as_bytes()))?;
+    let (batch, about) = (batch_of(job, &folders, &recorded), about(job));
+    let sheet = batch_sheet(&batch, &about);
+    write_atomically(&page_path, |out| out.write_all(sheet.html().as_bytes()))?;
     if arguments.json {
         let files: Vec<String> = arguments.recordings.iter().map(|path| path.display().to_string()).collect();
         let outcomes =
@@ -71,6 +70,7 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
             });
         console::print_always(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
     } else {
+        console::sheet(&sheet);
         let failed = summary.iter().filter(|row| row.outcome.is_err()).count();
         console::print(&format!(
             "\n{} calibrated, {failed} failed: {}\n{}\n",
@@ -82,27 +82,18 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     Ok(exit)
 }
 
-/// Prints what is told of each recording, then the table. Gives the exit status.
+/// Prints what is told of each recording. Gives the exit status.
 fn show(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) -> Exit {
-    let (arguments, columns) = (job.arguments, quality::columns(job.experiment));
-    let (mut exit, mut rows) = (Exit::DONE, Vec::new());
+    let (arguments, mut exit) = (job.arguments, Exit::DONE);
     for ((path, folder), recorded) in arguments.recordings.iter().zip(folders).zip(recorded) {
         recorded.told().iter().for_each(|found| tell_in(found, Some(folder)));
-        match &recorded.outcome {
-            Ok(result) => {
-                let verdict = result.finished.summary.verdict();
-                exit = exit.max(rules().exit_of(verdict));
-                rows.push(Row::of_result(folder, verdict, result.finished.cells.clone()));
-            }
+        exit = exit.max(match &recorded.outcome {
+            Ok(result) => rules().exit_of(result.finished.summary.verdict()),
             Err(error) => {
                 console::error_in(error, path);
-                exit = exit.max(Exit::of(error));
-                rows.push(Row::of_failure(folder, error.code().name(), columns.len()));
+                Exit::of(error)
             }
-        }
-    }
-    if !arguments.json {
-        console::print(&table_of(rows, columns));
+        });
     }
     exit
 }

@@ -1,6 +1,7 @@
 //! What the page of a batch shows of each recording.
 
 use super::job::Job;
+use super::quality;
 use super::recorded::Recorded;
 use crate::console;
 use crate::diagnostics::rules;
@@ -17,7 +18,8 @@ pub(super) fn batch_of(job: &Job<'_>, folders: &[String], recorded: &[Recorded])
     let sensors = folders.iter().zip(recorded).map(|(folder, of)| sensor(job, folder, of, named)).collect();
     let datasheet = datasheet(&job.experiment.sensor);
     let parameters = named.iter().map(|of| parameter(of, &datasheet, &job.limits)).collect();
-    Batch { parameters, sensors }
+    let quality = quality::columns(job.experiment).iter().map(|column| (*column).to_owned()).collect();
+    Batch { parameters, quality, sensors }
 }
 
 /// What the datasheet says of the accelerometer. The results of an IMU or on a machine do not repeat it.
@@ -64,6 +66,7 @@ fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryPara
                 name,
                 link: Some(format!("{folder}/{file}")),
                 verdict: Ok(summary.verdict().clone()),
+                quality: kept.finished.cells.clone(),
                 codes,
                 limits_failed: summary.limits_failed().to_vec(),
                 reasons: deciding.map(Diagnostic::without_file).collect(),
@@ -74,6 +77,7 @@ fn sensor(job: &Job<'_>, folder: &str, recorded: &Recorded, named: &[SummaryPara
             name,
             link: None,
             verdict: Err(error.code()),
+            quality: Vec::new(),
             codes,
             limits_failed: Vec::new(),
             reasons: vec![console::as_flags(&error.to_string())],

@@ -6,7 +6,7 @@ use crate::diagnostics::tell_all;
 use crate::{console, interruption};
 use calibrant::design::{Design, DesignProblem};
 use calibrant::io::{Experiment, Prior, read_calibration};
-use calibrant::report::{About, number_format};
+use calibrant::report::{About, gap_in_words, number_format};
 use calibrant::{DesignChoice, DesignPlan};
 
 /// Reads the experiment and the earlier calibrations.
@@ -81,7 +81,7 @@ fn standing(job: &DesignPlan, problem: &DesignProblem<'_>) -> String {
     let bound = match (so_far.bound(), value) {
         (Some(bound), Some(value)) => Some(format!(
             "gap {}",
-            super::table::gap(
+            gap_in_words(
                 &problem.criterion,
                 problem.criterion.gap(value - problem.floor(), bound - problem.floor())
             )

@@ -2,7 +2,6 @@
 
 use super::arguments::Arguments;
 use super::job::about;
-use super::table;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
 use crate::{budget, console, interruption};
@@ -18,7 +17,7 @@ use calibrant::io::{
     DesignFile, DesignSetting, Reached, to_json, write_atomically, write_dense_motion, write_json,
     write_motion,
 };
-use calibrant::report::design_report;
+use calibrant::report::{About, design_sheet};
 
 /// Writes and shows a design, with the goals that it reaches and a sentence on them.
 pub(super) fn finish(
@@ -32,7 +31,7 @@ pub(super) fn finish(
     if arguments.json {
         console::print_always(&to_json(&file(job, problem, design, reached)));
     } else {
-        console::print(&table::design(design));
+        console::sheet(&design_sheet(design, &About::default()));
         if let Some((_, sentence)) = reached {
             console::print(&console::paragraph(sentence));
         }
@@ -73,7 +72,7 @@ pub(super) fn write(
     write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
     let mut about = about(job, arguments, problem, "Design of a motion".into());
     about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));
-    let html = design_report(design, &about);
+    let html = design_sheet(design, &about).html();
     write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
 }
 

@@ -1,12 +1,12 @@
 //! `calibrant design --evaluate` of recorded holds: how efficient they were.
 
+use super::Arguments;
 use super::pose_output::{about, write_page};
-use super::{Arguments, pose_table};
 use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::io::{PoseEvaluationFile, to_json, write_json};
-use calibrant::report::{evaluation_in_words, pose_evaluation_report};
+use calibrant::report::pose_evaluation_sheet;
 use calibrant::session::{SessionOptions, Source};
 use calibrant::{DesignPlan, RecordedPoses};
 use std::path::Path;
@@ -30,12 +30,12 @@ pub(super) fn run(arguments: &Arguments, job: &DesignPlan, recording: &Path) -> 
     let name = recording.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let about = about(arguments, &problem, &format!("Poses of {name}"));
     let page = output.join("evaluation.html");
-    write_page(&page, &pose_evaluation_report(&evaluation, &directions, &problem, unit, &about))?;
+    let sheet = pose_evaluation_sheet(&evaluation, &directions, &problem, unit, &about);
+    write_page(&page, &sheet.html())?;
     if arguments.json {
         console::print_always(&to_json(&file));
     } else {
-        console::print(&pose_table::evaluation(&evaluation, &problem, unit));
-        console::print(&console::paragraph(&evaluation_in_words(&evaluation, directions.len())));
+        console::sheet(&sheet);
         console::print(&format!("\n{}\n", page.display()));
     }
     Ok(Exit::DONE)

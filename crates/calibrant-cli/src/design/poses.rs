@@ -2,7 +2,7 @@
 
 use super::pose_output::{about, write_page};
 use super::reach_request::{asked, goals};
-use super::{Arguments, pose_evaluation, pose_table};
+use super::{Arguments, pose_evaluation};
 use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
@@ -11,7 +11,7 @@ use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, fewest_pose
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses};
-use calibrant::report::{pose_in_words, pose_report};
+use calibrant::report::{pose_in_words, pose_sheet};
 
 pub(super) fn run(arguments: &Arguments, job: &DesignPlan) -> calibrant::Result<Exit> {
     refuse_options_of_a_motion(arguments)?;
@@ -53,11 +53,12 @@ fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> cal
     let mut about = about(arguments, problem, "Poses for a static calibration");
     about.facts.push(("Starts".into(), format!("{}, seed {}", design.starts, job.settings.seed)));
     about.findings.extend(sentence.clone());
-    write_page(&output.join("report.html"), &pose_report(&design, problem, unit, &about))?;
+    let sheet = pose_sheet(&design, problem, unit, &about);
+    write_page(&output.join("report.html"), &sheet.html())?;
     if arguments.json {
         console::print_always(&to_json(&file));
     } else {
-        console::print(&pose_table::design(&design, problem, unit, &words));
+        console::sheet(&sheet);
         if let Some(sentence) = sentence {
             console::print(&console::paragraph(&sentence));
         }

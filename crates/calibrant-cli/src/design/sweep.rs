@@ -13,8 +13,8 @@ use calibrant::diagnostic::design::{
     SearchNotConverged, SweepInterrupted, SweepValueFailed, SweepValueRounded,
 };
 use calibrant::io::{DesignSetting, SweepFile, to_json, write_atomically, write_json, write_sweep_csv};
-use calibrant::report::number_format::{counted, short, significant};
-use calibrant::report::sweep_report;
+use calibrant::report::number_format::{counted, short};
+use calibrant::report::sweep_sheet;
 
 pub(super) fn run(
     arguments: &Arguments,
@@ -44,13 +44,14 @@ pub(super) fn run(
     write_json(&arguments.output.join("sweep.json"), &file)?;
     write_sweep_csv(&arguments.output.join("sweep.csv"), &swept)?;
     let title = format!("Best motions over the {}", swept.variable.name());
-    let html = sweep_report(&swept, &about(job, arguments, problem, title));
-    write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))?;
+    let about = about(job, arguments, problem, title);
+    let sheet = sweep_sheet(&swept, &about);
+    write_atomically(&arguments.output.join("report.html"), |out| out.write_all(sheet.html().as_bytes()))?;
     say(&swept);
     if arguments.json {
         console::print_always(&to_json(&file));
     } else {
-        console::print(&table(&swept));
+        console::sheet(&sheet);
         let output = &arguments.output;
         console::print(&format!(
             "\n{}\n{}\n",
@@ -88,32 +89,4 @@ fn say(swept: &Sweep) {
             Ok(_) => (),
         }
     }
-}
-
-fn table(swept: &Sweep) -> String {
-    let label = format!("{} {}", swept.variable.name(), swept.variable.unit());
-    let criterion = format!("criterion {}", swept.criterion.letter());
-    let sds: Vec<String> =
-        swept.parameters.iter().map(|parameter| format!("sd {}", parameter.name)).collect();
-    let mut header = vec![label.as_str(), criterion.as_str(), "gap"];
-    header.extend(sds.iter().map(String::as_str));
-    let rows: Vec<_> = swept
-        .points
-        .iter()
-        .map(|point| {
-            let design = point.outcome.as_ref().ok();
-            let cell = |value: Option<f64>, digits| {
-                value.map_or_else(|| "–".into(), |value| significant(value, digits))
-            };
-            let gap = design.and_then(|design| design.certificate.as_ref()).map(|bound| bound.gap);
-            let mut row = vec![
-                short(point.value),
-                cell(design.map(|design| design.optimal.value), 4),
-                gap.map_or_else(|| "–".into(), |gap| super::table::gap(&swept.criterion, gap)),
-            ];
-            row.extend(point.sd(swept.parameters.len()).into_iter().map(|sd| cell(Some(sd), 3)));
-            row
-        })
-        .collect();
-    console::table(&header, &rows)
 }

@@ -58,11 +58,12 @@ pub(crate) fn drifting_batch(count: usize) -> Batch {
                 (false, 1) => vec!["3 spikes were cut from the readings".into()],
                 _ => Vec::new(),
             },
+            quality: if failed { Vec::new() } else { vec![format!("0.{}", 10 + number % 90)] },
             estimates: if failed { Vec::new() } else { estimates },
             codes,
             verdict,
         }
     };
     let sensors = (0..count).map(sensor).collect();
-    Batch { parameters, sensors }
+    Batch { parameters, quality: vec!["p-value".into()], sensors }
 }

@@ -4,8 +4,8 @@
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design as design;
 use calibrant_report::{
-    About, Batch, BatchParameter, BatchSensor, batch_report, calibration_sheet, design_report,
-    evaluation_report, machine_sheet, study_report, sweep_report,
+    About, Batch, BatchParameter, BatchSensor, batch_sheet, calibration_sheet, design_sheet,
+    evaluation_sheet, machine_sheet, study_sheet, sweep_sheet,
 };
 use calibrant_study as study;
 use std::path::PathBuf;
@@ -41,7 +41,7 @@ fn main() -> std::io::Result<()> {
 
     for (name, count) in [("batch.html", 40), ("batch_small.html", 6)] {
         let about = about("Batch of sensors", "–", 101);
-        write(name, batch_report(&batches::drifting_batch(count), &about))?;
+        write(name, batch_sheet(&batches::drifting_batch(count), &about).html())?;
     }
 
     let case = fakes::motion_case(3, 14, 2.0, 4);
@@ -95,15 +95,18 @@ fn main() -> std::io::Result<()> {
     let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
     let problem = designs::problem(&sensor, &limits);
     let design = designs::design_of(&problem, 30);
-    write("design.html", design_report(&design, &about("Design for the sensor of the thesis", "–", 101)))?;
+    write(
+        "design.html",
+        design_sheet(&design, &about("Design for the sensor of the thesis", "–", 101)).html(),
+    )?;
 
     let own = designs::swing(&problem, [1.0; 3]).motion;
     let assessment = design::assess(&problem, &own, Ok(design)).expect("a valid setting");
     write(
         "evaluation.html",
-        evaluation_report(&assessment, &about("Is my motion any good?", "mine.csv", 101)),
+        evaluation_sheet(&assessment, &about("Is my motion any good?", "mine.csv", 101)).html(),
     )?;
-    write("sweep.html", sweep_report(&designs::sweep(&sensor), &about("Displacement", "–", 101)))?;
+    write("sweep.html", sweep_sheet(&designs::sweep(&sensor), &about("Displacement", "–", 101)).html())?;
 
     for (name, poses) in [("machine.html", false), ("machine_poses.html", true)] {
         let case = machines::machine_case(poses, 20.0, 1);
@@ -123,12 +126,16 @@ fn main() -> std::io::Result<()> {
         .html(),
     )?;
 
-    write("study.html", study_report(&studies::everything(50, 30), &about("Study of 50 sensors", "–", 0)))?;
+    write(
+        "study.html",
+        study_sheet(&studies::everything(50, 30), &about("Study of 50 sensors", "–", 0)).html(),
+    )?;
     write(
         "study_large.html",
-        study_report(
+        study_sheet(
             &studies::calibrations(studies::calibration_study(100_000)),
             &about("Study of 100 000 sensors", "–", 0),
-        ),
+        )
+        .html(),
     )
 }

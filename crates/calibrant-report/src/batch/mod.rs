@@ -1,9 +1,9 @@
-//! The report page on a batch: many sensors of one type, calibrated one by one.
+//! The sheet of a batch: many sensors of one type, calibrated one by one.
 
 mod page;
 mod sensors;
 mod summary;
 mod tables;
 
-pub use page::batch_report;
+pub use page::batch_sheet;
 pub use sensors::{Batch, BatchParameter, BatchSensor};

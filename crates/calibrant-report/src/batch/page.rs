@@ -1,90 +1,83 @@
-//! The sections of the page, in their order.
+//! The sections of the sheet, in their order.
 
 use super::sensors::Batch;
-use super::summary::yield_box;
+use super::summary::yield_of;
 use super::tables;
 use crate::figure::{code_bars, drifts, parameter_histograms};
-use crate::html::Page;
 use crate::report_context::About;
+use crate::sheet::{Section, Sheet};
 
-/// A batch of sensors as one HTML file: yield, the sensors that are not ok, the codes that occur most, and each parameter as a histogram and
+/// A batch of sensors as a sheet: yield, the sensors that are not ok, the codes that occur most, and each parameter as a histogram and
 /// over the order of the recordings.
-///
-/// The file is self-contained, as [`Sheet::html`](crate::Sheet::html) is. Equal batches give equal pages.
 ///
 /// # References
 /// `iso7870_2` (the control limits)
 #[must_use]
-pub fn batch_report(batch: &Batch, about: &About) -> String {
-    let title = if about.title.is_empty() { "Batch" } else { &about.title };
-    let page = Page::of_parts([
-        &|| opening(batch, title, about),
-        &|| distributions(batch),
-        &|| order(batch),
-        &|| all_sensors(batch),
-    ]);
-    let footer = vec![
-        about.made(),
-        "Values are of the readings: true → raw. sd is the standard deviation.".to_owned(),
-    ];
-    page.finish(title, &about.facts, &footer)
+pub fn batch_sheet<'a>(batch: &'a Batch, about: &'a About) -> Sheet<'a> {
+    let sections =
+        [Some(worst(batch)), causes(batch), distributions(batch), order(batch), all_sensors(batch)];
+    Sheet {
+        title: if about.title.is_empty() { "Batch".into() } else { about.title.clone() },
+        verdict: Some(yield_of(batch, about)),
+        sections: sections.into_iter().flatten().collect(),
+        inputs: about.facts.clone(),
+        footer: vec![
+            about.made(),
+            "Values are of the readings: true → raw. sd is the standard deviation.".to_owned(),
+        ],
+    }
 }
 
-fn opening(batch: &Batch, title: &str, about: &About) -> Page {
-    let mut page = Page::opened(title, yield_box(batch, about));
-    if let Some((table, further)) = tables::not_ok(batch) {
-        page.section(
-            "Sensors that are not ok",
-            "The worst are first. A name leads to the page of the sensor.",
-        );
-        page.push(table);
-        if further > 0 {
-            page.paragraph(&format!("{further} more are in summary.csv."));
-        }
+/// The worst first. Pages show those that are not ok, terminals the first of all.
+fn worst(batch: &Batch) -> Section<'_> {
+    let (table, further) = tables::worst_first(batch);
+    let mut section = match further.not_ok {
+        0 => Section::new(""),
+        _ => Section::new("Sensors that are not ok")
+            .lead("The worst are first. A name leads to the page of the sensor.")
+            .on_terminal(""),
+    };
+    section.table(table);
+    if further.on_page > 0 {
+        section.explanation(format!("{} more are in summary.csv.", further.on_page));
     }
-    if let Some(bars) = code_bars(batch) {
-        page.section(
-            "Causes",
-            "The diagnostics that occur most. Those that are allowed, and notes, are left out.",
-        );
-        page.push(bars);
+    if further.on_terminal > 0 {
+        section.line(format!("… and {} more", further.on_terminal));
     }
-    page
+    section
 }
 
-fn distributions(batch: &Batch) -> Page {
-    let mut page = Page::default();
+fn causes(batch: &Batch) -> Option<Section<'_>> {
+    let bars = code_bars(batch)?;
+    let mut section = Section::on_page("Causes")
+        .lead("The diagnostics that occur most. Those that are allowed, and notes, are left out.");
+    section.drawn(move || bars.clone());
+    Some(section)
+}
+
+fn distributions(batch: &Batch) -> Option<Section<'_>> {
     let figures = parameter_histograms(batch);
-    if !figures.is_empty() {
-        page.section("Distribution of the parameters", "Each parameter over the sensors that have a result.");
-        figures.iter().for_each(|figure| page.push(figure.html()));
-    }
-    page
+    let mut section = Section::on_page("Distribution of the parameters")
+        .lead("Each parameter over the sensors that have a result.");
+    let some = !figures.is_empty();
+    figures.into_iter().for_each(|figure| section.drawn(move || figure.html()));
+    some.then_some(section)
 }
 
-fn order(batch: &Batch) -> Page {
-    let mut page = Page::default();
+fn order(batch: &Batch) -> Option<Section<'_>> {
     let drift = drifts(batch);
-    if drift.figures.is_empty() {
-        return page;
-    }
-    page.section(
-        "Parameters over the order of the recordings",
+    let mut section = Section::on_page("Parameters over the order of the recordings").lead(
         "Sensors differ at random. A trend or a step from one sensor to the next is a change of the station: of its temperature, its level, or its reference.",
     );
-    drift.findings.iter().for_each(|sentence| page.paragraph(sentence));
-    drift.figures.iter().for_each(|figure| page.push(figure.html()));
-    page
+    let some = !drift.figures.is_empty();
+    drift.findings.into_iter().for_each(|sentence| section.paragraph(sentence));
+    drift.figures.into_iter().for_each(|figure| section.drawn(move || figure.html()));
+    some.then_some(section)
 }
 
-fn all_sensors(batch: &Batch) -> Page {
-    let mut page = Page::default();
-    if !batch.sensors.is_empty() {
-        page.section(
-            "All sensors",
-            "In the order of the recordings. The order is the x axis of the figures above.",
-        );
-        page.push(tables::all(batch));
-    }
-    page
+fn all_sensors(batch: &Batch) -> Option<Section<'_>> {
+    let mut section = Section::on_page("All sensors")
+        .lead("In the order of the recordings. The order is the x axis of the figures above.");
+    section.table(tables::all(batch));
+    (!batch.sensors.is_empty()).then_some(section)
 }

@@ -1,4 +1,4 @@
-//! What the page on a batch shows: the sensors in the order of their recordings.
+//! What the sheet of a batch shows: the sensors in the order of their recordings.
 
 use calibrant_core::diagnostic::{Code, Usability, Verdict};
 use calibrant_core::error::Refusal;
@@ -7,14 +7,16 @@ use calibrant_core::error::Refusal;
 ///
 /// # Examples
 /// ```
-/// use calibrant_report::{About, Batch, batch_report};
-/// let page = batch_report(&Batch::default(), &About::default());
-/// assert!(page.contains("no sensor"));
+/// use calibrant_report::{About, Batch, batch_sheet};
+/// let (batch, about) = (Batch::default(), About::default());
+/// assert!(batch_sheet(&batch, &about).html().contains("no sensor"));
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Batch {
     /// The parameters that are compared.
     pub parameters: Vec<BatchParameter>,
+    /// The columns that say how good a calibration is, between its verdict and what decides it.
+    pub quality: Vec<String>,
     /// The sensors, in the order of their recordings.
     pub sensors: Vec<BatchSensor>,
 }
@@ -43,6 +45,8 @@ pub struct BatchSensor {
     pub link: Option<String>,
     /// The verdict; or why there is no result.
     pub verdict: Result<Verdict, Refusal>,
+    /// Its cells in the columns of quality. Empty without a result.
+    pub quality: Vec<String>,
     /// Its warnings and errors, each code once. Those that are allowed are left out.
     pub codes: Vec<Code>,
     /// The limits that it breaks.

@@ -1,9 +1,9 @@
 //! The counts of the verdicts, and the yield.
 
 use super::sensors::Batch;
-use crate::html::verdict_box;
 use crate::number_format::{counted, percent};
 use crate::report_context::About;
+use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::diagnostic::Usability;
 
 /// How many sensors have each verdict.
@@ -30,13 +30,13 @@ impl Counts {
     }
 }
 
-/// The yield in a prominent box, with the other verdicts.
-pub(super) fn yield_box(batch: &Batch, about: &About) -> String {
+/// The yield, with the other verdicts.
+pub(super) fn yield_of(batch: &Batch, about: &About) -> SheetVerdict {
     let counts = Counts::of(batch);
-    let (class, sign) = match counts {
-        _ if counts.bad + counts.without_result > 0 || counts.all == 0 => ("bad", "✗"),
-        _ if counts.doubtful > 0 => ("caution", "!"),
-        _ => ("good", "✓"),
+    let (grade, sign) = match counts {
+        _ if counts.bad + counts.without_result > 0 || counts.all == 0 => (Grade::Bad, "✗"),
+        _ if counts.doubtful > 0 => (Grade::Caution, "!"),
+        _ => (Grade::Good, "✓"),
     };
     let word = match counts.all {
         0 => format!("{sign} There is no sensor."),
@@ -57,5 +57,5 @@ pub(super) fn yield_box(batch: &Batch, about: &About) -> String {
         "{} bad, {} doubtful, {} without a result.{limits}",
         counts.bad, counts.doubtful, counts.without_result
     );
-    verdict_box(class, &word, &sentence, &[("Findings", about.findings.clone())])
+    SheetVerdict::new(grade, word, sentence).with("Findings", about.findings.clone())
 }

@@ -1,47 +1,72 @@
 //! The tables of sensors: those that are not ok, and all.
 
 use super::sensors::{Batch, BatchSensor};
-use crate::number_format::{self, UNKNOWN};
-use crate::sheet::{Cell, Table};
+use crate::number_format::UNKNOWN;
+use crate::sheet::{Cell, Column, Shown, Table};
 use calibrant_core::diagnostic::acceptance::LimitBroken;
 use calibrant_core::diagnostic::{Check, Usability};
 
-/// The most sensors in the table of those that are not ok.
-const MOST_ROWS: usize = 100;
+/// The most sensors of a page in the table of the worst.
+const MOST_ON_PAGE: usize = 100;
+/// The most sensors of a terminal.
+const MOST_ON_TERMINAL: usize = 20;
 /// The most sentences on one sensor.
 const MOST_REASONS: usize = 2;
 
-/// Sensors that are not ok, the worst first, with the reasons. `None` where all are ok. The second is the number of those that are left out.
-pub(super) fn not_ok(batch: &Batch) -> Option<(String, usize)> {
-    let mut sensors: Vec<&BatchSensor> =
-        batch.sensors.iter().filter(|of| of.usability() != Some(Usability::Ok)).collect();
-    if sensors.is_empty() {
-        return None;
-    }
+/// How many sensors the table of the worst leaves out.
+pub(super) struct Further {
+    /// Sensors that are not ok, whether they are left out or not.
+    pub(super) not_ok: usize,
+    /// Of these, those that a page leaves out.
+    pub(super) on_page: usize,
+    /// Sensors that a terminal leaves out.
+    pub(super) on_terminal: usize,
+}
+
+/// The sensors, the worst first, with the reasons. Pages show those that are not ok.
+pub(super) fn worst_first(batch: &Batch) -> (Table, Further) {
+    let mut sensors: Vec<&BatchSensor> = batch.sensors.iter().collect();
     sensors
         .sort_by_key(|of| of.usability().map_or(0, |usability| Usability::Bad as u8 - usability as u8 + 1));
-    let columns = ["sensor", "verdict", "decided by", "what was found"];
+    let mut columns: Vec<Column> = vec!["sensor".into(), "verdict".into()];
+    columns.extend(batch.quality.iter().map(Column::new));
+    columns.extend(["decided by".into(), Column::on_page("what was found")]);
     let mut table = Table::new(columns);
-    for sensor in sensors.iter().take(MOST_ROWS) {
-        let mut cells = vec![name(sensor), verdict(sensor), Cell::Text(codes_and_limits(sensor))];
-        cells.push(Cell::Words(reasons(sensor)));
-        table.row(cells);
+    let not_ok = sensors.iter().filter(|of| of.usability() != Some(Usability::Ok)).count();
+    for (number, sensor) in sensors.iter().enumerate() {
+        let on_page = number < not_ok.min(MOST_ON_PAGE);
+        let shown = match (on_page, number < MOST_ON_TERMINAL) {
+            (true, true) => Shown::Everywhere,
+            (true, false) => Shown::OnPage,
+            (false, true) => Shown::OnTerminal,
+            (false, false) => continue,
+        };
+        let mut cells = vec![name(sensor), verdict(sensor)];
+        let quality = |k: usize| sensor.quality.get(k).map_or(Cell::Missing, |of| Cell::Number(of.clone()));
+        cells.extend((0..batch.quality.len()).map(quality));
+        cells.extend([Cell::Text(codes_and_limits(sensor)), Cell::Words(reasons(sensor))]);
+        table.row_shown(shown, cells);
     }
-    Some((table.html(), sensors.len().saturating_sub(MOST_ROWS)))
+    let further = Further {
+        not_ok,
+        on_page: not_ok.saturating_sub(MOST_ON_PAGE),
+        on_terminal: sensors.len().saturating_sub(MOST_ON_TERMINAL),
+    };
+    (if not_ok == 0 { table.shown(Shown::OnTerminal) } else { table }, further)
 }
 
 /// All sensors in their order.
-pub(super) fn all(batch: &Batch) -> String {
+pub(super) fn all(batch: &Batch) -> Table {
     let mut table = Table::new(["order", "sensor", "verdict", "decided by"]);
     for (number, sensor) in batch.sensors.iter().enumerate() {
         table.row(vec![
-            Cell::Number(number_format::count(number + 1)),
+            Cell::count(number + 1),
             name(sensor),
             verdict(sensor),
             Cell::Text(decided_by(sensor)),
         ]);
     }
-    table.html()
+    table
 }
 
 fn name(sensor: &BatchSensor) -> Cell {

@@ -8,15 +8,12 @@ use calibrant_design::{LimitKind, LimitUse};
 const ACTIVE: f64 = 0.9999;
 
 /// One row for each limit of each axis, at the time of its largest use.
-pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> String {
+pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> Table {
     let reached = format!("largest of the {name}");
     let columns = ["limit", "axis", "unit", "allowed", reached.as_str(), "at time (s)", "used"];
     let mut table = Table::new(columns);
     let mut rows = uses.to_vec();
     rows.sort_by_key(|found| (found.kind, found.axis));
-    if rows.is_empty() {
-        return "<p>There are no limits.</p>".to_string();
-    }
     // axes that do the same share a row
     let mut lines: Vec<(bool, String, [String; 6])> = Vec::new();
     for found in rows {
@@ -43,7 +40,7 @@ pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> String {
             table.row(cells);
         }
     }
-    table.html()
+    table
 }
 
 /// Kind, unit, allowed, largest magnitude, time and use of a limit.

@@ -2,70 +2,55 @@
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
-use crate::sheet::{Cell, Table};
+use crate::sheet::{Cell, Column, Table};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Parameter;
 use calibrant_design::{Design, Evaluation};
-
-/// The text in place of the standard deviation of a parameter that is not determined.
-const UNDETERMINED: &str = "undetermined";
 
 /// Per parameter: sd of both motions, their ratio, and the lower bound where there is one.
 pub(crate) fn promised_table(
     parameters: &[Parameter],
     before: (&str, &Evaluation),
-    after: (&str, &Evaluation),
+    after: Option<(&str, &Evaluation)>,
     bound: Option<&[f64]>,
-) -> String {
+) -> Table {
     let with_spread = parameters.iter().any(|parameter| parameter.spread.is_some());
-    let (first, second) = (format!("sd, {}", before.0), format!("sd, {}", after.0));
-    let mut columns = vec!["parameter", "unit", first.as_str(), second.as_str(), "improvement"];
+    let mut columns: Vec<Column> = vec!["parameter".into(), "unit".into(), format!("sd {}", before.0).into()];
+    if let Some((name, _)) = after {
+        columns.extend([format!("sd {name}").into(), "better by".into()]);
+    }
     if bound.is_some() {
-        columns.extend(["lower bound of the sd", "above the bound"]);
+        columns.extend(["sd at least".into(), Column::on_page("above the bound")]);
     }
     if with_spread {
-        columns.push("datasheet spread");
+        columns.push(Column::on_page("datasheet spread"));
     }
     let mut table = Table::new(columns);
-    for (i, ((parameter, old), new)) in parameters.iter().zip(before.1.sd()).zip(after.1.sd()).enumerate() {
-        let unit = DisplayUnit::suited_to(parameter.unit, [old, new]);
-        let shown = |sd: f64| {
-            Cell::Number(if sd.is_finite() {
-                number_format::significant(sd * unit.factor, 4)
-            } else {
-                UNDETERMINED.into()
-            })
-        };
-        let mut row = vec![
-            Cell::Name(parameter.name.clone()),
-            Cell::Text(if unit.symbol.is_empty() {
-                number_format::UNKNOWN.into()
-            } else {
-                unit.symbol.into()
-            }),
-        ];
-        row.extend([shown(old), shown(new), Cell::Number(times(old / new))]);
+    let new = after.map(|(_, after)| after.sd());
+    for (i, (parameter, old)) in parameters.iter().zip(before.1.sd()).enumerate() {
+        let new = new.as_ref().map(|sd| sd[i]);
+        let unit = DisplayUnit::suited_to(parameter.unit, [old].into_iter().chain(new));
+        let mut row =
+            vec![Cell::name(&parameter.name), unit.cell(parameter.unit), Cell::sd(old, unit.factor)];
+        row.extend(
+            new.into_iter().flat_map(|new| [Cell::sd(new, unit.factor), Cell::Number(times(old / new))]),
+        );
         if let Some(bound) = bound {
-            let bound = bound.get(i).copied().unwrap_or(f64::NAN);
-            let above = if bound > 0.0 && new.is_finite() {
-                above(new / bound - 1.0)
-            } else {
-                number_format::UNKNOWN.into()
-            };
-            let bound = if bound > 0.0 {
-                number_format::significant(bound * unit.factor, 4)
-            } else {
-                number_format::UNKNOWN.into()
-            };
-            row.extend([Cell::Number(bound), Cell::Number(above)]);
+            row.extend(match bound.get(i) {
+                Some(&bound) if bound > 0.0 => {
+                    let above = new.filter(|new| new.is_finite()).map(|new| above(new / bound - 1.0));
+                    [Cell::sd(bound, unit.factor), above.map_or(Cell::Missing, Cell::Number)]
+                }
+                _ => [Cell::Missing, Cell::Missing],
+            });
         }
         if with_spread {
-            let spread = parameter.spread.map(|spread| number_format::short(spread * unit.factor));
-            row.push(Cell::Number(spread.unwrap_or_else(|| number_format::UNKNOWN.into())));
+            let spread = parameter.spread.map(|spread| Cell::short(spread * unit.factor));
+            row.push(spread.unwrap_or(Cell::Missing));
         }
         table.row(row);
     }
-    table.html()
+    table
 }
 
 /// A factor of improvement: `65 ×`.
@@ -87,7 +72,7 @@ pub(crate) fn above(excess: f64) -> String {
 }
 
 /// The criterion's value for both motions, and its bound.
-pub(crate) fn criterion_table(design: &Design) -> String {
+pub(crate) fn criterion_table(design: &Design) -> Table {
     let nats = matches!(design.criterion, Criterion::D(_));
     let shown = |value: f64| Cell::Number(number_format::significant(value - design.floor, 6));
     let mut table = Table::new(["criterion", "value", "meaning"]);
@@ -128,5 +113,5 @@ pub(crate) fn criterion_table(design: &Design) -> String {
             ),
         );
     }
-    table.html()
+    table
 }

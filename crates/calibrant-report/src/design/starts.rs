@@ -2,7 +2,7 @@
 
 use crate::number_format;
 use crate::number_format::capitalised;
-use crate::sheet::{Cell, Table};
+use crate::sheet::{Cell, Section, Table};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
 use calibrant_design::{AT_BEST, DesignStatus, StartOutcome};
@@ -71,8 +71,8 @@ pub(crate) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<S
         .collect()
 }
 
-/// All starts, best first; folded where there are many.
-pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> String {
+/// All starts, best first.
+fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Table {
     let excess_label =
         if matches!(criterion, Criterion::D(_)) { "above the best (nats)" } else { "above the best" };
     let columns = [
@@ -114,14 +114,18 @@ pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Str
             table.row(cells.into_iter().chain([ended]).collect());
         }
     }
-    let html = table.html();
+    table
+}
+
+/// Adds the table of the starts; folded where there are many.
+pub(crate) fn add_start_table(section: &mut Section<'_>, starts: &[StartOutcome], criterion: &Criterion) {
+    let table = start_table(starts, criterion);
     if starts.len() > MOST_UNFOLDED {
-        format!(
-            "<details><summary>All {} starts, best first</summary>{html}</details>",
-            number_format::count(starts.len())
-        )
+        let mut within = Section::default();
+        within.table(table);
+        section.folded(format!("All {} starts, best first", number_format::count(starts.len())), within);
     } else {
-        html
+        section.table(table);
     }
 }
 

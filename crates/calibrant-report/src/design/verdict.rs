@@ -4,8 +4,8 @@ use super::axes;
 use super::predicted_sd::{above, times};
 use crate::About;
 use crate::figure::DisplayUnit;
-use crate::html::verdict_box;
 use crate::number_format;
+use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
@@ -18,22 +18,22 @@ const NOTHING_TO_GAIN: f64 = 1.02;
 /// Within this distance, the bound is still informative.
 const NEAR: f64 = 0.1;
 
-/// The verdict and everything that qualifies it, as one prominent box.
-pub(super) fn verdict(design: &Design, about: &About) -> String {
-    let remarks = [
-        ("Broken limits", violations(&design.limits, axes(&design.parameters).len(), &design.optimal)),
-        ("Undetermined", undetermined_items(&design.optimal)),
-        ("Findings", about.findings.clone()),
-    ];
-    let (class, word, sentences) = judge(design, &remarks[0].1);
-    verdict_box(class, &word, &sentences.join(" "), &remarks)
+/// The verdict and everything that qualifies it. Terminals show the sentence on the certificate instead.
+pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
+    let broken = violations(&design.limits, axes(&design.parameters).len(), &design.optimal);
+    let (grade, word, sentences) = judge(design, &broken);
+    SheetVerdict::new(grade, word, sentences.join(" "))
+        .with("Broken limits", broken)
+        .with("Undetermined", undetermined_items(&design.optimal))
+        .with("Findings", about.findings.clone())
+        .on_terminal("")
 }
 
-fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<String>) {
+fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
     if design.optimal.covariance.is_none() {
         let what = "No recording of this motion can calibrate the sensor: it leaves parameters undetermined. Loosen the limits, or \
                     move the named axes.";
-        return ("bad", "✗ Useless for calibration.".into(), vec![what.to_string()]);
+        return (Grade::Bad, "✗ Useless for calibration.".into(), vec![what.to_string()]);
     }
     let mut sentences = Vec::new();
     if let Some(sentence) = unfinished(design.status) {
@@ -49,14 +49,20 @@ fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<Strin
     sentences.extend(design.gap_statement());
     sentences.extend(improvement(design));
     match nearest {
-        _ if !broken.is_empty() => ("bad", "✗ Not admissible.".into(), sentences),
-        _ if design.status == DesignStatus::Interrupted => ("caution", "! Interrupted.".into(), sentences),
-        _ if design.status != DesignStatus::Converged => ("caution", "! Not converged.".into(), sentences),
-        Some(excess) if excess < 5e-5 => ("good", "✓ Proved optimal.".into(), sentences),
-        Some(excess) if excess <= NEAR => {
-            ("good", format!("✓ Proved optimal to within {}.", number_format::percent(excess)), sentences)
+        _ if !broken.is_empty() => (Grade::Bad, "✗ Not admissible.".into(), sentences),
+        _ if design.status == DesignStatus::Interrupted => {
+            (Grade::Caution, "! Interrupted.".into(), sentences)
         }
-        _ => ("good", "✓ Converged.".into(), sentences),
+        _ if design.status != DesignStatus::Converged => {
+            (Grade::Caution, "! Not converged.".into(), sentences)
+        }
+        Some(excess) if excess < 5e-5 => (Grade::Good, "✓ Proved optimal.".into(), sentences),
+        Some(excess) if excess <= NEAR => (
+            Grade::Good,
+            format!("✓ Proved optimal to within {}.", number_format::percent(excess)),
+            sentences,
+        ),
+        _ => (Grade::Good, "✓ Converged.".into(), sentences),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Units that keep the numbers on an axis readable.
 
+use crate::sheet::Cell;
+
 /// A unit for display: multiply by the factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DisplayUnit {
@@ -32,6 +34,11 @@ impl DisplayUnit {
             unit,
             values.into_iter().filter(|v| v.is_finite()).fold(0.0, |most, v| most.max(v.abs())),
         )
+    }
+
+    /// The cell of the unit in a table: `unit` on terminals, this one on pages.
+    pub(crate) fn cell(self, unit: &str) -> Cell {
+        Cell::Unit { symbol: unit.to_owned(), on_page: self.symbol.to_owned() }
     }
 
     /// A label with this unit: `residual (mm/s²)`.

@@ -1,14 +1,15 @@
-//! The report page on poses: verdict, a checklist with pictures, predicted standard deviations, directions.
+//! The sheet of poses: verdict, a checklist with pictures, predicted standard deviations, directions.
 
 mod attitude;
 
 pub use attitude::pose_in_words;
 
 use super::About;
+use super::design::{criterion_in_words, gap_in_words};
 use super::figure::{DisplayUnit, device, pose_directions};
-use super::html::{Page, escape, verdict_box};
-use super::number_format::{self, significant};
-use crate::sheet::{Cell, Table};
+use super::html::escape;
+use super::number_format::{self, counted, significant};
+use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use attitude::Attitude;
 use calibrant_core::sensor::ReadingUnit;
 use calibrant_design::poses::{PoseBound, PoseDesign, PoseEvaluation, PoseProblem};
@@ -19,34 +20,50 @@ const AS_GOOD_AS_ANY: f64 = 0.99;
 /// Efficiency below which another set of poses is worth its while.
 const WORTH_CHANGING: f64 = 0.7;
 
-/// The best poses as one HTML file that can be printed and ticked off. Self-contained.
+/// The best poses as a sheet, whose page can be printed and ticked off.
 #[must_use]
-pub fn pose_report(design: &PoseDesign, problem: &PoseProblem, unit: ReadingUnit, about: &About) -> String {
-    let efficiency = design.efficiency(&problem.criterion);
+pub fn pose_sheet<'a>(
+    design: &'a PoseDesign,
+    problem: &'a PoseProblem,
+    unit: ReadingUnit,
+    about: &'a About,
+) -> Sheet<'a> {
+    let criterion = &problem.criterion;
+    let efficiency = design.efficiency(criterion);
     let word = if efficiency >= AS_GOOD_AS_ANY { "✓ As good as any." } else { "✓ Found." };
     let sentence = design_in_words(design, efficiency);
-    let verdict = verdict_box("good", word, &sentence, &[("Findings", about.findings.clone())]);
-    let mut page = Page::opened(&about.title, verdict);
-    predicted_section(&mut page, &design.sd(), problem, unit);
-    page.section(
-        "The poses",
+    let verdict =
+        SheetVerdict::new(Grade::Good, word, sentence.clone()).with("Findings", about.findings.clone());
+    let mut predicted = predicted_section(&design.sd(), problem, unit, design.value, &design.bound);
+    predicted.line(format!(
+        "{} of {} ended at this value (gap {}).",
+        design.starts_at_best,
+        counted(design.starts, "start"),
+        gap_in_words(criterion, criterion.gap(design.value, design.bound.value))
+    ));
+    let mut poses = Section::new("The poses").lead(
         "Hold the device still in each pose, in this order. The room is drawn with its vertical upwards. Turns are right-handed, about \
          the device's own axes as they lie then.",
     );
-    page.paragraph(if problem.nuisance.has_gyroscope {
+    poses.explanation(if problem.nuisance.has_gyroscope {
         "The order is chosen so that the turns between the poses determine the gyroscope, and a drift of the biases looks least like a \
          parameter. Turn from each pose to the next by the shortest way, and without a pause on it."
     } else {
         "In this order a drift of the biases looks least like a parameter, and little turning is needed."
     });
-    page.push(checklist(&design.directions));
-    direction_section(&mut page, &design.directions, &design.bound);
-    page.finish(&about.title, &about.facts, &about.footer())
+    poses.table(pose_table(&design.directions));
+    poses.drawn(|| checklist(&design.directions));
+    Sheet {
+        title: about.title.clone(),
+        verdict: Some(verdict),
+        sections: vec![predicted, poses, direction_section(&design.directions, &design.bound)],
+        inputs: about.facts.clone(),
+        footer: about.footer(),
+    }
 }
 
 /// The efficiency of designed poses in a sentence.
-#[must_use]
-pub fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
+fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
     let poses = design.directions.len();
     let (have, any) = if poses == 1 {
         ("The pose has".to_owned(), "any allowed pose".to_owned())
@@ -59,31 +76,32 @@ pub fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
     )
 }
 
-/// The evaluation of holds as one HTML file: how efficient they were. `directions`: that of each hold.
+/// The evaluation of holds as a sheet: how efficient they were. `directions`: that of each hold.
 #[must_use]
-pub fn pose_evaluation_report(
-    evaluation: &PoseEvaluation,
-    directions: &[Vector3<f64>],
-    problem: &PoseProblem,
+pub fn pose_evaluation_sheet<'a>(
+    evaluation: &'a PoseEvaluation,
+    directions: &'a [Vector3<f64>],
+    problem: &'a PoseProblem,
     unit: ReadingUnit,
-    about: &About,
-) -> String {
-    let efficiency = evaluation.efficiency;
-    let (class, word) = match efficiency {
-        _ if efficiency >= AS_GOOD_AS_ANY => ("good", "✓ As good as any."),
-        _ if efficiency >= WORTH_CHANGING => ("good", "✓ Good poses."),
-        _ => ("caution", "! Better poses exist."),
+    about: &'a About,
+) -> Sheet<'a> {
+    let (grade, word) = match evaluation.efficiency {
+        efficiency if efficiency >= AS_GOOD_AS_ANY => (Grade::Good, "✓ As good as any."),
+        efficiency if efficiency >= WORTH_CHANGING => (Grade::Good, "✓ Good poses."),
+        _ => (Grade::Caution, "! Better poses exist."),
     };
-    let verdict = verdict_box(class, word, &evaluation_in_words(evaluation, directions.len()), &[]);
-    let mut page = Page::opened(&about.title, verdict);
-    predicted_section(&mut page, &evaluation.sd(), problem, unit);
-    direction_section(&mut page, directions, &evaluation.bound);
-    page.finish(&about.title, &about.facts, &about.footer())
+    let predicted = predicted_section(&evaluation.sd(), problem, unit, evaluation.value, &evaluation.bound);
+    Sheet {
+        title: about.title.clone(),
+        verdict: Some(SheetVerdict::new(grade, word, evaluation_in_words(evaluation, directions.len()))),
+        sections: vec![predicted, direction_section(directions, &evaluation.bound)],
+        inputs: about.facts.clone(),
+        footer: about.footer(),
+    }
 }
 
 /// The efficiency of holds in a sentence or two.
-#[must_use]
-pub fn evaluation_in_words(evaluation: &PoseEvaluation, holds: usize) -> String {
+fn evaluation_in_words(evaluation: &PoseEvaluation, holds: usize) -> String {
     let efficiency = evaluation.efficiency;
     let more = if efficiency < AS_GOOD_AS_ANY {
         format!(
@@ -121,51 +139,75 @@ fn checklist(directions: &[Vector3<f64>]) -> String {
     format!("<ol class=\"poses\">{cards}</ol>")
 }
 
-/// The standard deviations, and what they are compared by.
-fn predicted_section(page: &mut Page, sd: &DVector<f64>, problem: &PoseProblem, unit: ReadingUnit) {
-    page.section(
-        "Predicted standard deviations",
+/// Each pose in words, with the direction that is up, for terminals.
+fn pose_table(directions: &[Vector3<f64>]) -> Table {
+    let mut table = Table::new(["pose", "how", "up x", "up y", "up z"]).shown(Shown::OnTerminal);
+    for (k, up) in directions.iter().enumerate() {
+        // no component is −0.0000
+        let component = |value: f64| Cell::fixed(if value.abs() < 5e-5 { 0.0 } else { value }, 4);
+        let mut row = vec![Cell::name((k + 1).to_string()), Cell::text(pose_in_words(up))];
+        row.extend(up.iter().map(|value| component(*value)));
+        table.row(row);
+    }
+    table
+}
+
+/// The standard deviations, and what they are compared by. The criterion has this value.
+fn predicted_section<'a>(
+    sd: &DVector<f64>,
+    problem: &PoseProblem,
+    unit: ReadingUnit,
+    value: f64,
+    bound: &PoseBound,
+) -> Section<'a> {
+    let criterion = &problem.criterion;
+    let mut section = Section::new("Predicted standard deviations").lead(
         "Standard deviations that a calibration from these poses will state, if the noise is as assumed. They include the uncertainty of \
          gravity, and of a drift of the biases while the poses are taken in this order.",
     );
-    page.push(predicted(problem, sd, unit));
-    let criterion = &problem.criterion;
-    page.paragraph(&format!(
+    section.line(format!(
+        "{}: {}, at least {}",
+        criterion_in_words(criterion),
+        significant(value, 5),
+        significant(bound.value, 5)
+    ));
+    section.table(predicted(problem, sd, unit));
+    section.explanation(format!(
         "The poses are compared by criterion {}, {} (C is the covariance of the parameters{}).",
         criterion.letter(),
         criterion.formula(),
         criterion.scaling()
     ));
+    section
 }
 
 /// The directions, and how the bound is meant.
-fn direction_section(page: &mut Page, directions: &[Vector3<f64>], bound: &PoseBound) {
-    page.section("The directions", "");
-    page.push(pose_directions(directions, &bound.directions));
-    page.subsection("The lower bound");
-    page.paragraph(
+fn direction_section<'a>(directions: &'a [Vector3<f64>], bound: &'a PoseBound) -> Section<'a> {
+    let mut section = Section::on_page("The directions");
+    section.drawn(|| pose_directions(directions, &bound.directions));
+    section.heading_on_page("The lower bound");
+    section.explanation(
         "The bound is that of the approximate design, in which any share of the recording may be spent in each direction. By the \
          equivalence theorem of Kiefer and Wolfowitz no set of poses can be better. Where directions are not a list, they are examined on \
          a grid, and the bound is 0.07 % low.",
     );
+    section
 }
 
-fn predicted(problem: &PoseProblem, sd: &DVector<f64>, reading: ReadingUnit) -> String {
+fn predicted(problem: &PoseProblem, sd: &DVector<f64>, reading: ReadingUnit) -> Table {
     let before = problem.covariance_before();
-    let header: &[&str] = if before.is_some() {
-        &["parameter", "unit", "sd before", "sd then"]
-    } else {
-        &["parameter", "unit", "predicted sd"]
-    };
-    let mut table = Table::new(header.iter().copied());
+    let mut columns: Vec<Column> = vec!["parameter".into(), "unit".into()];
+    match before {
+        Some(_) => columns.extend(["sd before".into(), "sd then".into()]),
+        None => columns.push("predicted sd".into()),
+    }
+    let mut table = Table::new(columns);
     for (k, (quantity, sd)) in problem.list.quantities().iter().zip(sd.iter()).enumerate() {
         let unit = DisplayUnit::suited_to(quantity.unit(reading), [*sd]);
-        let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
-        let number = |sd: f64| Cell::Number(significant(sd * unit.factor, 4));
-        let mut row = vec![Cell::Name(quantity.name()), Cell::Text(symbol.into())];
-        row.extend(before.as_ref().map(|before| number(before[(k, k)].sqrt())));
-        row.push(number(*sd));
+        let mut row = vec![Cell::name(quantity.name()), unit.cell(quantity.unit(reading))];
+        row.extend(before.as_ref().map(|before| Cell::sd(before[(k, k)].sqrt(), unit.factor)));
+        row.push(Cell::sd(*sd, unit.factor));
         table.row(row);
     }
-    table.html()
+    table
 }

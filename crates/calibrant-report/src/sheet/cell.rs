@@ -21,6 +21,22 @@ pub enum Cell {
         /// Its digits.
         digits: Digits,
     },
+    /// A number in SI. Terminals show it so, as the files have it; pages in a unit that leaves few zeros.
+    Scaled {
+        /// The number.
+        value: f64,
+        /// Its digits.
+        digits: Digits,
+        /// Number on pages over number in SI.
+        factor: f64,
+    },
+    /// A unit in SI, and the one of pages.
+    Unit {
+        /// The symbol on terminals.
+        symbol: String,
+        /// The symbol on pages; empty for a pure number.
+        on_page: String,
+    },
     /// A value with its standard deviation, both in the unit of the column. Their digits follow from the standard deviation.
     Estimate {
         /// The value.
@@ -99,6 +115,21 @@ impl Cell {
         Self::Value { value, digits: Digits::Significant(digits) }
     }
 
+    /// A number in SI to this many significant digits, and what pages multiply it by.
+    #[must_use]
+    pub fn scaled(value: f64, digits: usize, factor: f64) -> Self {
+        Self::Scaled { value, digits: Digits::Significant(digits), factor }
+    }
+
+    /// A standard deviation in SI, to four significant digits, and what pages multiply it by. One that is not finite is undetermined.
+    #[must_use]
+    pub fn sd(value: f64, factor: f64) -> Self {
+        match value.is_finite() {
+            true => Self::scaled(value, 4, factor),
+            false => Self::Number("undetermined".into()),
+        }
+    }
+
     /// A number with this many decimals.
     #[must_use]
     pub fn fixed(value: f64, decimals: usize) -> Self {
@@ -135,9 +166,21 @@ impl Cell {
         Self::Number(number_format::count(n))
     }
 
-    /// What the cell says.
+    /// What the cell says on a page.
+    pub(super) fn on_page(&self) -> String {
+        match self {
+            Self::Scaled { value, digits, factor } => digits.text(value * factor),
+            Self::Unit { on_page, .. } if on_page.is_empty() => number_format::UNKNOWN.to_owned(),
+            Self::Unit { on_page, .. } => on_page.clone(),
+            other => other.in_words(),
+        }
+    }
+
+    /// What the cell says on a terminal.
     pub(super) fn in_words(&self) -> String {
         match self {
+            Self::Scaled { value, digits, .. } => digits.text(*value),
+            Self::Unit { symbol, .. } => symbol.clone(),
             Self::Value { value, digits } => digits.text(*value),
             Self::Estimate { value, sd } => number_format::with_sd(*value, *sd),
             Self::Missing => number_format::UNKNOWN.to_owned(),
@@ -153,7 +196,7 @@ impl Cell {
 
     /// Is it aligned as numbers are?
     pub(super) fn is_number(&self) -> bool {
-        matches!(self, Self::Value { .. } | Self::Estimate { .. } | Self::Number(_))
+        matches!(self, Self::Value { .. } | Self::Scaled { .. } | Self::Estimate { .. } | Self::Number(_))
     }
 }
 

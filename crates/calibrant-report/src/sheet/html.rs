@@ -106,18 +106,18 @@ fn table(table: &Table) -> String {
 
 /// A cell, in a column of this class.
 fn cell(cell: &Cell, class: &str) -> String {
-    let text = escape(&cell.in_words());
+    let text = escape(&cell.on_page());
     match cell {
         Cell::Name(name) => format!("<th scope=\"row\"{}>{text}</th>", long(name)),
         Cell::Link { text: name, address } => {
             let address = escape(&encoded(address));
             format!("<th scope=\"row\"{}><a href=\"{address}\">{text}</a></th>", long(name))
         }
-        Cell::Value { .. } | Cell::Estimate { .. } | Cell::Number(_) => {
+        Cell::Value { .. } | Cell::Scaled { .. } | Cell::Estimate { .. } | Cell::Number(_) => {
             format!("<td class=\"n\">{text}</td>")
         }
         Cell::Missing => format!("<td{class}>{text}</td>"),
-        Cell::Text(_) => format!("<td>{text}</td>"),
+        Cell::Text(_) | Cell::Unit { .. } => format!("<td>{text}</td>"),
         Cell::Words(_) => format!("<td class=\"words\">{text}</td>"),
         Cell::Mark(_) => format!("<td class=\"mark\">{text}</td>"),
         Cell::Flag(_) => format!("<td class=\"flag\">{text}</td>"),

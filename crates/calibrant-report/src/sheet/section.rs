@@ -41,6 +41,8 @@ impl fmt::Debug for Piece<'_> {
 #[derive(Debug, Default)]
 pub struct Section<'a> {
     pub(super) heading: String,
+    /// The heading on terminals, where it is another one.
+    pub(super) on_terminal: Option<String>,
     pub(super) lead: String,
     pub(super) pieces: Vec<(Shown, Piece<'a>)>,
     pub(super) shown: Shown,
@@ -64,6 +66,13 @@ impl<'a> Section<'a> {
         self
     }
 
+    /// Its heading on terminals, in place of the one of pages; nothing for none.
+    #[must_use]
+    pub fn on_terminal(mut self, heading: impl Into<String>) -> Self {
+        self.on_terminal = Some(heading.into());
+        self
+    }
+
     /// The section for pages alone.
     #[must_use]
     pub fn for_page(self) -> Self {
@@ -73,6 +82,11 @@ impl<'a> Section<'a> {
     /// A heading within the section.
     pub fn subheading(&mut self, heading: impl Into<String>) {
         self.push(Shown::Everywhere, Piece::Subheading(heading.into()));
+    }
+
+    /// A heading within the section, on pages alone.
+    pub fn heading_on_page(&mut self, heading: impl Into<String>) {
+        self.push(Shown::OnPage, Piece::Subheading(heading.into()));
     }
 
     /// A paragraph, or a line of a terminal.
@@ -140,7 +154,7 @@ impl<'a> Section<'a> {
 
     /// A table of pages alone, under a heading of its own.
     pub fn on_page_below(&mut self, heading: impl Into<String>, table: Table) {
-        self.push(Shown::OnPage, Piece::Subheading(heading.into()));
+        self.heading_on_page(heading);
         self.table(table.on_page());
     }
 

@@ -5,37 +5,46 @@ use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
-use crate::html::Page;
 use crate::number_format;
-use crate::sheet::{Cell, Table};
+use crate::sheet::{Cell, Column, Section, Table};
 use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::SensorKind;
 use calibrant_study::{SingleCase, Study};
 
 /// The thesis's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
-pub(super) fn chapter(page: &mut Page, study: &Study) {
-    page.section(
-        "Calibration of a population",
+pub(super) fn chapter(study: &Study) -> Section<'_> {
+    let mut section = Section::new("Calibration of a population").lead(
         "Each sensor makes the same commanded motion, is recorded and calibrated. Then the estimate is compared with the truth.",
     );
-    page.push(settings(study));
-    page.subsection("One sensor in detail");
-    page.paragraph(&rates("The population's rate", &study.single));
-    single(page, &study.single);
-    page.subsection("The same sensor at the higher rate");
-    page.paragraph(&rates("Recorded faster", &study.fine));
-    fine(page, &study.fine);
-    page.subsection("All sensors");
-    page.paragraph(
+    section.table(settings(study));
+    section.heading_on_page("One sensor in detail");
+    section.explanation(rates("The population's rate", &study.single));
+    single(&mut section, &study.single);
+    section.heading_on_page("The same sensor at the higher rate");
+    section.explanation(rates("Recorded faster", &study.fine));
+    fine(&mut section, &study.fine);
+    section.heading_on_page("All sensors");
+    section.explanation(
         "If the covariances are right, the realised error equals the stated standard deviation, the mean error is near zero, and \
          95 % of the intervals contain the truth.",
     );
-    page.push(summary_table(study));
-    page.push(parameters_against_truth(study).html());
-    page.push(parameter_errors(study).html());
-    let figures = [standardised_errors(study), p_values(study)];
-    let figures: String = figures.iter().flatten().map(|figure| figure.html()).collect();
-    page.push(format!("<div class=\"pair\">{figures}</div>"));
+    section.line(format!(
+        "{}, trust {}, {} intervals, {} Hz, seed {}",
+        number_format::counted(study.outcomes.len(), "sensor"),
+        study.trust,
+        study.motion.intervals(),
+        number_format::short(study.rate_hz),
+        study.seed
+    ));
+    section.table(summary_table(study));
+    section.figure(|| Some(parameters_against_truth(study)));
+    section.figure(|| Some(parameter_errors(study)));
+    section.drawn(|| {
+        let figures = [standardised_errors(study), p_values(study)];
+        let figures: String = figures.iter().flatten().map(|figure| figure.html()).collect();
+        format!("<div class=\"pair\">{figures}</div>")
+    });
+    section
 }
 
 fn rates(what: &str, case: &SingleCase) -> String {
@@ -47,25 +56,27 @@ fn rates(what: &str, case: &SingleCase) -> String {
     )
 }
 
-fn single(page: &mut Page, case: &SingleCase) {
-    let table = parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth));
-    page.push(table.html());
-    page.paragraph(&table.notes().join(" "));
+fn estimates(case: &SingleCase) -> Table {
+    parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)).on_page()
+}
+
+fn single<'a>(section: &mut Section<'a>, case: &'a SingleCase) {
+    section.table(estimates(case));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 4 of the thesis: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
-        page.push(acceleration_figure(title, &case.calibration, recovered, &case.recording, truth).html());
-        if let Some(figure) = motion_error_figure(recovered, &case.recording, truth) {
-            page.push(figure.html());
-        }
+        let figure = move || acceleration_figure(title, &case.calibration, recovered, &case.recording, truth);
+        section.figure(move || Some(figure()));
+        section.figure(move || motion_error_figure(recovered, &case.recording, truth));
     }
 }
 
-fn fine(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)).html());
+fn fine<'a>(section: &mut Section<'a>, case: &'a SingleCase) {
+    section.table(estimates(case));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 5 of the thesis: actual and estimated states and inputs";
-        page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
+        let truth = Some(&case.true_motion);
+        section.figure(move || Some(state_and_jerk_figure(title, recovered, &case.recording, truth)));
     }
 }
 
@@ -100,7 +111,7 @@ pub(super) fn judge(study: &Study) -> (bool, String) {
     (honest && converged == all && all > 0, sentence)
 }
 
-fn settings(study: &Study) -> String {
+fn settings(study: &Study) -> Table {
     let sensor = &study.sensor;
     let per_axis = |values: &nalgebra::Vector3<f64>| {
         let mut texts: Vec<String> =
@@ -129,36 +140,31 @@ fn settings(study: &Study) -> String {
     row("motion", format!("{intervals} intervals in {} s", number_format::tick(duration)));
     row("sample rate", format!("{} Hz", number_format::tick(study.rate_hz)));
     row("seed", study.seed.to_string());
-    table.html()
+    table.on_page()
 }
 
-fn summary_table(study: &Study) -> String {
-    let columns = [
-        "parameter",
-        "unit",
-        "sd as stated",
-        "realised error, rms",
-        "realised / stated",
-        "mean error",
-        "coverage of 95 % intervals",
-    ];
-    let mut table = Table::new(columns);
+fn summary_table(study: &Study) -> Table {
+    let mut table = Table::new([
+        Column::new("parameter"),
+        Column::new("unit"),
+        Column::new("predicted sd"),
+        Column::new("realised rms error"),
+        Column::new("ratio"),
+        Column::on_page("mean error"),
+        Column::new("coverage of 95 % intervals"),
+    ]);
     for entry in &study.summary {
         let unit = DisplayUnit::suited(entry.unit, entry.predicted_sd.max(entry.realised_rms));
-        let shown = |value: f64| Cell::Number(number_format::significant(value * unit.factor, 3));
+        let shown = |value: f64| Cell::scaled(value, 3, unit.factor);
         table.row(vec![
-            Cell::Name(entry.name.clone()),
-            Cell::Text(if unit.symbol.is_empty() {
-                number_format::UNKNOWN.to_string()
-            } else {
-                unit.symbol.to_string()
-            }),
+            Cell::name(&entry.name),
+            unit.cell(entry.unit),
             shown(entry.predicted_sd),
             shown(entry.realised_rms),
-            Cell::Number(number_format::fixed(entry.realised_rms / entry.predicted_sd, 2)),
+            Cell::fixed(entry.realised_rms / entry.predicted_sd, 3),
             shown(entry.mean_error),
-            Cell::Number(number_format::percent(entry.coverage_95)),
+            super::design::coverage_cell(entry.coverage_95),
         ]);
     }
-    table.html()
+    table
 }

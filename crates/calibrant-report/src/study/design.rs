@@ -6,9 +6,8 @@ use crate::figure::{
     DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, states,
     traces, velocity_and_displacement,
 };
-use crate::html::Page;
 use crate::number_format;
-use crate::sheet::{Cell, Table};
+use crate::sheet::{Cell, Column, Section, Table};
 use calibrant_design::limit_use;
 use calibrant_study::{DesignStudy, Factor, ParameterSummary};
 
@@ -48,38 +47,48 @@ pub(super) const NOISY: Chapter = Chapter {
 };
 
 /// One study with its tables and figures.
-pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
-    page.section(chapter.heading, chapter.lead);
-    page.push(settings(study));
+pub(super) fn chapter<'a>(study: &'a DesignStudy, chapter: &Chapter) -> Section<'a> {
+    let mut section = Section::new(chapter.heading).lead(chapter.lead);
+    section.table(settings(study));
 
-    page.subsection("Improvement");
-    page.paragraph(
+    section.heading_on_page("Improvement");
+    section.explanation(
         "Promised: standard deviations that the calibrations state (root mean square over the sensors). Realised: errors of the estimates (the same \
          mean). Factors are initial over optimal, above 1 is better, ± one standard error from so many sensors. Good: promised and realised \
          agree within their errors.",
     );
-    page.push(improvement_table(study));
-    page.push(trace_table(study));
+    section.line(format!(
+        "{}, trust {}, initial against optimal motion, {} intervals, {} Hz, seed {}",
+        number_format::counted(study.outcomes.len(), "sensor"),
+        study.trust.name(),
+        study.intervals,
+        number_format::short(study.rate_hz),
+        study.seed
+    ));
+    section.table(improvement_table(study));
+    section.table(trace_table(study));
 
     let design = &study.design;
     let axes = axes(&study.parameters);
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
-    page.push(jerk_and_acceleration(chapter.motion, &motions, axes, &study.limits).html());
-    if let Some(figure) = states(&motions, axes, &study.limits) {
-        page.push(figure.html());
-    }
-    page.push(velocity_and_displacement(&motions, axes, &study.limits).html());
-    page.push(limit_table(&limit_use(&study.limits, axes.len(), &design.optimal.motion), "optimal motion"));
-    if study.motions_shown > 1 {
-        page.push(optimal_motions(chapter.motions, study, axes).html());
-    }
-    page.push(traces(chapter.traces, study).html());
-    page.push(absolute_errors(chapter.errors, study).html());
-    let (initial, optimal) = (("initial", &design.initial), Some(("optimal", &design.optimal)));
-    if let Some(figure) = confidence_ellipses(&study.parameters, initial, optimal) {
-        page.push(figure.html());
-    }
+    let title = chapter.motion;
+    section.figure(move || Some(jerk_and_acceleration(title, &motions, axes, &study.limits)));
+    section.figure(move || states(&motions, axes, &study.limits));
+    section.figure(move || Some(velocity_and_displacement(&motions, axes, &study.limits)));
+    section.table(
+        limit_table(&limit_use(&study.limits, axes.len(), &design.optimal.motion), "optimal motion")
+            .on_page(),
+    );
+    let (of_motions, of_traces, of_errors) = (chapter.motions, chapter.traces, chapter.errors);
+    section.figure(move || (study.motions_shown > 1).then(|| optimal_motions(of_motions, study, axes)));
+    section.figure(move || Some(traces(of_traces, study)));
+    section.figure(move || Some(absolute_errors(of_errors, study)));
+    section.figure(move || {
+        let (initial, optimal) = (("initial", &design.initial), Some(("optimal", &design.optimal)));
+        confidence_ellipses(&study.parameters, initial, optimal)
+    });
+    section
 }
 
 /// The verdict on the study: is the result as predicted, and why.
@@ -135,60 +144,60 @@ fn factor(factor: &Factor) -> String {
     }
 }
 
-fn improvement_table(study: &DesignStudy) -> String {
-    let columns = [
-        "parameter",
-        "unit",
-        "predicted sd, initial",
-        "predicted sd, optimal",
-        "predicted factor",
-        "realised error, initial",
-        "realised error, optimal",
-        "realised factor",
-        "coverage of 95 % intervals, optimal",
-    ];
-    let mut table = Table::new(columns);
+fn improvement_table(study: &DesignStudy) -> Table {
+    let mut table = Table::new([
+        Column::new("parameter"),
+        Column::new("unit"),
+        Column::new("predicted sd, initial"),
+        Column::new("predicted sd, optimal"),
+        Column::new("predicted factor"),
+        Column::new("realised error, initial"),
+        Column::new("realised error, optimal"),
+        Column::new("realised factor"),
+        Column::new("coverage of 95 % intervals, initial"),
+        Column::new("coverage of 95 % intervals, optimal"),
+    ]);
     for entry in &study.summary {
         let (before, after) = (&entry.initial, &entry.optimal);
         let numbers = |s: &ParameterSummary| [s.predicted_sd, s.realised_rms];
         let unit = DisplayUnit::suited_to(before.unit, numbers(before).into_iter().chain(numbers(after)));
-        let shown = |value: f64| Cell::Number(number_format::significant(value * unit.factor, 3));
-        let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
+        let shown = |value: f64| Cell::scaled(value, 3, unit.factor);
         table.row(vec![
-            Cell::Name(after.name.clone()),
-            Cell::Text(symbol.to_string()),
+            Cell::name(&after.name),
+            unit.cell(before.unit),
             shown(before.predicted_sd),
             shown(after.predicted_sd),
             Cell::Number(factor(&entry.predicted)),
             shown(before.realised_rms),
             shown(after.realised_rms),
             Cell::Number(factor(&entry.realised)),
-            Cell::Number(number_format::percent(after.coverage_95)),
+            coverage_cell(before.coverage_95),
+            coverage_cell(after.coverage_95),
         ]);
     }
-    table.html()
+    table
 }
 
-fn trace_table(study: &DesignStudy) -> String {
+/// A coverage in per cent, with one decimal.
+pub(super) fn coverage_cell(coverage: f64) -> Cell {
+    Cell::Number(format!("{:.1} %", 100.0 * coverage))
+}
+
+fn trace_table(study: &DesignStudy) -> Table {
     let mut table = Table::new(["trace of the covariance (SI)", "least", "median", "most"]);
     for (name, range) in [("initial motion", &study.trace.initial), ("optimal motion", &study.trace.optimal)]
     {
-        let shown = |value: f64| Cell::Number(number_format::significant(value, 4));
-        table.row(vec![
-            Cell::Name(name.to_string()),
-            shown(range.least),
-            shown(range.median),
-            shown(range.most),
-        ]);
+        let shown = |value: f64| Cell::significant(value, 4);
+        table.row(vec![Cell::name(name), shown(range.least), shown(range.median), shown(range.most)]);
     }
     let ratio = |of: fn(&calibrant_study::TraceRange) -> f64| {
         Cell::Number(times(of(&study.trace.initial) / of(&study.trace.optimal)))
     };
     table.row(vec![
-        Cell::Name("initial over optimal".to_string()),
+        Cell::name("initial over optimal"),
         ratio(|range| range.least),
         ratio(|range| range.median),
         ratio(|range| range.most),
     ]);
-    table.html()
+    table
 }

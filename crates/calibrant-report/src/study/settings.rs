@@ -8,7 +8,7 @@ use calibrant_study::DesignStudy;
 use nalgebra::Vector3;
 
 /// Settings in two columns.
-pub(super) fn settings(study: &DesignStudy) -> String {
+pub(super) fn settings(study: &DesignStudy) -> Table {
     let axes = study.sensor.active_axes();
     let mut table = Table::new(["setting", "value"]);
     let mut row =
@@ -43,7 +43,7 @@ pub(super) fn settings(study: &DesignStudy) -> String {
     row("starts of each design", study.starts.to_string());
     row("prior", if study.datasheet_prior { "the datasheet" } else { "none" }.to_string());
     row("seed", study.seed.to_string());
-    table.html()
+    table.on_page()
 }
 
 fn trust(study: &DesignStudy) -> String {

@@ -2,12 +2,12 @@
 
 use super::batches::drifting_batch;
 use super::{about, assert_sound};
-use crate::{Batch, batch_report};
+use crate::{Batch, batch_sheet};
 
 #[test]
 fn the_page_shows_yield_failures_causes_and_every_parameter() {
     let batch = drifting_batch(40);
-    let html = batch_report(&batch, &about());
+    let html = batch_sheet(&batch, &about()).html();
     assert_sound(&html);
     assert!(
         html.contains("✗ Yield 88 %: 35 of 40 sensors ok."),
@@ -33,7 +33,7 @@ fn a_long_name_is_broken_so_that_the_verdict_stays_in_view() {
     let mut batch = drifting_batch(6);
     let long = "recording_".repeat(12);
     batch.sensors[1].name.clone_from(&long);
-    let html = batch_report(&batch, &about());
+    let html = batch_sheet(&batch, &about()).html();
     assert_sound(&html);
     assert!(html.contains("<th scope=\"row\"><a href=\"sensor-1/report.html\">sensor-1</a></th>"));
     let broken = format!("<th scope=\"row\" class=\"long\"><a href=\"sensor-2/report.html\">{long}</a></th>");
@@ -42,13 +42,13 @@ fn a_long_name_is_broken_so_that_the_verdict_stays_in_view() {
 
 #[test]
 fn a_batch_without_results_has_a_page() {
-    assert_sound(&batch_report(&Batch::default(), &about()));
+    assert_sound(&batch_sheet(&Batch::default(), &about()).html());
     let mut batch = drifting_batch(6);
     batch.sensors.retain(|sensor| sensor.verdict.is_err());
-    let html = batch_report(&batch, &about());
+    let html = batch_sheet(&batch, &about()).html();
     assert_sound(&html);
     assert!(html.contains("file-empty") && !html.contains("Distribution of the parameters"));
     let mut one = drifting_batch(6);
     one.sensors.truncate(1);
-    assert_sound(&batch_report(&one, &about()));
+    assert_sound(&batch_sheet(&one, &about()).html());
 }

@@ -1,7 +1,7 @@
 //! Tests of the pages about designs.
 
 use super::{about, assert_sound, designs};
-use crate::{About, design_report, evaluation_report, number_format, sweep_report};
+use crate::{About, design_sheet, evaluation_sheet, number_format, sweep_sheet};
 use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::{Sensor, SensorModel};
 use calibrant_design::{Certificate, Design, DesignStatus, StartOutcome, Sweep, assess};
@@ -15,7 +15,7 @@ fn design(sensor: &Sensor, starts: usize) -> Design {
 #[test]
 fn a_design_shows_every_number_of_the_result() {
     let design = design(&Sensor::memsic_mxd2020u(), 30);
-    let html = design_report(&design, &about());
+    let html = design_sheet(&design, &about()).html();
     assert_sound(&html);
     for ((parameter, old), new) in design.parameters.iter().zip(design.initial.sd()).zip(design.optimal.sd())
     {
@@ -55,16 +55,16 @@ fn a_design_shows_every_number_of_the_result() {
 fn the_verdict_says_what_is_proved_and_what_is_not() {
     let sensor = Sensor::memsic_mxd2020u();
     let mut design = design(&sensor, 3);
-    let html = design_report(&design, &about());
+    let html = design_sheet(&design, &about()).html();
     assert!(html.contains("Proved optimal to within 0.50 %"));
     assert!(html.contains("No motion within the limits can give scale.z a standard deviation below"));
 
     design.status = DesignStatus::IterationLimit;
-    assert!(design_report(&design, &about()).contains("verdict caution"));
+    assert!(design_sheet(&design, &about()).html().contains("verdict caution"));
 
     design.status = DesignStatus::Converged;
     design.certificate = None;
-    let html = design_report(&design, &about());
+    let html = design_sheet(&design, &about()).html();
     assert!(html.contains("a better motion is not ruled out") && !html.contains("Proved"));
 }
 
@@ -73,7 +73,7 @@ fn a_motion_that_breaks_a_limit_or_determines_nothing_is_called_so() {
     let sensor = Sensor::memsic_mxd2020u();
     let mut broken = design(&sensor, 3);
     broken.limits.velocity_mps = Some(Vector3::new(2.0, 10.0, 10.0));
-    let html = design_report(&broken, &about());
+    let html = design_sheet(&broken, &about()).html();
     assert_sound(&html);
     assert!(html.contains("verdict bad") && html.contains("velocity of axis x: 3.14"));
 
@@ -83,7 +83,7 @@ fn a_motion_that_breaks_a_limit_or_determines_nothing_is_called_so() {
     let zeros = vec![Vector3::zeros(); 11];
     let zeros = JerkControlledMotion::uniform(1.0, zeros).expect("valid");
     still.optimal = calibrant_design::evaluate(&problem, &zeros).expect("a valid setting");
-    let html = design_report(&still, &about());
+    let html = design_sheet(&still, &about()).html();
     assert_sound(&html);
     assert!(html.contains("verdict bad") && html.contains("scale.y is not determined"));
 }
@@ -91,12 +91,12 @@ fn a_motion_that_breaks_a_limit_or_determines_nothing_is_called_so() {
 #[test]
 fn every_shape_of_problem_makes_a_sound_page() {
     let one_axis = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
-    let html = design_report(&design(&one_axis, 2), &about());
+    let html = design_sheet(&design(&one_axis, 2), &about()).html();
     assert_sound(&html);
     assert!(!html.contains("axis y"));
 
     let full = Sensor { model: SensorModel::Full, ..Sensor::memsic_mxd2020u() };
-    let html = design_report(&design(&full, 2), &about());
+    let html = design_sheet(&design(&full, 2), &about()).html();
     assert_sound(&html);
     assert!(html.contains("matrix.zy"));
 
@@ -109,7 +109,7 @@ fn every_shape_of_problem_makes_a_sound_page() {
         explanation: String::new(),
     });
     bare.initial.covariance = None;
-    let html = design_report(&bare, &about());
+    let html = design_sheet(&bare, &about()).html();
     assert_sound(&html);
     assert!(html.contains("state xᵢ (m/s²)") && html.contains("undetermined"));
 }
@@ -117,9 +117,9 @@ fn every_shape_of_problem_makes_a_sound_page() {
 #[test]
 fn many_starts_are_folded() {
     let mut design = design(&Sensor::memsic_mxd2020u(), 40);
-    assert!(!design_report(&design, &about()).contains("<details>"));
+    assert!(!design_sheet(&design, &about()).html().contains("<details>"));
     design.starts.push(StartOutcome { value: f64::NAN, ..design.starts[0].clone() });
-    let html = design_report(&design, &about());
+    let html = design_sheet(&design, &about()).html();
     assert_sound(&html);
     assert!(html.contains("<details><summary>All 41 starts, best first</summary>"));
 }
@@ -136,7 +136,7 @@ fn text_of_the_user_is_escaped_in_designs() {
         program: hostile.to_string(),
         ..About::default()
     };
-    let html = design_report(&design, &about);
+    let html = design_sheet(&design, &about).html();
     assert_sound(&html);
     assert!(!html.contains(hostile) && html.matches("a&lt;b&gt;&amp;&quot;c&quot;.csv").count() >= 6);
 }
@@ -149,7 +149,7 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
     let own = designs::swing(&problem, [1.0; 3]).motion;
     let design = designs::design_of(&problem, 3);
     let assessment = assess(&problem, &own, Ok(design)).expect("valid");
-    let html = evaluation_report(&assessment, &about());
+    let html = evaluation_sheet(&assessment, &about()).html();
     assert_sound(&html);
     let gain = assessment.evaluation.sd()[4] / assessment.optimum.as_ref().expect("given").optimal.sd()[4];
     assert!(
@@ -163,7 +163,7 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
     let nodes = own.acceleration_mps2().iter().map(|a| a * 2.0).collect();
     let wide = JerkControlledMotion::uniform(1.0, nodes).expect("valid");
     let hostile = Err("the limits <clash>".to_string());
-    let html = evaluation_report(&assess(&problem, &wide, hostile).expect("valid"), &about());
+    let html = evaluation_sheet(&assess(&problem, &wide, hostile).expect("valid"), &about()).html();
     assert_sound(&html);
     assert!(
         html.contains("Breaks limits")
@@ -173,7 +173,7 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
 
     let still = JerkControlledMotion::uniform(2.0, vec![Vector3::zeros(); 3]).expect("valid");
     let design = designs::design_of(&problem, 3);
-    let html = evaluation_report(&assess(&problem, &still, Ok(design)).expect("valid"), &about());
+    let html = evaluation_sheet(&assess(&problem, &still, Ok(design)).expect("valid"), &about()).html();
     assert_sound(&html);
     assert!(html.contains("verdict bad") && html.contains("scale.x is not determined"));
     assert!(html.contains("takes 4 s in 2 intervals"));
@@ -183,7 +183,7 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
 fn a_sweep_shows_every_value_and_why_some_have_no_design() {
     let sensor = Sensor::memsic_mxd2020u();
     let sweep = designs::sweep(&sensor);
-    let html = sweep_report(&sweep, &about());
+    let html = sweep_sheet(&sweep, &about()).html();
     assert_sound(&html);
     for point in &sweep.points {
         assert!(html.contains(&format!("<th scope=\"row\">{}</th>", number_format::short(point.value))));
@@ -197,10 +197,10 @@ fn a_sweep_shows_every_value_and_why_some_have_no_design() {
         assert!(html.contains(text), "{text}");
     }
     let nothing = Sweep { points: sweep.points[..1].to_vec(), ..sweep.clone() };
-    let html = sweep_report(&nothing, &about());
+    let html = sweep_sheet(&nothing, &about()).html();
     assert_sound(&html);
     assert!(
         html.contains("No motion is possible") && html.contains("no motion is possible at any of the values")
     );
-    assert_sound(&sweep_report(&Sweep { points: Vec::new(), ..sweep }, &about()));
+    assert_sound(&sweep_sheet(&Sweep { points: Vec::new(), ..sweep }, &about()).html());
 }

@@ -266,6 +266,7 @@ mod tests {
             name: format!("s{number}"),
             link: None,
             verdict: Ok(Verdict::on([], &[])),
+            quality: Vec::new(),
             codes: Vec::new(),
             limits_failed: Vec::new(),
             reasons: Vec::new(),
@@ -279,7 +280,7 @@ mod tests {
             accepted: None,
         };
         let sensors = estimates.into_iter().enumerate().map(sensor).collect();
-        Batch { parameters: vec![parameter], sensors }
+        Batch { parameters: vec![parameter], sensors, ..Batch::default() }
     }
 
     fn only_panel(batch: &Batch) -> (Panel, Seen) {

@@ -51,7 +51,7 @@ fn text(section: &Section<'_>, width: usize) -> Option<String> {
         body.push_str(&text);
         last_is_line = Some(is_line);
     }
-    match section.heading.as_str() {
+    match section.on_terminal.as_ref().unwrap_or(&section.heading).as_str() {
         _ if body.is_empty() => None,
         "" => Some(body),
         heading => Some(format!("{}\n{body}", wrapped(heading, width))),
