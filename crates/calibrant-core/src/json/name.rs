@@ -33,7 +33,11 @@ macro_rules! json_name {
         impl<'de> ::serde::Deserialize<'de> for $type {
             fn deserialize<D: ::serde::Deserializer<'de>>(deserializer: D) -> ::core::result::Result<Self, D::Error> {
                 let found = <::std::string::String as ::serde::Deserialize>::deserialize(deserializer)?;
-                $all.iter().copied().find(|known| known.$name().to_string() == found).ok_or_else(|| {
+                let named = |known: &$type| {
+                    let name = known.$name().to_string();
+                    name == found
+                };
+                $all.iter().copied().find(named).ok_or_else(|| {
                     let known: ::std::vec::Vec<_> = $all.iter().map(|known| format!("`{}`", known.$name())).collect();
                     ::serde::de::Error::custom(format!("`{found}` is none of {}", known.join(", ")))
                 })

@@ -52,7 +52,9 @@ impl ReferenceLogFile {
                 return refused(Refusal::RecordingsUnlike, message, "give a value for each time");
             }
         }
-        if let Some(pair) = log.times_s().windows(2).find(|pair| !(pair[0] <= pair[1])) {
+        if let Some(pair) =
+            log.times_s().windows(2).find(|pair| pair.iter().any(|time| time.is_nan()) || pair[0] > pair[1])
+        {
             let message = format!("the times go from {} s to {} s", pair[0], pair[1]);
             return refused(Refusal::TimesNotIncreasing, message, "sort the log by time");
         }

@@ -16,7 +16,7 @@ pub(crate) enum Prepared {
     /// The commanded motion.
     Moved(CommandedMotion),
     /// The machine, and the log that the options name. Without it, each recording's file has one.
-    OnMachine { chain: Option<KinematicChain>, log: Option<LogFile> },
+    OnMachine { chain: Option<KinematicChain>, log: Option<Box<LogFile>> },
 }
 
 impl Prepared {
@@ -35,7 +35,10 @@ impl Prepared {
                 let log = options.motion.as_ref();
                 Ok(Self::OnMachine {
                     chain: plan.source.as_ref().map(|source| source.chain()).transpose()?,
-                    log: log.map(|log| LogFile::read(log, &log_options(plan), notes)).transpose()?,
+                    log: log
+                        .map(|log| LogFile::read(log, &log_options(plan), notes))
+                        .transpose()?
+                        .map(Box::new),
                 })
             }
         }

@@ -102,10 +102,9 @@ impl Simulation {
         let path = |name: &str| directory.join(name);
         if let Some((motion, axes)) = &self.motion {
             write_motion(&path("motion.csv"), motion, *axes)?;
-            let happened = self.true_motion.iter();
-            happened
-                .map(|motion| write_motion(&path("true_motion.csv"), motion, *axes))
-                .collect::<Result<()>>()?;
+            if let Some(happened) = &self.true_motion {
+                write_motion(&path("true_motion.csv"), happened, *axes)?;
+            }
         }
         write_json(&path("truth.json"), &self.truth)?;
         match &self.log {

@@ -29,7 +29,7 @@ fn run(recording: &ImuRecording) -> calibrant::Result<Calibration> {
 
 /// Every `step`-th sample, from one on.
 fn every(recording: &Recording, step: usize, from: usize) -> Recording {
-    recording.only(|k| k >= from && (k - from) % step == 0)
+    recording.only(|k| k >= from && (k - from).is_multiple_of(step))
 }
 
 /// A recording at 400 Hz without some of the samples in each hold, so that these last from 2 to 4 s.

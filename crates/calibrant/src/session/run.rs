@@ -107,7 +107,7 @@ impl Session {
         let (experiment, options) = (&self.experiment, &self.options);
         let kind = match (&experiment.plan, &self.prepared) {
             (Plan::Machine(plan), Prepared::OnMachine { chain, log }) => {
-                let given = (chain.as_ref(), log.as_ref());
+                let given = (chain.as_ref(), log.as_deref());
                 return MachineTask::new(experiment, plan, given, options).run(source, options, notes);
             }
             (Plan::Holds(holds), _) => Kind::held(holds, experiment.imu.as_ref()),
