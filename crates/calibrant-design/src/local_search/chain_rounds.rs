@@ -18,6 +18,9 @@ const AGAIN: f64 = 0.01;
 /// Its gap there, relative to that share.
 const GAP: f64 = 10.0;
 
+/// Factors on the gap at the start of a program with a matrix, where the method got stuck.
+const WIDER: [f64; 3] = [1e2, 1e4, 1e8];
+
 /// What the rounds of one iteration leave for those of the next.
 pub(crate) struct Rounds<const D: usize> {
     peaks: [Peaks; D],
@@ -49,7 +52,17 @@ impl<const D: usize> Rounds<D> {
             let mut stages: Vec<Vec<Stage>> =
                 part.regions.iter().enumerate().map(|(k, region)| region.stages(&own(&start, k))).collect();
             complete(&mut stages);
-            let found = program.solve(stages, gap)?;
+            let mut found = program.solve(stages.clone(), gap)?;
+            // far from the best motion an eigenvalue may grow many times over, and the iteration must begin as far from the boundary
+            for wider in WIDER {
+                if program.matrix.is_none() || found.gap <= 0.1 * found.gained {
+                    break;
+                }
+                let other = program.solve(stages.clone(), gap * wider)?;
+                if other.gained > found.gained {
+                    found = other;
+                }
+            }
             let next: Nodes<D> = (0..a.len())
                 .map(|i| SVector::from_fn(|k, _| part.regions[k].size * found.stages[k][i][0]))
                 .collect();

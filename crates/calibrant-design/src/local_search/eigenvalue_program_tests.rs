@@ -69,3 +69,10 @@ fn a_full_sensor_has_the_value_of_the_semidefinite_program() {
     // the bias decides, whatever the motion
     check(&best(SensorModel::Full, Trust::Known, &limits(false), 10, 1.0), 3.960_396_039_603_97e-8, 5);
 }
+
+#[test]
+fn starts_of_long_motions_converge() {
+    let design = best(SensorModel::ScaleBias, Trust::Known, &limits(true), 200, 0.1);
+    assert!(design.optimal.value < 4.72e-9, "{:e}", design.optimal.value);
+    assert!(design.starts.iter().all(|start| start.status == DesignStatus::Converged), "{:?}", design.starts);
+}
