@@ -175,7 +175,7 @@ fn a_motion_of_ones_own_is_judged() {
     let outcome = bench.run(&format!("design arm.toml {QUICK} --evaluate fast.csv -o f")).done();
     for words in [
         "BROKEN: velocity of axis x is 12.50 m/s at 1.000 s, 2.500 beyond the limit of 10.00 (25.0 %)",
-        "fast.csv has 3 intervals over 6 s, but the experiment has 10 over 10 s",
+        "The motion takes 6 s in 3 intervals, but the best motion is for the experiment's 10 s in 10 intervals.",
     ] {
         let stdout = outcome.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(stdout.contains(words), "{words}\n{stdout}");
@@ -209,7 +209,7 @@ fn counts_and_criteria_are_put_into_words() {
     let outcome = bench.run("design one.toml --evaluate own.csv -o d").done();
     for words in [
         "criterion A (trace C, each parameter divided by its datasheet spread)",
-        "own.csv has 1 interval over 2 s, but the experiment has 1 over 1 s",
+        "The motion takes 2 s in 1 interval, but the best motion is for the experiment's 1 s in 1 interval.",
     ] {
         let stdout = outcome.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(stdout.contains(words), "{words}\n{stdout}");
