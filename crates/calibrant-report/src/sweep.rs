@@ -4,7 +4,7 @@ use super::About;
 use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
 use super::number_format;
-use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
+use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
 
@@ -121,7 +121,11 @@ fn table(sweep: &Sweep) -> Table {
         if nats { "above the bound (nats)" } else { "above the bound" }.into(),
     ];
     let of_parameters = sweep.parameters.iter().zip(&units);
-    columns.extend(of_parameters.map(|(p, unit)| Column::from(unit.label(&format!("sd {}", p.name)))));
+    // SI with fewer digits on terminals
+    columns.extend(of_parameters.flat_map(|(p, unit)| {
+        let name = format!("sd {}", p.name);
+        [Column::on_page(unit.label(&name)), Column::new(name).shown(Shown::OnTerminal)]
+    }));
     columns.push(Column::on_page("ended"));
     let mut table = Table::new(columns);
     for (point, sd) in sweep.points.iter().zip(&sd) {
@@ -130,14 +134,16 @@ fn table(sweep: &Sweep) -> Table {
         let mut cells = vec![
             Cell::name(number_format::short(point.value)),
             Cell::Number(point.intervals.to_string()),
-            design.map_or(Cell::Missing, |design| Cell::significant(design.optimal.value, 5)),
+            design.map_or(Cell::Missing, |design| Cell::significant(design.optimal.value, 4)),
             gap.map_or(Cell::Missing, |gap| match nats {
                 true => Cell::significant(gap, 2),
                 false => Cell::Number(above(gap)),
             }),
         ];
-        let in_unit = |(sd, unit): (&f64, &DisplayUnit)| Cell::significant(sd * unit.factor, 4);
-        cells.extend(sd.iter().zip(&units).map(in_unit));
+        let in_units = |(sd, unit): (&f64, &DisplayUnit)| {
+            [Cell::significant(sd * unit.factor, 4), Cell::significant(*sd, 3)]
+        };
+        cells.extend(sd.iter().zip(&units).flat_map(in_units));
         match design {
             Some(design) => {
                 let ended = status(design.status).to_owned();

@@ -432,7 +432,12 @@ fn without_a_gyroscope_the_accelerometer_is_calibrated_and_the_result_says_so() 
     }
     // in a batch it stands among the others
     let outcome = bench.run("calibrate imu.toml alone.csv sim/recording.csv --no-report -o batch").done();
-    assert!(outcome.stdout.starts_with("! Yield 50 %: 1 of 2 sensors ok.\n\n  0 bad, 1 doubtful, 0 without a result."), "{outcome:?}");
+    assert!(
+        outcome
+            .stdout
+            .starts_with("! Yield 50 %: 1 of 2 sensors ok.\n\n  0 bad, 1 doubtful, 0 without a result."),
+        "{outcome:?}"
+    );
     let row = outcome.stdout.lines().find(|line| line.contains("alone")).expect("a row");
     let cells: Vec<&str> = row.split("   ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
     assert_eq!(cells[..4], ["alone", "doubtful", "24 of 24", "–"], "{row}");

@@ -213,7 +213,9 @@ fn the_verdict_is_in_every_result_and_codes_can_be_allowed() {
         .run(&format!("calibrate sensor.toml made/recording.csv faulty.csv {motion} --no-report -o all"));
     let several = several.ends_with(5);
     assert!(
-        several.stdout.starts_with("✗ Yield 50 %: 1 of 2 sensors ok.\n\n  1 bad, 0 doubtful, 0 without a result."),
+        several
+            .stdout
+            .starts_with("✗ Yield 50 %: 1 of 2 sensors ok.\n\n  1 bad, 0 doubtful, 0 without a result."),
         "{}",
         several.stdout
     );
