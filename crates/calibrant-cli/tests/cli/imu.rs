@@ -435,7 +435,7 @@ fn without_a_gyroscope_the_accelerometer_is_calibrated_and_the_result_says_so() 
     assert!(
         outcome
             .stdout
-            .starts_with("! Yield 50 %: 1 of 2 sensors ok.\n\n  0 bad, 1 doubtful, 0 without a result."),
+            .starts_with("Yield 50 %: 1 of 2 sensors ok.\n\n  0 bad, 1 doubtful, 0 without a result."),
         "{outcome:?}"
     );
     let row = outcome.stdout.lines().find(|line| line.contains("alone")).expect("a row");
