@@ -73,6 +73,7 @@ mod summary;
 mod sweep;
 mod text_decoding;
 mod text_excerpt;
+mod true_parameter;
 mod truth;
 mod utc_time;
 

@@ -1,6 +1,6 @@
 //! What a simulation on a machine adds to `truth.json`: what a calibration finds of the machine, and the noise.
 
-use super::truth::TrueParameter;
+use super::true_parameter::TrueParameter;
 use calibrant_core::form::As;
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::simulate::{DrawnMachine, LogErrors, SensorErrors};

@@ -35,7 +35,7 @@ impl FileKind {
         Self { name: "noise", file: "noise.json", schema: || schema_for!(NoiseFile<'static>) },
         Self {
             name: "comparison",
-            file: "what compare --json prints",
+            file: "what compare prints as JSON",
             schema: || schema_for!(ComparisonFile<'static>),
         },
         Self { name: "design", file: "design.json of a motion", schema: || schema_for!(DesignFile<'static>) },

@@ -2,6 +2,7 @@
 
 use super::heading::Heading;
 use super::machine_truth::TrueMachine;
+use super::true_parameter::TrueParameter;
 use calibrant_core::json::{flat, if_any, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{
@@ -9,8 +10,6 @@ use calibrant_core::sensor::{
 };
 use calibrant_core::simulate::TrueGravity;
 use nalgebra::{Matrix3, Vector3};
-use schemars::JsonSchema;
-use serde::Serialize;
 
 /// The content of `truth.json`: what a simulated recording was made of.
 ///
@@ -53,14 +52,6 @@ json_object! {
         fixed: if_any(of.fixed.as_slice()),
         machine: if_some(of.machine.as_ref()),
     }
-}
-
-/// A true value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub(super) struct TrueParameter {
-    pub(super) name: String,
-    pub(super) unit: &'static str,
-    pub(super) value: f64,
 }
 
 impl Truth {

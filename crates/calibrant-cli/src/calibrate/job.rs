@@ -32,7 +32,7 @@ impl<'a> Job<'a> {
         let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
         let naming = options.naming.clone();
         let shared: Option<Vec<_>> = shared_files(arguments, experiment).map(HashedFile::of).collect();
-        let key = shared.map(|shared| ResumeKey::of(&format!("{options:?}"), &shared));
+        let key = shared.map(|shared| ResumeKey::of(&without_budget(&options), &shared));
         let session = Session::with(experiment.clone(), options)?;
         tell_all(session.notes());
         let sources = sources(arguments, experiment)?;
@@ -68,6 +68,13 @@ impl<'a> Job<'a> {
         self.records.add(|| outcome.json())?;
         Ok(outcome)
     }
+}
+
+/// The options in words, but for what the work may take: results do not depend on that.
+fn without_budget(options: &SessionOptions) -> String {
+    let mut options = options.clone();
+    options.reading.budget = None;
+    format!("{options:?}")
 }
 
 /// The files on which all results depend.

@@ -70,7 +70,7 @@ fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
     bench.write("broken.csv", "");
     let outcome = bench.run(&format!("{CALIBRATE} a.csv short.csv broken.csv -o result"));
     assert_eq!(outcome.status, 4, "{outcome:?}");
-    outcome.says("error: short.csv: the data cannot determine the parameters; bias.x and scale.x");
+    outcome.says("error: short.csv: the data cannot determine the parameters; accelerometer.bias.x and accelerometer.scale.x");
     outcome.says("error: broken.csv: the file is empty");
     let summary = bench.read("result/summary.csv");
     assert!(

@@ -304,7 +304,7 @@ fn the_unit_is_the_option_where_the_header_does_not_say() {
     bench.refuses(
         "calibrate experiment.toml simulated/recording.csv --unit counts -o refused",
         3,
-        &["simulated/recording.csv:2: the accelerometer's columns are in m/s², but the unit was given as counts"],
+        &["simulated/recording.csv:1: the accelerometer's columns are in m/s², but the unit was given as counts"],
     );
 }
 

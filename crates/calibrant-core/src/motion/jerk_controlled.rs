@@ -5,10 +5,7 @@
 //! (x, u): intercept and jerk of each interval, `α(t) = x_i + u_i t`. Both describe the same motions: the
 //! report's continuity constraint holds identically in node form.
 
-use super::MotionTable;
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::json::flat;
-use crate::json_object;
 use nalgebra::Vector3;
 
 /// A motion of piecewise-linear acceleration.
@@ -31,14 +28,7 @@ use nalgebra::Vector3;
 pub struct JerkControlledMotion {
     times_s: Vec<f64>,
     acceleration_mps2: Vec<Vector3<f64>>,
-    axes: usize,
-}
-
-json_object! {
-    /// A motion of piecewise-linear acceleration.
-    JerkControlledMotion as of {
-        table: flat(MotionTable { motion: of, axes: of.axes, acceleration_sd_mps2: None }),
-    }
+    pub(super) axes: usize,
 }
 
 impl JerkControlledMotion {

@@ -2,7 +2,7 @@
 
 use super::JerkControlledMotion;
 use crate::form::vector_rows;
-use crate::json::if_some;
+use crate::json::{flat, if_some};
 use nalgebra::Vector3;
 
 /// The nodes of a motion over the first axes, and what follows from them.
@@ -24,5 +24,12 @@ crate::json_object! {
         jerk_mps3: vector_rows(&of.motion.jerk_mps3(), of.axes),
         velocity_mps: vector_rows(&of.motion.velocity_mps(), of.axes),
         displacement_m: vector_rows(&of.motion.displacement_m(), of.axes),
+    }
+}
+
+crate::json_object! {
+    /// A motion of piecewise-linear acceleration.
+    JerkControlledMotion as of {
+        table: flat(MotionTable { motion: of, axes: of.axes, acceleration_sd_mps2: None }),
     }
 }

@@ -7,6 +7,7 @@ use super::file::ExperimentFile;
 use super::gyroscope::GyroscopeSection;
 use super::number::Count;
 use super::refused_key::{missing, refused};
+use super::remedies::remedy;
 use super::spreads::need_spreads;
 use super::{CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions};
 use crate::experiment_presets::preset;
@@ -140,6 +141,9 @@ impl ExperimentFile {
 
     /// Reads a document, which describes one plan.
     fn of(document: &Document<'_>) -> Result<Self> {
+        if !document.has("schema") {
+            return Err(document.placed(missing("schema", remedy("schema"))));
+        }
         let plans: Vec<&str> =
             ["motion", "holds", "machine"].into_iter().filter(|section| document.has(section)).collect();
         if let [one, other, ..] = plans.as_slice() {

@@ -7,8 +7,9 @@ use serde::de::{
     DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor,
     value::StrDeserializer,
 };
+use std::vec::IntoIter;
+use toml::Spanned;
 use toml::de::{DeString, DeValue};
-use toml::{Spanned, map::Iter};
 
 /// A value and its key.
 pub(super) struct TomlValue<'a, 't> {
@@ -57,7 +58,10 @@ impl<'de> Deserializer<'de> for TomlValue<'de, '_> {
             DeValue::Datetime(_) => Err(Fault::invalid_type(Unexpected::Other("date"), &visitor)),
             DeValue::Array(items) => visitor.visit_seq(Items { key: self.key, place: 0, items }),
             DeValue::Table(table) => {
-                visitor.visit_map(Entries { key: self.key, entries: table.iter(), value: None })
+                // in the order of the text: of several mistakes, the first is said
+                let mut entries: Vec<_> = table.iter().collect();
+                entries.sort_by_key(|(name, _)| name.span().start);
+                visitor.visit_map(Entries { key: self.key, entries: entries.into_iter(), value: None })
             }
         };
         read.map_err(|fault| fault.at(&key))
@@ -75,7 +79,8 @@ impl<'de> Deserializer<'de> for TomlValue<'de, '_> {
             return Err(self.of_kind("a table", if example.is_empty() { &line } else { example }));
         };
         // a misspelt key first: what it leaves out follows from it
-        match table.keys().find(|key| !known.contains(&key.get_ref().as_ref())) {
+        let unknown = table.keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
+        match unknown.min_by_key(|key| key.span().start) {
             Some(key) => Err(Fault::unknown_field(key.get_ref(), known).at(&self.key)),
             None => self.deserialize_any(visitor),
         }
@@ -155,7 +160,7 @@ impl<'de> SeqAccess<'de> for Items<'de, '_> {
 /// The entries of a table.
 struct Entries<'a, 't> {
     key: String,
-    entries: Iter<'a, Spanned<DeString<'t>>, Spanned<DeValue<'t>>>,
+    entries: IntoIter<(&'a Spanned<DeString<'t>>, &'a Spanned<DeValue<'t>>)>,
     value: Option<TomlValue<'a, 't>>,
 }
 

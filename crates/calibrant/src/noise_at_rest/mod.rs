@@ -1,28 +1,15 @@
 //! The noise of a sensor at rest: which part of a recording is examined, and what it shows of each sensor.
 
 mod holds;
+mod options;
 mod read;
 
+pub use options::NoiseOptions;
 pub use read::read_for_noise;
 
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::interruption::Interruption;
 use calibrant_core::noise::{Moments, Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
-use nalgebra::Vector3;
-
-/// What is examined for noise.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct NoiseOptions {
-    /// The sensor; `None`: all that were recorded.
-    pub sensor: Option<SensorKind>,
-    /// Start and end of the interval at rest, s; `None`: the longest hold.
-    pub hold_s: Option<(f64, f64)>,
-    /// Nominal gains, counts per m/s² or rad/s: the noise of these sensors is stated in SI.
-    pub gains: Vec<(SensorKind, Vector3<f64>)>,
-    /// Ends the work without a result.
-    pub interruption: Interruption,
-}
 
 /// The noise of each sensor in one interval at rest.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Reads the recording that is examined for noise, in any format.
 
-use super::NoiseOptions;
+use super::options::NoiseOptions;
 use crate::session::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ReadingUnit, SensorKind};

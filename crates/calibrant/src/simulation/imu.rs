@@ -1,10 +1,12 @@
 //! Simulates a whole IMU: turned by hand, or on a table as the experiment lists it.
 
 use super::gains::gains;
+use super::length;
+use super::options::SimulationOptions;
 use super::poses::unused_motion;
 use super::random::Random;
+use super::simulated::Simulation;
 use super::table::{check, table};
-use super::{Simulation, SimulationOptions, length};
 use calibrant_core::error::Result;
 use calibrant_core::motion::earth_rate;
 use calibrant_core::sensor::{

@@ -2,8 +2,10 @@
 
 use super::gains::gains;
 use super::machine_motion::{TrueMotion, motion};
+use super::options::SimulationOptions;
 use super::random::Random;
-use super::{Simulation, SimulationOptions, imu, length};
+use super::simulated::Simulation;
+use super::{imu, length};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, ParameterList, ReadingUnit, SensorKind, SensorModel,

@@ -8,118 +8,21 @@ mod length;
 mod machine;
 mod machine_motion;
 mod motion;
+mod options;
 mod poses;
 mod random;
+mod simulated;
 mod table;
 
 pub use motion::commanded_motion;
+pub use options::SimulationOptions;
+pub use simulated::Simulation;
 
-use crate::session::MotionSource;
-use calibrant_core::budget::Budget;
-use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, Sensor};
-use calibrant_io::{
-    Experiment, Plan, Truth, write_imu_recording, write_joint_log, write_json, write_motion, write_pose_log,
-    write_recording,
-};
-use calibrant_machine::log::ReferenceLog;
+use calibrant_core::sensor::{ReadingUnit, Sensor};
+use calibrant_io::{Experiment, Plan};
 use nalgebra::Vector3;
 use random::Random;
-use std::path::Path;
-
-/// What is chosen of a simulation beside the experiment.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SimulationOptions {
-    /// Seed of all random numbers; `None`: that of the experiment.
-    pub seed: Option<u64>,
-    /// Number of the recording, from 1. Each has its own noise, and its own random poses or motion.
-    pub recording: u64,
-    /// The commanded motion, or the log of a machine; `None`: a random one.
-    pub motion: Option<MotionSource>,
-    /// Directions of the specific force in the holds of an accelerometer that is held by hand; `None`: spread over the sphere.
-    pub poses: Option<Vec<Vector3<f64>>>,
-    /// What the simulation may take.
-    pub budget: Budget,
-}
-
-impl Default for SimulationOptions {
-    fn default() -> Self {
-        Self { seed: None, recording: 1, motion: None, poses: None, budget: Budget::USUAL }
-    }
-}
-
-/// A simulated recording, and the truth behind it.
-#[derive(Debug, Clone)]
-pub struct Simulation {
-    /// The seed of its sensor.
-    pub seed: u64,
-    /// The recording.
-    pub recording: ImuRecording,
-    /// The true parameters.
-    pub truth: Truth,
-    /// The commanded motion, with its number of axes.
-    pub motion: Option<(JerkControlledMotion, usize)>,
-    /// The motion that took place, where that is another.
-    pub true_motion: Option<JerkControlledMotion>,
-    /// The log of a machine, with the unit of each joint.
-    pub log: Option<(ReferenceLog, Vec<&'static str>)>,
-    /// What was noticed.
-    pub notes: Vec<Diagnostic>,
-    /// What is good to know of the simulation.
-    pub remarks: Vec<String>,
-}
-
-impl Simulation {
-    /// One of a recording without a motion or a log.
-    fn new(seed: u64, recording: impl Into<ImuRecording>, truth: Truth) -> Self {
-        let recording = recording.into();
-        Self {
-            seed,
-            recording,
-            truth,
-            motion: None,
-            true_motion: None,
-            log: None,
-            notes: Vec::new(),
-            remarks: Vec::new(),
-        }
-    }
-
-    /// Number of samples.
-    #[must_use]
-    pub fn samples(&self) -> usize {
-        let first = self.recording.accelerometer.as_ref().or(self.recording.gyroscope.as_ref());
-        first.map_or(0, Recording::len)
-    }
-
-    /// Writes `recording.csv` and `truth.json` into a directory; and `motion.csv`, `true_motion.csv`, `joints.csv` or `poses.csv`, where there are these.
-    ///
-    /// # Errors
-    /// [`Error::Output`] where a file cannot be written.
-    pub fn write(&self, directory: &Path) -> Result<()> {
-        let path = |name: &str| directory.join(name);
-        if let Some((motion, axes)) = &self.motion {
-            write_motion(&path("motion.csv"), motion, *axes)?;
-            if let Some(happened) = &self.true_motion {
-                write_motion(&path("true_motion.csv"), happened, *axes)?;
-            }
-        }
-        write_json(&path("truth.json"), &self.truth)?;
-        match &self.log {
-            Some((ReferenceLog::Joints(log), units)) => write_joint_log(&path("joints.csv"), log, units)?,
-            Some((ReferenceLog::Poses(log), _)) => write_pose_log(&path("poses.csv"), log)?,
-            None => {}
-        }
-        match &self.recording {
-            ImuRecording { accelerometer: Some(alone), gyroscope: None, .. } => {
-                write_recording(&path("recording.csv"), alone)
-            }
-            both => write_imu_recording(&path("recording.csv"), both),
-        }
-    }
-}
 
 /// Draws a sensor from the datasheet of an experiment, and simulates a recording of it.
 ///

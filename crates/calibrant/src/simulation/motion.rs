@@ -1,7 +1,9 @@
 //! Simulates an accelerometer on a commanded motion.
 
+use super::length;
+use super::options::SimulationOptions;
 use super::random::Random;
-use super::{Simulation, SimulationOptions, length};
+use super::simulated::Simulation;
 use crate::rest_remark;
 use crate::session::MotionSource;
 use calibrant_core::error::Result;

@@ -1,8 +1,10 @@
 //! Simulates an accelerometer that is held still: by hand, or on faces.
 
+use super::length;
+use super::options::SimulationOptions;
 use super::random::Random;
+use super::simulated::Simulation;
 use super::table::{accelerometer_on_table, table};
-use super::{Simulation, SimulationOptions, length};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::settings::SettingUnused;
 use calibrant_core::error::Result;

@@ -1,7 +1,8 @@
 //! The steps of a sensor on a table: faces and turns, as the experiment lists them.
 
 use super::imu::one_for_all;
-use super::{SimulationOptions, length};
+use super::length;
+use super::options::SimulationOptions;
 use calibrant_core::budget::Budget;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::Turn;

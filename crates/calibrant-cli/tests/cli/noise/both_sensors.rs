@@ -107,7 +107,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
         &["the file says that it is of the accelerometer, and it was given as that of the gyroscope"],
     );
     // a version that is not known yet
-    bench.write("next.json", bench.read("both/noise.json").replacen("\"schema\": 1", "\"schema\": 9", 1));
+    bench.write("next.json", bench.read("both/noise.json").replacen("\"schema\": 2", "\"schema\": 9", 1));
     bench.refuses("convert ferraris.json next.yaml --noise next.json", 2, &["version 9"]);
 }
 

@@ -39,7 +39,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("root", &[]),
     ("sensor", &["form", "json", "error"]),
     ("motion", &["form", "json", "error", "sensor"]),
-    ("information", &["error", "sensor", "motion", "arrowhead", "number_format"]),
+    ("information", &["json", "error", "sensor", "motion", "arrowhead", "number_format"]),
     (
         "estimate",
         &["form", "json", "diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"],

@@ -141,11 +141,16 @@ pub(crate) fn after_group(tokens: &[String], open: usize) -> usize {
     tokens.len()
 }
 
-/// The place behind an item: behind its `;` or its closing brace.
+/// The place behind an item or a field: behind its `;` or its closing brace, or behind the comma of a field.
 fn after_item(tokens: &[String], start: usize) -> usize {
+    const OF_ITEMS: [&str; 10] =
+        ["fn", "mod", "use", "impl", "struct", "enum", "const", "static", "type", "trait"];
+    let is_field = !tokens[start..].iter().take(6).any(|token| OF_ITEMS.contains(&token.as_str()));
     let mut place = start;
     while place < tokens.len() {
         match tokens[place].as_str() {
+            "}" => return place,
+            "," if is_field => return place + 1,
             ";" => return place + 1,
             "{" => return after_group(tokens, place),
             "(" | "[" => place = after_group(tokens, place),
