@@ -177,7 +177,7 @@ fn the_shortest_motion_that_is_good_enough_is_found_with_its_proof() {
     assert!(outcome.printed().contains("reaches scale.x to 1ppm"), "{}", outcome.stdout);
     let design = bench.json("d/design.json");
     assert!(sd(&design, "scale.x") <= 1e-6);
-    let intervals = design["motion"]["jerk_mps3"].as_array().map(Vec::len).expect("a motion");
+    let intervals = design["optimal"]["motion"]["jerk_mps3"].as_array().map(Vec::len).expect("a motion");
     let least = number(&design["reach"]["at_least"]) as usize;
     assert!(least >= 1 && least <= intervals, "{least} {intervals}");
     assert!(bench.read("d/report.html").contains("reaches scale.x to 1ppm"));

@@ -81,7 +81,7 @@ fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
     let validate = |file: &str| {
         let outcome = bench.run(&format!("calibrate poses.toml half.csv --validate {file} -o result")).done();
         let json = bench.json("result/calibration.json");
-        (outcome.stdout, json["validation"]["recording"]["magnitude"]["verdict"].clone())
+        (outcome.printed(), json["validation"]["recording"]["magnitude"]["verdict"].clone())
     };
     let (message, verdict) = validate("one-hold.csv");
     assert!(message.contains("In 1 unused hold,") && message.contains("too few for a verdict"), "{message}");

@@ -219,7 +219,7 @@ fn the_verdict_is_in_every_result_and_codes_can_be_allowed() {
         "{}",
         several.stdout
     );
-    let rows: Vec<&str> = several.stdout.lines().skip(4).map(str::trim).collect();
+    let rows: Vec<&str> = several.stdout.lines().skip(6).map(str::trim).collect();
     assert!(rows[0].starts_with("faulty") && rows[1].starts_with("recording"), "{}", several.stdout);
     let summary = bench.read("all/summary.csv");
     assert!(summary.contains("\nfaulty,faulty.csv,bad,parameter-implausible,converged,,,,"), "{summary}");
