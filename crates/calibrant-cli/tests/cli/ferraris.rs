@@ -136,7 +136,7 @@ fn a_recording_simulated_for_files_of_another_format_is_told_how_to_be_calibrate
     let bench = Bench::new();
     bench.preset("ferraris", "ferraris.toml", &[]);
     let done = bench.run("simulate ferraris.toml --seed 2 -o made").done();
-    let says = "take a copy of ferraris.toml without [columns] and gyroscope.unit";
+    let says = "take a copy of the experiment without [columns] and gyroscope.unit";
     assert!(done.stderr.contains(says), "{}", done.stderr);
     let text = bench.read("ferraris.toml");
     let (before, columns) = text.split_once("[columns]").expect("a section");
