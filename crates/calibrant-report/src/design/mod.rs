@@ -12,6 +12,7 @@ mod verdict;
 pub(super) use axes::axes;
 pub(super) use in_short::criterion_in_words;
 pub use in_short::gap_in_words;
+#[cfg(feature = "study")]
 pub(super) use limits::limit_table;
 pub(super) use motions::{confidence_section, motion_section};
 pub(super) use predicted_sd::{above, promised_table, times};
