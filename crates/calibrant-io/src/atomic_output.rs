@@ -110,9 +110,10 @@ fn write(
     let mut out = BufWriter::with_capacity(1 << 16, Hashed { out: file, hash: Sha256::new() });
     let written = fill(&mut out).and_then(|()| {
         let Hashed { out: file, hash } = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(&target).map_err(|error| error.error)?;
-        // best effort: the result is there, and another run asks before it replaces it
+        // before the file has its name: a run that is killed in between leaves no file that it did not enter.
+        // best effort: without the entry, another run asks before it replaces the result
         drop(manifest::enter(&target, hex(hash), corrected_with));
+        file.persist(&target).map_err(|error| error.error)?;
         Ok(())
     });
     unfinished().retain(|path| *path != temporary);

@@ -1,8 +1,8 @@
 //! The manifest of a folder: which files in it this program wrote, by their checksums. So a file that somebody
 //! edited is not taken for a result, and a CSV begins with its header.
 //!
-//! It has a line of JSON for each file that was written; the last line of a name counts. Lines are only ever
-//! appended, so several runs may write into one folder.
+//! It has a line of JSON for each file that was written, and a file is ours that has the name and the checksum of a line.
+//! Lines are only ever appended, so several runs may write into one folder.
 
 use super::hashed_file::checksum;
 use super::program::program;
@@ -40,8 +40,9 @@ pub(super) fn entry(path: &Path) -> Option<WrittenFile> {
     let (manifest, file) = place(path)?;
     let text = std::fs::read_to_string(manifest).ok()?;
     let entries = text.lines().rev().filter_map(|line| serde_json::from_str::<WrittenFile>(line).ok());
-    let last = entries.into_iter().find(|entry| entry.file == file)?;
-    (checksum(path)? == last.sha256).then_some(last)
+    let of_name: Vec<WrittenFile> = entries.filter(|entry| entry.file == file).collect();
+    let sha256 = if of_name.is_empty() { None } else { checksum(path) }?;
+    of_name.into_iter().find(|entry| entry.sha256 == sha256)
 }
 
 /// The manifest of a file's folder, and the file's name in it.

@@ -74,7 +74,9 @@ fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
     outcome.says("error: broken.csv: the file is empty");
     let summary = bench.read("result/summary.csv");
     assert!(
-        summary.contains("\nshort,short.csv,none,,error,the data cannot determine the parameters; bias.x"),
+        summary.contains(
+            "\nshort,short.csv,none,,error,the data cannot determine the parameters; accelerometer.bias.x"
+        ),
         "{summary}"
     );
 }

@@ -2,6 +2,7 @@
 
 use super::gains::gains;
 use super::length;
+use super::noise::one_for_all;
 use super::options::SimulationOptions;
 use super::poses::unused_motion;
 use super::random::Random;
@@ -111,14 +112,6 @@ fn warming(plan: &ImuPlan) -> Option<[f64; 2]> {
     let middle = plan.thermal.reference_c.unwrap_or(MIDDLE_C);
     let within = |celsius: f64| celsius.clamp(*WORKING_C.start(), *WORKING_C.end());
     (!plan.thermal.is_none()).then(|| [-0.5, 0.5].map(|share| within(middle + share * WARMING_K)))
-}
-
-/// The simulation has one noise for all axes of a sensor: the largest.
-pub(super) fn one_for_all(sensor_kind: SensorKind, noise: &Vector3<f64>, remarks: &mut Vec<String>) -> f64 {
-    if noise.max() > noise.min() {
-        remarks.push(format!("the noise of the {sensor_kind} is simulated with that of its noisiest axis"));
-    }
-    noise.max()
 }
 
 /// The same IMU in the frame that its accelerometer's gauge fixes.

@@ -8,6 +8,7 @@ mod length;
 mod machine;
 mod machine_motion;
 mod motion;
+mod noise;
 mod options;
 mod poses;
 mod random;

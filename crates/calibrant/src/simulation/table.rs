@@ -1,7 +1,7 @@
 //! The steps of a sensor on a table: faces and turns, as the experiment lists them.
 
-use super::imu::one_for_all;
 use super::length;
+use super::noise::one_for_all;
 use super::options::SimulationOptions;
 use calibrant_core::budget::Budget;
 use calibrant_core::error::{Error, InputError, Refusal, Result};

@@ -45,7 +45,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         &["form", "json", "diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"],
     ),
     ("noise", &["json", "diagnostic", "error", "interruption", "sensor", "motion", "root", "number_format"]),
-    ("simulate", &["error", "sensor", "motion", "noise"]),
+    ("simulate", &["form", "json", "error", "sensor", "motion", "noise"]),
 ];
 
 fn workspace() -> (Vec<Crate>, Modules) {
