@@ -51,7 +51,7 @@ fn an_imu_in_memory_is_that_of_its_file() {
     assert_eq!(inputs[0].file, inputs[1].file);
     assert_eq!((inputs[0].samples, inputs[0].rate_hz), (inputs[1].samples, inputs[1].rate_hz));
     assert!(inputs[1].sha256.len() == 64 && inputs[0].sha256 != inputs[1].sha256);
-    assert!(from_columns.report_html().to_lowercase().contains("columns in memory"));
+    assert!(from_columns.report_html().contains("<dt>Format</dt><dd>columns<"));
     // one sensor in each table
     let [times, other] = [force.times_s(), rate.times_s()];
     let mut pair = Source::from_columns("a.csv", &table[..4]);
