@@ -28,7 +28,7 @@ use calibrant_core::sensor::{ImuRecording, SensorKind};
 /// let table: [(&str, &[f64]); 4] = [("t_s", &t), ("ax", &x), ("ay", &x), ("az", &z)];
 /// let question = imu_from_columns(&table, &ImuReadOptions::default()).expect_err("nothing says the unit");
 /// assert!(question.to_string().contains("suggest g"));
-/// let options = ImuReadOptions { accelerometer_unit: Some(ImuUnit::Gravity), ..ImuReadOptions::default() };
+/// let options = ImuReadOptions { accelerometer_unit: Some(ImuUnit::StandardGravity), ..ImuReadOptions::default() };
 /// let accelerometer = imu_from_columns(&table, &options)?.recording.accelerometer.expect("there");
 /// assert_eq!(accelerometer.readings()[0].z, 9.806_65);
 /// # Ok::<(), calibrant_core::Error>(())
