@@ -26,24 +26,18 @@
 
 #[cfg(test)]
 pub(crate) mod chains_for_tests;
-mod corrected_chain;
-mod corrections;
 mod frame_motion;
 mod joint;
 mod joint_motion;
 mod kinematic_chain;
 mod reach;
 mod sensitivity;
-mod sensor_gain;
 mod sensor_mount;
 
-pub use corrected_chain::{CorrectedChain, TipVelocity};
-pub use corrections::{ChainCorrections, JointCorrection};
-pub use frame_motion::FrameMotion;
-pub use joint::{Joint, JointKind, JointLimits};
+pub use frame_motion::{FrameMotion, SensorGain};
+pub use joint::{ChainCorrections, Joint, JointCorrection, JointKind, JointLimits};
 pub use joint_motion::JointState;
-pub use kinematic_chain::KinematicChain;
+pub use kinematic_chain::{CorrectedChain, KinematicChain, TipVelocity};
 pub use reach::reach_m;
 pub use sensitivity::ChainSensitivity;
-pub use sensor_gain::SensorGain;
 pub use sensor_mount::{MountSensitivity, SensorMount};

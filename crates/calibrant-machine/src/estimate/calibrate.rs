@@ -1,17 +1,10 @@
 //! The stages of a calibration on a machine.
 
-use crate::estimate::begin::initial::Initial;
-use crate::estimate::begin::knot_choice::initial;
-use crate::estimate::begin::trusted::trusted;
-use crate::estimate::least_squares::gauss_newton::minimise;
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::least_squares::stream::white_noise;
-use crate::estimate::noise::noise_search::noise_search;
-use crate::estimate::noise::posterior::Posterior;
-use crate::estimate::problem::unsolved::unsolved;
-use crate::estimate::result::assembly::assembled;
-use crate::estimate::result::checks;
-use crate::estimate::result::undetermined;
+use crate::estimate::begin::{Initial, initial, trusted};
+use crate::estimate::least_squares::{Pass, minimise, white_noise};
+use crate::estimate::noise::{Posterior, noise_search};
+use crate::estimate::problem::unsolved;
+use crate::estimate::result::{assembled, checks, undetermined};
 use crate::estimate::{MachineCalibration, MachineProblem, MachineSettings, MachineTrust};
 use calibrant_core::error::Result;
 

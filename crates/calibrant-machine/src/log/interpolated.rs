@@ -4,9 +4,8 @@
 //! have no acceleration, and corners between them that are no motion. What is between the samples of the tracker
 //! is no measurement.
 
-use super::knot_frequency::{periods, second_differences};
-use super::piecewise_linear::{KnotFit, Knots, Nodes, fit, rms};
-use super::pose_log::PoseLog;
+use super::piecewise_linear::{KnotFit, Knots, Nodes, fit, periods, rms, second_differences};
+use super::reference_log::PoseLog;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::ops::Range;
 

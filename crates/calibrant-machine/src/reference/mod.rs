@@ -4,11 +4,9 @@ mod felt;
 mod joint_motion;
 mod motion;
 mod pose_motion;
-mod posture;
 
 pub use felt::{Felt, MotionColumns};
 pub use joint_motion::JointMotion;
-pub use motion::{Carrier, Motion};
+pub use motion::{Carrier, Motion, Posture};
 pub(crate) use pose_motion::POSE_UNKNOWNS;
 pub use pose_motion::PoseMotion;
-pub use posture::Posture;

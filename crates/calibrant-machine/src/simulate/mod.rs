@@ -4,13 +4,10 @@
 
 mod drawn_machine;
 mod drawn_motion;
-mod log_recording;
 mod motion_of_log;
 mod sensor_recording;
-mod walk;
 
 pub use drawn_machine::{DrawnMachine, draw_machine};
 pub use drawn_motion::{MotionToDraw, draw_body_motion, draw_joint_motion};
-pub use log_recording::{LogErrors, record_log};
 pub use motion_of_log::{MotionOfLog, motion_of_log};
-pub use sensor_recording::{SensorErrors, SensorSampling, record_sensors};
+pub use sensor_recording::{LogErrors, SensorErrors, SensorSampling, record_log, record_sensors};

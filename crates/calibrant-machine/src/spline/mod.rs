@@ -7,23 +7,17 @@
 //!
 //! Each interval depends on `d + 1` control points. A least-squares fit is therefore banded, and its time is linear in the duration.
 
-mod banded;
-mod degree;
 mod fit;
 mod knots;
-mod rotation_algebra;
 mod rotation_fit;
 mod rotation_sensitivity;
-mod rotation_spline;
 mod vector_spline;
-mod weights;
 
-pub use degree::Degree;
 pub use fit::{SplineFit, fit_vectors};
-pub use knots::UniformKnots;
-pub use rotation_algebra::{left_jacobian_inverse, right_jacobian, right_jacobian_inverse, skew};
+pub use knots::{Degree, LARGEST_ORDER, UniformKnots, Weights};
 pub use rotation_fit::{RotationFit, fit_rotations};
-pub use rotation_sensitivity::{RotationSensitivity, rotation_sensitivity};
-pub use rotation_spline::{RotationAt, RotationSpline};
-pub use vector_spline::VectorSpline;
-pub use weights::{LARGEST_ORDER, Weights};
+pub use rotation_sensitivity::{
+    RotationSensitivity, left_jacobian_inverse, right_jacobian, right_jacobian_inverse, rotation_sensitivity,
+    skew,
+};
+pub use vector_spline::{RotationAt, RotationSpline, VectorSpline};

@@ -1,14 +1,8 @@
 //! Where the iteration begins: splines through the log, the parameters, and a first guess of the noise.
 
-use crate::estimate::begin::covered::covered;
-use crate::estimate::begin::placement::Placement;
-use crate::estimate::begin::reference_fit::ReferenceFit;
-use crate::estimate::least_squares::log_equations::WeighedLog;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::stream::{Stream, white_noise};
-use crate::estimate::problem::layout::Layout;
-use crate::estimate::problem::parameters::TiltedGravity;
-use crate::estimate::problem::unsolved::refused;
+use super::{Placement, ReferenceFit, covered};
+use crate::estimate::least_squares::{Model, State, Stream, WeighedLog, white_noise};
+use crate::estimate::problem::{Layout, TiltedGravity, refused};
 use crate::estimate::{MachineParameters, MachineProblem, MountingPrior};
 use crate::log::ReferenceLog;
 use calibrant_core::error::{Error, InputError, Refusal, Result};

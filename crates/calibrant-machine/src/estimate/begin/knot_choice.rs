@@ -4,10 +4,9 @@
 //! the frequency. The sensor tells both: its residuals against the smoothed log are least at the best distance. Noisy trust, where the sensor determines the
 //! motion with the log, needs less smoothing: half that distance.
 
-use crate::estimate::begin::initial::{Initial, check_log};
-use crate::estimate::begin::reference_fit::fitted;
-use crate::estimate::begin::trusted::trusted;
-use crate::estimate::problem::unsolved::refused;
+use super::{Initial, check_log, fitted};
+use crate::estimate::least_squares::{Model, Pass, State, equations_at, stepped};
+use crate::estimate::problem::refused;
 use crate::estimate::{MachineParameters, MachineProblem, MachineTrust};
 use crate::spline::{Degree, UniformKnots};
 use calibrant_core::error::{Error, Result};
@@ -110,5 +109,24 @@ impl Search<'_, '_> {
                 true
             }
         }
+    }
+}
+
+/// Fits the parameters to the motion as it is, with the noise that the residuals show. The noise of the model remains so. `None` where
+/// nothing is determined.
+pub(crate) fn trusted(model: &mut Model<'_>, state: &mut State, steps: usize, samples: usize) -> Option<()> {
+    let pass = Pass::trusting(samples);
+    noise_of_residuals(model, state, pass);
+    for _ in 0..steps {
+        *state = stepped(model, &equations_at(model, state.clone(), pass)?, 1.0);
+        noise_of_residuals(model, state, pass);
+    }
+    Some(())
+}
+
+fn noise_of_residuals(model: &mut Model<'_>, state: &State, pass: Pass) {
+    let rms = model.residual_rms(state, pass);
+    for (stream, rms) in model.streams.iter_mut().zip(rms) {
+        stream.sd.component_mul_assign(&rms.map(|rms| rms.max(1e-9)));
     }
 }

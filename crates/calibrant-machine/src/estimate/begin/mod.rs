@@ -1,9 +1,11 @@
 //! Where the iteration begins: splines through the log, the placement of the recording, and the motion trusted.
 
-pub(crate) mod covered;
-pub(crate) mod initial;
-pub(crate) mod knot_choice;
-pub(crate) mod placement;
-pub(crate) mod reference_fit;
-pub(crate) mod start;
-pub(crate) mod trusted;
+mod initial;
+mod knot_choice;
+mod placement;
+mod reference_fit;
+
+pub(crate) use initial::{Initial, check_log, middle_s};
+pub(crate) use knot_choice::{initial, trusted};
+pub(crate) use placement::Placement;
+pub(crate) use reference_fit::{ReferenceFit, covered, fitted};

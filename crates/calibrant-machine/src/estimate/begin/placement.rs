@@ -1,9 +1,7 @@
 //! The recording beside the motion before anything is fitted: the coarse delay, and the mounting where nothing is known of it.
 
 use crate::chain::{ChainCorrections, SensorMount};
-use crate::estimate::begin::start;
-use crate::estimate::problem::parameters::place;
-use crate::estimate::problem::unsolved::refused;
+use crate::estimate::problem::{place, refused};
 use crate::estimate::{MachineParameters, MachineProblem};
 use crate::reference::{Carrier, Motion};
 use calibrant_core::error::Result;
@@ -69,7 +67,7 @@ impl<'a> Placement<'a> {
             return Ok(setup.delay_s);
         };
         let range_s = SEARCHED * setup.delay_sd_s;
-        let found = start::delay(&recording, &|time_s| self.at(time_s), setup.delay_s, range_s);
+        let found = delay(&recording, &|time_s| self.at(time_s), setup.delay_s, range_s);
         let Some((delay_s, correlation)) = found else {
             let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
             let message = format!(
@@ -121,6 +119,111 @@ impl<'a> Placement<'a> {
         let samples = recording.iter().flat_map(|of| of.times_s().iter().zip(of.readings()));
         let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
             samples.filter_map(|(time, reading)| Some((*reading, self.at(time + delay_s)?))).collect();
-        start::rotation(&pairs).unwrap_or(parameters.mount.tip_from_sensor)
+        rotation(&pairs).unwrap_or(parameters.mount.tip_from_sensor)
+    }
+}
+
+/// Time between the values that are correlated, s.
+const STEP_S: f64 = 0.01;
+
+/// What a reference says at a time; `None` where it says nothing.
+pub(crate) trait At: Fn(f64) -> Option<Vector3<f64>> {}
+impl<F: Fn(f64) -> Option<Vector3<f64>>> At for F {}
+
+/// The delay at which the magnitudes of readings and reference agree best: motion time less sensor time, s; and the correlation there.
+///
+/// Magnitudes do not depend on the mounting. The maximum is searched between `−range_s` and `range_s` about `around_s`.
+pub(crate) fn delay(
+    recording: &Recording,
+    reference: &impl At,
+    around_s: f64,
+    range_s: f64,
+) -> Option<(f64, f64)> {
+    let (first, last) = (*recording.times_s().first()?, *recording.times_s().last()?);
+    let count = ((last - first) / STEP_S) as usize + 1;
+    // the mean magnitude of the readings in each step
+    let mut sums = vec![(0.0, 0_usize); count];
+    for (time, reading) in recording.times_s().iter().zip(recording.readings()) {
+        let place = (((time - first) / STEP_S).round() as usize).min(count - 1);
+        sums[place].0 += reading.norm();
+        sums[place].1 += 1;
+    }
+    let sensor: Vec<Option<f64>> = sums.iter().map(|(sum, n)| (*n > 0).then(|| sum / *n as f64)).collect();
+    let lags = (range_s / STEP_S).ceil() as usize;
+    let start = first + around_s - lags as f64 * STEP_S;
+    let of = |k: usize| reference(start + k as f64 * STEP_S).map(|v| v.norm());
+    let reference: Vec<Option<f64>> = (0..count + 2 * lags).map(of).collect();
+    let scores: Vec<Option<f64>> =
+        (0..=2 * lags).map(|lag| correlation(&sensor, &reference[lag..])).collect();
+    let best = (0..scores.len())
+        .filter(|k| scores[*k].is_some())
+        .max_by(|a, b| scores[*a].unwrap_or(-1.0).total_cmp(&scores[*b].unwrap_or(-1.0)))?;
+    // the top of the parabola through the best three
+    let at = |k: usize| scores.get(k).copied().flatten();
+    let refined = match (best.checked_sub(1).and_then(at), at(best), at(best + 1)) {
+        (Some(a), Some(b), Some(c)) if 2.0 * b - a - c > 0.0 => 0.5 * (c - a) / (2.0 * b - a - c),
+        _ => 0.0,
+    };
+    let lag = best as f64 + refined.clamp(-0.5, 0.5) - lags as f64;
+    Some((around_s + lag * STEP_S, scores[best]?))
+}
+
+/// Correlation coefficient where both have values; `None` for fewer than 50 of them, or no variation.
+fn correlation(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
+    const FEWEST: usize = 50;
+    let pairs: Vec<(f64, f64)> = one.iter().zip(other).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
+    if pairs.len() < FEWEST {
+        return None;
+    }
+    let n = pairs.len() as f64;
+    let (mean_a, mean_b) = pairs.iter().fold((0.0, 0.0), |(a, b), p| (a + p.0 / n, b + p.1 / n));
+    let (mut aa, mut bb, mut ab) = (0.0, 0.0, 0.0);
+    for (a, b) in pairs {
+        aa += (a - mean_a).powi(2);
+        bb += (b - mean_b).powi(2);
+        ab += (a - mean_a) * (b - mean_b);
+    }
+    (aa * bb > 0.0).then(|| ab / (aa * bb).sqrt())
+}
+
+/// The rotation from the frame of the readings to that of the reference which aligns them best, biases removed (`wahba1965`, `markley1988`).
+pub(crate) fn rotation(pairs: &[(Vector3<f64>, Vector3<f64>)]) -> Option<UnitQuaternion<f64>> {
+    if pairs.len() < 3 {
+        return None;
+    }
+    let n = pairs.len() as f64;
+    let (sum_a, sum_b) =
+        pairs.iter().fold((Vector3::zeros(), Vector3::zeros()), |(a, b), p| (a + p.0, b + p.1));
+    let (mean_a, mean_b) = (sum_a / n, sum_b / n);
+    let attitude: Matrix3<f64> = pairs.iter().map(|(a, b)| (b - mean_b) * (a - mean_a).transpose()).sum();
+    let svd = attitude.svd(true, true);
+    let (u, vt) = (svd.u?, svd.v_t?);
+    let sign = (u * vt).determinant();
+    let rotation = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * vt;
+    Some(UnitQuaternion::from_matrix(&rotation))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use calibrant_core::sensor::ReadingUnit;
+
+    #[test]
+    fn delay_and_rotation_are_found() {
+        let motion =
+            |t: f64| Vector3::new((2.0 * t).sin() + (5.1 * t).cos(), (3.3 * t).sin(), 0.4 * (7.0 * t).sin());
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.4, -1.1, 2.0));
+        let times_s: Vec<f64> = (0..2000).map(|k| 0.005 * k as f64).collect();
+        let readings =
+            times_s.iter().map(|t| turn.inverse() * motion(t + 0.1234) + Vector3::new(0.01, 0.0, -0.02));
+        let unit = ReadingUnit::RadianPerSecond;
+        let recording =
+            Recording::new(times_s.clone(), readings.collect(), 3, unit).expect("samples in order");
+        let (found, score) = delay(&recording, &|t| Some(motion(t)), 0.0, 1.0).expect("it moves");
+        // half a sample: the coarse delay is where the iteration begins
+        assert!((found - 0.1234).abs() < 4e-3 && score > 0.99, "{found} {score}");
+        let pairs: Vec<_> =
+            times_s.iter().zip(recording.readings()).map(|(t, y)| (*y, motion(t + 0.1234))).collect();
+        assert!(rotation(&pairs).expect("it turns").angle_to(&turn) < 1e-3);
     }
 }

@@ -1,12 +1,8 @@
 //! The rows of the least-squares problem against differences: all parameters, all control points, joints and poses.
 
+use super::{Model, Pass, State, Stream, WeighedLog};
 use crate::chain::chains_for_tests::{Numbers, mixed_chain};
-use crate::estimate::least_squares::log_equations::WeighedLog;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::least_squares::stream::Stream;
-use crate::estimate::problem::layout::Layout;
-use crate::estimate::problem::parameters::TiltedGravity;
+use crate::estimate::problem::{Layout, TiltedGravity};
 use crate::estimate::{MachineParameters, MachineSetup, MachineTrust};
 use crate::log::{JointLog, PoseLog, ReferenceLog};
 use crate::reference::{JointMotion, Motion, PoseMotion};

@@ -1,9 +1,6 @@
 //! The normal equations at one point, interval by interval.
 
-use crate::estimate::least_squares::front::Front;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::least_squares::sample_rows::{RowWriter, Sample};
+use super::{Front, Model, Pass, RowWriter, Sample, State};
 use crate::reference::Felt;
 use nalgebra::{DMatrix, DVector, Dyn, MatrixView};
 use rayon::prelude::*;

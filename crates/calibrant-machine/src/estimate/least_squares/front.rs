@@ -11,8 +11,7 @@
 //! Blocks of joints have one entry a joint, those of poses six. What is left at the end is the information of the parameters, with the motion marginalised.
 //! Time and memory are linear in the number of intervals. Without blocks (`Trust::Known`) the front is the border alone.
 
-use crate::estimate::least_squares::scaled::Scaled;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// An eliminated block: `L`, and `G` for the later blocks, the border and the right side.
 struct Eliminated {
@@ -243,6 +242,29 @@ impl Solved {
                 visit(i, slots.in_order(i, &window));
             }
         }
+    }
+}
+
+/// A factored information matrix.
+pub(crate) struct Scaled {
+    factor: Cholesky<f64, Dyn>,
+    scale: DVector<f64>,
+}
+
+impl Scaled {
+    /// `None` where it is not positive definite.
+    pub(crate) fn new(information: &DMatrix<f64>) -> Option<Self> {
+        let scale = information.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 1.0 });
+        let scaled = information.component_mul(&(&scale * scale.transpose()));
+        Some(Self { factor: Cholesky::new(scaled)?, scale })
+    }
+
+    pub(crate) fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
+        self.factor.solve(&right.component_mul(&self.scale)).component_mul(&self.scale)
+    }
+
+    pub(crate) fn inverse(&self) -> DMatrix<f64> {
+        self.factor.inverse().component_mul(&(&self.scale * self.scale.transpose()))
     }
 }
 

@@ -1,10 +1,7 @@
 //! Gauss–Newton steps, halved where they do not lower the cost.
 
-use crate::estimate::least_squares::equations::Equations;
-use crate::estimate::least_squares::front::Solved;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::problem::machine_problem::MachineSettings;
+use super::{Equations, Model, Pass, Solved, State};
+use crate::estimate::problem::MachineSettings;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
 use nalgebra::DVector;

@@ -1,7 +1,6 @@
 //! The log as measurements of the control points.
 
-use crate::estimate::least_squares::moments::Moments;
-use crate::estimate::least_squares::robust::huber;
+use super::{Moments, huber};
 use crate::log::ReferenceLog;
 use crate::reference::{Motion, POSE_UNKNOWNS};
 use crate::spline::rotation_sensitivity;

@@ -1,16 +1,19 @@
 //! The least-squares problem, its normal equations, and the steps that solve it.
 
-pub(crate) mod equations;
-pub(crate) mod front;
-pub(crate) mod gauss_newton;
-pub(crate) mod log_equations;
-pub(crate) mod model;
-pub(crate) mod moments;
-pub(crate) mod pass;
-pub(crate) mod robust;
-pub(crate) mod sample_rows;
-pub(crate) mod scaled;
-pub(crate) mod stream;
-
 #[cfg(test)]
 mod derivative_tests;
+mod equations;
+mod front;
+mod gauss_newton;
+mod log_equations;
+mod model;
+mod moments;
+mod sample_rows;
+
+pub(crate) use equations::{Equations, Places};
+pub(crate) use front::{Front, Scaled, Solved};
+pub(crate) use gauss_newton::{Minimum, equations_at, minimise, stepped};
+pub(crate) use log_equations::WeighedLog;
+pub(crate) use model::{Model, Pass, Residual, State, Stream, white_noise};
+pub(crate) use moments::{Moments, huber};
+pub(crate) use sample_rows::{RowWriter, Sample, predicted};

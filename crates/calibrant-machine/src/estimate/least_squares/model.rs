@@ -1,14 +1,11 @@
 //! The least-squares problem: streams, log, and what is known beforehand.
 
-use crate::estimate::least_squares::log_equations::WeighedLog;
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::least_squares::sample_rows::predicted;
-use crate::estimate::least_squares::stream::Stream;
-use crate::estimate::problem::layout::Layout;
-use crate::estimate::problem::parameters::TiltedGravity;
+use super::{WeighedLog, predicted};
+use crate::estimate::problem::{Layout, TiltedGravity};
 use crate::estimate::{MachineParameters, MachineTrust};
 use crate::log::ReferenceLog;
 use crate::reference::{Carrier, Motion};
+use calibrant_core::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -90,4 +87,69 @@ impl Model<'_> {
             ReferenceLog::Poses(_) => Vec::new(),
         }
     }
+}
+
+/// Which samples are used, and whether the motion is unknown.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pass {
+    /// With noisy trust the control points are unknowns, and the log measures them.
+    pub(crate) trust: MachineTrust,
+    /// Samples of each sensor, about, spread evenly.
+    pub(crate) samples: usize,
+}
+
+impl Pass {
+    /// All samples.
+    pub(crate) fn all(trust: MachineTrust) -> Self {
+        Self { trust, samples: usize::MAX }
+    }
+
+    /// The motion is the smoothed log, and about this number of samples of each sensor is used.
+    pub(crate) fn trusting(samples: usize) -> Self {
+        Self { trust: MachineTrust::Known, samples }
+    }
+
+    /// Every how many samples of `length` are used.
+    pub(crate) fn stride(self, length: usize) -> usize {
+        (length / self.samples).max(1)
+    }
+
+    pub(crate) fn noisy(self) -> bool {
+        self.trust == MachineTrust::Noisy
+    }
+}
+
+/// The readings of a sensor, in m/s² and rad/s or in counts, in the order of time.
+#[derive(Debug, Clone)]
+pub(crate) struct Stream<'a> {
+    pub(crate) sensor: SensorKind,
+    pub(crate) recording: &'a Recording,
+    /// Standard deviation of one sample, per axis.
+    pub(crate) sd: Vector3<f64>,
+    /// How many times larger the noise of each sample is, where it grows with motion. Empty: everywhere 1.
+    pub(crate) growth: Vec<f64>,
+}
+
+impl Stream<'_> {
+    /// Standard deviation of sample `k`, per axis.
+    pub(crate) fn sd_of(&self, k: usize) -> Vector3<f64> {
+        self.sd * self.growth.get(k).copied().unwrap_or(1.0)
+    }
+}
+
+/// The noise that neighbouring samples do not share: from the median of second differences, per axis.
+pub(crate) fn white_noise(recording: &Recording) -> Vector3<f64> {
+    /// Standard deviation of a normal distribution in median absolute deviations, of second differences of white noise.
+    const OF_MEDIAN: f64 = 0.674_489_75 * 2.449_489_742_783_178;
+    Vector3::from_fn(|axis, _| {
+        let second =
+            |window: &[Vector3<f64>]| (window[0][axis] - 2.0 * window[1][axis] + window[2][axis]).abs();
+        let mut differences: Vec<f64> = recording.readings().windows(3).map(second).collect();
+        if differences.is_empty() {
+            return 1.0;
+        }
+        let middle = differences.len() / 2;
+        let (_, median, _) = differences.select_nth_unstable_by(middle, f64::total_cmp);
+        (*median / OF_MEDIAN).max(1e-9)
+    })
 }

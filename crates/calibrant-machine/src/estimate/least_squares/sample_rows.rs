@@ -1,8 +1,7 @@
 //! The rows of a sample in the least-squares problem: residual and derivatives, divided by the standard deviation.
 
-use crate::estimate::least_squares::robust::huber;
-use crate::estimate::problem::layout::Layout;
-use crate::estimate::problem::parameters::TiltedGravity;
+use super::huber;
+use crate::estimate::problem::{Layout, TiltedGravity};
 use crate::estimate::{MachineParameters, MachineQuantity};
 use crate::reference::{Felt, MotionColumns};
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};

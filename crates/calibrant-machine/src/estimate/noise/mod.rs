@@ -1,5 +1,7 @@
 //! The noise of sensors and log, from the residuals.
 
-pub(crate) mod activity;
-pub(crate) mod noise_search;
-pub(crate) mod posterior;
+mod noise_search;
+mod posterior;
+
+pub(crate) use noise_search::{Activity, Growths, noise_search};
+pub(crate) use posterior::{Posterior, Sums};

@@ -3,12 +3,7 @@
 //! The equations are solved backwards once more, interval by interval, with the covariance of its control points and of all parameters
 //! (`takahashi1973`). With a whitened row `a` of a sample: its leverage is `aᵀ Σ a`, and it adds `(Σ a)ᵢ²` to the variance of parameter `i`.
 
-use crate::estimate::least_squares::equations::Places;
-use crate::estimate::least_squares::gauss_newton::Minimum;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::moments::Moments;
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::least_squares::scaled::Scaled;
+use crate::estimate::least_squares::{Minimum, Model, Moments, Pass, Places, Scaled, State};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::Range;

@@ -1,8 +1,11 @@
 //! What is to be calibrated on a machine, and its unknowns in their order.
 
-pub(crate) mod layout;
-pub(crate) mod machine_problem;
-pub(crate) mod parameters;
-pub(crate) mod quantity;
-pub(crate) mod setup;
-pub(crate) mod unsolved;
+mod machine_problem;
+mod parameters;
+mod quantity;
+
+pub use machine_problem::{MachineProblem, MachineSettings, MachineSetup, MachineTrust, MountingPrior};
+pub(crate) use machine_problem::{refused, unsolved};
+pub use parameters::MachineParameters;
+pub(crate) use parameters::{AXES, Layout, TiltedGravity, place};
+pub use quantity::{MachineQuantity, Source};

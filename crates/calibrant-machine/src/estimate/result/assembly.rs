@@ -1,15 +1,9 @@
 //! Puts the result together.
 
 use crate::chain::JointKind;
-use crate::estimate::covariance::budget::budget;
-use crate::estimate::covariance::sandwich::inflation;
-use crate::estimate::covariance::second_order::of_mounting;
-use crate::estimate::least_squares::gauss_newton::Minimum;
-use crate::estimate::least_squares::model::Model;
-use crate::estimate::least_squares::pass::Pass;
-use crate::estimate::least_squares::stream::white_noise;
-use crate::estimate::noise::noise_search::Growths;
-use crate::estimate::noise::posterior::Posterior;
+use crate::estimate::covariance::{budget, inflation, of_mounting};
+use crate::estimate::least_squares::{Minimum, Model, Pass, white_noise};
+use crate::estimate::noise::{Growths, Posterior};
 use crate::estimate::{MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SensorResidual};
 use crate::log::ReferenceLog;
 use calibrant_core::estimate::FitStatistics;

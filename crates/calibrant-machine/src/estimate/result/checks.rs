@@ -1,7 +1,6 @@
 //! What a user should know of a result on a machine.
 
-use crate::estimate::problem::layout::Layout;
-use crate::estimate::problem::parameters::place;
+use crate::estimate::problem::{Layout, place};
 use crate::estimate::{MachineCalibration, MachineSetup, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::fit::{ModelContradicted, NotConverged};

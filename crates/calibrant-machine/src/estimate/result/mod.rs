@@ -1,7 +1,11 @@
 //! What a calibration gives: parameters, residuals, checks, and what the motion does not determine.
 
-pub(crate) mod assembly;
+mod assembly;
 pub(crate) mod checks;
-pub(crate) mod machine_calibration;
-pub(crate) mod spectrum;
+mod machine_calibration;
+mod spectrum;
 pub(crate) mod undetermined;
+
+pub(crate) use assembly::assembled;
+pub use machine_calibration::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
+pub use spectrum::ResidualSpectrum;

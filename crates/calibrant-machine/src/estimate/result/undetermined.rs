@@ -1,8 +1,7 @@
 //! What the motion does not determine, with the motion that would.
 
 use crate::estimate::MachineQuantity;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::pass::Pass;
+use crate::estimate::least_squares::{Model, Pass, State};
 use calibrant_core::error::{Error, NotIdentifiable, UndeterminedGroup};
 use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
 use nalgebra::{DMatrix, Matrix3, SymmetricEigen, Vector3};

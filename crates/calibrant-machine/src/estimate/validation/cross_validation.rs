@@ -8,23 +8,12 @@
 //!
 //! The log stays whole; the sensor's samples are left out. Knots and noise are those of the calibration.
 
-use crate::estimate::begin::covered::covered;
-use crate::estimate::begin::initial::middle_s;
-use crate::estimate::least_squares::gauss_newton::minimise;
-use crate::estimate::least_squares::log_equations::WeighedLog;
-use crate::estimate::least_squares::model::{Model, State};
-use crate::estimate::least_squares::scaled::Scaled;
-use crate::estimate::least_squares::stream::Stream;
-use crate::estimate::noise::activity::Activity;
-use crate::estimate::noise::noise_search::Growths;
-use crate::estimate::problem::layout::Layout;
-use crate::estimate::problem::parameters::TiltedGravity;
-use crate::estimate::problem::unsolved::{refused, unsolved};
+use super::{FailedBlock, MachineValidation, MachineValidationSource, Movement, judged, widened};
+use crate::estimate::begin::{covered, middle_s};
+use crate::estimate::least_squares::{Model, Scaled, State, Stream, WeighedLog, minimise};
+use crate::estimate::noise::{Activity, Growths};
+use crate::estimate::problem::{Layout, TiltedGravity, refused, unsolved};
 use crate::estimate::result::undetermined;
-use crate::estimate::validation::machine_validation::{
-    FailedBlock, MachineValidation, MachineValidationSource,
-};
-use crate::estimate::validation::shift::{Movement, judged, widened};
 use crate::estimate::{MachineCalibration, MachineProblem, MachineSettings};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};

@@ -1,10 +1,17 @@
 //! What a validation on a machine gives.
+//!
+//! Validation on another recording: two calibrations of one sensor on one machine.
+//!
+//! What is wrong with mount and joints is wrong in both. With `I` the information of that prior, their errors `Σ₁ I (η̄ − η)` and `Σ₂ I (η̄ − η)` belong
+//! together, and the covariance of the difference is `Σ₁ + Σ₂ − Σ₁ I Σ₂ − Σ₂ I Σ₁`.
 
-use crate::estimate::MachineQuantity;
+use crate::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
 use calibrant_core::estimate::CovarianceVerdict;
 use calibrant_core::sensor::SensorKind;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// How far the sensor's parameters move with other data, beside what their covariance predicts.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,4 +82,114 @@ pub struct LargestShift {
     pub in_sd: f64,
     /// Beginning of the block that was left out, on the clock of the IMU, s; `None` for another recording.
     pub without_s: Option<f64>,
+}
+
+/// Combinations of parameters that other data move by less than this part of their variance are not looked at: those data hardly tell them.
+const TOLD: f64 = 1e-3;
+/// Ends of a two-sided interval of 99 %.
+const TAILS: [f64; 2] = [0.005, 0.995];
+
+/// A movement of all quantities, and its covariance.
+pub(crate) struct Movement {
+    pub(crate) shift: DVector<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+    /// Beginning of the block that was left out, s.
+    pub(crate) without_s: Option<f64>,
+}
+
+/// Judges the movements of a sensor's parameters. `None` where no data tell any.
+pub(crate) fn judged(
+    calibration: &MachineCalibration,
+    sensor: SensorKind,
+    movements: &[Movement],
+) -> Option<ParameterShift> {
+    let of_sensor = |place: &usize| matches!(calibration.quantities[*place], MachineQuantity::Imu(of) if of.sensor_kind() == sensor);
+    let places: Vec<usize> = (0..calibration.quantities.len()).filter(of_sensor).collect();
+    let stated: Vec<f64> = places.iter().map(|place| calibration.covariance[(*place, *place)]).collect();
+    let (mut chi2, mut told) = (0.0, 0);
+    let mut largest: Option<LargestShift> = None;
+    for movement in movements {
+        let shift = DVector::from_fn(places.len(), |i, _| movement.shift[places[i]] / stated[i].sqrt());
+        let covariance = DMatrix::from_fn(places.len(), places.len(), |i, j| {
+            movement.covariance[(places[i], places[j])] / (stated[i] * stated[j]).sqrt()
+        });
+        for (i, place) in places.iter().enumerate() {
+            let in_sd = shift[i] / covariance[(i, i)].max(TOLD).sqrt();
+            if largest.is_none_or(|of| in_sd.abs() > of.in_sd.abs()) {
+                largest = Some(LargestShift {
+                    quantity: calibration.quantities[*place],
+                    shift: movement.shift[*place],
+                    in_sd,
+                    without_s: movement.without_s,
+                });
+            }
+        }
+        let SymmetricEigen { eigenvalues, eigenvectors } = covariance.symmetric_eigen();
+        for (value, direction) in eigenvalues.iter().zip(eigenvectors.column_iter()) {
+            if *value > TOLD {
+                chi2 += direction.dot(&shift).powi(2) / value;
+                told += 1;
+            }
+        }
+    }
+    // blocks of one recording: what leaves one block moves towards the others, and the sum of all movements is about 0
+    let blocks = movements.len();
+    let degrees = if blocks > 1 { told * (blocks - 1) / blocks } else { told };
+    let distribution = ChiSquared::new(degrees as f64).ok()?;
+    // each movement has its mean, so the sum is scaled to these degrees
+    let factor = (chi2 / told as f64).sqrt();
+    let chi2 = factor * factor * degrees as f64;
+    let [high, low] = TAILS.map(|tail| factor * (degrees as f64 / distribution.inverse_cdf(tail)).sqrt());
+    Some(ParameterShift {
+        sensor,
+        chi2,
+        degrees_of_freedom: degrees,
+        factor,
+        factor_interval: (low, high),
+        verdict: CovarianceVerdict::of(factor, (low, high)),
+        largest: largest?,
+    })
+}
+
+/// A covariance, widened as that of the calibration.
+pub(crate) fn widened(calibration: &MachineCalibration, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let widened = &calibration.inflation;
+    DMatrix::from_fn(widened.len(), widened.len(), |i, j| covariance[(i, j)] * widened[i] * widened[j])
+}
+
+/// Compares how far the parameters of `second` are from those of `first` with what both covariances predict. Both are of the same setup. Delays, clock
+/// and tilt belong to each recording; mount and joints to both.
+///
+/// The validation is empty where the two calibrations do not have the same quantities.
+#[must_use]
+pub fn compare_on_machine(
+    first: &MachineCalibration,
+    second: &MachineCalibration,
+    setup: &MachineSetup,
+) -> MachineValidation {
+    let source = MachineValidationSource::Recording { name: String::new() };
+    if first.quantities != second.quantities {
+        return MachineValidation { source, shifts: Vec::new() };
+    }
+    let sensors = first.sensors();
+    let information = |quantity: &MachineQuantity| {
+        let sd = setup.prior_sd(*quantity, sensors.len());
+        let shared = matches!(
+            quantity,
+            MachineQuantity::Lever(_)
+                | MachineQuantity::Mounting(_)
+                | MachineQuantity::Zero(_)
+                | MachineQuantity::Geometry(..)
+        );
+        if shared && sd.is_finite() { 1.0 / (sd * sd) } else { 0.0 }
+    };
+    let n = first.quantities.len();
+    let shared = DMatrix::from_diagonal(&DVector::from_iterator(n, first.quantities.iter().map(information)));
+    let common = &first.linear_covariance * shared * &second.linear_covariance;
+    let [one, two] = [first, second].map(|of| widened(of, &of.linear_covariance));
+    let covariance = one + two - &common - common.transpose();
+    let shift = second.values.iter().zip(&first.values).map(|(two, one)| two - one);
+    let movement = [Movement { shift: DVector::from_iterator(n, shift), covariance, without_s: None }];
+    let shifts = sensors.iter().filter_map(|sensor| judged(first, *sensor, &movement)).collect();
+    MachineValidation { source, shifts }
 }

@@ -1,6 +1,10 @@
 //! Validation by blocks of time, and on another recording.
 
-pub(crate) mod cross_validation;
-pub(crate) mod machine_validation;
-pub(crate) mod second_recording;
-pub(crate) mod shift;
+mod cross_validation;
+mod machine_validation;
+
+pub use cross_validation::{check_folds, cross_validate_on_machine};
+pub use machine_validation::{
+    FailedBlock, LargestShift, MachineValidation, MachineValidationSource, ParameterShift, compare_on_machine,
+};
+pub(crate) use machine_validation::{Movement, judged, widened};

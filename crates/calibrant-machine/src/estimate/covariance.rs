@@ -1,0 +1,246 @@
+//! Is the covariance right where residuals are correlated in time? The scatter of the scores tells (`newey1987`).
+//!
+//! `g_b` is the score of a block of time: what its samples add to the gradient of the parameters, the motion eliminated. With independent residuals
+//! `Σ_b g_b g_bᵀ` estimates the information `Σ⁻¹`. Where the reference's error is correlated over many samples, the scores scatter more, and the variance of
+//! parameter `i` is `Σ_b (Σ g_b)_i²`.
+//!
+//! Where the variance of each parameter comes from.
+//!
+//! The estimate is linear in the data near the optimum. With `I_s` the information of source `s`, its part of the covariance is `Σ I_s Σ`: for a prior `I_s` is
+//! that of the prior; the noise of a sensor adds `(Σ a)(Σ a)ᵀ` for each whitened row `a`. What is left is the noise of the reference.
+//!
+//! What the mounting does to the sensor's matrices beyond first order.
+//!
+//! With the mounting turned by `δ` the matrix is `S exp(δ)`, whose second order is `½ S [δ]×² = ½ S (δ δᵀ − |δ|² I)`. A diagonal entry hardly changes to
+//! first order, so this is what is left of it: 1e-4 where the mounting is known to 0.5°. With `δ` of covariance `M`, and `δᵀ Q δ` such a change of an entry:
+//!
+//! ```text
+//! E[δᵀ Q₁ δ · δᵀ Q₂ δ] = tr(Q₁ M) tr(Q₂ M) + 2 tr(Q₁ M Q₂ M)
+//! ```
+
+use crate::estimate::noise::Posterior;
+use crate::estimate::problem::{AXES, Layout};
+use crate::estimate::{BudgetRow, MachineParameters, MachineQuantity, MachineTrust, Source};
+use calibrant_core::sensor::{ImuQuantity, Quantity, SensorKind};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// Fewest blocks that tell a variance.
+const FEWEST: usize = 12;
+
+/// The shortest block for a recording of this duration, s.
+fn shortest_s(duration_s: f64) -> f64 {
+    (duration_s / 60.0).clamp(0.5, 3.0)
+}
+
+/// The factor by which the standard deviation of each parameter exceeds that of independent residuals; 1 where the difference is not significant.
+/// Blocks of several lengths tell: each is twice as long as the one before. The largest factor counts.
+pub(crate) fn inflation(
+    quantities: &[MachineQuantity],
+    covariance: &DMatrix<f64>,
+    scores: &[(f64, DVector<f64>)],
+) -> Vec<f64> {
+    let mut largest = vec![1.0; quantities.len()];
+    let (Some((first, _)), Some((last, _))) = (scores.first(), scores.last()) else { return largest };
+    let mut length_s = shortest_s(last - first);
+    loop {
+        let blocks = blocks(scores, length_s);
+        if blocks.len() < FEWEST {
+            return largest;
+        }
+        for (largest, factor) in largest.iter_mut().zip(of_blocks(quantities, covariance, &blocks)) {
+            *largest = f64::max(*largest, factor);
+        }
+        length_s *= 2.0;
+    }
+}
+
+/// Sums of the scores over blocks of this length; blocks without samples are left out.
+fn blocks(scores: &[(f64, DVector<f64>)], length_s: f64) -> Vec<DVector<f64>> {
+    let first = scores[0].0;
+    let mut blocks: Vec<DVector<f64>> = Vec::new();
+    let mut place = usize::MAX;
+    for (time, score) in scores {
+        let block = ((time - first) / length_s) as usize;
+        if block == place {
+            if let Some(sum) = blocks.last_mut() {
+                *sum += score;
+            }
+        } else {
+            place = block;
+            blocks.push(score.clone());
+        }
+    }
+    blocks.retain(|score| score.amax() > 0.0);
+    blocks
+}
+
+fn of_blocks(quantities: &[MachineQuantity], covariance: &DMatrix<f64>, blocks: &[DVector<f64>]) -> Vec<f64> {
+    let mut variance = DVector::zeros(quantities.len());
+    for block in blocks {
+        variance += (covariance * block).map(|step| step * step);
+    }
+    let ratios: Vec<f64> = (0..quantities.len()).map(|k| variance[k] / covariance[(k, k)]).collect();
+    // the parameters of a class share a verdict: one ratio alone is uncertain by √(2/blocks)
+    let classes: Vec<usize> = quantities.iter().map(|quantity| class(*quantity)).collect();
+    let limit = 1.0 + 2.0 * (2.0 / blocks.len() as f64).sqrt();
+    let significant = |class: usize| {
+        let of: Vec<f64> = (0..ratios.len()).filter(|k| classes[*k] == class).map(|k| ratios[k]).collect();
+        of.iter().sum::<f64>() > limit * of.len() as f64
+    };
+    (0..ratios.len()).map(|k| if significant(classes[k]) { ratios[k].max(1.0).sqrt() } else { 1.0 }).collect()
+}
+
+/// Parameters that the same residuals determine.
+fn class(quantity: MachineQuantity) -> usize {
+    match quantity {
+        MachineQuantity::Imu(of) if of.sensor_kind() == SensorKind::Accelerometer => 0,
+        MachineQuantity::Imu(_) => 1,
+        MachineQuantity::Lever(_) => 2,
+        MachineQuantity::Mounting(_) | MachineQuantity::Tilt(_) | MachineQuantity::Gravity => 3,
+        MachineQuantity::Delay(_) | MachineQuantity::ClockRate => 4,
+        MachineQuantity::Zero(_) | MachineQuantity::Geometry(..) => 5,
+    }
+}
+
+/// The budget of the sensor's parameters. `covariance` is the stated one: parts are scaled to it. `second` is its part of second order in the mounting.
+pub(crate) fn budget(
+    layout: &Layout,
+    posterior: &Posterior,
+    covariance: &DMatrix<f64>,
+    second: &DMatrix<f64>,
+    trust: MachineTrust,
+) -> Vec<BudgetRow> {
+    let sigma = &posterior.covariance;
+    let of_source = |source: Source| -> DMatrix<f64> {
+        let places: Vec<usize> =
+            (0..layout.len()).filter(|k| layout.quantities[*k].source() == Some(source)).collect();
+        let columns = sigma.select_columns(&places);
+        let prior = layout.prior.select_columns(&places).select_rows(&places);
+        let by_prior = &columns * prior;
+        DMatrix::from_fn(layout.len(), 1, |i, _| by_prior.row(i).dot(&columns.row(i)))
+    };
+    let priors: Vec<(Source, DMatrix<f64>)> =
+        [Source::Geometry, Source::Mounting, Source::Timing, Source::Gravity]
+            .map(|s| (s, of_source(s)))
+            .into();
+    (layout.quantities.iter().enumerate())
+        .filter_map(|(i, quantity)| match quantity {
+            MachineQuantity::Imu(of) => Some((i, *of)),
+            _ => None,
+        })
+        .map(|(i, quantity)| {
+            let model_variance = sigma[(i, i)];
+            let scale = (covariance[(i, i)] - second[(i, i)]) / model_variance;
+            let mut parts = [0.0; Source::ALL.len()];
+            for (part, source) in parts.iter_mut().zip(Source::ALL) {
+                *part = match source {
+                    Source::SensorNoise => posterior.sums.of_streams.iter().map(|of| of[i]).sum(),
+                    Source::ReferenceNoise => 0.0,
+                    _ => priors.iter().find(|(of, _)| *of == source).map_or(0.0, |(_, of)| of[(i, 0)]),
+                };
+            }
+            let rest = (model_variance - parts.iter().sum::<f64>()).max(0.0);
+            let place = match trust {
+                MachineTrust::Noisy => Source::ReferenceNoise,
+                MachineTrust::Known => Source::SensorNoise,
+            };
+            let at = |wanted: Source| Source::ALL.iter().position(|source| *source == wanted).unwrap_or(0);
+            parts[at(place)] += rest;
+            let mut parts = parts.map(|part| part * scale);
+            parts[at(Source::Mounting)] += second[(i, i)];
+            BudgetRow { quantity, variance: covariance[(i, i)], parts }
+        })
+        .collect()
+}
+
+/// The mean products of these changes, for all quantities; 0 where the mounting is not estimated. `covariance` is that of the quantities.
+pub(crate) fn of_mounting(
+    layout: &Layout,
+    parameters: &MachineParameters,
+    covariance: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let n = layout.len();
+    let mut products = DMatrix::zeros(n, n);
+    let place = |quantity| layout.quantities.iter().position(|of| *of == quantity);
+    let [Some(x), Some(y), Some(z)] = AXES.map(|axis| place(MachineQuantity::Mounting(axis))) else {
+        return products;
+    };
+    let places = [x, y, z];
+    let of_turn = Matrix3::from_fn(|i, j| covariance[(places[i], places[j])]);
+    let forms: Vec<(usize, Matrix3<f64>)> = (layout.quantities.iter().enumerate())
+        .filter_map(|(place, quantity)| Some((place, form(*quantity, parameters)? * of_turn)))
+        .collect();
+    for (i, one) in &forms {
+        for (j, other) in &forms {
+            products[(*i, *j)] = one.trace() * other.trace() + 2.0 * (one * other).trace();
+        }
+    }
+    products
+}
+
+/// `Q` of an entry of a matrix; `None` for other quantities.
+fn form(quantity: MachineQuantity, parameters: &MachineParameters) -> Option<Matrix3<f64>> {
+    let MachineQuantity::Imu(ImuQuantity::Of(sensor, of)) = quantity else { return None };
+    let (row, column) = match of {
+        Quantity::Scale(axis) => (axis, axis),
+        Quantity::CrossAxis(row, column) | Quantity::Symmetric(row, column) => (row, column),
+        Quantity::Bias(_) => return None,
+    };
+    let matrix = &parameters.imu.sensor(sensor).matrix;
+    let mut along = Vector3::zeros();
+    along[column.index()] = 1.0;
+    let product = matrix.row(row.index()).transpose() * along.transpose();
+    let symmetric = (product + product.transpose()) * 0.5;
+    Some((symmetric - Matrix3::identity() * matrix[(row.index(), column.index())]) * 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::chains_for_tests::Numbers;
+    use crate::estimate::{MachineSetup, MountingPrior};
+    use calibrant_core::sensor::{ImuParameters, ParameterList, SensorKind, SensorModel};
+    use nalgebra::UnitQuaternion;
+
+    #[test]
+    fn the_products_are_those_of_many_turns() {
+        let sd = 0.02;
+        let setup = MachineSetup { mounting: MountingPrior::Within(sd), ..MachineSetup::default() };
+        let mut imu = ImuParameters::identity();
+        imu.accelerometer.matrix = Matrix3::new(1.0, 0.02, -0.03, 0.01, 1.1, 0.0, 0.04, 0.0, 0.9);
+        let parameters = MachineParameters::nominal(&setup, imu, 0);
+        let list = ParameterList::new(3, SensorModel::Full);
+        let quantities: Vec<ImuQuantity> =
+            list.quantities().iter().map(|of| ImuQuantity::Of(SensorKind::Accelerometer, *of)).collect();
+        let layout = Layout::new(&setup, &[SensorKind::Accelerometer], &quantities, parameters.clone());
+        let covariance = DMatrix::identity(layout.len(), layout.len()) * (sd * sd);
+        let products = of_mounting(&layout, &parameters, &covariance);
+        let at = |row: usize, column: usize| {
+            let of = |quantity: &MachineQuantity| {
+                form(*quantity, &parameters).is_some()
+                    && matches!(quantity, MachineQuantity::Imu(ImuQuantity::Of(_, of)) if match of {
+                        Quantity::Scale(axis) => row == column && axis.index() == row,
+                        Quantity::CrossAxis(r, c) => r.index() == row && c.index() == column,
+                        _ => false,
+                    })
+            };
+            layout.quantities.iter().position(of).expect("estimated")
+        };
+        let (turns, mut numbers) = (40_000, Numbers(3));
+        let mut sums = Matrix3::zeros();
+        // the variance of a number that is uniform in ±√3 is 1; its fourth moment is 1.8 instead of 3, so sums of twelve stand for normal ones
+        for _ in 0..turns {
+            let turn = Vector3::from_fn(|_, _| {
+                sd * (0..12).map(|_| numbers.next(3.0_f64.sqrt())).sum::<f64>() / 12.0_f64.sqrt()
+            });
+            let exact = UnitQuaternion::from_scaled_axis(turn).to_rotation_matrix().into_inner();
+            let second = imu.accelerometer.matrix * (exact - Matrix3::identity() - turn.cross_matrix());
+            sums += second.component_mul(&second) / f64::from(turns);
+        }
+        for (row, column) in [(0, 0), (1, 1), (2, 2), (0, 1), (2, 0)] {
+            let place = at(row, column);
+            let ratio = sums[(row, column)] / products[(place, place)];
+            assert!((ratio - 1.0).abs() < 0.06, "{row} {column}: {ratio}");
+        }
+    }
+}
