@@ -11,14 +11,11 @@
 mod all_studies;
 mod calibration;
 mod design_loop;
-mod improvement;
 mod result;
 mod simulated_recording;
 mod summary;
-mod work;
 
 pub use all_studies::{Studies, StudiesProblem, run_studies};
 pub use calibration::{StudyProblem, StudySettings, run_study};
 pub use design_loop::{DesignStudyProblem, run_design_study};
-pub use improvement::*;
 pub use result::*;

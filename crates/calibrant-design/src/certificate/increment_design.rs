@@ -28,8 +28,7 @@
 
 use super::largest_gain::IncrementGain;
 use crate::Interruption;
-use crate::criterion::smooth_criterion::SmoothCriterion;
-use crate::criterion::tangent_bound::Tangent;
+use crate::criterion::{SmoothCriterion, Tangent};
 use calibrant_core::information::{Criterion, covariance};
 use calibrant_core::motion::InputNoise;
 use calibrant_core::sensor::Quantity;

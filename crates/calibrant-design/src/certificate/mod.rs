@@ -23,25 +23,22 @@
 //! for the motion, and [`increment_design`] bounds all of them together. Where only the ends are known,
 //! `C_KK = c/(a_N − a_0)²` with a constant c, and the limits bound the distance of the ends.
 
-mod axis_chain;
-mod bound_tightening;
 mod bounds;
+#[cfg(test)]
+mod design_tests;
 mod dual_bound;
 mod gravity;
 mod increment_design;
+#[cfg(test)]
+mod increment_tests;
 mod largest_gain;
 mod moment_relaxation;
 mod moment_solver;
 mod motion_variance;
 mod polynomial;
-mod variances;
-
-pub(crate) use axis_chain::{AxisChain, States};
-pub(super) use variances::{LowerBound, lower_bound};
-
-#[cfg(test)]
-mod design_tests;
-#[cfg(test)]
-mod increment_tests;
 #[cfg(test)]
 mod tests;
+mod variances;
+
+pub(crate) use bounds::{AxisChain, States};
+pub(super) use variances::{LowerBound, lower_bound};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::convex::conic_program::{ConicProgram, Row};
+use crate::convex::{ConicProgram, Row};
 use calibrant_core::simulate::{Purpose, stream};
 use rand::RngExt;
 

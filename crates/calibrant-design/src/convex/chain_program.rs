@@ -21,8 +21,7 @@
 //! # References
 //! `mehrotra1992`, `rao1998`, `wright1997`
 
-use crate::convex::chain_factor::{ChainFactor, Stage, StageWeight, Transition};
-use crate::convex::eigenvalue_cone::{AffineMatrix, Cone, ConeStep, Scaling, triangle};
+use super::{AffineMatrix, ChainFactor, Cone, ConeStep, Scaling, Stage, StageWeight, Transition, triangle};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
 use std::borrow::Cow;
 

@@ -1,10 +1,9 @@
 //! The interior-point method against Clarabel.
 
 use super::*;
-use crate::convex::conic_program::{ConicProgram, Row as ConicRow};
-use crate::convex::eigenvalue_cone::AffineMatrix;
-use crate::limits::admissible_region::{Region, WatchedIntervals};
-use crate::local_search::stage_rows::Peaks;
+use crate::convex::{ConicProgram, Row as ConicRow};
+use crate::limits::{Region, WatchedIntervals};
+use crate::local_search::Peaks;
 use calibrant_core::motion::{AxisLimits, Rest};
 use nalgebra::DMatrix;
 

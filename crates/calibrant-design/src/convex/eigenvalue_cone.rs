@@ -18,7 +18,7 @@
 //! # References
 //! `mehrotra1992`, `nesterov1997`, `todd1998`
 
-use crate::convex::chain_factor::Stage;
+use super::Stage;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// The matrix `M(a)`, of which the smallest eigenvalue is maximised.

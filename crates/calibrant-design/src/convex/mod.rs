@@ -1,7 +1,13 @@
 //! Convex programs and what solves them; no file here knows what a motion is good for.
 
-pub(crate) mod active_set;
-pub(crate) mod chain_factor;
-pub(crate) mod chain_program;
-pub(crate) mod conic_program;
-pub(crate) mod eigenvalue_cone;
+mod active_set;
+mod chain_factor;
+mod chain_program;
+mod conic_program;
+mod eigenvalue_cone;
+
+pub(crate) use active_set::{Active, ActiveSet, LinearRow, Side};
+pub(crate) use chain_factor::{ChainFactor, Stage, StageWeight, Transition};
+pub(crate) use chain_program::{Chain, ChainProgram, Form, StageRow, Stages};
+pub(crate) use conic_program::{ConicProgram, Row};
+pub(crate) use eigenvalue_cone::{AffineMatrix, Cone, ConeStep, Scaling, triangle};

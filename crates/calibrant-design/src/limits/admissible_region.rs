@@ -14,7 +14,7 @@
 //! # References
 //! `nesterov2000`
 
-use crate::convex::conic_program::{ConicProgram, Row};
+use crate::convex::{ConicProgram, Row};
 use calibrant_core::motion::{AxisLimits, Rest};
 
 /// The motions of one axis that keep its limits.

@@ -6,9 +6,8 @@
 //! the rest. A deletion filter then names a minimal set of limits that clash: without any one of them there
 //! is a motion.
 
-use crate::convex::conic_program::{ConicProgram, Row};
-use crate::limits::admissible::{LimitKind, worst_violation};
-use crate::limits::admissible_region::{Region, WatchedIntervals};
+use super::{LimitKind, Region, WatchedIntervals, worst_violation};
+use crate::convex::{ConicProgram, Row};
 use crate::{DesignProblem, limit_use};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits, Rest};

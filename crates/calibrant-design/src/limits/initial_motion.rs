@@ -1,7 +1,6 @@
 //! The initial motion of a design, with prescribed ends where there are any.
 
-use crate::limits::admissible::worst_violation;
-use crate::limits::feasibility::inside;
+use super::{inside, worst_violation};
 use calibrant_core::error::Result;
 use calibrant_core::motion::{JerkControlledMotion, Limits, Rest};
 use calibrant_core::simulate::{Rng, initial_motion as free_initial_motion};

@@ -1,10 +1,8 @@
 //! The rounds of one iteration: a program of chains is solved again with the limits that its minimum broke between the
 //! nodes, until it breaks none.
 
-use crate::convex::chain_factor::Stage;
-use crate::convex::chain_program::{ChainProgram, Stages};
-use crate::local_search::part::{Nodes, Part, mix};
-use crate::local_search::stage_rows::Peaks;
+use super::{Nodes, Part, Peaks, mix};
+use crate::convex::{ChainProgram, Stage, Stages};
 use nalgebra::SVector;
 
 /// Rounds of limits between the nodes.

@@ -16,7 +16,7 @@
 //! Noise in proportion to the jerk, `q = Δτ² (floor + ratio |u|)²`, has a kink of `2 floor ratio Δτ` per
 //! increment at jerk zero. Slope and second derivative are those of the side on which the increment lies.
 
-use crate::local_search::part::Part;
+use super::Part;
 use calibrant_core::information::{Criterion, Linearised};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -107,7 +107,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::admissible_region::Region;
+    use crate::limits::Region;
     use crate::local_search::part::PartGravity;
     use calibrant_core::information::criterion::{AOptimality, DOptimality, IOptimality};
     use calibrant_core::information::{GravityMarginal, MotionInformation};

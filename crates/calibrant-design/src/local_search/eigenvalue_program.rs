@@ -9,10 +9,8 @@
 //! # References
 //! `boyd2004`, `pukelsheim2006`
 
-use crate::convex::chain_program::ChainProgram;
-use crate::convex::eigenvalue_cone::AffineMatrix;
-use crate::local_search::chain_rounds::Rounds;
-use crate::local_search::part::{Nodes, Part};
+use super::{Nodes, Part, Rounds};
+use crate::convex::{AffineMatrix, ChainProgram};
 use calibrant_core::information::Criterion;
 use nalgebra::{DMatrix, SMatrix, SVector};
 

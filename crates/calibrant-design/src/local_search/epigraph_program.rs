@@ -6,11 +6,10 @@
 //! # References
 //! `boyd2004`, `pukelsheim2006`
 
-use crate::convex::conic_program::{ConicProgram, Row};
-use crate::criterion::criterion_model::Curvature;
-use crate::limits::admissible_region::WatchedIntervals;
-use crate::local_search::model_bend::ModelBend;
-use crate::local_search::part::{Nodes, Part};
+use super::{ModelBend, Nodes, Part};
+use crate::convex::{ConicProgram, Row};
+use crate::criterion::Curvature;
+use crate::limits::WatchedIntervals;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// Relative size of an eigenvalue that adds nothing to the rank.
@@ -54,7 +53,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         let along = |omega: &DMatrix<f64>| {
             self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
         };
-        let pieces = crate::criterion::criterion_model::pieces(&self.criterion, &c, self.floor_of_d());
+        let pieces = crate::criterion::pieces(&self.criterion, &c, self.floor_of_d());
         let mut model = Model { pieces: Vec::new(), bends: Vec::new() };
         let total: f64 = weights.iter().take(pieces.len()).sum();
         for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {

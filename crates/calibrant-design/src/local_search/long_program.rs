@@ -10,13 +10,9 @@
 //! # References
 //! `boyd2004`, `pukelsheim2006`
 
-use crate::convex::chain_factor::Stage;
-use crate::convex::chain_program::{ChainProgram, Form, StageRow, Stages};
-use crate::criterion::criterion_model::{Curvature, pieces};
-use crate::local_search::chain_rounds::Rounds;
-use crate::local_search::model_bend::ModelBend;
-use crate::local_search::part::{Nodes, Part};
-use crate::local_search::stage_rows::Peaks;
+use super::{ModelBend, Nodes, Part, Peaks, Rounds};
+use crate::convex::{ChainProgram, Form, Stage, StageRow, Stages};
+use crate::criterion::{Curvature, pieces};
 use calibrant_core::information::InformationDerivative;
 use nalgebra::{DMatrix, SMatrix, SVector};
 

@@ -1,13 +1,23 @@
 //! One start: sequential convex programming, with a program for each kind of motion and criterion.
 
-pub(crate) mod chain_rounds;
-pub(crate) mod criterion_hessian;
-pub(crate) mod eigenvalue_program;
-pub(crate) mod epigraph_program;
-pub(crate) mod linear_limits;
-pub(crate) mod long_program;
-pub(crate) mod model_bend;
-pub(crate) mod part;
-pub(crate) mod sequential_programming;
-pub(crate) mod short_program;
-pub(crate) mod stage_rows;
+mod chain_rounds;
+mod criterion_hessian;
+mod eigenvalue_program;
+mod epigraph_program;
+mod long_program;
+mod model_bend;
+mod part;
+mod sequential_programming;
+mod short_program;
+mod stage_rows;
+
+pub(crate) use chain_rounds::Rounds;
+pub(crate) use criterion_hessian::SecondOrder;
+pub(crate) use eigenvalue_program::EigenvalueProgram;
+pub(crate) use epigraph_program::EpigraphProgram;
+pub(crate) use long_program::LongProgram;
+pub(crate) use model_bend::ModelBend;
+pub(crate) use part::{Nodes, Part, PartGravity, mix};
+pub(crate) use sequential_programming::{LocalOptimum, SHORT};
+pub(crate) use short_program::ShortProgram;
+pub(crate) use stage_rows::Peaks;

@@ -9,7 +9,7 @@
 //! those of the tilt, whatever the motion; E and M look at `C'` as well. D is `ln det (floor + C')`.
 //! A form `⟨Ω, C'⁻¹⟩` is the form `⟨G⁻¹ Ω G⁻ᵀ, F⟩` of the information on `q`.
 
-use crate::limits::admissible_region::Region;
+use crate::limits::Region;
 use calibrant_core::information::{Criterion, GravityMarginal, Linearised, PartInformation, covariance};
 use nalgebra::{DMatrix, SMatrix, SVector};
 

@@ -18,11 +18,7 @@
 //! # References
 //! `phan2018`
 
-use crate::local_search::eigenvalue_program::EigenvalueProgram;
-use crate::local_search::epigraph_program::EpigraphProgram;
-use crate::local_search::long_program::LongProgram;
-use crate::local_search::part::{Nodes, Part, mix};
-use crate::local_search::short_program::ShortProgram;
+use super::{EigenvalueProgram, EpigraphProgram, LongProgram, Nodes, Part, ShortProgram, mix};
 use crate::{DesignSettings, DesignStatus};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Trust;

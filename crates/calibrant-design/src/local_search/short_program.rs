@@ -10,10 +10,9 @@
 //! multiplier tells whether the other sign is better: it then exceeds twice the weight `c` of the kink. The
 //! sign is changed, and the program solved again. Each change lowers the minimum, so this ends.
 
-use crate::convex::active_set::{Active, ActiveSet, LinearRow, Side};
-use crate::limits::admissible_region::Region;
-use crate::local_search::criterion_hessian::SecondOrder;
-use crate::local_search::part::{Nodes, Part};
+use super::{Nodes, Part, SecondOrder};
+use crate::convex::{Active, ActiveSet, LinearRow, Side};
+use crate::limits::Region;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SVector};
 
 /// Proximal weight, relative to the largest slope: at first, its factor after each full step, and at least.

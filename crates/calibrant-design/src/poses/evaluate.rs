@@ -1,11 +1,10 @@
 //! The information of given poses, against the best possible.
 
 use super::Allowed;
-use super::drift::Drift;
 use super::enough::{named, singular};
-use super::expected::with_gravity;
 use super::hold_information::HoldInformation;
-use super::problem::PoseProblem;
+use super::order::Drift;
+use super::problem::{PoseProblem, with_gravity};
 use super::result::{PoseBound, efficiency};
 use super::search::relaxed;
 use super::spectral_projected_gradient::Poses;

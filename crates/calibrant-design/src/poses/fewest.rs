@@ -11,13 +11,12 @@
 //! where on.
 
 use super::enough::{fewest_that_determine, singular};
-use super::expected::gravity_slope;
 use super::hold_information::HoldInformation;
-use super::problem::PoseProblem;
+use super::problem::{PoseProblem, gravity_slope};
 use super::result::PoseDesign;
 use super::search::{design_poses, relaxed};
 use crate::DesignSettings;
-use crate::problem::goal::{Goal, first_that_passes};
+use crate::problem::{Goal, first_that_passes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::COptimality;

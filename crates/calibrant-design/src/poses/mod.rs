@@ -17,12 +17,8 @@
 
 mod allowed;
 mod approximate;
-mod bound;
-mod drift;
 mod enough;
 mod evaluate;
-mod exchange;
-mod expected;
 mod fewest;
 mod hold_information;
 mod order;
@@ -32,7 +28,6 @@ mod search;
 mod spectral_projected_gradient;
 #[cfg(test)]
 mod tests;
-mod turns;
 
 pub use allowed::Allowed;
 pub use evaluate::{PoseEvaluation, covariance_of_holds, evaluate_poses};

@@ -7,7 +7,7 @@
 
 use super::allowed::Allowed;
 use super::hold_information::HoldInformation;
-use crate::criterion::smooth_criterion::SmoothCriterion;
+use crate::criterion::SmoothCriterion;
 use calibrant_core::information::covariance;
 use nalgebra::{DMatrix, Vector3};
 

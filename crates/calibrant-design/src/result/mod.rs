@@ -1,6 +1,8 @@
 //! What a design gives: motions, covariances, the certificate in words, and the assessment of a motion of the user.
 
 pub(crate) mod certificate_words;
-pub(crate) mod design;
-pub(crate) mod evaluate;
-pub(crate) mod motion_assessment;
+mod design;
+mod motion_assessment;
+
+pub use design::{AT_BEST, Certificate, Design, DesignStatus, Evaluation, GapGoal, StartOutcome};
+pub use motion_assessment::{Assessment, OtherSetting, assess, evaluate};

@@ -1,7 +1,8 @@
 //! All starts: where they begin, and the best motion of each axis.
 
-pub(crate) mod combined_axes;
-pub(crate) mod kicks;
-pub(crate) mod multistart_search;
+mod multistart_search;
 pub(crate) mod random_starts;
-pub(crate) mod so_far;
+mod so_far;
+
+pub(crate) use multistart_search::search;
+pub use so_far::SoFar;

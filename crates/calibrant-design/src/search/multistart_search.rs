@@ -10,9 +10,8 @@
 //! like its initial motion: optima come in pairs, `a` and `−a`, and often more.
 
 use crate::certificate::LowerBound;
-use crate::limits::admissible_region::Region;
-use crate::local_search::part::{Nodes, Part, PartGravity};
-use crate::local_search::sequential_programming::LocalOptimum;
+use crate::limits::Region;
+use crate::local_search::{LocalOptimum, Nodes, Part, PartGravity};
 use crate::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
 use calibrant_core::error::Result;
 use calibrant_core::information::criterion::DOptimality;

@@ -1,7 +1,11 @@
 //! What a user asks for: the best motion, the shortest one, a sweep, and what they take.
 
-pub(crate) mod shortest;
-pub(crate) mod solve;
-pub(crate) mod sweep;
-pub(crate) mod trace_surface;
-pub(crate) mod work;
+mod shortest;
+mod solve;
+mod sweep;
+mod trace_surface;
+
+pub use shortest::{ShortestMotion, shortest_motion};
+pub use solve::design;
+pub use sweep::{Sweep, SweepPoint, SweepVariable, sweep, sweep_work};
+pub use trace_surface::{SurfaceSettings, TraceSurface, trace_surface};

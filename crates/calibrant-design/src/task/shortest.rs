@@ -9,7 +9,7 @@
 //! little, since short motions do. It is needed: a motion that must rest at its end, or stay in a room, is
 //! not always the beginning of a longer one.
 
-use crate::problem::goal::Goal;
+use crate::problem::Goal;
 use crate::{Design, DesignProblem, DesignSettings, certificate, check_feasible, design};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 

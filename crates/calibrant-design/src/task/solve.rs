@@ -1,14 +1,16 @@
 //! The design of the best motion: feasibility first, then the search, and the certificate beside it.
 
 use crate::certificate::LowerBound;
-use crate::limits::feasibility;
-use crate::limits::initial_motion::initial_motion;
-use crate::search::multistart_search::search;
+use crate::limits::{initial_motion, inside};
+use crate::local_search::SHORT;
+use crate::search::search;
 use crate::{
     Design, DesignProblem, DesignSettings, DesignStatus, GapGoal, certificate, check_feasible, evaluate,
 };
+use calibrant_core::budget::Budget;
 use calibrant_core::error::Result;
-use calibrant_core::motion::JerkControlledMotion;
+use calibrant_core::motion::{JerkControlledMotion, Trust};
+use calibrant_core::sensor::SensorModel;
 use calibrant_core::simulate::{Purpose, stream};
 
 /// Finds the best motion; `progress` is called with 1 after each start.
@@ -35,8 +37,7 @@ pub fn design(
         &limits,
         &mut stream(settings.seed, Purpose::Motion, 0),
     )?;
-    let (inside, slack) =
-        feasibility::inside(&limits, problem.sensor.axes, problem.intervals, problem.interval_s)?;
+    let (inside, slack) = inside(&limits, problem.sensor.axes, problem.intervals, problem.interval_s)?;
     settings.so_far.begin(problem.sensor.axes);
     let bound = || -> Result<Option<LowerBound>> {
         if !settings.certificate {
@@ -80,4 +81,28 @@ pub fn design(
         floor,
         floor_sd: problem.floor_sd(),
     })
+}
+
+impl DesignSettings {
+    /// What the design of this motion takes at most. The search ends earlier where starts agree.
+    #[must_use]
+    pub fn work(&self, problem: &DesignProblem<'_>) -> Budget {
+        let sensor = problem.sensor;
+        // measured, within a factor of four: the axes of a full sensor are one problem, of their cube in time
+        let (parts, size) = match sensor.model {
+            SensorModel::ScaleBias => (sensor.axes, 1.0),
+            SensorModel::Full => (1, (sensor.axes as f64).powi(3)),
+        };
+        let noisy = if matches!(problem.trust, Trust::Noisy(_)) { 2.0 } else { 1.0 };
+        let (starts, intervals) = ((self.starts * parts) as f64, problem.intervals as f64);
+        // the program of a long motion takes time in proportion to its length, as far as its iterations do
+        let axes = if parts == 1 { sensor.axes } else { 1 };
+        let per_interval = 2e-4 + 1e-5 * intervals;
+        let per_interval =
+            if (problem.intervals + 1) * axes > SHORT { per_interval.min(5e-4) } else { per_interval };
+        Budget {
+            bytes: starts * (24.0 * intervals + 500.0) + 1e4 * intervals,
+            seconds: self.seconds.unwrap_or(starts * size * noisy * intervals * per_interval),
+        }
+    }
 }

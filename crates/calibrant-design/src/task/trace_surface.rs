@@ -1,7 +1,7 @@
 //! The criterion as a surface over the jerks of two intervals: the thesis's Figure 7.
 
-use crate::problem::design_problem::DesignProblem;
-use crate::result::evaluate::evaluate;
+use crate::problem::DesignProblem;
+use crate::result::evaluate;
 use calibrant_core::error::Result;
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::AOptimality;

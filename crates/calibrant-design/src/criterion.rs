@@ -1,3 +1,9 @@
+//! The criteria as smooth functions of the covariance, for the search.
+//!
+//! E and M are maxima, and have kinks where an optimal design lies. The search replaces a maximum of
+//! positive numbers by its power mean `(Σ λ_i^q)^(1/q)`, which is at most `p^(1/q)` times as large. A, c, I
+//! and D are smooth as they are. The logarithm makes all of them numbers without a unit.
+//!
 //! Second-order models of the criteria as functions of the information.
 //!
 //! With `F → F + dF`, each criterion falls like `Φ − ⟨Ω, dF⟩ + ½ Σ_m ⟨Ω_m, dF⟩²`. For `Φ = wᵀ C w`,
@@ -6,9 +12,73 @@
 //! makes Newton's method slow from a poor start, so the model omits it. The model is then `1/Φ`, which is
 //! concave and grows in proportion to the information. What remains is the loss through correlation. That
 //! part keeps the mean of a motion near zero.
+//!
+//! Tangents of a criterion: bounds on its value from a bound on a linear function of the information.
+//!
+//! Let W be a weight with `Φ(C′) ≥ tr(W C′)` for every covariance C′. For A, c and I it is the criterion's
+//! own. For E it is any `Z ⪰ 0` of trace one, for M the diagonal of any shares with the sum one, both on the
+//! scaled parameters. The function `1 / tr(W M⁻¹)` is concave in the information M, and homogeneous of degree
+//! one. So it lies below its tangent planes: at any M with `C = M⁻¹` and `Ω = C W C`
+//!
+//! `1 / tr(W M′⁻¹) ≤ tr(Ω M′) / tr(W C)²`.
+//!
+//! Hence `Φ(C′) ≥ tr(W C)² / B` where `tr(Ω M′) ≤ B`. For D the same with `det^(1/p)`, and `Ω = C`:
+//! `ln det C′ ≥ ln det C − p ln(B/p)`. Both hold for any symmetric C, so that rounding in the inverse of M does
+//! no harm.
+//!
+//! # References
+//! `kiefer1960`
 
 use calibrant_core::information::Criterion;
 use nalgebra::{DMatrix, DVector};
+
+/// A criterion, and the exponent q that takes the place of a maximum.
+#[derive(Clone, Copy)]
+pub(crate) struct SmoothCriterion<'a> {
+    pub(crate) criterion: &'a Criterion,
+    pub(crate) exponent: f64,
+}
+
+impl SmoothCriterion<'_> {
+    /// `ln Φ` (for D: `ln det C / p`), and its derivative with respect to C.
+    pub(crate) fn at(&self, c: &DMatrix<f64>) -> (f64, DMatrix<f64>) {
+        let size = c.nrows();
+        match self.criterion {
+            Criterion::D(_) => {
+                let share = 1.0 / size as f64;
+                (self.criterion.value(c) * share, self.criterion.derivative(c) * share)
+            }
+            Criterion::E(e) => {
+                let scaled = DMatrix::from_fn(size, size, |i, j| c[(i, j)] / (e.scale[i] * e.scale[j]));
+                let eigen = scaled.symmetric_eigen();
+                let (value, shares) = self.power_mean(&eigen.eigenvalues);
+                let mut vectors = eigen.eigenvectors;
+                for (mut row, scale) in vectors.row_iter_mut().zip(e.scale.iter()) {
+                    row /= *scale;
+                }
+                (value, &vectors * DMatrix::from_diagonal(&shares) * vectors.transpose())
+            }
+            Criterion::M(m) => {
+                let squares = m.scale.component_mul(&m.scale);
+                let (value, shares) = self.power_mean(&c.diagonal().component_div(&squares));
+                (value, DMatrix::from_diagonal(&shares.component_div(&squares)))
+            }
+            Criterion::A(_) | Criterion::C(_) | Criterion::I(_) => {
+                let value = self.criterion.value(c);
+                (value.ln(), self.criterion.derivative(c) / value)
+            }
+        }
+    }
+
+    /// `ln (Σ λ^q)^(1/q)`, and its derivative with respect to each λ.
+    fn power_mean(&self, values: &DVector<f64>) -> (f64, DVector<f64>) {
+        let largest = values.max();
+        let powers = values.map(|value| (value.max(0.0) / largest).powf(self.exponent));
+        let sum = powers.sum();
+        let value = largest.ln() + sum.ln() / self.exponent;
+        (value, powers.zip_map(values, |power, value| power / (value.max(f64::MIN_POSITIVE) * sum)))
+    }
+}
 
 /// The first derivative `Ω = C (∂Φ/∂C) C` and the forms `Ω_m` at a covariance.
 pub(crate) struct Curvature {
@@ -134,6 +204,44 @@ fn above_a_floor(c: &DMatrix<f64>, floor: &DMatrix<f64>) -> Curvature {
 fn symmetric_product(x: &DVector<f64>, y: &DVector<f64>) -> DMatrix<f64> {
     let product = x * y.transpose();
     (&product + product.transpose()) * 0.5
+}
+
+/// The tangent at a covariance.
+pub(crate) struct Tangent<'a> {
+    criterion: &'a Criterion,
+    /// `Ω`.
+    pub(crate) omega: DMatrix<f64>,
+    /// `tr(W C)`; for D the value at C.
+    at: f64,
+}
+
+impl<'a> Tangent<'a> {
+    pub(crate) fn new(smooth: SmoothCriterion<'a>, c: &DMatrix<f64>) -> Self {
+        let criterion = smooth.criterion;
+        let (_, derivative) = smooth.at(c);
+        let of_trace_one = |derivative: DMatrix<f64>, scale: &[f64]| {
+            let trace: f64 = scale.iter().enumerate().map(|(i, s)| derivative[(i, i)] * s * s).sum();
+            derivative / trace
+        };
+        // the weight W, and for D the inverse of C
+        let weight = match criterion {
+            Criterion::A(_) | Criterion::C(_) | Criterion::I(_) => criterion.derivative(c),
+            Criterion::D(_) => derivative * c.nrows() as f64,
+            Criterion::E(e) => of_trace_one(derivative, e.scale.as_slice()),
+            Criterion::M(m) => of_trace_one(derivative, m.scale.as_slice()),
+        };
+        let at = if let Criterion::D(_) = criterion { criterion.value(c) } else { weight.dot(c) };
+        Self { criterion, omega: c * &weight * c, at }
+    }
+
+    /// A lower bound of the criterion for every information M′ with `tr(Ω M′)` at most `most`.
+    pub(crate) fn bound(&self, most: f64) -> f64 {
+        let size = self.omega.nrows() as f64;
+        match self.criterion {
+            Criterion::D(_) => self.at - size * (most / size).ln(),
+            _ => self.at.powi(2) / most,
+        }
+    }
 }
 
 #[cfg(test)]

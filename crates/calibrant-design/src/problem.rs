@@ -1,5 +1,6 @@
 //! The design problem: sensor, motion grid, limits and criterion.
 
+use crate::{Interruption, SoFar};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::criterion::AOptimality;
 use calibrant_core::information::{Criterion, GravityMarginal, MotionInformation};
@@ -187,4 +188,85 @@ impl<'a> DesignProblem<'a> {
         }
         Ok(())
     }
+}
+
+/// The settings of a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignSettings {
+    /// Largest number of starts for each axis. The search ends earlier once ten end at the same best value.
+    pub starts: usize,
+    /// Time for the search, s, in place of a number of starts. The result then depends on the machine. A start that is
+    /// under way ends with it; the certificate does not.
+    pub seconds: Option<f64>,
+    /// Seed of the random starts and of the initial motion.
+    pub seed: u64,
+    /// Is a lower bound wanted that no admissible motion can beat?
+    pub certificate: bool,
+    /// Gap to the lower bound at which the search ends: relative, for criterion D in nats. The bound is then
+    /// found first. Without a certificate it has no effect.
+    pub gap: Option<f64>,
+    /// Largest number of iterations of one start.
+    pub max_iterations: usize,
+    /// Ends the search early where it is asked: the design is then the best so far.
+    pub interruption: Interruption,
+    /// What the search knows so far, for whoever waits.
+    pub so_far: SoFar,
+}
+
+impl Default for DesignSettings {
+    fn default() -> Self {
+        Self {
+            starts: 30,
+            seconds: None,
+            seed: 1,
+            certificate: true,
+            gap: None,
+            max_iterations: 300,
+            interruption: Interruption::default(),
+            so_far: SoFar::default(),
+        }
+    }
+}
+
+impl DesignSettings {
+    pub(crate) fn check(&self) -> Result<()> {
+        match self.gap {
+            Some(gap) if !(gap.is_finite() && gap > 0.0) => Err(Error::experiment(InputError::new(
+                Refusal::ValueInvalid,
+                format!("a search cannot end at a gap of {gap}"),
+                "ask for a gap above 0, such as 0.01",
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A parameter, and the largest standard deviation that is good enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Place of the parameter in the list.
+    pub parameter: usize,
+    /// Largest standard deviation, in the parameter's unit.
+    pub sd: f64,
+}
+
+impl Goal {
+    /// Largest of `sd / goal` over all goals: the goals are reached where it is at most 1.
+    pub(crate) fn worst(goals: &[Self], sd: impl Fn(usize) -> f64) -> f64 {
+        goals.iter().map(|goal| sd(goal.parameter) / goal.sd).fold(0.0, f64::max)
+    }
+}
+
+/// The first of the numbers `low + 1 ..= high` that passes, where all after it do. `high` is known to pass,
+/// `low` is known not to.
+pub(crate) fn first_that_passes(
+    mut low: usize,
+    mut high: usize,
+    mut passes: impl FnMut(usize) -> Result<bool>,
+) -> Result<usize> {
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if passes(middle)? { high = middle } else { low = middle }
+    }
+    Ok(high)
 }
