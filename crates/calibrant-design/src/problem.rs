@@ -1,4 +1,4 @@
-//! The design problem: sensor, motion grid, limits and criterion.
+//! The design problem: sensor, motion grid, limits and criterion; the goal, and how long it is searched.
 
 use crate::{Interruption, SoFar};
 use calibrant_core::error::{Error, InputError, Refusal, Result};

@@ -1,4 +1,4 @@
-//! The result of a calibration study: truth beside estimate of many sensors.
+//! The result of a calibration study: truth beside estimate of many sensors, and what a designed motion improves.
 
 use calibrant_core::estimate::Calibration;
 use calibrant_core::information::Criterion;

@@ -2,7 +2,6 @@
 //! It uses the sensor, the motion and the arrowhead.
 
 pub(crate) mod chain_model;
-mod covariance;
 pub mod criterion;
 mod expected_information;
 pub(crate) mod gravity_marginal;
@@ -11,11 +10,10 @@ mod motion_information;
 mod second_derivative;
 mod undetermined_explanation;
 
-pub use covariance::covariance;
 pub use criterion::Criterion;
 pub use expected_information::MotionInformation;
 pub use gravity_marginal::{GravityMarginal, with_biases};
-pub use identifiability::{Undetermined, undetermined};
+pub use identifiability::{Undetermined, covariance, undetermined};
 pub use motion_information::{InformationDerivative, Linearised, PartInformation};
 pub use second_derivative::InformationCurvature;
 pub use undetermined_explanation::{MotionFacts, View, explain};

@@ -1,6 +1,6 @@
 //! The overlapping Allan deviation of readings, with its confidence bounds.
 
-use super::confidence::CONFIDENCE;
+use super::variance_interval::CONFIDENCE;
 use super::{PowerLaw, lag_sums};
 use crate::error::{Error, InputError, Refusal, Result};
 use statrs::distribution::{ChiSquared, ContinuousCDF};

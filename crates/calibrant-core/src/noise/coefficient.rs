@@ -1,5 +1,7 @@
 //! A coefficient of the noise: its estimate with an interval, or the reason why the recording does not
-//! determine it.
+//! determine it. The four of an axis are the noise model, which gives the Allan deviation.
+
+use super::PowerLaw;
 
 /// An estimate with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,5 +75,53 @@ impl Coefficient {
             Self::Determined(_) => None,
             Self::NotDetermined { limit, .. } => *limit,
         }
+    }
+}
+
+/// The coefficients of the noise of one axis, in the unit of the readings `u`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoiseModel {
+    /// Quantisation Q of the summed readings, u·s.
+    pub quantisation: Coefficient,
+    /// Velocity (accelerometer) or angle (gyroscope) random walk N: density of the white noise, u/√Hz.
+    pub random_walk: Coefficient,
+    /// Bias instability B, u; the flat part of the Allan deviation is 0.664 B.
+    pub bias_instability: Coefficient,
+    /// Rate random walk K, u/√s.
+    pub rate_random_walk: Coefficient,
+    /// Squares of all fitted coefficients, also of those that are not determined. That of quantisation is
+    /// below zero where it is a filter's share.
+    pub(super) squares: [f64; 4],
+}
+
+impl NoiseModel {
+    /// The coefficient of a process.
+    #[must_use]
+    pub fn coefficient(&self, process: PowerLaw) -> &Coefficient {
+        match process {
+            PowerLaw::Quantisation => &self.quantisation,
+            PowerLaw::White => &self.random_walk,
+            PowerLaw::Flicker => &self.bias_instability,
+            PowerLaw::RandomWalk => &self.rate_random_walk,
+        }
+    }
+
+    /// The Allan deviation that one process contributes to the fit at cluster time `τ`, determined or not.
+    #[must_use]
+    pub fn share(&self, process: PowerLaw, tau_s: f64) -> f64 {
+        (self.squares[process as usize].max(0.0) * process.allan_variance(tau_s)).sqrt()
+    }
+
+    /// The fitted Allan deviation: all processes together, and the filter where the fit has one.
+    #[must_use]
+    pub fn deviation(&self, tau_s: f64) -> f64 {
+        let variance = |process: &PowerLaw| self.squares[*process as usize] * process.allan_variance(tau_s);
+        PowerLaw::ALL.iter().map(variance).sum::<f64>().max(0.0).sqrt()
+    }
+
+    /// Standard deviation of the white noise of one sample, `σ_ν = N √f_s`; `None` where N is not determined.
+    #[must_use]
+    pub fn white_noise_per_sample(&self, rate_hz: f64) -> Option<f64> {
+        Some(self.random_walk.value()? * rate_hz.sqrt())
     }
 }

@@ -1,8 +1,8 @@
 //! The fit of the noise coefficients to the Allan deviation of one axis.
 
 use super::allan_regression::MISFIT;
-use super::heavy_tails::Tails;
 use super::model_selection::choose;
+use super::outliers::Tails;
 use super::vibration::{Lines, Vibration};
 use super::{Drift, Moments, NoiseModel, PowerLaw, allan};
 use crate::error::{Error, InputError, Refusal, Result};

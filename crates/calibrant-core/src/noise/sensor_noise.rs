@@ -1,8 +1,7 @@
 //! The noise of a sensor of three axes.
 
-use super::heavy_tails::Tails;
-use super::outliers::{self, Outliers};
-use super::{AllanDeviation, Moments, NoiseFit, Segment};
+use super::outliers::{Outliers, Tails};
+use super::{AllanDeviation, Moments, NoiseFit, Segment, outliers};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::noise::{
     NoiseBeyondWhite, NoiseDrifts, NoiseFiltered, NoiseInParts, NoiseOutliers, NoiseUnexplained,

@@ -1,6 +1,5 @@
-//! Confidence bounds of a variance, from the distribution of its estimate: a test, inverted.
+//! Confidence bounds of a variance, from the distribution of its estimate: a test, inverted at [`CONFIDENCE`].
 
-use super::confidence::CONFIDENCE;
 use crate::root::root;
 use statrs::distribution::{ContinuousCDF, Gamma};
 use std::convert::Infallible;
@@ -45,6 +44,9 @@ fn crossing(estimate: f64, variance: &impl Fn(f64) -> f64, p: f64, from: f64, to
 fn lower_probability(estimate: f64, mean: f64, variance: f64) -> f64 {
     Gamma::new(mean * mean / variance, mean / variance).map_or(f64::NAN, |gamma| gamma.cdf(estimate))
 }
+
+/// Probability that a stated interval covers the truth.
+pub const CONFIDENCE: f64 = 0.95;
 
 #[cfg(test)]
 mod tests {

@@ -1,10 +1,11 @@
-//! A calibrated IMU as JSON: direction, frame, gauge, the unit of each sensor, the named quantities with their covariance.
+//! A calibrated IMU as JSON: direction, frame, gauge, the unit of each sensor, the named quantities with their covariance,
+//! and the temperature model.
 //!
 //! Values stand twice. The sensors' matrices are complete. The list of parameters has the quantities of the covariance.
 
-use super::thermal_json::ThermalOf;
 use super::{
     CalibratedImu, Correction, CovarianceDegrees, Gauge, ImuQuantity, Quantity, ReadingUnit, SensorKind,
+    SensorThermal,
 };
 use crate::form::{Form, block, finite, per_axis};
 use crate::json::{if_some, named, with_ending};
@@ -200,5 +201,44 @@ impl CalibratedImu {
     pub fn unit_of(&self, quantity: ImuQuantity) -> &'static str {
         let sensor_kind = quantity.sensor_kind();
         quantity.unit(self.unit(sensor_kind).unwrap_or(sensor_kind.stimulus_unit()))
+    }
+}
+
+/// The formula that the file states.
+const FORMULA: &str = "with t = T - reference_c: b(T) = b + bias_per_k t + bias_per_k2 t^2, S(T) = diag(1 + scale_per_k t + scale_per_k2 t^2) S";
+
+/// The temperature model of an IMU that has one.
+pub(super) struct ThermalOf<'a>(pub(super) &'a CalibratedImu);
+
+json_object! {
+    /// How biases and gains follow temperature.
+    ThermalOf<'_> as of {
+        formula: FORMULA,
+        reference_c: of.0.parameters.thermal.reference_c,
+        /// The temperatures of the recording.
+        range_c: of.0.parameters.thermal.range_c,
+        accelerometer: if_some(of.terms(SensorKind::Accelerometer)),
+        gyroscope: if_some(of.terms(SensorKind::Gyroscope)),
+    }
+}
+
+impl ThermalOf<'_> {
+    fn terms(&self, sensor_kind: SensorKind) -> Option<TermsOf<'_>> {
+        let terms = self.0.parameters.thermal.sensor(sensor_kind);
+        self.0.unit(sensor_kind).map(|unit| TermsOf { terms, unit })
+    }
+}
+
+struct TermsOf<'a> {
+    terms: &'a SensorThermal,
+    unit: ReadingUnit,
+}
+
+json_object! {
+    /// The temperature coefficients of one sensor: `bias_mps2_per_k`, `bias_mps2_per_k2` and so on in its unit.
+    TermsOf<'_> as of {
+        bias: named(["per_k", "per_k2"].iter().zip(&of.terms.bias).map(|(power, of_bias)| (format!("bias_{}_{power}", of.unit.suffix()), per_axis(of_bias, 3)))),
+        scale_per_k: per_axis(&of.terms.scale[0], 3),
+        scale_per_k2: per_axis(&of.terms.scale[1], 3),
     }
 }

@@ -6,11 +6,9 @@
 //! the scale factors on its diagonal. Off it are the cross-axis sensitivities (misalignment,
 //! non-orthogonality).
 
-mod axis;
 mod corrected_recording;
 mod covariance_degrees;
 mod datasheet;
-mod described;
 pub(crate) mod entry_vector;
 mod extremes;
 mod frame_invariant;
@@ -19,12 +17,8 @@ mod gauge_change;
 mod imu;
 mod imu_correction;
 mod imu_json;
-mod imu_thermal;
 mod interpolation;
-mod mean_reading;
 mod parameters;
-mod quantile;
-mod quantisation_step;
 mod recording;
 mod recording_temperatures;
 mod reference_temperature;
@@ -33,15 +27,12 @@ mod saturation;
 mod sensor_kind;
 mod spikes;
 mod temperature_model;
-mod thermal_json;
-mod unit;
 
-pub use axis::Axis;
 pub use corrected_recording::{CorrectedRecording, CorrectedSensor};
 pub use covariance_degrees::CovarianceDegrees;
 pub(crate) use covariance_degrees::CovariancePart;
-pub use datasheet::Sensor;
-pub use described::Parameter;
+pub use datasheet::{Parameter, Sensor};
+pub(crate) use extremes::quantile;
 pub use extremes::{greater, lesser};
 pub use frame_invariant::{Invariant, InvariantValue};
 pub(crate) use gauge::times;
@@ -50,15 +41,12 @@ pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording
 pub use imu_correction::ImuCorrection;
 pub use imu_json::{ImuFields, ParameterKnowledge, correction_name};
 pub use interpolation::interpolated;
-pub use mean_reading::MeanReading;
 pub use parameters::{ParameterList, Quantity, SensorModel, SensorParameters};
-pub(crate) use quantile::quantile;
-pub use recording::Recording;
 pub(crate) use recording::gap_s;
+pub use recording::{MeanReading, Recording};
 pub use recording_temperatures::{Temperatures, WORKING_C};
 pub use sample_rate::{missing, rate_hz};
 pub use saturation::Saturation;
-pub use sensor_kind::SensorKind;
+pub use sensor_kind::{Axis, ReadingUnit, SensorKind};
 pub use spikes::Spikes;
 pub use temperature_model::{HIGHEST_ORDER, SensorThermal, Thermal, ThermalPart, ThermalTerm};
-pub use unit::ReadingUnit;

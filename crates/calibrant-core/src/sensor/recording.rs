@@ -1,10 +1,12 @@
 //! The recording: readings of a sensor over time. It knows its rate, gaps and extremes, and changes nothing.
+//! The mean reading over an interval of time has its scatter beside it.
 
 use super::extremes::{greater, lesser};
 use super::sample_rate::rate_hz;
 use super::{Axis, ReadingUnit};
 use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
+use std::ops::Range;
 
 /// A recording: times in seconds, strictly increasing, and a reading for each. A uniaxial sensor uses x; the
 /// other components are zero.
@@ -218,9 +220,61 @@ pub(crate) fn gap_s(rate_hz: f64) -> f64 {
     (GAP / rate_hz).max(MOVED_S)
 }
 
+/// Mean of samples, and their scatter about it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MeanReading {
+    /// The mean.
+    pub mean: Vector3<f64>,
+    /// Number of samples in the mean.
+    pub samples: usize,
+    /// Squared deviations from the mean, summed per axis.
+    squares: Vector3<f64>,
+}
+
+impl MeanReading {
+    /// The mean of readings; `None` without any.
+    #[must_use]
+    pub fn of(readings: &[Vector3<f64>]) -> Option<Self> {
+        if readings.is_empty() {
+            return None;
+        }
+        let mean = readings.iter().sum::<Vector3<f64>>() / readings.len() as f64;
+        let squares = readings.iter().map(|y| (y - mean).component_mul(&(y - mean))).sum();
+        Some(Self { mean, samples: readings.len(), squares })
+    }
+
+    /// Standard deviation of one sample about the mean of its segment, pooled over the segments; zero where
+    /// none has two samples.
+    #[must_use]
+    pub fn pooled_sd<'a>(segments: impl IntoIterator<Item = &'a Self>) -> Vector3<f64> {
+        let (mut squares, mut degrees) = (Vector3::zeros(), 0);
+        for segment in segments {
+            squares += segment.squares;
+            degrees += segment.samples.saturating_sub(1);
+        }
+        (squares / degrees.max(1) as f64).map(f64::sqrt)
+    }
+}
+
+impl Recording {
+    /// The samples between two times, both included.
+    pub(crate) fn between(&self, start_s: f64, end_s: f64) -> Range<usize> {
+        let first = self.times_s.partition_point(|&t| t < start_s);
+        let end = self.times_s.partition_point(|&t| t <= end_s);
+        first..end.max(first)
+    }
+
+    /// Mean and scatter between two times; `None` where there is no sample.
+    #[must_use]
+    pub fn mean_between(&self, start_s: f64, end_s: f64) -> Option<MeanReading> {
+        MeanReading::of(self.readings.get(self.between(start_s, end_s))?)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensor::ReadingUnit;
 
     #[test]
     fn a_gap_is_of_five_steps_and_lasts_long_enough_to_be_moved() {
@@ -233,5 +287,25 @@ mod tests {
         };
         assert_eq!(recording(at(&|k| k as f64 * 0.0625)).gap_s(), 0.3125);
         assert_eq!(recording(at(&|k| k as f64 / 1024.0)).gap_s(), 0.05);
+    }
+
+    #[test]
+    fn means_and_scatter_are_those_of_the_samples_between_the_times() {
+        let values = [9.0, 1.0, 3.0, 10.0, 16.0, 7.0];
+        let recording = Recording {
+            times_s: (0..6).map(f64::from).collect(),
+            readings: values.map(|x| Vector3::new(x, 0.0, -x)).to_vec(),
+            axes: 3,
+            unit: ReadingUnit::Counts,
+        };
+        let first = recording.mean_between(1.0, 2.5).expect("samples");
+        let second = recording.mean_between(2.9, 4.0).expect("samples");
+        assert_eq!((first.mean.x, first.mean.z, first.samples), (2.0, -2.0, 2));
+        assert_eq!((second.mean.x, second.samples), (13.0, 2));
+        // 1 + 1 + 9 + 9 with two degrees of freedom
+        let sd = MeanReading::pooled_sd([&first, &second]);
+        assert!((sd - Vector3::new(10.0_f64.sqrt(), 0.0, 10.0_f64.sqrt())).amax() < 1e-15, "{sd}");
+        assert_eq!(recording.mean_between(5.2, 9.0), None);
+        assert_eq!(recording.mean_between(4.0, 2.0), None);
     }
 }

@@ -24,7 +24,7 @@
 //! A remaining sample a thousand times as far from the median as everything else is invalid, if nothing lies
 //! between. A movement passes through what lies between. Invalid samples are cut out, so they leave a gap.
 
-use super::quantile::quantile;
+use super::extremes::quantile;
 use super::{Axis, Recording, SensorKind, greater, lesser};
 use rayon::prelude::*;
 use std::borrow::Cow;

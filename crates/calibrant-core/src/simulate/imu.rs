@@ -1,6 +1,6 @@
 //! Simulated recordings of an IMU: holds in several orientations, with rotations by hand in between.
 
-use super::imu_stimuli::Stimuli;
+use super::imu_setup::Stimuli;
 use super::{ImuSimulation, Rng};
 use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{UnitQuaternion, Vector3};

@@ -4,31 +4,25 @@
 //! do not depend on the number of threads or on the order in which items are made.
 
 mod drawn_imu;
-mod gravity;
 mod holds;
 mod imu;
 mod imu_setup;
-mod imu_stimuli;
 mod initial_motion;
-mod population;
 mod power_law_noise;
 mod recording;
 mod table_recording;
 
 pub use crate::motion::sample_times;
-pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_thermal};
-pub use gravity::{TrueGravity, draw_gravity};
+pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_sensor, draw_thermal};
 pub use holds::{HoldsSimulation, simulate_holds, simulate_holds_in};
 pub use imu::simulate_imu;
 pub use imu_setup::{ImuSimulation, TURN_S};
 pub use initial_motion::initial_motion;
-pub use population::draw_sensor;
 pub use power_law_noise::simulate_noise;
-pub use recording::{perturb, simulate_recording};
-pub use table_recording::{TableAction, TableStep, simulate_table};
-
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;
+pub use recording::{TrueGravity, draw_gravity, perturb, simulate_recording};
+pub use table_recording::{TableAction, TableStep, simulate_table};
 
 /// The purpose of a random stream. Streams of different purposes never overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,14 @@
-//! Simulated recordings of a commanded motion, with process noise and measurement noise.
+//! Simulated recordings of a commanded motion, with process noise, measurement noise
+//! and the gravity that a tilted sensor senses.
 
 use super::Rng;
-use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds};
+use crate::form::As;
+use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds, MotionGravity};
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The motion that happens when this one is commanded. Process noise `w_i ~ N(0, σ_u(u_i)²)` acts on each
 /// interval's jerk, the thesis's `ū_i = u_i + w_i`.
@@ -82,4 +86,26 @@ pub fn simulate_recording(
 
 fn normal(rng: &mut Rng) -> f64 {
     StandardNormal.sample(rng)
+}
+
+/// Gravity as it is, where it was only given with its uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct TrueGravity {
+    /// Specific force of the sensor at rest, m/s².
+    #[serde(with = "As::<[f64; 3]>")]
+    pub force_mps2: Vector3<f64>,
+    /// Tilt about each axis, rad.
+    #[serde(with = "As::<[f64; 3]>")]
+    pub tilt_rad: Vector3<f64>,
+}
+
+/// Draws a tilt and a magnitude, and turns gravity by the tilt: exactly, not to first order.
+#[must_use]
+pub fn draw_gravity(gravity: &MotionGravity, rng: &mut Rng) -> TrueGravity {
+    let mut normal = || -> f64 { StandardNormal.sample(rng) };
+    let up = gravity.force_mps2.normalize();
+    let any = Vector3::new(normal(), normal(), normal());
+    let tilt_rad = (any - up * up.dot(&any)) * gravity.tilt_sd_rad;
+    let force = gravity.force_mps2 + up * (gravity.sd_mps2 * normal());
+    TrueGravity { force_mps2: Rotation3::new(tilt_rad) * force, tilt_rad }
 }

@@ -1,6 +1,6 @@
 //! Simulated recordings of an IMU on a table: put down on faces, turned by known angles.
 
-use super::imu_stimuli::Stimuli;
+use super::imu_setup::Stimuli;
 use super::{ImuSimulation, Rng};
 use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{Unit, UnitQuaternion, Vector3};

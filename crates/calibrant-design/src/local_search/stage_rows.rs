@@ -1,4 +1,4 @@
-//! The limits of one axis as rows of the stages of a chain, for long motions.
+//! The limits of one axis as rows: of the stages of a chain for long motions, and dense.
 //!
 //! Acceleration, velocity and displacement are in units of `size`, `size Δτ` and `size Δτ²`. The limits hold at the
 //! nodes. Between them the velocity is limited at the time of its peak, and so is the displacement, where a motion

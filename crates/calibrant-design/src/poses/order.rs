@@ -1,4 +1,4 @@
-//! The order in which the poses are taken.
+//! The order in which the poses are taken, and what turns and a drift between them add.
 //!
 //! Three things depend on it. A drift of the bias must look like no parameter (`drift`). The turns of an IMU
 //! must determine its gyroscope (`turns`). An accelerometer alone should need little turning. The order

@@ -1,4 +1,4 @@
-//! The problem of the best poses: sensor, number of poses, what is known of their directions.
+//! The problem of the best poses: sensor, number of poses, what is known of their directions, and what they inform of.
 //!
 //! The covariance that a calibration will state: that of the holds, and that of gravity.
 //!

@@ -1,4 +1,4 @@
-//! Random starts of the search.
+//! Where the search starts: at random, from kicked motions, and from the axes of good ones combined.
 //!
 //! The information is convex in the motion, so good motions lie at corners of the admissible region. Every
 //! other start is a modest random motion, from which the search grows along the directions of most

@@ -1,4 +1,4 @@
-//! The motion of a frame, and how a fixed transform passes it on.
+//! The motion of a frame, how a fixed transform passes it on, and what a sensor there takes from it.
 
 use nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
 

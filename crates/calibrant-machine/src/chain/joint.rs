@@ -1,4 +1,4 @@
-//! A joint that moves.
+//! A joint that moves, and what a calibration adds to the chain's nominal dimensions.
 
 use nalgebra::{Isometry3, Unit, Vector3};
 

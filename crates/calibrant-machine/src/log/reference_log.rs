@@ -1,4 +1,4 @@
-//! A log of either kind.
+//! A log of either kind: the joints' positions, or the poses of a body.
 
 use nalgebra::{UnitQuaternion, Vector3};
 

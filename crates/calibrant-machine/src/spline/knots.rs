@@ -1,4 +1,4 @@
-//! Knots at equal distances.
+//! Knots at equal distances, and the weights of the control points between them.
 
 /// Uniform knots: `intervals` intervals of `step_s` from `start_s` on.
 #[derive(Debug, Clone, Copy, PartialEq)]

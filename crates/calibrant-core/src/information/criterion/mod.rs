@@ -16,22 +16,12 @@
 //! # References
 //! `pukelsheim2006`
 
-mod a_optimality;
-mod c_optimality;
-mod d_optimality;
-mod e_optimality;
+mod closed_form;
 mod i_optimality;
-mod m_optimality;
-mod scaling;
-
-pub use a_optimality::AOptimality;
-pub use c_optimality::COptimality;
-pub use d_optimality::DOptimality;
-pub use e_optimality::EOptimality;
-pub use i_optimality::IOptimality;
-pub use m_optimality::MOptimality;
 
 use crate::json_object;
+pub use closed_form::{AOptimality, COptimality, DOptimality, EOptimality, MOptimality};
+pub use i_optimality::IOptimality;
 use nalgebra::{DMatrix, DVector};
 
 /// One of the criteria, for given parameters.

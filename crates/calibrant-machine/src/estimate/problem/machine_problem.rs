@@ -1,4 +1,4 @@
-//! What is to be calibrated on a machine.
+//! What is to be calibrated on a machine, and its unknowns in their order.
 
 use crate::chain::KinematicChain;
 use crate::estimate::MachineQuantity;
