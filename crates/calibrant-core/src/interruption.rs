@@ -39,9 +39,7 @@ impl Interruption {
     pub fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed) || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
-}
 
-impl Interruption {
     /// Ends a task that has nothing to keep.
     ///
     /// # Errors

@@ -235,24 +235,6 @@ impl JerkControlledMotion {
         };
         times_s.iter().map(state).collect()
     }
-
-    /// Velocity at time t, m/s, from rest.
-    #[must_use]
-    pub fn velocity_at(&self, t: f64) -> Vector3<f64> {
-        self.states_at(&[t])[0].velocity_mps
-    }
-
-    /// Displacement at time t, m, from the origin.
-    #[must_use]
-    pub fn displacement_at(&self, t: f64) -> Vector3<f64> {
-        self.states_at(&[t])[0].displacement_m
-    }
-
-    /// Jerk at time t, m/s³. At a node it is the jerk of the interval that begins there.
-    #[must_use]
-    pub fn jerk_at(&self, t: f64) -> Vector3<f64> {
-        self.states_at(&[t])[0].jerk_mps3
-    }
 }
 
 /// The nodes of a motion over the first axes, and what follows from them.
@@ -336,18 +318,19 @@ mod tests {
     fn states_meet_the_nodes_and_are_each_others_derivatives() {
         let nodes = [0.5, 2.0, -1.0, 3.0].map(|a| Vector3::new(a, -a, 2.0 * a)).to_vec();
         let motion = JerkControlledMotion::uniform(0.5, nodes).expect("valid");
+        let at = |t: f64| motion.states_at(&[t])[0];
         for (i, &t) in motion.times_s().iter().enumerate() {
-            assert!((motion.velocity_at(t) - motion.velocity_mps()[i]).amax() < 1e-14);
-            assert!((motion.displacement_at(t) - motion.displacement_m()[i]).amax() < 1e-14);
+            assert!((at(t).velocity_mps - motion.velocity_mps()[i]).amax() < 1e-14);
+            assert!((at(t).displacement_m - motion.displacement_m()[i]).amax() < 1e-14);
         }
         let h = 1e-4;
         for t in [0.1, 0.3, 0.77, 1.2, 1.4] {
-            let slope = (motion.displacement_at(t + h) - motion.displacement_at(t - h)) / (2.0 * h);
-            assert!((slope - motion.velocity_at(t)).amax() < 1e-7, "differences: h² |u|/6");
-            let slope = (motion.velocity_at(t + h) - motion.velocity_at(t - h)) / (2.0 * h);
+            let slope = (at(t + h).displacement_m - at(t - h).displacement_m) / (2.0 * h);
+            assert!((slope - at(t).velocity_mps).amax() < 1e-7, "differences: h² |u|/6");
+            let slope = (at(t + h).velocity_mps - at(t - h).velocity_mps) / (2.0 * h);
             assert!((slope - motion.acceleration_at(t)).amax() < 1e-9);
         }
-        assert_eq!(motion.jerk_at(0.5), motion.jerk_mps3()[1]);
-        assert_eq!(motion.velocity_at(9.0), motion.velocity_at(1.5), "clamped to the end");
+        assert_eq!(at(0.5).jerk_mps3, motion.jerk_mps3()[1]);
+        assert_eq!(at(9.0).velocity_mps, at(1.5).velocity_mps, "clamped to the end");
     }
 }

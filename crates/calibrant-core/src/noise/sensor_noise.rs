@@ -199,7 +199,7 @@ impl SensorNoise {
         }
         let readings = &recording.readings[self.segment.first..self.segment.end];
         let physical: Vec<_> = readings.iter().map(|reading| reading.component_div(gain)).collect();
-        self.axes.iter_mut().for_each(|axis| *axis = axis.scaled(1.0 / gain[axis.axis.index()]));
+        self.axes.iter_mut().for_each(|axis| axis.scale(1.0 / gain[axis.axis.index()]));
         self.unit = self.sensor_kind.stimulus_unit();
         self.gain = Some(*gain);
         self.warnings = self.remarks(&physical);

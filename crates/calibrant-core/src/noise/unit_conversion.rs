@@ -1,70 +1,28 @@
 //! The conversion of noise results to another unit: everything but times and statistics is proportional to
 //! the readings.
 
-use super::{AllanDeviation, AxisNoise, Coefficient, Drift, NoiseFit, NoiseModel, Outliers};
+use super::{AxisNoise, Coefficient, NoiseModel};
 
 impl AxisNoise {
-    /// The noise of the readings times a positive factor.
-    pub(super) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            axis: self.axis,
-            allan: self.allan.scaled(factor),
-            fit: self.fit.scaled(factor),
-            sample_sd: factor * self.sample_sd,
-            outliers: self.outliers.as_ref().map(|outliers| outliers.scaled(factor)),
-        }
-    }
-}
-
-impl Outliers {
-    fn scaled(&self, factor: f64) -> Self {
-        Self {
-            largest: factor * self.largest,
-            white_with_them: self.white_with_them.map(|white| factor * white),
-            ..self.clone()
-        }
-    }
-}
-
-impl AllanDeviation {
-    fn scaled(&self, factor: f64) -> Self {
-        let mut allan = self.clone();
-        for point in &mut allan.points {
-            point.deviation *= factor;
-            point.low *= factor;
-            point.high *= factor;
-        }
-        allan
-    }
-}
-
-impl NoiseFit {
-    fn scaled(&self, factor: f64) -> Self {
-        let of = &self.drift;
-        let drift = Drift { per_s: factor * of.per_s, sd: factor * of.sd, most_sd: factor * of.most_sd };
-        Self { model: self.model.scaled(factor), drift, ..self.clone() }
-    }
-}
-
-impl NoiseModel {
-    fn scaled(&self, factor: f64) -> Self {
-        Self {
-            quantisation: self.quantisation.scaled(factor),
-            random_walk: self.random_walk.scaled(factor),
-            bias_instability: self.bias_instability.scaled(factor),
-            rate_random_walk: self.rate_random_walk.scaled(factor),
-            squares: self.squares.map(|square| factor * factor * square),
-        }
-    }
-}
-
-impl Coefficient {
-    fn scaled(&self, factor: f64) -> Self {
-        match self {
-            Self::Determined(estimate) => Self::Determined(estimate.scaled(factor)),
-            Self::NotDetermined { limit, reason } => {
-                Self::NotDetermined { limit: limit.map(|limit| factor * limit), reason: reason.clone() }
+    /// Multiplies the readings by a positive factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        let NoiseModel { quantisation, random_walk, bias_instability, rate_random_walk, squares } =
+            &mut self.fit.model;
+        for coefficient in [quantisation, random_walk, bias_instability, rate_random_walk] {
+            match coefficient {
+                Coefficient::Determined(estimate) => *estimate = estimate.scaled(factor),
+                Coefficient::NotDetermined { limit, .. } => {
+                    limit.iter_mut().for_each(|limit| *limit *= factor)
+                }
             }
         }
+        squares.iter_mut().for_each(|square| *square *= factor * factor);
+        let points =
+            self.allan.points.iter_mut().flat_map(|at| [&mut at.deviation, &mut at.low, &mut at.high]);
+        let outliers = self.outliers.iter_mut();
+        let outliers = outliers.flat_map(|of| [&mut of.largest].into_iter().chain(&mut of.white_with_them));
+        let drift = &mut self.fit.drift;
+        let others = [&mut self.sample_sd, &mut drift.per_s, &mut drift.sd, &mut drift.most_sd];
+        points.chain(outliers).chain(others).for_each(|value| *value *= factor);
     }
 }

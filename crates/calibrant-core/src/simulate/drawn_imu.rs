@@ -1,12 +1,12 @@
 //! Draws sensors and whole IMUs at random from the datasheet.
 
 use super::Rng;
+use super::recording::normal;
 use crate::sensor::{
     ImuParameters, ImuQuantity, Quantity, Sensor, SensorKind, SensorModel, SensorParameters, Thermal,
     ThermalPart,
 };
 use nalgebra::{Matrix3, Vector3};
-use rand_distr::{Distribution, StandardNormal};
 
 /// Spread of the bias where the datasheet gives none, m/s² and rad/s.
 const BIAS_SD: [f64; 2] = [0.1, 0.02];
@@ -44,10 +44,7 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
         ..accelerometer.clone()
     };
     let of_accelerometer = draw_sensor(&spread, rng);
-    let mut draw = |sd: f64| -> f64 {
-        let z: f64 = StandardNormal.sample(rng);
-        sd * z
-    };
+    let mut draw = |sd: f64| sd * normal(rng);
     let gain = Matrix3::from_diagonal(&gyroscope.gain);
     let bias = gain * Vector3::from_fn(|_, _| draw(BIAS_SD[1]));
     let errors = Matrix3::from_fn(|row, column| {
@@ -82,8 +79,7 @@ pub fn draw_thermal(
             (ThermalPart::Bias, SensorKind::Gyroscope) => GYROSCOPE_BIAS_PER_K * gains[1][term.axis.index()],
             (ThermalPart::Scale, _) => SCALE_PER_K,
         };
-        let z: f64 = StandardNormal.sample(rng);
-        quantity.add_to(imu, first * z / if term.order == 2 { 20.0 } else { 1.0 });
+        quantity.add_to(imu, first * normal(rng) / if term.order == 2 { 20.0 } else { 1.0 });
     }
 }
 
@@ -95,10 +91,7 @@ pub fn draw_known(
     sd: Option<f64>,
     rng: &mut Rng,
 ) {
-    let error = sd.map_or(0.0, |sd| {
-        let z: f64 = StandardNormal.sample(rng);
-        sd * z
-    });
+    let error = sd.map_or(0.0, |sd| sd * normal(rng));
     let before = quantity.value(imu);
     quantity.add_to(imu, value + error - before);
 }
@@ -121,8 +114,7 @@ pub fn draw_sensor(datasheet: &Sensor, rng: &mut Rng) -> SensorParameters {
     let list = datasheet.parameter_list();
     let spreads = list.describe(datasheet, &sensor);
     for (quantity, parameter) in list.quantities().iter().zip(spreads) {
-        let draw: f64 = StandardNormal.sample(rng);
-        Quantity::add_to(*quantity, &mut sensor, draw * parameter.spread.unwrap_or(0.0));
+        Quantity::add_to(*quantity, &mut sensor, normal(rng) * parameter.spread.unwrap_or(0.0));
     }
     sensor
 }

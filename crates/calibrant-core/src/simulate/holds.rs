@@ -1,10 +1,10 @@
 //! Simulated recordings of a sensor: holds in several orientations, with rotations by hand in between.
 
 use super::Rng;
+use super::recording::normal;
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::seq::SliceRandom;
-use rand_distr::{Distribution, StandardNormal};
 
 /// The conditions of the simulation.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ pub fn simulate_holds(
     setup: &HoldsSimulation,
     rng: &mut Rng,
 ) -> (Recording, Vec<Vector3<f64>>) {
-    let mut part = || -> f64 { StandardNormal.sample(rng) };
+    let mut part = || normal(rng);
     let frame = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(part(), part(), part(), part()));
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let mut directions: Vec<Vector3<f64>> = (0..setup.poses)
@@ -57,7 +57,7 @@ pub fn simulate_holds_in(
     setup: &HoldsSimulation,
     rng: &mut Rng,
 ) -> (Recording, Vec<Vector3<f64>>) {
-    let mut normal = || -> f64 { StandardNormal.sample(rng) };
+    let mut normal = || normal(rng);
     let forces: Vec<_> = directions.iter().map(|direction| direction * setup.gravity_mps2).collect();
     let samples = |duration: f64| (duration * setup.rate_hz).round().max(1.0) as usize;
     let (mut times_s, mut readings) = (Vec::new(), Vec::new());

@@ -1,11 +1,11 @@
 //! Simulated recordings of an IMU: holds in several orientations, with rotations by hand in between.
 
 use super::imu_setup::Stimuli;
+use super::recording::normal;
 use super::{ImuSimulation, Rng};
 use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::RngExt;
-use rand_distr::{Distribution, StandardNormal};
 
 /// The recording of an IMU that is turned from each random orientation to the next and held still there. The
 /// axis of each turn wobbles.
@@ -18,7 +18,7 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
     let samples = |duration: f64| (duration * setup.rate_hz).round().max(1.0) as usize;
     let step = 1.0 / setup.rate_hz;
     let up = Vector3::new(0.0, 0.0, setup.gravity_mps2);
-    let random = |rng: &mut Rng| -> Vector3<f64> { Vector3::from_fn(|_, _| StandardNormal.sample(rng)) };
+    let random = |rng: &mut Rng| -> Vector3<f64> { Vector3::from_fn(|_, _| normal(rng)) };
     let mut world_from_sensor = UnitQuaternion::from_scaled_axis(random(rng));
     let mut stimuli = Stimuli::default();
     let mut emit = |attitude: &UnitQuaternion<f64>, rate: Vector3<f64>| {

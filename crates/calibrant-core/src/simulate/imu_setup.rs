@@ -2,9 +2,9 @@
 //! and the stimuli of the motion that they describe.
 
 use super::Rng;
+use super::recording::normal;
 use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording};
 use nalgebra::Vector3;
-use rand_distr::{Distribution, StandardNormal};
 
 /// Duration of a turn by hand from one hold to the next, s.
 pub const TURN_S: f64 = 2.0;
@@ -89,10 +89,7 @@ impl Stimuli {
             return;
         }
         for (start_s, end_s) in holds {
-            let disturbance = Vector3::from_fn(|_, _| {
-                let z: f64 = StandardNormal.sample(rng);
-                sd_mps2 * z
-            });
+            let disturbance = Vector3::from_fn(|_, _| sd_mps2 * normal(rng));
             let first = self.times_s.partition_point(|t| *t < start_s);
             let end = self.times_s.partition_point(|t| *t < end_s);
             self.forces[first..end].iter_mut().for_each(|force| *force += disturbance);
@@ -108,13 +105,7 @@ impl Stimuli {
             .temperature_c
             .map(|[from, to]| samples.clone().map(|k| from + (to - from) * (k as f64 / last)).collect());
         let at = |k: usize| temperature_c.as_ref().map_or(*imu, |temperature| imu.at(temperature[k]));
-        let mut noisy = |reading: Vector3<f64>, sd: f64| {
-            reading
-                + Vector3::from_fn(|_, _| {
-                    let z: f64 = StandardNormal.sample(rng);
-                    sd * z
-                })
-        };
+        let mut noisy = |reading: Vector3<f64>, sd: f64| reading + Vector3::from_fn(|_, _| sd * normal(rng));
         let accelerometer: Vec<_> = samples
             .clone()
             .map(|k| noisy(at(k).accelerometer.reading(&self.forces[k]), setup.accelerometer_noise))

@@ -84,7 +84,8 @@ pub fn simulate_recording(
     Recording { times_s: times_s.to_vec(), readings, axes, unit }
 }
 
-fn normal(rng: &mut Rng) -> f64 {
+/// A number of the normal distribution of mean 0 and variance 1.
+pub(super) fn normal(rng: &mut Rng) -> f64 {
     StandardNormal.sample(rng)
 }
 
@@ -102,7 +103,7 @@ pub struct TrueGravity {
 /// Draws a tilt and a magnitude, and turns gravity by the tilt: exactly, not to first order.
 #[must_use]
 pub fn draw_gravity(gravity: &MotionGravity, rng: &mut Rng) -> TrueGravity {
-    let mut normal = || -> f64 { StandardNormal.sample(rng) };
+    let mut normal = || normal(rng);
     let up = gravity.force_mps2.normalize();
     let any = Vector3::new(normal(), normal(), normal());
     let tilt_rad = (any - up * up.dot(&any)) * gravity.tilt_sd_rad;

@@ -1,10 +1,10 @@
 //! Simulated recordings of an IMU on a table: put down on faces, turned by known angles.
 
 use super::imu_setup::Stimuli;
+use super::recording::normal;
 use super::{ImuSimulation, Rng};
 use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
-use rand_distr::{Distribution, StandardNormal};
 
 /// The recording begins and ends this long before and after the listed steps, s.
 const MARGIN_S: f64 = 1.0;
@@ -52,7 +52,7 @@ pub fn simulate_table(
     let from_s = steps.first().map_or(0.0, |step| step.start_s).min(MARGIN_S) - MARGIN_S;
     let until_s = steps.last().map_or(0.0, |step| step.end_s) + MARGIN_S;
     let samples = ((until_s - from_s) / step_s).round() as usize;
-    let mut normal = || -> f64 { StandardNormal.sample(rng) };
+    let mut normal = || normal(rng);
     let up = Vector3::new(0.0, 0.0, setup.gravity_mps2);
     // attitudes: where each step starts and ends
     let mut world_from_sensor = first_face(steps);

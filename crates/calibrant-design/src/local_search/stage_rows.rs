@@ -263,8 +263,8 @@ mod tests {
             let form = region.state(i, s);
             let at = |form: &[f64]| form.iter().zip(&a).map(|(c, a)| c * a).sum::<f64>();
             let t = 0.5 * i as f64 + s;
-            assert!((at(&form.velocity) - motion.velocity_at(t).x).abs() < 1e-14);
-            assert!((at(&form.displacement) - motion.displacement_at(t).x).abs() < 1e-14);
+            assert!((at(&form.velocity) - motion.states_at(&[t])[0].velocity_mps.x).abs() < 1e-14);
+            assert!((at(&form.displacement) - motion.states_at(&[t])[0].displacement_m.x).abs() < 1e-14);
         }
     }
 

@@ -19,9 +19,9 @@
 //! ```
 
 use crate::estimate::noise::Posterior;
-use crate::estimate::problem::{AXES, Layout};
+use crate::estimate::problem::Layout;
 use crate::estimate::{BudgetRow, MachineParameters, MachineQuantity, MachineTrust, Source};
-use calibrant_core::sensor::{ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Fewest blocks that tell a variance.
@@ -162,7 +162,7 @@ pub(crate) fn of_mounting(
     let n = layout.len();
     let mut products = DMatrix::zeros(n, n);
     let place = |quantity| layout.quantities.iter().position(|of| *of == quantity);
-    let [Some(x), Some(y), Some(z)] = AXES.map(|axis| place(MachineQuantity::Mounting(axis))) else {
+    let [Some(x), Some(y), Some(z)] = Axis::ALL.map(|axis| place(MachineQuantity::Mounting(axis))) else {
         return products;
     };
     let places = [x, y, z];

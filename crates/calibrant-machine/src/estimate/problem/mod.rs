@@ -7,5 +7,5 @@ mod quantity;
 pub use machine_problem::{MachineProblem, MachineSettings, MachineSetup, MachineTrust, MountingPrior};
 pub(crate) use machine_problem::{refused, unsolved};
 pub use parameters::MachineParameters;
-pub(crate) use parameters::{AXES, Layout, TiltedGravity, place};
+pub(crate) use parameters::{Layout, TiltedGravity, place};
 pub use quantity::{MachineQuantity, Source};

@@ -133,9 +133,6 @@ impl TiltedGravity {
     }
 }
 
-/// The axes, for lists of quantities.
-pub(crate) const AXES: [Axis; 3] = Axis::ALL;
-
 /// The unknowns, and the information of their priors.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
@@ -156,8 +153,8 @@ impl Layout {
     ) -> Self {
         let joints = 0..nominal.corrections.joints.len();
         let mut quantities: Vec<MachineQuantity> = imu.iter().map(|of| MachineQuantity::Imu(*of)).collect();
-        quantities.extend(AXES.map(MachineQuantity::Lever));
-        quantities.extend(AXES.map(MachineQuantity::Mounting));
+        quantities.extend(Axis::ALL.map(MachineQuantity::Lever));
+        quantities.extend(Axis::ALL.map(MachineQuantity::Mounting));
         quantities.extend([0, 1].map(MachineQuantity::Tilt));
         quantities.push(MachineQuantity::Gravity);
         quantities.extend(sensors.iter().map(|&sensor| MachineQuantity::Delay(sensor)));
