@@ -34,15 +34,7 @@ pub struct Applied<'a> {
 /// let mut parameters = ImuParameters::identity();
 /// parameters.accelerometer.bias.x = 0.1;
 /// let unit = ReadingUnit::MetrePerSecondSquared;
-/// let imu = CalibratedImu {
-///     parameters,
-///     accelerometer_unit: Some(unit),
-///     gyroscope_unit: None,
-///     quantities: vec![],
-///     covariance: None,
-///     degrees_of_freedom: None,
-///     frame: String::new(),
-/// };
+/// let imu = CalibratedImu::new(parameters, [Some(unit), None], vec![], "");
 /// let readings = vec![Vector3::new(0.3, 0.0, 9.8); 2];
 /// let recording = Recording::new(vec![0.0, 0.01], readings, 3, unit)?.into();
 /// let applied = calibrant::apply(&imu, &recording)?;

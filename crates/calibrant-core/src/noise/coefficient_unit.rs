@@ -35,44 +35,31 @@ pub fn coefficient_units(
     process: PowerLaw,
     readings: ReadingUnit,
 ) -> Vec<CoefficientUnit> {
-    let unit = |symbol, factor| CoefficientUnit { symbol, factor };
+    let (g, hour) = (STANDARD_GRAVITY_MPS2, HOUR_S.sqrt());
     let degrees = 1_f64.to_degrees();
-    let g = STANDARD_GRAVITY_MPS2;
-    if readings == ReadingUnit::Counts {
-        let symbol = match process {
-            PowerLaw::Quantisation => "counts·s",
-            PowerLaw::White => "counts/√Hz",
-            PowerLaw::Flicker => "counts",
-            PowerLaw::RandomWalk => "counts/√s",
-        };
-        return vec![unit(symbol, 1.0)];
-    }
-    match (sensor_kind, process) {
-        (SensorKind::Accelerometer, PowerLaw::Quantisation) => vec![unit("m/s", 1.0)],
-        (SensorKind::Accelerometer, PowerLaw::White) => {
-            vec![unit("m/s²/√Hz", 1.0), unit("µg/√Hz", 1e6 / g), unit("m/s/√h", HOUR_S.sqrt())]
+    let units: &[(&'static str, f64)] = match (readings, sensor_kind, process) {
+        (ReadingUnit::Counts, _, PowerLaw::Quantisation) => &[("counts·s", 1.0)],
+        (ReadingUnit::Counts, _, PowerLaw::White) => &[("counts/√Hz", 1.0)],
+        (ReadingUnit::Counts, _, PowerLaw::Flicker) => &[("counts", 1.0)],
+        (ReadingUnit::Counts, _, PowerLaw::RandomWalk) => &[("counts/√s", 1.0)],
+        (_, SensorKind::Accelerometer, PowerLaw::Quantisation) => &[("m/s", 1.0)],
+        (_, SensorKind::Accelerometer, PowerLaw::White) => {
+            &[("m/s²/√Hz", 1.0), ("µg/√Hz", 1e6 / g), ("m/s/√h", hour)]
         }
-        (SensorKind::Accelerometer, PowerLaw::Flicker) => vec![unit("m/s²", 1.0), unit("mg", 1e3 / g)],
-        (SensorKind::Accelerometer, PowerLaw::RandomWalk) => {
-            vec![unit("m/s²/√s", 1.0), unit("mg/√h", 1e3 / g * HOUR_S.sqrt())]
+        (_, SensorKind::Accelerometer, PowerLaw::Flicker) => &[("m/s²", 1.0), ("mg", 1e3 / g)],
+        (_, SensorKind::Accelerometer, PowerLaw::RandomWalk) => {
+            &[("m/s²/√s", 1.0), ("mg/√h", 1e3 / g * hour)]
         }
-        (SensorKind::Gyroscope, PowerLaw::Quantisation) => {
-            vec![unit("rad", 1.0), unit("arcsec", degrees * HOUR_S)]
+        (_, SensorKind::Gyroscope, PowerLaw::Quantisation) => &[("rad", 1.0), ("arcsec", degrees * HOUR_S)],
+        (_, SensorKind::Gyroscope, PowerLaw::White) => {
+            &[("rad/s/√Hz", 1.0), ("(deg/s)/√Hz", degrees), ("deg/√h", degrees * hour)]
         }
-        (SensorKind::Gyroscope, PowerLaw::White) => {
-            vec![
-                unit("rad/s/√Hz", 1.0),
-                unit("(deg/s)/√Hz", degrees),
-                unit("deg/√h", degrees * HOUR_S.sqrt()),
-            ]
+        (_, SensorKind::Gyroscope, PowerLaw::Flicker) => &[("rad/s", 1.0), ("deg/h", degrees * HOUR_S)],
+        (_, SensorKind::Gyroscope, PowerLaw::RandomWalk) => {
+            &[("rad/s/√s", 1.0), ("deg/h/√h", degrees * HOUR_S * hour)]
         }
-        (SensorKind::Gyroscope, PowerLaw::Flicker) => {
-            vec![unit("rad/s", 1.0), unit("deg/h", degrees * HOUR_S)]
-        }
-        (SensorKind::Gyroscope, PowerLaw::RandomWalk) => {
-            vec![unit("rad/s/√s", 1.0), unit("deg/h/√h", degrees * HOUR_S * HOUR_S.sqrt())]
-        }
-    }
+    };
+    units.iter().map(|&(symbol, factor)| CoefficientUnit { symbol, factor }).collect()
 }
 
 #[cfg(test)]

@@ -141,6 +141,20 @@ pub(super) fn covariance(imu: &CalibratedImu) -> Option<EntryMatrix> {
     Some(EntryMatrix::from_fn(|i, j| 0.5 * (entries[(i, j)] + entries[(j, i)])))
 }
 
+/// Covariance of these quantities after a change of the entries with this derivative. The first entry of a
+/// quantity gives its value: both entries of a symmetric pair are the same.
+pub(super) fn transformed(
+    imu: &CalibratedImu,
+    jacobian: impl FnOnce() -> EntryMatrix,
+    quantities: &[ImuQuantity],
+) -> Option<DMatrix<f64>> {
+    let (sigma, jacobian) = (covariance(imu)?, jacobian());
+    let sigma = jacobian * sigma * jacobian.transpose();
+    let place: Vec<usize> = quantities.iter().map(|&quantity| of_quantity(quantity).imax()).collect();
+    let symmetric = |i: usize, j: usize| 0.5 * (sigma[(i, j)] + sigma[(j, i)]);
+    Some(DMatrix::from_fn(place.len(), place.len(), |i, j| symmetric(place[i], place[j])))
+}
+
 impl ImuQuantity {
     /// Every quantity of a full model, in the order of a result. Each sensor that is there has its bias,
     /// scale factors and cross-axis sensitivities. The g-sensitivity follows.

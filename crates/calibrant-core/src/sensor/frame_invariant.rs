@@ -200,15 +200,8 @@ impl CalibratedImu {
     /// # Examples
     /// ```
     /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ReadingUnit};
-    /// let imu = CalibratedImu {
-    ///     parameters: ImuParameters::identity(),
-    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-    ///     gyroscope_unit: None,
-    ///     quantities: vec![],
-    ///     covariance: None,
-    ///     degrees_of_freedom: None,
-    ///     frame: String::new(),
-    /// };
+    /// let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
+    /// let imu = CalibratedImu::new(ImuParameters::identity(), units, vec![], "");
     /// let angle = imu.invariants()[6];
     /// assert_eq!(angle.invariant.name(), "accelerometer.angle.xy");
     /// assert!((angle.value.to_degrees() - 90.0).abs() < 1e-12);

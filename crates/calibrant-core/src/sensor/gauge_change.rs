@@ -13,7 +13,7 @@
 use super::entry_vector::{self, EntryMatrix};
 use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorModel};
 use crate::error::{Error, InputError, Refusal, Result};
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// `S R` in a gauge, and `R`.
 struct RotatedImu {
@@ -171,15 +171,8 @@ impl CalibratedImu {
     /// use calibrant_core::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit};
     /// let mut parameters = ImuParameters::identity();
     /// parameters.accelerometer.matrix[(0, 1)] = 0.01;
-    /// let imu = CalibratedImu {
-    ///     parameters,
-    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-    ///     gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
-    ///     quantities: ImuQuantity::full_list(true, true, false),
-    ///     covariance: None,
-    ///     degrees_of_freedom: None,
-    ///     frame: "upper gauge".into(),
-    /// };
+    /// let units = [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)];
+    /// let imu = CalibratedImu::new(parameters, units, ImuQuantity::full_list(true, true, false), "upper gauge");
     /// let lower = imu.in_gauge(Gauge::Lower)?.parameters;
     /// assert_eq!(lower.accelerometer.matrix[(0, 1)], 0.0);
     /// assert!((lower.gyroscope.matrix[(1, 0)] - 0.01).abs() < 1e-4, "the gyroscope rotated with it");
@@ -196,16 +189,7 @@ impl CalibratedImu {
     pub fn in_gauge_of(&self, reference: SensorKind, gauge: Gauge) -> Result<Self> {
         let rotated = RotatedImu::new(&self.parameters, reference, gauge)?;
         let quantities = self.rotated_quantities(&rotated);
-        let covariance = entry_vector::covariance(self).map(|sigma| {
-            let jacobian = rotated.jacobian();
-            let sigma = jacobian * sigma * jacobian.transpose();
-            // the first entry of a quantity gives its value: both entries of a symmetric pair are the same
-            let place: Vec<usize> =
-                quantities.iter().map(|&quantity| entry_vector::of_quantity(quantity).imax()).collect();
-            DMatrix::from_fn(place.len(), place.len(), |i, j| {
-                0.5 * (sigma[(place[i], place[j])] + sigma[(place[j], place[i])])
-            })
-        });
+        let covariance = entry_vector::transformed(self, || rotated.jacobian(), &quantities);
         Ok(Self {
             parameters: rotated.imu,
             quantities,
@@ -273,6 +257,7 @@ pub(super) mod tests {
     use super::*;
     use crate::sensor::entry_vector::ENTRIES;
     use crate::sensor::{ReadingUnit, SensorParameters, Thermal};
+    use nalgebra::DMatrix;
 
     /// An IMU in counts with everything in it.
     pub(in crate::sensor) fn imu() -> CalibratedImu {

@@ -281,6 +281,26 @@ pub struct CalibratedImu {
 }
 
 impl CalibratedImu {
+    /// An IMU without a covariance, from the units of accelerometer and gyroscope and its frame in words.
+    #[must_use]
+    pub fn new(
+        parameters: ImuParameters,
+        [accelerometer_unit, gyroscope_unit]: [Option<ReadingUnit>; 2],
+        quantities: Vec<ImuQuantity>,
+        frame: impl Into<String>,
+    ) -> Self {
+        let (covariance, degrees_of_freedom, frame) = (None, None, frame.into());
+        Self {
+            parameters,
+            accelerometer_unit,
+            gyroscope_unit,
+            quantities,
+            covariance,
+            degrees_of_freedom,
+            frame,
+        }
+    }
+
     /// Unit of a sensor's readings; `None` where it was not calibrated.
     #[must_use]
     pub fn unit(&self, sensor_kind: SensorKind) -> Option<ReadingUnit> {

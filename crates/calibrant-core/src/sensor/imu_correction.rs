@@ -24,15 +24,7 @@ use std::sync::Arc;
 /// use nalgebra::Vector3;
 /// let mut parameters = ImuParameters::identity();
 /// parameters.accelerometer.bias = Vector3::new(0.1, 0.0, 0.0);
-/// let imu = CalibratedImu {
-///     parameters,
-///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-///     gyroscope_unit: None,
-///     quantities: vec![],
-///     covariance: None,
-///     degrees_of_freedom: None,
-///     frame: String::new(),
-/// };
+/// let imu = CalibratedImu::new(parameters, [Some(ReadingUnit::MetrePerSecondSquared), None], vec![], "");
 /// let correction = ImuCorrection::of(&imu)?;
 /// let force = correction.force(&Vector3::new(0.3, 0.0, 9.8)).expect("has an accelerometer");
 /// assert!((force.x - 0.2).abs() < 1e-15);

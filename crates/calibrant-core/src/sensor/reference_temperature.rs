@@ -11,7 +11,7 @@ use super::{
     ThermalPart, ThermalTerm, entry_vector,
 };
 use crate::error::{Error, InputError, Refusal, Result};
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// A matrix is symmetric where no entry differs from its counterpart by more than this share of the largest.
 const SYMMETRIC: f64 = 1e-12;
@@ -100,15 +100,8 @@ impl CalibratedImu {
     /// let mut parameters = ImuParameters::identity();
     /// parameters.thermal.reference_c = 20.0;
     /// parameters.thermal.accelerometer.bias = [[0.01, 0.0, 0.0].into(), [0.001, 0.0, 0.0].into()];
-    /// let imu = CalibratedImu {
-    ///     parameters,
-    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-    ///     gyroscope_unit: None,
-    ///     quantities: vec![],
-    ///     covariance: None,
-    ///     degrees_of_freedom: None,
-    ///     frame: String::new(),
-    /// };
+    /// let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
+    /// let imu = CalibratedImu::new(parameters, units, vec![], "");
     /// let warm = imu.at_reference_temperature(30.0)?.parameters;
     /// assert!((warm.accelerometer.bias.x - 0.2).abs() < 1e-15);
     /// assert!((warm.thermal.accelerometer.bias[0].x - 0.03).abs() < 1e-15);
@@ -121,14 +114,7 @@ impl CalibratedImu {
         let converted = AtReference::new(&self.parameters, reference_c)?;
         let jacobian = converted.jacobian();
         let quantities = self.referred_quantities(&jacobian);
-        let covariance = entry_vector::covariance(self).map(|sigma| {
-            let sigma = jacobian * sigma * jacobian.transpose();
-            let place: Vec<usize> =
-                quantities.iter().map(|&quantity| entry_vector::of_quantity(quantity).imax()).collect();
-            DMatrix::from_fn(place.len(), place.len(), |i, j| {
-                0.5 * (sigma[(place[i], place[j])] + sigma[(place[j], place[i])])
-            })
-        });
+        let covariance = entry_vector::transformed(self, || jacobian, &quantities);
         let frame = self.referred_frame(&converted.after);
         Ok(Self { parameters: converted.after, quantities, covariance, frame, ..*self })
     }
@@ -263,6 +249,7 @@ pub(super) mod tests {
     use crate::sensor::entry_vector::ENTRIES;
     use crate::sensor::gauge_change::tests::imu;
     use crate::sensor::{Condition, ReadingUnit};
+    use nalgebra::DMatrix;
     use nalgebra::Vector3;
 
     /// The IMU of the gauge tests with terms of every kind.

@@ -49,41 +49,31 @@ impl LimitKind {
     /// Its key in `[limits]`.
     #[must_use]
     pub fn key(self) -> &'static str {
-        match self {
-            Self::Acceleration => "acceleration_mps2",
-            Self::Jerk => "jerk_mps3",
-            Self::Intercept => "intercept_mps2",
-            Self::Velocity => "velocity_mps",
-            Self::Displacement => "displacement_m",
-            Self::RestAtEnd => "rest",
-            Self::StartAcceleration => "start_acceleration_mps2",
-            Self::EndAcceleration => "end_acceleration_mps2",
-        }
+        self.words()[0]
     }
 
     /// In words: `acceleration`, `rest at the end`.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Acceleration => "acceleration",
-            Self::Jerk => "jerk",
-            Self::Intercept => "intercept",
-            Self::Velocity => "velocity",
-            Self::Displacement => "displacement",
-            Self::RestAtEnd => "rest at the end",
-            Self::StartAcceleration => "acceleration at the start",
-            Self::EndAcceleration => "acceleration at the end",
-        }
+        self.words()[1]
     }
 
     /// Unit of its values: `m/s²`.
     #[must_use]
     pub fn unit(self) -> &'static str {
+        self.words()[2]
+    }
+
+    fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Jerk => "m/s³",
-            Self::Velocity | Self::RestAtEnd => "m/s",
-            Self::Displacement => "m",
-            _ => "m/s²",
+            Self::Acceleration => ["acceleration_mps2", "acceleration", "m/s²"],
+            Self::Jerk => ["jerk_mps3", "jerk", "m/s³"],
+            Self::Intercept => ["intercept_mps2", "intercept", "m/s²"],
+            Self::Velocity => ["velocity_mps", "velocity", "m/s"],
+            Self::Displacement => ["displacement_m", "displacement", "m"],
+            Self::RestAtEnd => ["rest", "rest at the end", "m/s"],
+            Self::StartAcceleration => ["start_acceleration_mps2", "acceleration at the start", "m/s²"],
+            Self::EndAcceleration => ["end_acceleration_mps2", "acceleration at the end", "m/s²"],
         }
     }
 }

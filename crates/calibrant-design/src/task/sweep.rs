@@ -46,43 +46,31 @@ impl SweepVariable {
     /// In words: `duration`.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Duration => "duration",
-            Self::Acceleration => "acceleration",
-            Self::Jerk => "jerk",
-            Self::Intercept => "intercept",
-            Self::Velocity => "velocity",
-            Self::Displacement => "displacement",
-            Self::Rate => "rate",
-            Self::Noise => "noise",
-        }
+        self.words()[0]
     }
 
     /// As in files, with its unit: `duration_s`, `limits.velocity_mps`.
     #[must_use]
     pub fn key(self) -> &'static str {
-        match self {
-            Self::Duration => "duration_s",
-            Self::Acceleration => "limits.acceleration_mps2",
-            Self::Jerk => "limits.jerk_mps3",
-            Self::Intercept => "limits.intercept_mps2",
-            Self::Velocity => "limits.velocity_mps",
-            Self::Displacement => "limits.displacement_m",
-            Self::Rate => "rate_hz",
-            Self::Noise => "noise_mps2",
-        }
+        self.words()[1]
     }
 
     /// Its unit, for people: `s`, `m/s`.
     #[must_use]
     pub fn unit(self) -> &'static str {
+        self.words()[2]
+    }
+
+    fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Duration => "s",
-            Self::Acceleration | Self::Intercept | Self::Noise => "m/s²",
-            Self::Jerk => "m/s³",
-            Self::Velocity => "m/s",
-            Self::Displacement => "m",
-            Self::Rate => "Hz",
+            Self::Duration => ["duration", "duration_s", "s"],
+            Self::Acceleration => ["acceleration", "limits.acceleration_mps2", "m/s²"],
+            Self::Jerk => ["jerk", "limits.jerk_mps3", "m/s³"],
+            Self::Intercept => ["intercept", "limits.intercept_mps2", "m/s²"],
+            Self::Velocity => ["velocity", "limits.velocity_mps", "m/s"],
+            Self::Displacement => ["displacement", "limits.displacement_m", "m"],
+            Self::Rate => ["rate", "rate_hz", "Hz"],
+            Self::Noise => ["noise", "noise_mps2", "m/s²"],
         }
     }
 

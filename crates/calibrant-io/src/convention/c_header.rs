@@ -179,15 +179,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let terms = ImuQuantity::all_thermal(units[0].is_some(), units[1].is_some());
     quantities.extend(terms.into_iter().filter(|term| term.value(&parameters) != 0.0));
     let frame = text.lines().find_map(|line| line.strip_prefix(" * frame: ")).unwrap_or("not said");
-    let imu = CalibratedImu {
-        parameters,
-        accelerometer_unit: units[0],
-        gyroscope_unit: units[1],
-        quantities,
-        covariance: None,
-        degrees_of_freedom: None,
-        frame: frame.trim().into(),
-    };
+    let imu = CalibratedImu::new(parameters, units, quantities, frame.trim());
     Ok(CalibratedImuFile {
         imu,
         noise: None,

@@ -187,15 +187,12 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     } else {
         parameters.gyroscope = sensor;
     }
-    let imu = CalibratedImu {
+    let imu = CalibratedImu::new(
         parameters,
-        accelerometer_unit: accelerometer.then_some(unit),
-        gyroscope_unit: (!accelerometer).then_some(unit),
-        quantities: ImuQuantity::full_list(accelerometer, !accelerometer, false),
-        covariance: None,
-        degrees_of_freedom: None,
-        frame: frame.unwrap_or_else(|| "imu_tk's: that of its accelerometer, z along its z axis".into()),
-    };
+        [accelerometer.then_some(unit), (!accelerometer).then_some(unit)],
+        ImuQuantity::full_list(accelerometer, !accelerometer, false),
+        frame.unwrap_or_else(|| "imu_tk's: that of its accelerometer, z along its z axis".into()),
+    );
     Ok(CalibratedImuFile {
         imu,
         noise: None,

@@ -165,15 +165,12 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     };
     let frame =
         fields.comment.as_deref().and_then(|comment| comment.split_once("frame: ")).map(|(_, frame)| frame);
-    let imu = CalibratedImu {
+    let imu = CalibratedImu::new(
         parameters,
-        accelerometer_unit: Some(acc_unit),
-        gyroscope_unit: Some(gyr_unit),
-        quantities: ImuQuantity::full_list(true, true, true),
-        covariance: None,
-        degrees_of_freedom: None,
-        frame: frame.unwrap_or("imucal's: that of the faces on which the device was put").into(),
-    };
+        [Some(acc_unit), Some(gyr_unit)],
+        ImuQuantity::full_list(true, true, true),
+        frame.unwrap_or("imucal's: that of the faces on which the device was put"),
+    );
     Ok(CalibratedImuFile { imu, noise: None, inputs: Vec::new(), format: ImuFormat::Imucal, findings })
 }
 

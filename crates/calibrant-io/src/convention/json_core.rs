@@ -101,15 +101,8 @@ impl ImuCore {
         if let Some(temperature) = self.temperature {
             parameters.thermal = temperature.into_thermal(units)?;
         }
-        let mut imu = CalibratedImu {
-            parameters,
-            accelerometer_unit: units[0],
-            gyroscope_unit: units[1],
-            quantities: Vec::new(),
-            covariance: None,
-            degrees_of_freedom: None,
-            frame: self.frame.ok_or_else(|| missing("frame"))?,
-        };
+        let mut imu =
+            CalibratedImu::new(parameters, units, vec![], self.frame.ok_or_else(|| missing("frame"))?);
         let listed = self.parameters.ok_or_else(|| missing("parameters"))?;
         let names: Vec<_> = listed.iter().filter_map(|parameter| parameter.name.clone()).collect();
         let symmetric = self.gauge.as_deref() == Some(Gauge::Symmetric.name());

@@ -228,15 +228,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         ImuQuantity::Of(sensor_kind, Quantity::Bias(_)) => stated_biases[*sensor_kind as usize].is_some(),
         _ => true,
     });
-    let imu = CalibratedImu {
-        parameters,
-        accelerometer_unit,
-        gyroscope_unit,
-        quantities,
-        covariance: None,
-        degrees_of_freedom: None,
-        frame,
-    };
+    let imu = CalibratedImu::new(parameters, [accelerometer_unit, gyroscope_unit], quantities, frame);
     Ok(CalibratedImuFile { imu, noise, inputs: Vec::new(), format: ImuFormat::Kalibr, findings })
 }
 

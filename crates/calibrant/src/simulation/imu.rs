@@ -120,14 +120,6 @@ pub(super) fn in_gauge(
     [a, g]: [ReadingUnit; 2],
     gauge: Gauge,
 ) -> Result<ImuParameters> {
-    let imu = CalibratedImu {
-        parameters: *drawn,
-        accelerometer_unit: Some(a),
-        gyroscope_unit: Some(g),
-        quantities: Vec::new(),
-        covariance: None,
-        degrees_of_freedom: None,
-        frame: String::new(),
-    };
+    let imu = CalibratedImu::new(*drawn, [Some(a), Some(g)], vec![], "");
     Ok(imu.in_gauge_of(SensorKind::Accelerometer, gauge)?.parameters)
 }
