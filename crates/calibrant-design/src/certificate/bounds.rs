@@ -7,8 +7,9 @@
 //! lets the acceleration swing, and how far the displacement limit lets it go. The bounds scale every unknown
 //! of the relaxation, and a tight scale is half of a tight relaxation.
 
-use super::dual_bound::{MomentProgram, Patience, Row};
+use super::dual_bound::{MomentProgram, Patience};
 use crate::Interruption;
+use crate::convex::Row;
 use calibrant_core::motion::{AxisLimits, IntervalSums, Rest};
 use rayon::prelude::*;
 

@@ -14,17 +14,11 @@
 //! `jansson2008`
 
 use crate::Interruption;
+use crate::convex::{Row, conditions};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::DMatrix;
 use std::ops::Range;
-
-/// `constant + Σ coefficient · y_column`.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Row {
-    pub(super) constant: f64,
-    pub(super) terms: Vec<(usize, f64)>,
-}
 
 /// Maximise `constant + cᵀy` over `|y_j| ≤ 1`, subject to rows that are zero, rows that are not negative, and
 /// positive semidefinite symmetric matrices.
@@ -80,7 +74,12 @@ impl MomentProgram {
         if patience.interruption.is_asked() {
             return None;
         }
-        let (a, b, cones) = self.standard_form();
+        let rows: Vec<&Row> = self.zero.iter().chain(&self.nonnegative).collect();
+        let (a, b) = conditions(&rows, self.columns);
+        let cones = [
+            SupportedConeT::ZeroConeT(self.zero.len()),
+            SupportedConeT::NonnegativeConeT(self.nonnegative.len()),
+        ];
         let mut q = vec![0.0; self.columns];
         for &(column, coefficient) in &objective.terms {
             q[column] -= coefficient;
@@ -147,25 +146,6 @@ impl MomentProgram {
         let correction = remains.iter().sum::<f64>() + ROUNDING * (size + value.abs());
         let solved = correction <= NEAR_ENOUGH * value.abs();
         DualBound { value: value + correction, correction, solved }
-    }
-
-    /// `A y + s = b`, s in the cones: zero, then not negative.
-    fn standard_form(&self) -> (CscMatrix<f64>, Vec<f64>, Vec<SupportedConeT<f64>>) {
-        let (mut rows, mut columns, mut values, mut b) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        for row in self.zero.iter().chain(&self.nonnegative) {
-            for &(column, coefficient) in &row.terms {
-                rows.push(b.len());
-                columns.push(column);
-                values.push(-coefficient);
-            }
-            b.push(row.constant);
-        }
-        let cones = vec![
-            SupportedConeT::ZeroConeT(self.zero.len()),
-            SupportedConeT::NonnegativeConeT(self.nonnegative.len()),
-        ];
-        let a = CscMatrix::new_from_triplets(b.len(), self.columns, rows, columns, values);
-        (a, b, cones)
     }
 
     /// Moves z into the dual cone.

@@ -22,9 +22,10 @@
 //! `lasserre2001`, `waki2006`
 
 use super::bounds::StateBounds;
-use super::dual_bound::{MomentProgram, Row};
+use super::dual_bound::MomentProgram;
 use super::polynomial::{Monomial, Polynomial, VARIABLES, degree, monomials};
 use super::{AxisChain, States};
+use crate::convex::Row;
 use calibrant_core::motion::Rest;
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,12 +1,13 @@
 //! Tests of the certificate: its bounds against exact optima, random motions and the reference cases.
 
 use super::bounds::StateBounds;
-use super::dual_bound::{MomentProgram, Patience, Row};
+use super::dual_bound::{MomentProgram, Patience};
 use super::moment_relaxation::ChainPart;
 use super::moment_solver;
 use super::motion_variance::{self, BoundKind, MotionVarianceBound};
 use super::*;
 use crate::Interruption;
+use crate::convex::Row;
 use calibrant_core::motion::{AxisLimits, IntervalSums, Rest};
 use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::DMatrix;

@@ -36,6 +36,20 @@ impl Row {
     }
 }
 
+/// `A` and `b` of `A x + s = b`, where s are these rows.
+pub(crate) fn conditions(rows: &[&Row], variables: usize) -> (CscMatrix<f64>, Vec<f64>) {
+    let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, row) in rows.iter().enumerate() {
+        for &(variable, value) in &row.terms {
+            i.push(number);
+            j.push(variable);
+            v.push(-value);
+        }
+    }
+    let a = CscMatrix::new_from_triplets(rows.len(), variables, i, j, v);
+    (a, rows.iter().map(|row| row.constant).collect())
+}
+
 /// The program.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ConicProgram {
@@ -117,16 +131,7 @@ impl ConicProgram {
             cones.push(SupportedConeT::SecondOrderConeT(3));
             rows.extend(cone);
         }
-        let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
-        for (number, row) in rows.iter().enumerate() {
-            for &(variable, value) in &row.terms {
-                i.push(number);
-                j.push(variable);
-                v.push(-value);
-            }
-        }
-        let a = CscMatrix::new_from_triplets(rows.len(), n, i, j, v);
-        let b: Vec<f64> = rows.iter().map(|row| row.constant).collect();
+        let (a, b) = conditions(&rows, n);
         let (at, weights): (Vec<_>, Vec<_>) = self.quadratic.iter().copied().unzip();
         let p = CscMatrix::new_from_triplets(n, n, at.clone(), at, weights);
         let mut q = vec![0.0; n];

@@ -9,5 +9,5 @@ mod eigenvalue_cone;
 pub(crate) use active_set::{Active, ActiveSet, LinearRow, Side};
 pub(crate) use chain_factor::{ChainFactor, Stage, StageWeight, Transition};
 pub(crate) use chain_program::{Chain, ChainProgram, Form, StageRow, Stages};
-pub(crate) use conic_program::{ConicProgram, Row};
+pub(crate) use conic_program::{ConicProgram, Row, conditions};
 pub(crate) use eigenvalue_cone::{AffineMatrix, Cone, ConeStep, Scaling, triangle};

@@ -17,7 +17,8 @@
 mod chain;
 mod cone;
 
-use super::dual_bound::{DualBound, MomentProgram, Patience, Row};
+use super::dual_bound::{DualBound, MomentProgram, Patience};
+use crate::convex::Row;
 use chain::{ChainFactor, Coupling, Factored};
 use cone::{Block, Rows};
 use nalgebra::{DMatrix, DVector};
