@@ -9,8 +9,10 @@ mod problem;
 mod result;
 mod validation;
 
-pub(crate) use begin::{ReferenceFit, fitted};
+pub use begin::MotionOfLog;
+pub(crate) use begin::fitted;
 pub use calibrate::calibrate_on_machine;
+pub(crate) use least_squares::predicted;
 pub(crate) use problem::TiltedGravity;
 pub use problem::{
     MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,

@@ -2,7 +2,7 @@
 
 use super::drawn_motion::any_rotation;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineSetup, MountingPrior};
-use calibrant_core::sensor::{Axis, ImuParameters, SensorKind};
+use calibrant_core::sensor::{ImuParameters, SensorKind};
 use calibrant_core::simulate::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -33,7 +33,7 @@ pub fn draw_machine(
     let common_s = setup.delay_sd_s * normal();
     let half_s = if sensors.len() > 1 { 0.5 * setup.delay_difference_sd_s * normal() } else { 0.0 };
     let mut quantities = Vec::new();
-    for quantity in of_machine(sensors, joints) {
+    for quantity in MachineQuantity::of_machine(sensors, joints) {
         let sd = setup.prior_sd(quantity, sensors.len());
         if !(sd > 0.0 && sd.is_finite()) {
             continue;
@@ -51,18 +51,6 @@ pub fn draw_machine(
     }
     let drawn = quantities.into_iter().map(|of| (of, parameters.value(of, &nominal))).collect();
     DrawnMachine { drawn, parameters }
-}
-
-/// All quantities but the sensor's, in the order of a result.
-fn of_machine(sensors: &[SensorKind], joints: usize) -> Vec<MachineQuantity> {
-    let mut all = Axis::ALL.map(MachineQuantity::Lever).to_vec();
-    all.extend(Axis::ALL.map(MachineQuantity::Mounting));
-    all.extend([MachineQuantity::Tilt(0), MachineQuantity::Tilt(1), MachineQuantity::Gravity]);
-    all.extend(sensors.iter().map(|sensor| MachineQuantity::Delay(*sensor)));
-    all.push(MachineQuantity::ClockRate);
-    all.extend((0..joints).map(MachineQuantity::Zero));
-    all.extend((0..joints).flat_map(|j| (0..6).map(move |k| MachineQuantity::Geometry(j, k))));
-    all
 }
 
 #[cfg(test)]

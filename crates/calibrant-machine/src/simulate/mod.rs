@@ -7,7 +7,8 @@ mod drawn_motion;
 mod motion_of_log;
 mod sensor_recording;
 
+pub use crate::estimate::MotionOfLog;
 pub use drawn_machine::{DrawnMachine, draw_machine};
 pub use drawn_motion::{MotionToDraw, draw_body_motion, draw_joint_motion};
-pub use motion_of_log::{MotionOfLog, motion_of_log};
+pub use motion_of_log::motion_of_log;
 pub use sensor_recording::{LogErrors, SensorErrors, SensorSampling, record_log, record_sensors};

@@ -1,9 +1,8 @@
 //! The motion that a log describes, for a simulation of it.
 
 use crate::chain::KinematicChain;
-use crate::estimate::{ReferenceFit, fitted};
+use crate::estimate::{MotionOfLog, fitted};
 use crate::log::ReferenceLog;
-use crate::reference::Motion;
 use crate::spline::{Degree, UniformKnots};
 
 /// Largest distance of knots that is tried, s.
@@ -12,15 +11,6 @@ const LONGEST_S: f64 = 0.4;
 const BETTER: f64 = 0.8;
 /// Fewest samples of a log.
 const FEWEST: usize = 8;
-
-/// A motion through a log.
-#[derive(Debug, Clone)]
-pub struct MotionOfLog {
-    /// The motion.
-    pub motion: Motion,
-    /// Standard deviation of one sample about it, for each joint, or for three axes of position and of orientation; rad or m.
-    pub sd: Vec<f64>,
-}
 
 /// The motion of a log whose joints are those of the chain: cubic splines between way-points where their distance is given, otherwise quintic splines. Their
 /// knots are as near as the log has content: until nearer ones no longer follow it better. `None` where the log has too few samples.
@@ -36,25 +26,21 @@ pub fn motion_of_log(
         return None;
     }
     let on = |step_s: f64, degree| fitted(log, chain, UniformKnots::covering(first, last, step_s, degree));
-    let fit = match knot_step_s {
-        Some(step_s) => on(step_s, Degree::Cubic)?,
-        None => {
-            let finest = (last - first) / (times.len() - 1) as f64;
-            let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
-            let mut fit = on(step_s, Degree::Quintic)?;
-            while 0.5 * step_s >= finest {
-                step_s *= 0.5;
-                let nearer = on(step_s, Degree::Quintic)?;
-                if nearer.sd.iter().zip(&fit.sd).all(|(nearer, sd)| *nearer > BETTER * sd) {
-                    break;
-                }
-                fit = nearer;
+    let Some(step_s) = knot_step_s else {
+        let finest = (last - first) / (times.len() - 1) as f64;
+        let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
+        let mut fit = on(step_s, Degree::Quintic)?;
+        while 0.5 * step_s >= finest {
+            step_s *= 0.5;
+            let nearer = on(step_s, Degree::Quintic)?;
+            if nearer.sd.iter().zip(&fit.sd).all(|(nearer, sd)| *nearer > BETTER * sd) {
+                break;
             }
-            fit
+            fit = nearer;
         }
+        return Some(fit);
     };
-    let ReferenceFit { motion, sd, .. } = fit;
-    Some(MotionOfLog { motion, sd })
+    on(step_s, Degree::Cubic)
 }
 
 #[cfg(test)]
@@ -62,6 +48,7 @@ mod tests {
     use super::*;
     use crate::chain::chains_for_tests::{Numbers, mixed_chain};
     use crate::log::JointLog;
+    use crate::reference::Motion;
 
     #[test]
     fn it_follows_the_log_and_not_its_noise() {

@@ -1,6 +1,6 @@
 //! What the sensor on a machine reads.
 
-use crate::estimate::{MachineParameters, MachineSetup, TiltedGravity};
+use crate::estimate::{MachineParameters, MachineSetup, TiltedGravity, predicted};
 use crate::log::{JointLog, PoseLog, ReferenceLog};
 use crate::reference::Motion;
 use calibrant_core::error::Result;
@@ -63,10 +63,7 @@ pub fn record_sensors(
             .collect();
         let activity = activity(&stimuli, gravity.norm());
         let readings = stimuli.iter().zip(&activity).map(|([force, rate], activity)| {
-            let clean = match of.sensor {
-                SensorKind::Accelerometer => truth.imu.accelerometer.reading(force),
-                SensorKind::Gyroscope => truth.imu.gyroscope.reading(rate) + truth.imu.g_sensitivity * force,
-            };
+            let clean = predicted(of.sensor, force, rate, truth);
             let grown = (1.0 + of.vibration * of.vibration * activity).sqrt();
             clean + Vector3::from_fn(|axis, _| normal(rng) * grown * of.noise[axis])
         });

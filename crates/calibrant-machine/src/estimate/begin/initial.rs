@@ -1,6 +1,6 @@
 //! Where the iteration begins: splines through the log, the parameters, and a first guess of the noise.
 
-use super::{Placement, ReferenceFit, covered};
+use super::{MotionOfLog, Placement, covered};
 use crate::estimate::least_squares::{Model, State, Stream, WeighedLog, white_noise};
 use crate::estimate::problem::{Layout, TiltedGravity, refused};
 use crate::estimate::{MachineParameters, MachineProblem, MountingPrior};
@@ -20,7 +20,7 @@ impl<'a> Initial<'a> {
     /// On splines through the log. Without parameters to begin `from`, they are those of the setup, with the coarse delay.
     pub(crate) fn on(
         problem: &MachineProblem<'a>,
-        fit: ReferenceFit,
+        fit: MotionOfLog,
         from: Option<&MachineParameters>,
     ) -> Result<Self> {
         let setup = problem.setup;
@@ -29,7 +29,7 @@ impl<'a> Initial<'a> {
         let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
             return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
         };
-        let ReferenceFit { motion, sd, outliers } = fit;
+        let MotionOfLog { motion, sd, outliers } = fit;
         let knots = motion.knots();
         let covered = covered(problem.log, &knots);
         let gravity = TiltedGravity::new(&setup.up);

@@ -8,4 +8,5 @@ mod reference_fit;
 pub(crate) use initial::{Initial, check_log, middle_s};
 pub(crate) use knot_choice::{initial, trusted};
 pub(crate) use placement::Placement;
-pub(crate) use reference_fit::{ReferenceFit, covered, fitted};
+pub use reference_fit::MotionOfLog;
+pub(crate) use reference_fit::{covered, fitted};

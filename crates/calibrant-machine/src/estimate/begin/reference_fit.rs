@@ -5,14 +5,15 @@ use crate::log::ReferenceLog;
 use crate::reference::{JointMotion, Motion, PoseMotion};
 use crate::spline::{UniformKnots, fit_rotations, fit_vectors};
 
-/// A motion fitted to a log.
+/// A motion through a log.
 #[derive(Debug, Clone)]
-pub(crate) struct ReferenceFit {
-    pub(crate) motion: Motion,
-    /// Standard deviation of one sample about the splines, for each unknown of a control point.
-    pub(crate) sd: Vec<f64>,
+pub struct MotionOfLog {
+    /// The motion.
+    pub motion: Motion,
+    /// Standard deviation of one sample about it, for each joint, or for three axes of position and of orientation; rad or m.
+    pub sd: Vec<f64>,
     /// Number of outliers of each component.
-    pub(crate) outliers: Vec<usize>,
+    pub outliers: Vec<usize>,
 }
 
 /// Fits splines on these knots.
@@ -20,7 +21,7 @@ pub(crate) fn fitted(
     log: &ReferenceLog,
     chain: Option<&KinematicChain>,
     knots: UniformKnots,
-) -> Option<ReferenceFit> {
+) -> Option<MotionOfLog> {
     match log {
         ReferenceLog::Poses(log) => {
             log.world_from_body.iter().flatten().next()?;
@@ -32,7 +33,7 @@ pub(crate) fn fitted(
                 || fit_rotations(&log.times_s, &log.world_from_body, knots),
             );
             let motion = PoseMotion { position: position.spline, orientation: orientation.spline };
-            Some(ReferenceFit {
+            Some(MotionOfLog {
                 motion: Motion::Poses(motion),
                 sd: [position.sd, orientation.sd_rad].concat(),
                 outliers: [position.outliers, orientation.outliers].concat(),
@@ -40,7 +41,7 @@ pub(crate) fn fitted(
         }
         ReferenceLog::Joints(log) => {
             let fit = fit_vectors(&log.times_s, &log.positions, log.names.len(), knots);
-            Some(ReferenceFit {
+            Some(MotionOfLog {
                 motion: Motion::Joints(JointMotion { chain: chain?.clone(), positions: fit.spline }),
                 sd: fit.sd,
                 outliers: fit.outliers,

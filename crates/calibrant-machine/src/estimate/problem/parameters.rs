@@ -2,7 +2,7 @@
 
 use crate::chain::{ChainCorrections, SensorMount};
 use crate::estimate::{MachineQuantity, MachineSetup, MountingPrior};
-use calibrant_core::sensor::{Axis, ImuParameters, ImuQuantity, SensorKind, SensorModel};
+use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind, SensorModel};
 use nalgebra::{DMatrix, DVector, Matrix3x2, UnitQuaternion, Vector2, Vector3};
 
 /// The sensor, its mount, gravity, clocks and joints.
@@ -151,16 +151,8 @@ impl Layout {
         imu: &[ImuQuantity],
         nominal: MachineParameters,
     ) -> Self {
-        let joints = 0..nominal.corrections.joints.len();
         let mut quantities: Vec<MachineQuantity> = imu.iter().map(|of| MachineQuantity::Imu(*of)).collect();
-        quantities.extend(Axis::ALL.map(MachineQuantity::Lever));
-        quantities.extend(Axis::ALL.map(MachineQuantity::Mounting));
-        quantities.extend([0, 1].map(MachineQuantity::Tilt));
-        quantities.push(MachineQuantity::Gravity);
-        quantities.extend(sensors.iter().map(|&sensor| MachineQuantity::Delay(sensor)));
-        quantities.push(MachineQuantity::ClockRate);
-        quantities.extend(joints.clone().map(MachineQuantity::Zero));
-        quantities.extend(joints.flat_map(|j| (0..6).map(move |k| MachineQuantity::Geometry(j, k))));
+        quantities.extend(MachineQuantity::of_machine(sensors, nominal.corrections.joints.len()));
         if setup.mounting == MountingPrior::Unknown {
             quantities.retain(|quantity| in_gauge(*quantity, sensors[0]));
         }

@@ -61,6 +61,18 @@ impl Source {
 }
 
 impl MachineQuantity {
+    /// All quantities but the sensor's, in the order of a result.
+    pub(crate) fn of_machine(sensors: &[SensorKind], joints: usize) -> Vec<Self> {
+        let mut all = Axis::ALL.map(Self::Lever).to_vec();
+        all.extend(Axis::ALL.map(Self::Mounting));
+        all.extend([Self::Tilt(0), Self::Tilt(1), Self::Gravity]);
+        all.extend(sensors.iter().map(|sensor| Self::Delay(*sensor)));
+        all.push(Self::ClockRate);
+        all.extend((0..joints).map(Self::Zero));
+        all.extend((0..joints).flat_map(|j| (0..6).map(move |k| Self::Geometry(j, k))));
+        all
+    }
+
     /// Its name in files, tables and messages. A joint is named by the caller's list.
     #[must_use]
     pub fn name(self, joints: &[String]) -> String {
