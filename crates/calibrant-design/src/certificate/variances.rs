@@ -16,18 +16,13 @@ use nalgebra::{DMatrix, DVector, Vector3};
 #[derive(Debug, Clone)]
 pub(crate) struct LowerBound {
     /// The bound on the criterion.
-    value: f64,
+    pub(crate) value: f64,
     /// Smallest variance of each parameter.
     variances: DVector<f64>,
     explanation: String,
 }
 
 impl LowerBound {
-    /// The bound on the criterion.
-    pub(crate) fn value(&self) -> f64 {
-        self.value
-    }
-
     /// The bound on the criterion of the parameters at these places, which share no information with the
     /// others.
     pub(crate) fn of_part(&self, criterion: &Criterion, places: &[usize]) -> f64 {

@@ -44,7 +44,7 @@ pub fn design(
             return Ok(None);
         }
         let bound = certificate::lower_bound(problem, &settings.interruption)?;
-        bound.iter().for_each(|bound| settings.so_far.bounded(bound.value()));
+        bound.iter().for_each(|bound| settings.so_far.bounded(bound.value));
         Ok(bound)
     };
     let search = |bound: Option<&LowerBound>| {

@@ -34,10 +34,6 @@ pub struct SplineFit {
     pub sd: Vec<f64>,
     /// Number of outliers of each component.
     pub outliers: Vec<usize>,
-    /// Number of samples of each component.
-    pub samples: Vec<usize>,
-    /// Number of control points that the samples of each component determine: the trace of the hat matrix.
-    pub determined: Vec<f64>,
 }
 
 /// Fits a vector to samples, `dimension` values for each time. A value that is NaN was not recorded.
@@ -62,25 +58,21 @@ pub fn fit_vectors(times_s: &[f64], values: &[f64], dimension: usize, knots: Uni
         spline: VectorSpline { knots, dimension, controls: vec![0.0; dimension * knots.controls()] },
         sd: Vec::new(),
         outliers: Vec::new(),
-        samples: Vec::new(),
-        determined: Vec::new(),
     };
     let fitted = |j: usize| {
         let samples: Vec<Sample<'_>> = (weights.iter().zip(values[j..].iter().step_by(dimension)))
             .filter(|(_, value)| value.is_finite())
             .map(|(weights, &value)| Sample { weights, value })
             .collect();
-        (Component::fitted(&samples, knots), samples.len())
+        Component::fitted(&samples, knots)
     };
-    let components: Vec<(Component, usize)> = (0..dimension).into_par_iter().map(fitted).collect();
-    for (j, (of, samples)) in components.into_iter().enumerate() {
+    let components: Vec<Component> = (0..dimension).into_par_iter().map(fitted).collect();
+    for (j, of) in components.into_iter().enumerate() {
         for (i, control) in of.controls.iter().enumerate() {
             fit.spline.controls[i * dimension + j] = *control;
         }
         fit.sd.push(of.sd);
         fit.outliers.push(of.outliers);
-        fit.samples.push(samples);
-        fit.determined.push(of.determined);
     }
     fit
 }
@@ -102,13 +94,12 @@ struct Component {
     controls: Vec<f64>,
     sd: f64,
     outliers: usize,
-    determined: f64,
 }
 
 impl Component {
     fn fitted(samples: &[Sample<'_>], knots: UniformKnots) -> Self {
         let mut weight = vec![1.0; samples.len()];
-        let mut fit = Self { controls: vec![0.0; knots.controls()], sd: 0.0, outliers: 0, determined: 0.0 };
+        let mut fit = Self { controls: vec![0.0; knots.controls()], sd: 0.0, outliers: 0 };
         // rounding is no residual
         let largest = samples.iter().fold(0.0_f64, |largest, sample| largest.max(sample.value.abs()));
         let floor = ROUNDING * largest.max(f64::MIN_POSITIVE / ROUNDING);
@@ -128,9 +119,10 @@ impl Component {
             let settled = before.iter().zip(&weight).all(|(one, other)| (one - other).abs() < SETTLED)
                 && (round > REDESCENDING || weight.iter().all(|weight| *weight > HUBER / OUTLIER));
             if settled || round + 1 == ROUNDS {
-                fit.determined = trace(samples, &before, &factor);
+                // control points that the samples determine: the trace of the hat matrix
+                let determined = trace(samples, &before, &factor);
                 let squares: f64 = residuals.iter().zip(&before).map(|(r, w)| w * w * r * r).sum();
-                let degrees = (samples.len() as f64 - fit.determined).max(1.0);
+                let degrees = (samples.len() as f64 - determined).max(1.0);
                 fit.sd = (squares / degrees).sqrt();
                 fit.outliers =
                     residuals.iter().zip(&scale).filter(|(r, scale)| r.abs() > OUTLIER * **scale).count();

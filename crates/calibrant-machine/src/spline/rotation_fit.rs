@@ -21,10 +21,6 @@ pub struct RotationFit {
     pub sd_rad: Vec<f64>,
     /// Number of outliers about each axis.
     pub outliers: Vec<usize>,
-    /// Number of orientations.
-    pub samples: usize,
-    /// Number of control points that they determine, for each axis.
-    pub determined: Vec<f64>,
 }
 
 /// Fits an orientation to samples at these times; `None` was not seen. There is at least one orientation.
@@ -63,13 +59,7 @@ fn loop_until_still(
         }
         round += 1;
         if largest < CONVERGED_RAD || round == ROUNDS {
-            return RotationFit {
-                spline: spline.clone(),
-                sd_rad: fit.sd,
-                outliers: fit.outliers,
-                samples: seen.len(),
-                determined: fit.determined,
-            };
+            return RotationFit { spline: spline.clone(), sd_rad: fit.sd, outliers: fit.outliers };
         }
     }
 }
