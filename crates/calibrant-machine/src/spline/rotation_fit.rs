@@ -35,14 +35,6 @@ pub fn fit_rotations(
     let times: Vec<f64> = seen.iter().map(|(t, _)| *t).collect();
     let controls = (0..knots.controls()).map(|i| interpolated(&seen, knots.centre_s(i))).collect();
     let mut spline = RotationSpline { knots, controls };
-    loop_until_still(&mut spline, &seen, &times)
-}
-
-fn loop_until_still(
-    spline: &mut RotationSpline,
-    seen: &[(f64, UnitQuaternion<f64>)],
-    times: &[f64],
-) -> RotationFit {
     let mut round = 0;
     loop {
         let error = |(t, seen): &(f64, UnitQuaternion<f64>)| {
@@ -50,7 +42,7 @@ fn loop_until_still(
             [error.x, error.y, error.z]
         };
         let errors: Vec<f64> = seen.iter().flat_map(error).collect();
-        let fit = fit_vectors(times, &errors, 3, spline.knots);
+        let fit = fit_vectors(&times, &errors, 3, spline.knots);
         let mut largest = 0.0_f64;
         for (control, turn) in spline.controls.iter_mut().zip(fit.spline.controls.chunks_exact(3)) {
             let turn = Vector3::new(turn[0], turn[1], turn[2]);
@@ -59,7 +51,7 @@ fn loop_until_still(
         }
         round += 1;
         if largest < CONVERGED_RAD || round == ROUNDS {
-            return RotationFit { spline: spline.clone(), sd_rad: fit.sd, outliers: fit.outliers };
+            return RotationFit { spline, sd_rad: fit.sd, outliers: fit.outliers };
         }
     }
 }
