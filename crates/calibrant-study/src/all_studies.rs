@@ -103,7 +103,7 @@ impl StudiesProblem<'_> {
     }
 }
 
-/// The calibration of one simulated recording. As many as there are threads are in memory at once.
+/// The calibration of one simulated recording. Each thread holds one recording in memory at a time.
 fn of_calibration(samples: f64, sensors: usize) -> Budget {
     let at_once = rayon::current_num_threads().min(sensors) as f64;
     Budget { bytes: 500.0 * samples * at_once, seconds: 1e-6 * samples + 1e-3 }

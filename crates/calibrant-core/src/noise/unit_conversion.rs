@@ -17,12 +17,18 @@ impl AxisNoise {
             }
         }
         squares.iter_mut().for_each(|square| *square *= factor * factor);
-        let points =
-            self.allan.points.iter_mut().flat_map(|at| [&mut at.deviation, &mut at.low, &mut at.high]);
-        let outliers = self.outliers.iter_mut();
-        let outliers = outliers.flat_map(|of| [&mut of.largest].into_iter().chain(&mut of.white_with_them));
+        for point in &mut self.allan.points {
+            point.deviation *= factor;
+            point.low *= factor;
+            point.high *= factor;
+        }
+        if let Some(outliers) = &mut self.outliers {
+            outliers.largest *= factor;
+            outliers.white_with_them.iter_mut().for_each(|white| *white *= factor);
+        }
         let drift = &mut self.fit.drift;
-        let others = [&mut self.sample_sd, &mut drift.per_s, &mut drift.sd, &mut drift.most_sd];
-        points.chain(outliers).chain(others).for_each(|value| *value *= factor);
+        for value in [&mut self.sample_sd, &mut drift.per_s, &mut drift.sd, &mut drift.most_sd] {
+            *value *= factor;
+        }
     }
 }

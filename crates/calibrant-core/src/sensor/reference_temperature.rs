@@ -249,8 +249,7 @@ pub(super) mod tests {
     use crate::sensor::entry_vector::ENTRIES;
     use crate::sensor::gauge_change::tests::imu;
     use crate::sensor::{Condition, ReadingUnit};
-    use nalgebra::DMatrix;
-    use nalgebra::Vector3;
+    use nalgebra::{DMatrix, Vector3};
 
     /// The IMU of the gauge tests with terms of every kind.
     pub(in crate::sensor) fn warm() -> CalibratedImu {

@@ -49,21 +49,25 @@ impl LimitKind {
     /// Its key in `[limits]`.
     #[must_use]
     pub fn key(self) -> &'static str {
-        self.words()[0]
+        let [key, _, _] = self.words();
+        key
     }
 
     /// In words: `acceleration`, `rest at the end`.
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.words()[1]
+        let [_, name, _] = self.words();
+        name
     }
 
     /// Unit of its values: `m/s²`.
     #[must_use]
     pub fn unit(self) -> &'static str {
-        self.words()[2]
+        let [_, _, unit] = self.words();
+        unit
     }
 
+    /// Key, name and unit.
     fn words(self) -> [&'static str; 3] {
         match self {
             Self::Acceleration => ["acceleration_mps2", "acceleration", "m/s²"],

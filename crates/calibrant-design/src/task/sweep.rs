@@ -46,31 +46,35 @@ impl SweepVariable {
     /// In words: `duration`.
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.words()[0]
+        let [_, name, _] = self.words();
+        name
     }
 
     /// As in files, with its unit: `duration_s`, `limits.velocity_mps`.
     #[must_use]
     pub fn key(self) -> &'static str {
-        self.words()[1]
+        let [key, _, _] = self.words();
+        key
     }
 
     /// Its unit, for people: `s`, `m/s`.
     #[must_use]
     pub fn unit(self) -> &'static str {
-        self.words()[2]
+        let [_, _, unit] = self.words();
+        unit
     }
 
+    /// Key, name and unit.
     fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Duration => ["duration", "duration_s", "s"],
-            Self::Acceleration => ["acceleration", "limits.acceleration_mps2", "m/s²"],
-            Self::Jerk => ["jerk", "limits.jerk_mps3", "m/s³"],
-            Self::Intercept => ["intercept", "limits.intercept_mps2", "m/s²"],
-            Self::Velocity => ["velocity", "limits.velocity_mps", "m/s"],
-            Self::Displacement => ["displacement", "limits.displacement_m", "m"],
-            Self::Rate => ["rate", "rate_hz", "Hz"],
-            Self::Noise => ["noise", "noise_mps2", "m/s²"],
+            Self::Duration => ["duration_s", "duration", "s"],
+            Self::Acceleration => ["limits.acceleration_mps2", "acceleration", "m/s²"],
+            Self::Jerk => ["limits.jerk_mps3", "jerk", "m/s³"],
+            Self::Intercept => ["limits.intercept_mps2", "intercept", "m/s²"],
+            Self::Velocity => ["limits.velocity_mps", "velocity", "m/s"],
+            Self::Displacement => ["limits.displacement_m", "displacement", "m"],
+            Self::Rate => ["rate_hz", "rate", "Hz"],
+            Self::Noise => ["noise_mps2", "noise", "m/s²"],
         }
     }
 

@@ -26,21 +26,21 @@ pub fn motion_of_log(
         return None;
     }
     let on = |step_s: f64, degree| fitted(log, chain, UniformKnots::covering(first, last, step_s, degree));
-    let Some(step_s) = knot_step_s else {
-        let finest = (last - first) / (times.len() - 1) as f64;
-        let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
-        let mut fit = on(step_s, Degree::Quintic)?;
-        while 0.5 * step_s >= finest {
-            step_s *= 0.5;
-            let nearer = on(step_s, Degree::Quintic)?;
-            if nearer.sd.iter().zip(&fit.sd).all(|(nearer, sd)| *nearer > BETTER * sd) {
-                break;
-            }
-            fit = nearer;
+    if let Some(step_s) = knot_step_s {
+        return on(step_s, Degree::Cubic);
+    }
+    let finest = (last - first) / (times.len() - 1) as f64;
+    let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
+    let mut fit = on(step_s, Degree::Quintic)?;
+    while 0.5 * step_s >= finest {
+        step_s *= 0.5;
+        let nearer = on(step_s, Degree::Quintic)?;
+        if nearer.sd.iter().zip(&fit.sd).all(|(nearer, sd)| *nearer > BETTER * sd) {
+            break;
         }
-        return Some(fit);
-    };
-    on(step_s, Degree::Cubic)
+        fit = nearer;
+    }
+    Some(fit)
 }
 
 #[cfg(test)]

@@ -56,7 +56,14 @@ impl Source {
     /// As written in tables and files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        ["sensor_noise", "reference_noise", "geometry", "mounting", "timing", "gravity"][self as usize]
+        match self {
+            Self::SensorNoise => "sensor_noise",
+            Self::ReferenceNoise => "reference_noise",
+            Self::Geometry => "geometry",
+            Self::Mounting => "mounting",
+            Self::Timing => "timing",
+            Self::Gravity => "gravity",
+        }
     }
 }
 
