@@ -17,11 +17,11 @@ class KeyMapping:
         self.kinds = content.get("kind", [])
 
     def is_new_file(self, name):
-        return any(fnmatch.fnmatchcase(name.rpartition("/")[2], pattern) for pattern in self.new_files)
+        return is_named(name.rpartition("/")[2], self.new_files)
 
     def of(self, name):
         """The mapping of one file by its name, or of what a command printed; None where nothing is mapped."""
-        chosen = [kind for kind in self.kinds if any(fnmatch.fnmatchcase(name, pattern) for pattern in kind["files"])]
+        chosen = [kind for kind in self.kinds if is_named(name, kind["files"]) and not is_named(name, kind.get("except", []))]
         return FileMapping(chosen) if chosen else None
 
 
@@ -34,16 +34,17 @@ class FileMapping:
         self.moved = [(matcher(old), new) for kind in kinds for old, new in kind.get("moved", {}).items()]
 
     def differences(self, old, new):
-        """Sentences. Objects are lists of pairs, as scripts/golden parses them."""
+        """Sentences. Objects are lists of pairs, as scripts/golden parses them. A null may be left out."""
         old = {self.new_path(path): value for path, value in leaves("", old) if not is_any(self.dropped, path)}
-        new = {path: value for path, value in leaves("", new) if not is_any(self.added, path)}
+        new = dict(leaves("", new))
         for path, value in old.items():
             if path not in new:
-                yield f"{path} is gone"
+                if value is not None:
+                    yield f"{path} is gone"
             elif (type(value), value) != (type(new[path]), new[path]) and not is_any(self.changed, path):
                 yield f"{path}: {value} before, {new[path]} now"
         for path, value in new.items():
-            if path not in old:
+            if path not in old and not is_any(self.added, path):
                 yield f"{path} is new: {value}"
 
     def new_path(self, path):
@@ -52,6 +53,10 @@ class FileMapping:
                 caught = iter(found.groups())
                 return PLACE.sub(lambda place: f"[{next(caught)}]" if place[0] == "[]" else next(caught), new) + path[found.end() :]
         return path
+
+
+def is_named(name, patterns):
+    return any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def matcher(path):
