@@ -2,7 +2,7 @@
 //! next design.
 
 use super::convention::read_estimates;
-use super::text_decoding::{self, Checked};
+use super::text_decoding::{self, Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::covariance;
 use calibrant_core::sensor::{
@@ -152,7 +152,7 @@ impl EarlierCalibration {
 fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     /// The remedy for a file that is no prior.
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
-    let reject = |message: &str| Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, AGAIN)));
+    let reject = |message: &str| refuse(Refusal::CalibrationInvalid, message, AGAIN);
     let text = text_decoding::as_text(bytes)?;
     let (imu, has_datasheet_prior) = read_estimates(text)?;
     let WithHolds { holds } = serde_json::from_str(text).unwrap_or_default();

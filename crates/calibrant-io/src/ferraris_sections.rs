@@ -2,7 +2,7 @@
 //! `{"x_p": {"start": 540, "end": 1271}, …, "x_rot": …}`, by sample.
 
 use super::motion::shorten;
-use super::text_decoding::{self, Checked};
+use super::text_decoding::{self, Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
@@ -90,7 +90,11 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     for (name, samples) in &list {
         if sections.iter().any(|before| before.name == *name) {
             let message = format!("the section \"{}\" is there twice", shorten(name));
-            return Err(InputError::new(Refusal::KeyRepeated, message, "a list has each name once; more faces and turns: holds.intervals_s, directions and gyroscope.turns in the experiment file").into());
+            return refuse(
+                Refusal::KeyRepeated,
+                message,
+                "a list has each name once; more faces and turns: holds.intervals_s, directions and gyroscope.turns in the experiment file",
+            );
         }
         let kind = kind(name).ok_or_else(|| {
             InputError::new(Refusal::KeyUnknown, format!("the section \"{name}\" is not known"), NAMES)
@@ -100,18 +104,16 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
             samples.as_object().and_then(|object| object.keys().find(|key| *key != "start" && *key != "end"))
         {
             let message = format!("the section \"{name}\" has a \"{}\", which is not known", shorten(other));
-            return Err(InputError::new(Refusal::KeyUnknown, message, EXAMPLE).into());
+            return refuse(Refusal::KeyUnknown, message, EXAMPLE);
         }
         if end.checked_sub(start).is_none_or(|samples| samples < 2) {
             let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
-            return Err(
-                InputError::new(Refusal::HoldsInvalid, message, "its end must be after its start").into()
-            );
+            return refuse(Refusal::HoldsInvalid, message, "its end must be after its start");
         }
         sections.push(Section { name: name.clone(), kind, start, end });
     }
     if sections.is_empty() {
-        return Err(InputError::new(Refusal::KeyMissing, "the list has no sections", NAMES).into());
+        return refuse(Refusal::KeyMissing, "the list has no sections", NAMES);
     }
     sections.sort_by_key(|section| section.start);
     let is_face = |section: &Section| matches!(section.kind, SectionKind::Face(_));
@@ -119,12 +121,7 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
         let overlaps = |other: &&Section| other.start < section.end && is_face(other) == is_face(section);
         if let Some(other) = sections[k + 1..].iter().find(overlaps) {
             let message = format!("the sections \"{}\" and \"{}\" overlap", section.name, other.name);
-            return Err(InputError::new(
-                Refusal::HoldsInvalid,
-                message,
-                "correct their samples: none may count twice",
-            )
-            .into());
+            return refuse(Refusal::HoldsInvalid, message, "correct their samples: none may count twice");
         }
     }
     Ok(sections)
@@ -155,9 +152,8 @@ impl<'de> Deserialize<'de> for List {
 
 /// The sample at which a section starts or ends.
 fn sample(name: &str, samples: &Value, key: &str) -> Checked<usize> {
-    let reject = |what: String| {
-        Err(InputError::new(Refusal::ValueInvalid, format!("the section \"{name}\" {what}"), EXAMPLE).into())
-    };
+    let reject =
+        |what: String| refuse(Refusal::ValueInvalid, format!("the section \"{name}\" {what}"), EXAMPLE);
     match samples.get(key) {
         None => reject(format!("has no \"{key}\"")),
         Some(value) => match value.as_u64().and_then(|sample| usize::try_from(sample).ok()) {

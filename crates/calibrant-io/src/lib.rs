@@ -92,8 +92,8 @@ pub use diagnostics::DiagnosticWords;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
-    LogNoise, MachinePlan, MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy,
-    StudyOptions, UnknownVariant, UrdfSource, experiment_keys, nearest, read_acceptance, read_columns,
+    MachinePlan, MachineSimulation, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions,
+    UnknownVariant, UrdfSource, experiment_keys, nearest, read_acceptance, read_columns,
     sections as experiment_sections,
 };
 pub use experiment_presets::{PRESETS, Preset, preset};

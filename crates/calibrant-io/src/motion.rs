@@ -2,7 +2,7 @@
 
 use super::atomic_output::write_atomically;
 use super::delimited_text::{Delimiter, Line, Lines};
-use super::text_decoding::{self, Checked};
+use super::text_decoding::{self, Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
@@ -69,16 +69,11 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     const HELP: &str = "a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node";
     let text = text_decoding::as_text(bytes)?;
     if axes != 1 && axes != 3 {
-        return Err(InputError::new(
-            Refusal::ValueInvalid,
-            format!("{axes} axes are not supported"),
-            "1 or 3",
-        )
-        .into());
+        return refuse(Refusal::ValueInvalid, format!("{axes} axes are not supported"), "1 or 3");
     }
     let mut lines = Lines::of(text).filter(|line| !line.is_void());
     let Some(header) = lines.next() else {
-        return Err(InputError::new(Refusal::FileEmpty, "the file is empty", HELP).into());
+        return refuse(Refusal::FileEmpty, "the file is empty", HELP);
     };
     let delimiter = Delimiter::of(header.text);
     let slots = read_header(header, delimiter, axes)?;
@@ -99,7 +94,7 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     }
     if nodes.len() < 2 {
         let message = format!("a motion needs at least two nodes, this one has {}", nodes.len());
-        return Err(InputError::new(Refusal::MotionInvalid, message, HELP).into());
+        return refuse(Refusal::MotionInvalid, message, HELP);
     }
     JerkControlledMotion::new(times_s, nodes).map_err(|error| {
         error

@@ -2,7 +2,7 @@
 
 use super::atomic_output::write_atomically;
 use super::delimited_text::{Delimiter, Line, Lines};
-use super::text_decoding::{self, Checked};
+use super::text_decoding::{self, Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Vector3<f64>>> {
     let text = text_decoding::as_text(bytes)?;
     let mut lines = Lines::of(text).filter(|line| !line.is_void());
     let Some(header) = lines.next() else {
-        return Err(InputError::new(Refusal::FileEmpty, "the file is empty", HELP).into());
+        return refuse(Refusal::FileEmpty, "the file is empty", HELP);
     };
     let delimiter = Delimiter::of(header.text);
     let columns: Vec<&str> = header.fields(delimiter).map(|(_, field)| field).collect();
@@ -60,10 +60,10 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Vector3<f64>>> {
     }
     let poses = lines.map(|line| read_row(line, delimiter, places)).collect::<Checked<Vec<_>>>()?;
     match poses.len() {
-        0 => Err(InputError::new(Refusal::FileEmpty, "the file has no poses", HELP).into()),
+        0 => refuse(Refusal::FileEmpty, "the file has no poses", HELP),
         count if count > MOST => {
             let message = format!("{count} poses are more than {MOST}");
-            Err(InputError::new(Refusal::ValueOutOfRange, message, HELP).into())
+            refuse(Refusal::ValueOutOfRange, message, HELP)
         }
         _ => Ok(poses),
     }

@@ -10,6 +10,18 @@ use std::path::Path;
 /// The result of a check. Its error does not yet know whether an experiment or a recording is at fault.
 pub type Checked<T> = std::result::Result<T, Box<InputError>>;
 
+/// The error about an input, without a place.
+pub(crate) fn refuse<T>(code: Refusal, message: impl Into<String>, help: impl Into<String>) -> Checked<T> {
+    Err(InputError::new(code, message, help).into())
+}
+
+/// The error where this build lacks a reader.
+#[cfg(not(all(feature = "mcap", feature = "parquet")))]
+pub(crate) fn without<T>(feature: &str) -> Checked<T> {
+    let message = format!("this build of calibrant does not read {feature} files");
+    refuse(Refusal::FormatUnsupported, message, format!("build it with the feature `{feature}`"))
+}
+
 /// Reads a file whole, unless it is larger than `limit` bytes or plainly binary.
 ///
 /// It reads in pieces and looks for NUL bytes, so that a device or a disk image does not fill the memory.
@@ -87,33 +99,31 @@ pub(super) fn too_large(what: &str, limit: u64) -> InputError {
 /// The bytes as text, without the byte order mark.
 pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(InputError::new(
+        return refuse(
             Refusal::EncodingUnknown,
             "the text is encoded in UTF-16",
             "save it as UTF-8 (or plain ASCII)",
-        )
-        .into());
+        );
     }
     if bytes.starts_with(b"#ROSBAG V") {
-        return Err(InputError::new(Refusal::FormatUnsupported,
+        return refuse(
+            Refusal::FormatUnsupported,
             "this is a bag of ROS 1, which is not read",
             "convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR",
-        )
-        .into());
+        );
     }
     if let Some((version, array)) = of_matlab(bytes) {
-        return Err(InputError::new(
+        return refuse(
             Refusal::FormatUnsupported,
             format!("this is a binary file of MATLAB ({version}), which is not read"),
-            format!("save its table as CSV: in MATLAB `writetable(T, 'log.csv')`; in Python `pandas.DataFrame({array}, columns=[…]).to_csv('log.csv', index=False)`"),
-        )
-        .into());
+            format!(
+                "save its table as CSV: in MATLAB `writetable(T, 'log.csv')`; in Python `pandas.DataFrame({array}, columns=[…]).to_csv('log.csv', index=False)`"
+            ),
+        );
     }
     if let Some((program, unpack)) = packed_by(bytes) {
         let message = format!("this file is compressed with {program}");
-        return Err(
-            InputError::new(Refusal::EncodingUnknown, message, format!("unpack it first: {unpack}")).into()
-        );
+        return refuse(Refusal::EncodingUnknown, message, format!("unpack it first: {unpack}"));
     }
     let text = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
     as_text_at(text, (bytes.len() - text.len()) as u64, 0)
@@ -150,12 +160,11 @@ fn packed_by(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
 pub(super) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&str> {
     if let Some(at) = memchr::memchr(0, bytes) {
         let offset = before + at as u64;
-        return Err(InputError::new(
+        return refuse(
             Refusal::EncodingUnknown,
             format!("this is binary data, not text: NUL byte at offset {offset}"),
             "export the data as text",
-        )
-        .into());
+        );
     }
     std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to();

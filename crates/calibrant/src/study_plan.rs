@@ -8,7 +8,7 @@ use calibrant_core::estimate::CalibrationSettings;
 use calibrant_core::interruption::Interruption;
 use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, Limits, Trust};
 use calibrant_core::sensor::SensorParameters;
-use calibrant_design::limit_use;
+use calibrant_design::{SurfaceSettings, limit_use};
 use calibrant_io::{Experiment, MotionPlan, Plan, Prior};
 use calibrant_study::{
     DesignStudyProblem, Studies, StudiesProblem, StudyProblem, StudySettings, run_studies,
@@ -50,6 +50,8 @@ pub struct StudyPlan<'a> {
     experiment: &'a Experiment,
     plan: &'a MotionPlan,
     sensors: Option<usize>,
+    /// The criterion over the jerks of two intervals.
+    surface: Option<SurfaceSettings>,
     /// The given motion.
     given: Option<JerkControlledMotion>,
     /// The command of the calibration without a design, its rate and the number of sensors.
@@ -108,6 +110,7 @@ impl<'a> StudyPlan<'a> {
             experiment,
             plan,
             sensors: choice.sensors,
+            surface: experiment.study.surface(plan)?,
             given: None,
             calibration: None,
             designs: [None, None],
@@ -121,7 +124,7 @@ impl<'a> StudyPlan<'a> {
         let study = &experiment.study;
         let design = material.design_study(plan.trust, &experiment.limits)?;
         let obstacle = design.obstacle();
-        if let Some(unknown) = &study.unknown {
+        if let Some(unknown) = study.unknown(plan, axes)? {
             let limits = unknown.limits.as_ref().unwrap_or(&experiment.limits);
             let motion = commanded_motion(None, &unknown.plan, axes, limits, material.seed, 1)?;
             material.calibration = Some(calibration(&unknown.plan, motion, unknown.sensors));
@@ -136,7 +139,7 @@ impl<'a> StudyPlan<'a> {
             None => material.designs[0] = Some(design),
             Some(reason) => material.remarks.push(format!("no motion was designed: {reason}")),
         }
-        if let Some(noisy) = &study.noisy {
+        if let Some(noisy) = study.noisy(plan, axes)? {
             let limits = noisy.limits.as_ref().unwrap_or(&experiment.limits);
             let design = material.design_study(Trust::Noisy(noisy.noise), limits)?;
             match design.obstacle() {
@@ -181,7 +184,7 @@ impl<'a> StudyPlan<'a> {
                 rate_hz: *rate_hz,
                 sensors: self.sensors.unwrap_or(*sensors),
             }),
-            surface: self.experiment.study.surface.map(|surface| (sensor, surface)),
+            surface: self.surface.map(|surface| (sensor, surface)),
             design: design.map(|design| DesignStudyProblem { initial: self.given.as_ref(), ..design }),
             noisy,
             remarks: self.remarks.clone(),
@@ -192,8 +195,9 @@ impl<'a> StudyPlan<'a> {
     fn settings(&self) -> StudySettings {
         let (experiment, choice) = (self.experiment, self.choice);
         let mut design = experiment.design_settings();
+        let study = &experiment.study;
         design.interruption = choice.interruption.clone();
-        design.starts = choice.starts.or(experiment.study.starts).unwrap_or(design.starts);
+        design.starts = choice.starts.or(study.starts.map(|starts| starts.size())).unwrap_or(design.starts);
         StudySettings {
             seed: self.seed,
             calibration: CalibrationSettings {
@@ -201,7 +205,7 @@ impl<'a> StudyPlan<'a> {
                 ..CalibrationSettings::default()
             },
             design,
-            detail_rate_hz: experiment.study.unknown.as_ref().and_then(|unknown| unknown.detail_rate_hz),
+            detail_rate_hz: study.unknown.as_ref().and_then(|unknown| unknown.detail_rate_hz).map(f64::from),
         }
     }
 }

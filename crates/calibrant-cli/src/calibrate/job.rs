@@ -80,10 +80,10 @@ fn without_budget(options: &SessionOptions) -> String {
 /// The files on which all results depend.
 fn shared_files<'a>(arguments: &'a Arguments, experiment: &'a Experiment) -> impl Iterator<Item = &'a Path> {
     let machine = match &experiment.plan {
-        Plan::Machine(plan) => plan.source.as_ref(),
+        Plan::Machine(plan) => plan.urdf.as_ref(),
         _ => None,
     };
-    let urdf = machine.and_then(|source| match &source.urdf {
+    let urdf = machine.and_then(|urdf| match urdf {
         UrdfSource::File(path) => Some(path),
         UrdfSource::Preset(_) => None,
     });

@@ -67,7 +67,7 @@ fn calibrate(file: &str, inputs: &str) -> String {
 
 /// The log that `simulate` writes.
 fn log_of(plan: &MachinePlan) -> &'static str {
-    if plan.source.is_some() { "joints.csv" } else { "poses.csv" }
+    if plan.has_joints() { "joints.csv" } else { "poses.csv" }
 }
 
 /// The name of a file as a shell takes it.

@@ -1,8 +1,7 @@
 //! Vectors and matrices in the form in which files list them.
 
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::sensor::Axis;
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,8 +10,7 @@ pub(super) type Rows = Vec<Vec<f64>>;
 
 /// The error for a missing field.
 pub(super) fn missing(field: &str) -> Box<calibrant_core::error::InputError> {
-    input_error(
-        Refusal::CalibrationInvalid,
+    invalid(
         format!("this is no calibration of an IMU: the field `{field}` is missing"),
         "give a file that calibrant wrote, or name its format with option `from`",
     )
@@ -27,22 +25,14 @@ pub(super) fn rows(matrix: &Matrix3<f64>) -> Rows {
 pub(super) fn vector3(values: &[f64], field: &str) -> Checked<Vector3<f64>> {
     match values {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-        _ => Err(input_error(
-            Refusal::CalibrationInvalid,
-            format!("`{field}` has {} numbers, not 3", values.len()),
-            "give one for each axis",
-        )),
+        _ => Err(invalid(format!("`{field}` has {} numbers, not 3", values.len()), "give one for each axis")),
     }
 }
 
 /// Three rows of three numbers.
 pub(super) fn matrix3(values: &[Vec<f64>], field: &str) -> Checked<Matrix3<f64>> {
     if values.len() != 3 || values.iter().any(|row| row.len() != 3) {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            format!("`{field}` is not 3 × 3"),
-            "give three rows of three numbers",
-        ));
+        return Err(invalid(format!("`{field}` is not 3 × 3"), "give three rows of three numbers"));
     }
     Ok(Matrix3::from_fn(|row, column| values[row][column]))
 }

@@ -9,7 +9,7 @@
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, matrix, numbers, vector};
-use super::words::{input_error, written_by};
+use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ImuFormat, c_temperature};
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
@@ -21,8 +21,7 @@ use std::fmt::Write;
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
-    let correction = ImuCorrection::of(imu)
-        .map_err(|error| input_error(Refusal::CalibrationInvalid, error.to_string(), ""))?;
+    let correction = ImuCorrection::of(imu).map_err(|error| invalid(error.to_string(), ""))?;
     let mut out = format!(
         "/* Correction of an IMU, raw to true; {}.\n *\n * frame: {}\n",
         written_by(),
@@ -145,8 +144,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
             continue;
         };
         let name = format!("calibrant_{sensor_kind}_bias");
-        let bias = numbers(text, &name, 3)?
-            .ok_or_else(|| input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP))?;
+        let bias = numbers(text, &name, 3)?.ok_or_else(|| invalid(format!("`{name}` is missing"), HELP))?;
         let Some(matrix) = Matrix3::from_row_slice(&correction).try_inverse() else {
             return Err(input_error(
                 Refusal::CalibrationUnusable,
@@ -167,8 +165,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         }
     }
     if units == [None, None] {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             "there is no `calibrant_accelerometer_matrix` and no `calibrant_gyroscope_matrix` in it",
             HELP,
         ));
@@ -192,21 +189,10 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
 fn unit_of(text: &str, sensor_kind: SensorKind) -> Checked<ReadingUnit> {
     let before = format!(" * {sensor_kind}: readings in ");
     let stated = text.lines().find_map(|line| line.strip_prefix(&before)?.split(',').next());
-    let stated = stated.ok_or_else(|| {
-        input_error(
-            Refusal::CalibrationInvalid,
-            format!("the comment with the unit of the {sensor_kind} is missing"),
-            HELP,
-        )
-    })?;
+    let stated = stated
+        .ok_or_else(|| invalid(format!("the comment with the unit of the {sensor_kind} is missing"), HELP))?;
     [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
         .into_iter()
         .find(|unit| ascii(unit.symbol()) == stated.trim())
-        .ok_or_else(|| {
-            input_error(
-                Refusal::CalibrationInvalid,
-                format!("the unit of the {sensor_kind} is \"{}\"", stated.trim()),
-                HELP,
-            )
-        })
+        .ok_or_else(|| invalid(format!("the unit of the {sensor_kind} is \"{}\"", stated.trim()), HELP))
 }

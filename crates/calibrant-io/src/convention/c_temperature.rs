@@ -2,9 +2,8 @@
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, number, numbers, vector};
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use std::fmt::Write;
@@ -116,11 +115,7 @@ pub(super) fn read(text: &str) -> Checked<Thermal> {
         }
     }
     if thermal.is_none() {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            format!("`{REFERENCE}` is there, and no temperature term"),
-            HELP,
-        ));
+        return Err(invalid(format!("`{REFERENCE}` is there, and no temperature term"), HELP));
     }
     Ok(thermal)
 }

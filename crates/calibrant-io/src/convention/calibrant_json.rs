@@ -10,7 +10,7 @@ use super::arrays::missing;
 use super::imu_noise::ImuNoise;
 use super::json_core::ImuCore;
 use super::usable_calibration::usable;
-use super::words::input_error;
+use super::words::{input_error, invalid};
 use super::{CalibratedImuFile, ImuFormat, truth};
 use crate::heading::Heading;
 use crate::json;
@@ -78,11 +78,7 @@ pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
     let header = Header::of(text)?;
     if header.is_truth() {
         let message = "this is the truth of a simulation, not a calibration: it has no covariance";
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            message,
-            "give a calibration.json that `calibrant calibrate` wrote",
-        ));
+        return Err(invalid(message, "give a calibration.json that `calibrant calibrate` wrote"));
     }
     let (imu, _) = header.core(text)?.into_imu()?;
     usable(&imu)?;
@@ -115,21 +111,17 @@ impl Header {
             Some(schema) if *schema == 1 => return Err(obsolete()),
             Some(schema) => {
                 let message = format!("schema {schema} of a calibration is not known to this version");
-                return Err(input_error(Refusal::CalibrationInvalid, message, "use a newer calibrant"));
+                return Err(invalid(message, "use a newer calibrant"));
             }
             None => return Err(missing("schema")),
         }
         if let Some(kind) = self.kind.as_ref().filter(|kind| *kind != KIND) {
             let message = format!("the kind of this file is {kind:?}, not \"{KIND}\"");
-            return Err(input_error(Refusal::CalibrationInvalid, message, HELP));
+            return Err(invalid(message, HELP));
         }
         if let Some(status) = self.status.as_ref().filter(|status| *status != "converged") {
             let message = format!("this calibration did not converge: its status is \"{status}\"");
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
-                message,
-                "calibrate again; its report says what is wrong",
-            ));
+            return Err(invalid(message, "calibrate again; its report says what is wrong"));
         }
         serde_json::from_str(text).map_err(|error| broken(&error))
     }
@@ -141,8 +133,7 @@ fn broken(error: &serde_json::Error) -> Box<InputError> {
 
 /// The error for a file of schema 1, in which earlier versions wrote the calibration of an accelerometer.
 fn obsolete() -> Box<InputError> {
-    input_error(
-        Refusal::CalibrationInvalid,
+    invalid(
         "schema 1 of calibration.json is that of an earlier calibrant: its parameters have other names",
         "calibrate the recording again with this version",
     )

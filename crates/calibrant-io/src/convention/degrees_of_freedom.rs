@@ -1,8 +1,7 @@
 //! The degrees of freedom behind the covariance in our JSON files: the object `covariance_degrees_of_freedom`.
 
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::sensor::CovarianceDegrees;
 use serde::Deserialize;
 
@@ -19,8 +18,7 @@ impl DegreesCore {
         let stated = |degrees: Option<f64>| match degrees {
             None => Ok(f64::INFINITY),
             Some(degrees) if degrees >= 0.0 => Ok(degrees),
-            Some(degrees) => Err(input_error(
-                Refusal::CalibrationInvalid,
+            Some(degrees) => Err(invalid(
                 format!("`covariance_degrees_of_freedom` has {degrees}"),
                 "write a number from 0 on, or null where the variance is known",
             )),

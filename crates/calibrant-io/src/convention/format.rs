@@ -1,6 +1,6 @@
 //! The formats of calibrations: their names, and how a file is recognised.
 
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use std::path::Path;
@@ -70,7 +70,7 @@ impl ImuFormat {
     pub(super) fn of_content(text: &str) -> Checked<Self> {
         let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
         let Some(first) = first.or_else(|| text.lines().map(str::trim).find(|line| !line.is_empty())) else {
-            return Err(input_error(Refusal::CalibrationInvalid, "the file is empty", "give a calibration"));
+            return Err(invalid("the file is empty", "give a calibration"));
         };
         let has = |word: &str| text.contains(word);
         if first.starts_with(['{', '[']) {

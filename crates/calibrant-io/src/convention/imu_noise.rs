@@ -1,8 +1,7 @@
 //! Noise densities that are given beside a calibration.
 
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::sensor::SensorKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,11 +40,7 @@ impl ImuNoise {
     pub(super) fn checked(self) -> Checked<Self> {
         for (name, value) in self.fields() {
             if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
-                return Err(input_error(
-                    Refusal::CalibrationInvalid,
-                    format!("`{name}` is not a positive number"),
-                    "correct it or remove it",
-                ));
+                return Err(invalid(format!("`{name}` is not a positive number"), "correct it or remove it"));
             }
         }
         Ok(self)

@@ -11,7 +11,7 @@
 //! # References
 //! `tedaldi2014`, `imu_tk`
 
-use super::words::{input_error, written_by};
+use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
 use crate::delimited_text::Lines;
 use crate::text_decoding::Checked;
@@ -127,8 +127,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     if let (Some(stated), Some(given)) = (sensor_kind, options.sensor_kind)
         && stated != given
     {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             format!("the file says that it is of the {stated}, and it was given as that of the {given}"),
             "are the two files exchanged, or is option `sensor` wrong?",
         ));
@@ -145,11 +144,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let unit = match stated {
         Some(Some(unit)) => unit,
         Some(None) => {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
-                "its unit of readings is not known",
-                "m/s², rad/s or counts",
-            ));
+            return Err(invalid("its unit of readings is not known", "m/s², rad/s or counts"));
         }
         None => match options.units {
             Some(units) => units.unit(sensor_kind),
@@ -220,8 +215,7 @@ fn text(imu: &CalibratedImu, sensor_kind: SensorKind, unit: ReadingUnit) -> Chec
     let correction =
         Correction::of(imu.parameters.sensor(sensor_kind)).filter(|c| c.scale().iter().all(|&k| k != 0.0));
     let Some(correction) = correction else {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             format!(
                 "the correction of the {sensor_kind} has a zero on its diagonal, and imu_tk's T has none"
             ),

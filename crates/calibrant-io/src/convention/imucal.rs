@@ -13,7 +13,7 @@
 //! `ferraris1995`, `imucal`
 
 use super::arrays::{matrix3, rows, vector3};
-use super::words::{input_error, written_by};
+use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::json;
 use crate::text_decoding::Checked;
@@ -83,8 +83,7 @@ fn unit_of_readings(
     match factor(stated, sensor_kind) {
         Some(Some(factor)) => Ok((sensor_kind.stimulus_unit(), factor)),
         Some(None) => Ok((ReadingUnit::Counts, 1.0)),
-        None => Err(input_error(
-            Refusal::CalibrationInvalid,
+        None => Err(invalid(
             format!("`{field}` is \"{stated}\", which is not known"),
             "known are m/s^2, g, deg/s, rad/s and a.u. for counts",
         )),
@@ -97,20 +96,15 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     match fields.cal_type.as_deref() {
         Some("Ferraris" | "Turntable") => (),
         Some(other) => {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
-                format!("cal_type \"{other}\" is not known"),
-                "Ferraris and Turntable are",
-            ));
+            return Err(invalid(format!("cal_type \"{other}\" is not known"), "Ferraris and Turntable are"));
         }
-        None => return Err(input_error(Refusal::CalibrationInvalid, "`cal_type` is missing", HELP)),
+        None => return Err(invalid("`cal_type` is missing", HELP)),
     }
     let mut findings = Vec::new();
     match fields.format_version.as_deref() {
         Some("2.0.0") => (),
         Some(other) => {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!("format version {other} is not known"),
                 "2.0.0 is, and files without one",
             ));
@@ -121,17 +115,16 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     }
     let matrix = |rows: &Option<Vec<Vec<f64>>>, name: &str| match rows {
         Some(rows) => matrix3(rows, name),
-        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP)),
+        None => Err(invalid(format!("`{name}` is missing"), HELP)),
     };
     let vector = |values: &Option<Vec<f64>>, name: &str| match values {
         Some(values) => vector3(values, name),
-        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP)),
+        None => Err(invalid(format!("`{name}` is missing"), HELP)),
     };
     let corrected = |stated: &Option<String>, name: &str, sensor_kind: SensorKind| match stated {
-        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP)),
+        None => Err(invalid(format!("`{name}` is missing"), HELP)),
         Some(stated) => factor(stated, sensor_kind).flatten().ok_or_else(|| {
-            input_error(
-                Refusal::CalibrationInvalid,
+            invalid(
                 format!("`{name}` is \"{stated}\", which is not known"),
                 "known are m/s^2, g, deg/s and rad/s",
             )

@@ -9,9 +9,8 @@ use super::super::input::Input;
 use super::arrays::{Rows, matrix3, missing, vector3};
 use super::degrees_of_freedom::DegreesCore;
 use super::temperature::TemperatureCore;
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::form::block;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
@@ -109,8 +108,7 @@ impl ImuCore {
         for (i, parameter) in listed.into_iter().enumerate() {
             let quantity = parameter.into_quantity(i, &imu, symmetric.then_some(&names))?;
             if imu.quantities.contains(&quantity) {
-                return Err(input_error(
-                    Refusal::CalibrationInvalid,
+                return Err(invalid(
                     format!("{} stands twice in `parameters`", quantity.name()),
                     "remove one",
                 ));
@@ -124,8 +122,7 @@ impl ImuCore {
         if let Some(gauge) = self.gauge {
             let matrix = imu.parameters.sensor(imu.reference()).matrix;
             if !Gauge::ALL.into_iter().any(|known| known.name() == gauge && known.is_form_of(&matrix)) {
-                return Err(input_error(
-                    Refusal::CalibrationInvalid,
+                return Err(invalid(
                     format!(
                         "`gauge` is \"{gauge}\", but the matrix of the {} has not this form",
                         imu.reference()
@@ -144,8 +141,7 @@ impl SensorCore {
             .into_iter()
             .find(|unit| unit.symbol() == self.reading_unit)
             .ok_or_else(|| {
-                input_error(
-                    Refusal::CalibrationInvalid,
+                invalid(
                     format!("`{sensor_kind}.reading_unit` is \"{}\"", self.reading_unit),
                     &format!("write \"{}\" or \"counts\"", sensor_kind.stimulus_unit().symbol()),
                 )
@@ -186,8 +182,7 @@ impl SensorCore {
         if let (Some(stated), Some(correction)) = (&self.correction, Correction::of(&sensor))
             && !stated.is_near(correction_name(unit, sensor_kind), &block(&correction.matrix, bias.len()))
         {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!("the correction of the {sensor_kind} is not the inverse of its matrix"),
                 "correct one of them, or remove `correction`",
             ));
@@ -237,31 +232,21 @@ impl ParameterCore {
         let unit = self.unit.ok_or_else(|| field("unit"))?;
         let value = self.value.ok_or_else(|| field("value"))?;
         let quantity = quantity_of(&name, imu, symmetric).ok_or_else(|| {
-            input_error(
-                Refusal::CalibrationInvalid,
-                format!("\"{name}\" is no parameter of this IMU"),
-                "names are accelerometer.bias.x, …",
-            )
+            invalid(format!("\"{name}\" is no parameter of this IMU"), "names are accelerometer.bias.x, …")
         })?;
         if self.sd.is_some_and(|sd| sd < 0.0) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
-                format!("the sd of {name} is negative"),
-                "correct it",
-            ));
+            return Err(invalid(format!("the sd of {name} is negative"), "correct it"));
         }
         let wanted = imu.unit_of(quantity);
         if unit != wanted {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!("{name} is in {unit}, its sensor says {wanted}"),
                 "correct one of them",
             ));
         }
         let in_matrix = quantity.value(&imu.parameters);
         if (value - in_matrix).abs() > 1e-9 * value.abs().max(in_matrix.abs()) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!("{name} is {value} in `parameters` and {in_matrix} in its sensor"),
                 "correct one of them",
             ));
@@ -300,11 +285,7 @@ pub(super) fn quantity_of(
 pub(super) fn covariance_of(rows: &[Vec<Option<f64>>], size: usize) -> Checked<DMatrix<f64>> {
     if rows.len() != size || rows.iter().any(|row| row.len() != size) {
         let message = format!("the covariance is not {size} × {size}, one row for each parameter");
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            message,
-            "calibrate again, or remove the covariance",
-        ));
+        return Err(invalid(message, "calibrate again, or remove the covariance"));
     }
     Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j].unwrap_or(f64::NAN)))
 }
@@ -314,8 +295,7 @@ pub(super) fn check_direction(field: &str, stated: &str) -> Checked<()> {
     if stated.starts_with("true to raw") {
         return Ok(());
     }
-    Err(input_error(
-        Refusal::CalibrationInvalid,
+    Err(invalid(
         format!(
             "`{field}` must be true to raw in this format, not {:?}",
             stated.chars().take(40).collect::<String>()

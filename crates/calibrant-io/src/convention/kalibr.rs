@@ -18,7 +18,7 @@
 use super::arrays::{matrix3, vector3};
 use super::file::LARGEST;
 use super::imu_noise::ImuNoise;
-use super::words::{input_error, written_by};
+use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -104,18 +104,15 @@ fn parse(text: &str) -> Checked<Imu> {
         [] => serde_saphyr::from_str(text).map_err(broken),
         [one] => {
             if keys.len() > 1 {
-                return Err(input_error(
-                    Refusal::CalibrationInvalid,
+                return Err(invalid(
                     format!("there are other keys beside {one}"),
                     "leave only the IMU in the file",
                 ));
             }
             let mut imus: BTreeMap<String, Imu> = serde_saphyr::from_str(text).map_err(broken)?;
-            imus.remove(*one)
-                .ok_or_else(|| input_error(Refusal::CalibrationInvalid, "the file is empty", HELP))
+            imus.remove(*one).ok_or_else(|| invalid("the file is empty", HELP))
         }
-        [one, other, ..] => Err(input_error(
-            Refusal::CalibrationInvalid,
+        [one, other, ..] => Err(invalid(
             format!("the file has {one} and {other}, and one is read"),
             "leave the one that you mean in the file",
         )),
@@ -145,9 +142,9 @@ impl Imu {
 pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
         let bytes = text_decoding::read_bytes(path, LARGEST, "the imu.yaml")?;
-        parse(text_decoding::as_text(&bytes)?)?.noise()?.ok_or_else(|| {
-            input_error(Refusal::CalibrationInvalid, "there are no noise densities in it", HELP)
-        })
+        parse(text_decoding::as_text(&bytes)?)?
+            .noise()?
+            .ok_or_else(|| invalid("there are no noise densities in it", HELP))
     };
     read().map_err(|input_error| Error::experiment(input_error.in_file(path)))
 }
@@ -157,8 +154,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let noise = imu.noise()?;
     let Some(accelerometers) = &imu.accelerometers else {
         let model = imu.model.as_deref().unwrap_or("calibrated");
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             format!("there is no calibration in it: model {model}, and no `accelerometers: M`"),
             "run Kalibr with --imu-models scale-misalignment",
         ));
@@ -166,7 +162,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let mut findings = Vec::new();
     let needed = |rows: &Option<Vec<Vec<f64>>>, field: &str| match rows {
         Some(rows) => matrix3(rows, field),
-        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{field}` is missing"), HELP)),
+        None => Err(invalid(format!("`{field}` is missing"), HELP)),
     };
     let c_i_b = match &imu.t_i_b {
         None => Matrix3::identity(),
@@ -243,11 +239,7 @@ fn unit_of(
             .into_iter()
             .find(|unit| unit.symbol() == stated)
             .ok_or_else(|| {
-                input_error(
-                    Refusal::CalibrationInvalid,
-                    format!("`calibrant.{sensor_kind}_unit` is \"{stated}\""),
-                    "m/s², rad/s or counts",
-                )
+                invalid(format!("`calibrant.{sensor_kind}_unit` is \"{stated}\""), "m/s², rad/s or counts")
             }),
     }
 }
@@ -255,7 +247,7 @@ fn unit_of(
 /// The rotation of `T_i_b`. Its translation is a lever arm, which the correction of a reading does not need.
 fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> {
     if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
-        return Err(input_error(Refusal::CalibrationInvalid, "`T_i_b` is not 4 × 4", HELP));
+        return Err(invalid("`T_i_b` is not 4 × 4", HELP));
     }
     let c_i_b = Matrix3::from_fn(|row, column| rows[row][column]);
     rotation(&c_i_b, "T_i_b")?;
@@ -267,11 +259,7 @@ fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> 
 
 fn rotation(c: &Matrix3<f64>, field: &str) -> Checked<()> {
     let is_one = (c * c.transpose() - Matrix3::identity()).amax() < 1e-6 && c.determinant() > 0.0;
-    if is_one {
-        Ok(())
-    } else {
-        Err(input_error(Refusal::CalibrationInvalid, format!("`{field}` is not a rotation"), HELP))
-    }
+    if is_one { Ok(()) } else { Err(invalid(format!("`{field}` is not a rotation"), HELP)) }
 }
 
 /// `L` and `Q` of `S = L Q`: lower triangular with positive diagonal, and a rotation.

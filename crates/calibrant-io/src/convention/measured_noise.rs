@@ -3,10 +3,10 @@
 
 use super::ImuNoise;
 use super::file::LARGEST;
-use super::words::input_error;
+use super::words::invalid;
 use crate::json::{self, SCHEMA};
 use crate::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, Refusal, Result};
+use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::{Axis, CalibratedImu, ReadingUnit, SensorKind};
 use serde::Deserialize;
 use std::path::Path;
@@ -63,11 +63,7 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
             .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
         if let Some(schema) = file.schema.filter(|schema| *schema > SCHEMA) {
             let message = format!("it is of version {schema}, and this program knows up to {SCHEMA}");
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
-                message,
-                "convert with the program that wrote it",
-            ));
+            return Err(invalid(message, "convert with the program that wrote it"));
         }
         let mut noise = ImuNoise::default();
         for sensor in &file.sensors {
@@ -83,8 +79,7 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
     let Some(unit) = imu.unit(sensor_kind) else { return Ok(()) };
     if let Some(caveat) = &sensor.caveat {
         let message = format!("the noise of the {sensor_kind} is not that of a sensor at rest: {caveat}");
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             message,
             "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",
         ));
@@ -96,8 +91,7 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
             sensor.reading_unit.symbol(),
             unit.symbol()
         );
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             message,
             "run `calibrant noise` on the same readings, or give it their option `gain`",
         ));

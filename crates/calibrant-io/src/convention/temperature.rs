@@ -3,9 +3,8 @@
 //! The bias of each sensor has the fields in its unit. Fields that are not there are zero.
 
 use super::arrays::{missing, vector3};
-use super::words::input_error;
+use super::words::invalid;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{ReadingUnit, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use serde::Deserialize;
@@ -41,8 +40,7 @@ impl TemperatureCore {
             None => None,
             Some([low, high]) => Some([*low, *high]),
             Some(_) => {
-                return Err(input_error(
-                    Refusal::CalibrationInvalid,
+                return Err(invalid(
                     "`temperature.range_c` is not two numbers",
                     "give the least and the greatest temperature",
                 ));
@@ -58,8 +56,7 @@ impl TemperatureCore {
                 (None, _) => SensorThermal::default(),
                 (Some(terms), Some(unit)) => terms.into_terms(sensor_kind, unit)?,
                 (Some(_), None) => {
-                    return Err(input_error(
-                        Refusal::CalibrationInvalid,
+                    return Err(invalid(
                         format!("`temperature.{sensor_kind}` is there, and no {sensor_kind}"),
                         "correct the one or the other",
                     ));
@@ -87,8 +84,7 @@ impl TermsCore {
         let [first, second] = self.bias(unit).map(Option::take);
         let others = [ReadingUnit::MetrePerSecondSquared, ReadingUnit::RadianPerSecond, ReadingUnit::Counts];
         if others.into_iter().any(|other| self.bias(other).iter().any(|field| field.is_some())) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!(
                     "`temperature.{sensor_kind}` has a bias in another unit than its sensor, {}",
                     unit.symbol()

@@ -1,11 +1,10 @@
 //! Reads `truth.json` of a simulated sensor as a calibration without a covariance: its values are exact.
 
 use super::json_core::{check_direction, quantity_of};
-use super::words::input_error;
+use super::words::invalid;
 use super::{CalibratedImuFile, ImuFormat};
 use crate::json;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{
     Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
 };
@@ -39,17 +38,11 @@ struct Value {
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let file: File = serde_json::from_str(text).map_err(|error| json::broken(&error, KIND, HELP))?;
     file.convention.iter().try_for_each(|stated| check_direction("convention", stated))?;
-    let missing = |field: &str| {
-        input_error(Refusal::CalibrationInvalid, format!("in {KIND} the field `{field}` is missing"), HELP)
-    };
+    let missing = |field: &str| invalid(format!("in {KIND} the field `{field}` is missing"), HELP);
     let listed = file.parameters.ok_or_else(|| missing("parameters"))?;
     let known = |gauge: &String| Gauge::ALL.iter().any(|of| of.name() == gauge.as_str());
     if let Some(gauge) = file.gauge.as_ref().filter(|gauge| !known(gauge)) {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            format!("the gauge \"{gauge}\" is none that is known"),
-            HELP,
-        ));
+        return Err(invalid(format!("the gauge \"{gauge}\" is none that is known"), HELP));
     }
     let names: Vec<String> = listed.iter().map(|value| value.name.clone()).collect();
     let of = |sensor_kind: SensorKind| {
@@ -85,17 +78,16 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let estimated = listed.len();
     for (i, value) in listed.iter().chain(&file.fixed).enumerate() {
         let name = &value.name;
-        let quantity = quantity_of(name, &imu, symmetric).ok_or_else(|| {
-            input_error(Refusal::CalibrationInvalid, format!("\"{name}\" is no parameter of a sensor"), HELP)
-        })?;
+        let quantity = quantity_of(name, &imu, symmetric)
+            .ok_or_else(|| invalid(format!("\"{name}\" is no parameter of a sensor"), HELP))?;
         let wanted =
             quantity.unit(imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit()));
         if value.unit != wanted {
             let message = format!("{name} is in \"{}\", and {wanted} is expected", value.unit);
-            return Err(input_error(Refusal::CalibrationInvalid, message, HELP));
+            return Err(invalid(message, HELP));
         }
         if imu.quantities.contains(&quantity) {
-            return Err(input_error(Refusal::CalibrationInvalid, format!("{name} stands twice"), HELP));
+            return Err(invalid(format!("{name} stands twice"), HELP));
         }
         quantity.add_to(&mut imu.parameters, value.value);
         if i < estimated {
@@ -106,8 +98,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         let scale =
             |axis: &Axis| ImuQuantity::Of(sensor_kind, Quantity::Scale(*axis)).value(&imu.parameters) != 0.0;
         if !Axis::ALL.iter().all(scale) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!(
                     "the truth has fewer than three scale factors of the {sensor_kind}: it has not three axes"
                 ),

@@ -1,6 +1,6 @@
 //! The check that every calibration must pass to be usable, whatever its format.
 
-use super::words::input_error;
+use super::words::{input_error, invalid};
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, ImuCorrection, SensorKind};
@@ -13,11 +13,7 @@ const LARGEST: f64 = 1e12;
 /// valid.
 pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
     if imu.accelerometer_unit.is_none() && imu.gyroscope_unit.is_none() {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
-            "there is neither an accelerometer nor a gyroscope in it",
-            "give a calibration",
-        ));
+        return Err(invalid("there is neither an accelerometer nor a gyroscope in it", "give a calibration"));
     }
     for sensor_kind in SensorKind::ALL {
         if imu.unit(sensor_kind).is_none() {
@@ -26,15 +22,13 @@ pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
         let sensor = imu.parameters.sensor(sensor_kind);
         let believable = |value: &f64| value.is_finite() && value.abs() <= LARGEST;
         if !sensor.bias.iter().chain(sensor.matrix.iter()).all(believable) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!("a number of the {sensor_kind} is not finite or beyond 1e12"),
                 "calibrate again",
             ));
         }
         if !imu.parameters.g_sensitivity.iter().all(believable) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 "a number of the g-sensitivity is not finite or beyond 1e12",
                 "calibrate again",
             ));
@@ -51,8 +45,7 @@ pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
         }
     }
     temperature(imu)?;
-    ImuCorrection::of(imu)
-        .map_err(|error| input_error(Refusal::CalibrationInvalid, error.to_string(), ""))?;
+    ImuCorrection::of(imu).map_err(|error| invalid(error.to_string(), ""))?;
     match &imu.covariance {
         Some(covariance) => covariance_of(covariance, imu.quantities.len()),
         None => Ok(()),
@@ -65,8 +58,7 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
     let [low, high] = thermal.range_c.unwrap_or([thermal.reference_c; 2]);
     let possible = |t: f64| (-273.15..=1000.0).contains(&t);
     if !(possible(thermal.reference_c) && possible(low) && possible(high) && low <= high) {
-        return Err(input_error(
-            Refusal::CalibrationInvalid,
+        return Err(invalid(
             "a temperature is not between -273.15 and 1000 °C, or the range of temperatures is none",
             "reference_c and range_c are in °C, the range from the least to the greatest",
         ));
@@ -75,15 +67,13 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
         let terms = thermal.sensor(sensor_kind);
         let all = terms.bias.iter().chain(&terms.scale).flat_map(|vector| vector.iter());
         if !all.into_iter().all(|value| value.is_finite() && value.abs() <= LARGEST) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!("a temperature term of the {sensor_kind} is not finite or beyond 1e12"),
                 "calibrate again",
             ));
         }
         if [low, high].iter().any(|t| terms.gain_factor(thermal.tau_k(*t)).min() <= 0.0) {
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
+            return Err(invalid(
                 format!(
                     "the polynomial of the {sensor_kind}'s gain is not positive in the range of temperatures"
                 ),
@@ -97,9 +87,7 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
 /// Is a matrix the covariance of this number of quantities: square, finite, symmetric, no negative variance
 /// in any direction?
 fn covariance_of(covariance: &DMatrix<f64>, size: usize) -> Checked<()> {
-    let reject = |message: String| {
-        Err(input_error(Refusal::CalibrationInvalid, message, "calibrate again, or remove the covariance"))
-    };
+    let reject = |message: String| Err(invalid(message, "calibrate again, or remove the covariance"));
     if covariance.shape() != (size, size) {
         return reject(format!("the covariance is not {size} × {size}, one row for each parameter"));
     }

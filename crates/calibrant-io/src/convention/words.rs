@@ -11,3 +11,8 @@ pub(super) fn written_by() -> String {
 pub(super) fn input_error(code: Refusal, message: impl Into<String>, help: &str) -> Box<InputError> {
     Box::new(InputError::new(code, message, help))
 }
+
+/// The error for a file that is no calibration, or contradicts itself.
+pub(super) fn invalid(message: impl Into<String>, help: &str) -> Box<InputError> {
+    input_error(Refusal::CalibrationInvalid, message, help)
+}

@@ -2,38 +2,60 @@
 
 use super::number::{Either, Within};
 use super::ranges::DirectionComponent;
-use super::refused_key::refused;
 use super::remedies::DIRECTION;
-use calibrant_core::error::Result;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-/// A direction: `"x"`, `"-z"`, or three numbers.
-pub type Direction = Either<String, Vec<Within<DirectionComponent>>>;
+/// A direction as it is written: `"x"`, `"-z"`, or three numbers of any length.
+pub type WrittenDirection = Either<String, Vec<Within<DirectionComponent>>>;
 
-/// The unit vector of a direction.
-pub(super) fn unit_vector(key: &str, direction: &Direction) -> Result<Vector3<f64>> {
-    match direction {
-        Either::Single(text) => {
-            let (sign, name) = text.strip_prefix('-').map_or((1.0, text.as_str()), |name| (-1.0, name));
-            let name = name.strip_prefix('+').unwrap_or(name);
-            match Axis::ALL.iter().position(|axis| axis.to_string() == name) {
-                Some(axis) => Ok(Vector3::from_fn(|k, _| if k == axis { sign } else { 0.0 })),
-                None => Err(refused(key, format!("\"{text}\" is no direction"), DIRECTION)),
-            }
-        }
-        Either::Compound(numbers) => {
-            let [x, y, z] = numbers.as_slice() else {
-                let message = format!("a direction has three numbers, this has {}", numbers.len());
-                return Err(refused(key, message, DIRECTION));
-            };
-            let vector = Vector3::new(x.get(), y.get(), z.get());
-            vector.try_normalize(1e-9).ok_or_else(|| refused(key, "a direction of no length", DIRECTION))
-        }
+/// A direction: `"x"`, `"-z"`, or three numbers. In code it is made with `try_from`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "WrittenDirection", into = "WrittenDirection")]
+pub struct Direction {
+    written: WrittenDirection,
+    unit: Vector3<f64>,
+}
+
+impl Direction {
+    /// Its unit vector.
+    #[must_use]
+    pub fn unit(&self) -> Vector3<f64> {
+        self.unit
     }
 }
 
-/// The unit vectors of a list of directions.
-pub(super) fn unit_vectors(key: &str, directions: &[Direction]) -> Result<Vec<Vector3<f64>>> {
-    directions.iter().enumerate().map(|(i, of)| unit_vector(&format!("{key}[{i}]"), of)).collect()
+impl From<Direction> for WrittenDirection {
+    fn from(direction: Direction) -> Self {
+        direction.written
+    }
+}
+
+impl TryFrom<WrittenDirection> for Direction {
+    type Error = String;
+
+    fn try_from(written: WrittenDirection) -> Result<Self, String> {
+        let refused = |message: &str| Err(format!("{message}\n{DIRECTION}"));
+        let unit = match &written {
+            Either::Single(text) => {
+                let (sign, name) = text.strip_prefix('-').map_or((1.0, text.as_str()), |name| (-1.0, name));
+                let name = name.strip_prefix('+').unwrap_or(name);
+                match Axis::ALL.iter().position(|axis| axis.to_string() == name) {
+                    Some(axis) => Vector3::from_fn(|k, _| if k == axis { sign } else { 0.0 }),
+                    None => return refused(&format!("\"{text}\" is no direction")),
+                }
+            }
+            Either::Compound(numbers) => {
+                let [x, y, z] = numbers.as_slice() else {
+                    return refused(&format!("a direction has three numbers, this has {}", numbers.len()));
+                };
+                match Vector3::new(x.get(), y.get(), z.get()).try_normalize(1e-9) {
+                    Some(unit) => unit,
+                    None => return refused("a direction of no length"),
+                }
+            }
+        };
+        Ok(Self { written, unit })
+    }
 }

@@ -9,6 +9,7 @@ use calibrant_core::error::{Error, InputError, Refusal, Result};
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::Path;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Largest experiment file, bytes.
@@ -41,9 +42,10 @@ impl<'a> Document<'a> {
         self.file.and_then(Path::parent)
     }
 
-    /// Has the top of the file this key?
+    /// Has the file this key?
     pub(super) fn has(&self, key: &str) -> bool {
-        self.root.as_table().is_some_and(|table| table.contains_key(key))
+        let mut keys = key.split('.');
+        keys.try_fold(&self.root, |value, key| value.as_table()?.get(key).map(Spanned::get_ref)).is_some()
     }
 
     /// Has the top of the file other keys than these?

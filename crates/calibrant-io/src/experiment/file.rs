@@ -5,13 +5,13 @@ use super::calibrate::CalibrateOptions;
 use super::columns::ColumnsSection;
 use super::design::DesignOptions;
 use super::gyroscope::{GyroscopeSection, KnownSection};
-use super::holds::HoldsSection;
+use super::holds::HoldsPlan;
 use super::limits::LimitsSection;
-use super::machine::MachineSection;
+use super::machine::MachinePlan;
 use super::motion::MotionSection;
 use super::number::Count;
 use super::sensor::SensorSection;
-use super::study::StudySection;
+use super::study::StudyOptions;
 use super::temperature::TemperatureSection;
 use serde::{Deserialize, Serialize};
 
@@ -51,9 +51,9 @@ pub struct ExperimentFile {
     /// A commanded motion.
     pub motion: Option<MotionSection>,
     /// Still poses.
-    pub holds: Option<HoldsSection>,
+    pub holds: Option<HoldsPlan>,
     /// A machine whose motion is logged.
-    pub machine: Option<MachineSection>,
+    pub machine: Option<MachinePlan>,
     /// The gyroscope of an IMU.
     pub gyroscope: Option<GyroscopeSection>,
     /// Known quantities of an IMU.
@@ -71,5 +71,5 @@ pub struct ExperimentFile {
     /// The design of a motion or of poses.
     pub design: Option<DesignOptions>,
     /// Studies over many sensors.
-    pub study: Option<StudySection>,
+    pub study: Option<StudyOptions>,
 }

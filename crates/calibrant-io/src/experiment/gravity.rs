@@ -16,9 +16,8 @@ pub(super) struct GravityKeys {
 }
 
 impl GravityKeys {
-    /// The magnitude of gravity and, in words, where it is from. Beside a value a latitude may serve for the
-    /// Earth's rate.
-    pub(super) fn magnitude(&self, with_earth_rate: bool) -> Result<(Gravity, String)> {
+    /// The magnitude of gravity. Beside a value a latitude may serve for the Earth's rate.
+    pub(super) fn magnitude(&self, with_earth_rate: bool) -> Result<Gravity> {
         /// The remedy for missing or contradictory gravity.
         const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
         let key = |key: &str| format!("{}.{key}", self.section);
@@ -33,13 +32,10 @@ impl GravityKeys {
                 twice("height_m", "; latitude_deg alone may stand beside it, for the Earth's rate")
             }
             (Some(_), _, Some(_)) => twice("height_m", ""),
-            (Some(magnitude_mps2), _, None) => {
-                Ok((Gravity { magnitude_mps2, sd_mps2: sd.unwrap_or(0.0) }, "given".into()))
-            }
+            (Some(magnitude_mps2), _, None) => Ok(Gravity { magnitude_mps2, sd_mps2: sd.unwrap_or(0.0) }),
             (None, Some(latitude), Some(height)) => {
                 let gravity = Gravity::from_latitude(latitude, height);
-                let gravity = Gravity { sd_mps2: sd.unwrap_or(gravity.sd_mps2), ..gravity };
-                Ok((gravity, format!("from latitude {latitude}°, height {height} m")))
+                Ok(Gravity { sd_mps2: sd.unwrap_or(gravity.sd_mps2), ..gravity })
             }
             (None, Some(_), None) => Err(missing(key("height_m"), "latitude_deg and height_m go together")),
             (None, None, Some(_)) => {

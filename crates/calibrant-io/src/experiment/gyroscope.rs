@@ -1,7 +1,7 @@
 //! `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and known quantities.
 
 use super::HoldsPlan;
-use super::direction::{Direction, unit_vector};
+use super::direction::Direction;
 use super::number::{Either, PerAxis, Within};
 use super::ranges::{GyroscopeGain, NoiseCounts, NoiseRadps, PriorSd, Time, TurnAngle, TurnSd, Value};
 use super::refused_key::refused;
@@ -119,18 +119,20 @@ pub struct ImuPlan {
 
 impl ImuPlan {
     /// The setup of such a recording: the holds, the turns, the known quantities and the temperature model.
-    #[must_use]
-    pub fn setup(&self, holds: &HoldsPlan) -> ImuSetup {
-        ImuSetup {
-            holds: holds.setup(),
-            latitude_deg: holds.latitude_deg,
-            directions: holds.directions.clone(),
-            face_sd_rad: holds.face_sd_rad,
+    ///
+    /// # Errors
+    /// As [`HoldsPlan::gravity`].
+    pub fn setup(&self, holds: &HoldsPlan) -> Result<ImuSetup> {
+        Ok(ImuSetup {
+            holds: holds.setup()?,
+            latitude_deg: holds.latitude_deg.map(f64::from),
+            directions: holds.directions(),
+            face_sd_rad: holds.face_sd_rad(),
             turns: self.turns.clone(),
             known: self.known.clone(),
             thermal: self.thermal,
             ..ImuSetup::default()
-        }
+        })
     }
 }
 
@@ -216,7 +218,7 @@ impl TurnSection {
             start_s,
             end_s,
             angle_rad: turned_by(&format!("{key}.angle_deg"), self.angle_deg)?,
-            axis: unit_vector(&format!("{key}.axis"), &self.axis)?,
+            axis: self.axis.unit(),
             angle_sd_rad: self.angle_sd_deg.map_or(TURN_SD_DEG, f64::from).to_radians(),
         })
     }

@@ -36,28 +36,20 @@ macro_rules! section_with_limits {
         impl $name {
             /// The limits; `None` where there are none. `section` is its name in errors.
             pub(super) fn limits(&self, section: &str, axes: usize) -> Result<Option<Limits>> {
-                let key = |key: &str| format!("{section}.{key}");
+                macro_rules! of {
+                    ($key:ident) => {
+                        per_axis(&format!("{section}.{}", stringify!($key)), self.$key.as_ref(), axes)?
+                    };
+                }
                 let limits = Limits {
-                    acceleration_mps2: per_axis(
-                        &key("acceleration_mps2"),
-                        self.acceleration_mps2.as_ref(),
-                        axes,
-                    )?,
-                    jerk_mps3: per_axis(&key("jerk_mps3"), self.jerk_mps3.as_ref(), axes)?,
-                    intercept_mps2: per_axis(&key("intercept_mps2"), self.intercept_mps2.as_ref(), axes)?,
-                    velocity_mps: per_axis(&key("velocity_mps"), self.velocity_mps.as_ref(), axes)?,
-                    displacement_m: per_axis(&key("displacement_m"), self.displacement_m.as_ref(), axes)?,
+                    acceleration_mps2: of!(acceleration_mps2),
+                    jerk_mps3: of!(jerk_mps3),
+                    intercept_mps2: of!(intercept_mps2),
+                    velocity_mps: of!(velocity_mps),
+                    displacement_m: of!(displacement_m),
                     rest: self.rest.unwrap_or_default(),
-                    start_acceleration_mps2: per_axis(
-                        &key("start_acceleration_mps2"),
-                        self.start_acceleration_mps2.as_ref(),
-                        axes,
-                    )?,
-                    end_acceleration_mps2: per_axis(
-                        &key("end_acceleration_mps2"),
-                        self.end_acceleration_mps2.as_ref(),
-                        axes,
-                    )?,
+                    start_acceleration_mps2: of!(start_acceleration_mps2),
+                    end_acceleration_mps2: of!(end_acceleration_mps2),
                 };
                 Ok((self.rest.is_some() || limits != Limits::default()).then_some(limits))
             }

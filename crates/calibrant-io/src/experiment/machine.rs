@@ -1,11 +1,11 @@
 //! `[machine]`: the machine that carries the sensor, and what is known of both.
 
 use super::ImuPlan;
-use super::direction::{Direction, unit_vector};
+use super::direction::Direction;
 use super::gravity::GravityKeys;
 use super::machine_mount::MountSection;
 use super::machine_simulation::MachineSimulation;
-use super::machine_source::{MachineSource, UrdfSource};
+use super::machine_source::UrdfSource;
 use super::number::{Either, Within, set};
 use super::ranges::{
     BaseTilt, Delay, DelaySd, GravityMps2, GravitySd, Height, JointRotationSd, JointTranslationSd,
@@ -13,7 +13,9 @@ use super::ranges::{
 };
 use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
+use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{Sensor, SensorModel};
+use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{MachineSetup, MachineTrust, MountingPrior};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -21,16 +23,19 @@ use std::path::{Path, PathBuf};
 
 /// `[machine]`: the machine that carries the sensor, and what is known of both.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MachineSection {
-    /// Path of the machine's URDF file, or the name of one that is built in. Without it the log has poses.
-    pub urdf: Option<String>,
-    /// Link that does not move.
+#[serde(default, deny_unknown_fields)]
+pub struct MachinePlan {
+    /// The machine: a URDF file, or one that is built in. Without it the reference is a log of poses.
+    pub urdf: Option<UrdfSource>,
+    /// A machine that is built in code, in the place of `urdf`. A file cannot have it.
+    #[serde(skip)]
+    pub chain: Option<Box<KinematicChain>>,
+    /// Link that does not move; by default the first.
     pub base: Option<String>,
-    /// Link that carries the sensor.
+    /// Link that carries the sensor; by default the last, if there is one.
     pub tip: Option<String>,
     /// Directories in which the packages of its meshes lie.
-    pub packages: Option<Vec<PathBuf>>,
+    pub packages: Vec<PathBuf>,
     /// How far the log is trusted.
     pub trust: Option<MachineTrust>,
     /// Direction up in the base.
@@ -46,24 +51,26 @@ pub struct MachineSection {
     /// Standard deviation of the base's tilt about each of two axes.
     pub tilt_sd_deg: Option<Within<BaseTilt>>,
     /// Where the noise of the sensors is from.
-    pub sensor_noise: Option<NoiseFrom>,
+    pub sensor_noise: NoiseFrom,
     /// Where the sensor is on the tip.
-    pub mount: Option<MountSection>,
+    pub mount: MountSection,
     /// The clocks.
-    pub clock: Option<ClockSection>,
+    pub clock: ClockSection,
     /// How well the URDF file describes the machine.
     pub geometry: Option<GeometrySection>,
     /// The log of the motion.
-    pub log: Option<LogSection>,
+    pub log: LogSection,
     /// What only a simulation needs.
-    pub simulate: Option<MachineSimulation>,
+    #[serde(rename = "simulate")]
+    pub simulation: MachineSimulation,
 }
 
 /// Where the noise of sensors is from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum NoiseFrom {
     /// The residuals.
+    #[default]
     Residuals,
     /// The datasheet.
     Datasheet,
@@ -111,73 +118,68 @@ pub struct LogSection {
     pub topic: Option<String>,
 }
 
-/// A sensor on a machine, as `[machine]` describes it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MachinePlan {
-    /// The machine; `None` where the reference is a log of poses.
-    pub source: Option<MachineSource>,
-    /// The source of the value of gravity, in words: `given`, or `from latitude 52.2°, height 30 m`.
-    pub gravity_source: String,
-    /// Is the sensors' noise that of their datasheets? Otherwise it follows from the residuals.
-    pub noise_of_datasheet: bool,
-    /// Noise of one sample of the log, where it is given.
-    pub log_noise: Option<LogNoise>,
-    /// Topic of the log in a bag that has several.
-    pub log_topic: Option<String>,
-    /// The settings that only `simulate` needs.
-    pub simulation: MachineSimulation,
-    /// What is known, but for the noise.
-    known: MachineSetup,
-}
-
-/// Noise of one sample of a log.
-#[derive(Debug, Clone, PartialEq)]
-pub enum LogNoise {
-    /// The same for each joint, rad or m.
-    OfEachJoint(f64),
-    /// Joint by joint, rad or m.
-    OfJoints(Vec<f64>),
-    /// Of a pose.
-    OfPoses {
-        /// Of the position along each axis, m.
-        position_m: f64,
-        /// Of the orientation about each axis, rad.
-        orientation_rad: f64,
-    },
-}
-
-impl LogNoise {
-    /// The noise of each component of a log: of each joint, or of three axes of position and three of orientation.
-    fn of_components(&self, joints: usize) -> Vec<f64> {
-        match self {
-            Self::OfEachJoint(noise) => vec![*noise; joints],
-            Self::OfJoints(noise) => noise.clone(),
-            Self::OfPoses { position_m, orientation_rad } => {
-                [[*position_m; 3], [*orientation_rad; 3]].concat()
-            }
-        }
-    }
-}
-
 impl MachinePlan {
-    /// What is known beforehand, for a machine with this number of joints.
-    #[must_use]
-    pub fn setup(&self, accelerometer: &Sensor, imu: Option<&ImuPlan>, joints: usize) -> MachineSetup {
-        let mut setup = self.known.clone();
-        setup.reference_noise = self.log_noise.as_ref().map(|noise| noise.of_components(joints));
-        if self.noise_of_datasheet {
-            let gain = accelerometer.gain.unwrap_or_else(|| Vector3::repeat(1.0));
-            setup.accelerometer_noise = accelerometer.noise(&gain);
-            setup.gyroscope_noise = imu.and_then(|imu| imu.gyroscope.noise);
+    /// The joints that carry the sensor; `None` where the reference is a log of poses.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) as [`Urdf::read`](crate::Urdf::read) and [`Urdf::chain`](crate::Urdf::chain).
+    pub fn kinematic_chain(&self) -> Result<Option<KinematicChain>> {
+        match (&self.chain, &self.urdf) {
+            (Some(chain), _) => Ok(Some((**chain).clone())),
+            (None, Some(urdf)) => urdf.read()?.chain(self.base.as_deref(), self.tip.as_deref()).map(Some),
+            (None, None) => Ok(None),
         }
-        setup
     }
-}
 
-impl MachineSection {
-    /// The plan of such a machine. `directory` is that of the experiment file.
-    pub(super) fn plan(&self, sensor: &Sensor, directory: Option<&Path>) -> Result<MachinePlan> {
-        let source = self.source(directory)?;
+    /// Has the machine joints? Otherwise the reference is a log of poses.
+    #[must_use]
+    pub fn has_joints(&self) -> bool {
+        self.chain.is_some() || self.urdf.is_some()
+    }
+
+    /// What is known beforehand, for a machine with this number of joints.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) where keys contradict each other.
+    pub fn setup(
+        &self,
+        accelerometer: &Sensor,
+        imu: Option<&ImuPlan>,
+        joints: usize,
+    ) -> Result<MachineSetup> {
+        let Gravity { magnitude_mps2: gravity_mps2, sd_mps2: gravity_sd_mps2 } = self.gravity()?;
+        let usual = MachineSetup::default();
+        let mut known = MachineSetup {
+            gravity_mps2,
+            gravity_sd_mps2,
+            trust: self.trust.unwrap_or(usual.trust),
+            up: self.up.as_ref().map_or(usual.up, Direction::unit),
+            tilt_sd_rad: self.tilt_sd_deg.map_or(usual.tilt_sd_rad, |tilt| tilt.get().to_radians()),
+            knot_step_s: self.log.knot_step_s.map(f64::from),
+            reference_noise: self.log.noise_of(self.has_joints(), joints)?,
+            ..usual
+        };
+        self.mount.add_to(&mut known)?;
+        set(&mut known.delay_s, self.clock.delay_s);
+        set(&mut known.delay_sd_s, self.clock.delay_sd_s);
+        set(&mut known.delay_difference_sd_s, self.clock.delay_difference_sd_s);
+        if let Some(rate) = self.clock.rate_sd_ppm {
+            known.clock_rate_sd = rate.get() / 1e6;
+        }
+        if let Some(geometry) = &self.geometry {
+            set(&mut known.geometry_translation_sd_m, geometry.translation_sd_m);
+            set(&mut known.geometry_rotation_sd_rad, geometry.rotation_sd_rad);
+            set(&mut known.zero_sd, geometry.zero_sd);
+        }
+        if self.sensor_noise == NoiseFrom::Datasheet {
+            let gain = accelerometer.gain.unwrap_or_else(|| Vector3::repeat(1.0));
+            known.accelerometer_noise = accelerometer.noise(&gain);
+            known.gyroscope_noise = imu.and_then(|imu| imu.gyroscope.noise);
+        }
+        Ok(known)
+    }
+
+    fn gravity(&self) -> Result<Gravity> {
         let keys = GravityKeys {
             section: "machine",
             gravity_mps2: self.gravity_mps2.map(f64::from),
@@ -185,91 +187,51 @@ impl MachineSection {
             latitude_deg: self.latitude_deg,
             height_m: self.height_m,
         };
-        let (gravity, gravity_source) = keys.magnitude(false)?;
-        let mut known = MachineSetup {
-            gravity_mps2: gravity.magnitude_mps2,
-            gravity_sd_mps2: gravity.sd_mps2,
-            ..MachineSetup::default()
-        };
-        known.trust = self.trust.unwrap_or(known.trust);
-        if let Some(up) = &self.up {
-            known.up = unit_vector("machine.up", up)?;
-        }
-        if let Some(tilt) = self.tilt_sd_deg {
-            known.tilt_sd_rad = tilt.get().to_radians();
-        }
-        if let Some(mount) = &self.mount {
-            mount.add_to(&mut known)?;
-            if known.mounting == MountingPrior::Unknown && sensor.model != SensorModel::Full {
-                let help = "model = \"full\" in [sensor], or a rotation that is known";
-                let message = "an unknown mounting needs the full model";
-                return Err(refused("machine.mount.rotation", message, help));
+        keys.magnitude(false)
+    }
+
+    /// The same machine, its paths in the directory of the experiment file.
+    pub(super) fn beside(mut self, directory: Option<&Path>) -> Self {
+        if let Some(directory) = directory {
+            self.packages.iter_mut().for_each(|path| *path = directory.join(&*path));
+            if let Some(UrdfSource::File(path)) = &mut self.urdf {
+                *path = directory.join(&*path);
             }
         }
-        if let Some(clock) = &self.clock {
-            set(&mut known.delay_s, clock.delay_s);
-            set(&mut known.delay_sd_s, clock.delay_sd_s);
-            set(&mut known.delay_difference_sd_s, clock.delay_difference_sd_s);
-            if let Some(rate) = clock.rate_sd_ppm {
-                known.clock_rate_sd = rate.get() / 1e6;
-            }
+        self
+    }
+
+    /// Refuses keys that contradict each other, or the sensor.
+    pub(super) fn check(&self, sensor: &Sensor) -> Result<()> {
+        let of_joints = [
+            ("machine.base", self.base.is_some()),
+            ("machine.tip", self.tip.is_some()),
+            ("machine.packages", !self.packages.is_empty()),
+        ];
+        if let Some((key, _)) = of_joints.iter().find(|(_, is_there)| *is_there && self.urdf.is_none()) {
+            let help = "urdf = \"arm.urdf\" in [machine], for example";
+            return Err(refused(*key, "this needs a machine", help));
         }
-        if let Some(geometry) = &self.geometry {
-            if source.is_none() {
-                let help = "take it out, or name the machine: urdf = … in [machine]";
-                return Err(refused("machine.geometry", "without a urdf there are no joints", help));
-            }
-            set(&mut known.geometry_translation_sd_m, geometry.translation_sd_m);
-            set(&mut known.geometry_rotation_sd_rad, geometry.rotation_sd_rad);
-            set(&mut known.zero_sd, geometry.zero_sd);
+        let setup = self.setup(sensor, None, 0)?;
+        if setup.mounting == MountingPrior::Unknown && sensor.model != SensorModel::Full {
+            let help = "model = \"full\" in [sensor], or a rotation that is known";
+            let message = "an unknown mounting needs the full model";
+            return Err(refused("machine.mount.rotation", message, help));
         }
-        let log = self.log.as_ref();
-        known.knot_step_s = log.and_then(|log| log.knot_step_s).map(f64::from);
-        let simulation = self.simulate.unwrap_or_default();
-        if simulation.resolution != 0.0 && source.is_none() {
-            let help = "take it out, or name the machine: urdf = … in [machine]";
+        let help = "take it out, or name the machine: urdf = … in [machine]";
+        if self.geometry.is_some() && !self.has_joints() {
+            return Err(refused("machine.geometry", "without a urdf there are no joints", help));
+        }
+        if self.simulation.resolution != 0.0 && !self.has_joints() {
             let message = "without a urdf there are no encoders";
             return Err(refused("machine.simulate.resolution", message, help));
         }
-        Ok(MachinePlan {
-            simulation,
-            log_topic: log.and_then(|log| log.topic.clone()),
-            log_noise: log.map(|log| log.noise_of(source.is_some())).transpose()?.flatten(),
-            source,
-            gravity_source,
-            noise_of_datasheet: self.sensor_noise == Some(NoiseFrom::Datasheet),
-            known,
-        })
-    }
-
-    fn source(&self, directory: Option<&Path>) -> Result<Option<MachineSource>> {
-        let Some(urdf) = &self.urdf else {
-            let of_joints = [
-                ("machine.base", self.base.is_some()),
-                ("machine.tip", self.tip.is_some()),
-                ("machine.packages", self.packages.is_some()),
-            ];
-            return match of_joints.iter().find(|(_, is_there)| *is_there) {
-                Some((key, _)) => {
-                    let help = "urdf = \"arm.urdf\" in [machine], for example";
-                    Err(refused(*key, "this needs a machine", help))
-                }
-                None => Ok(None),
-            };
-        };
-        let beside =
-            |path: &PathBuf| directory.map_or_else(|| path.clone(), |directory| directory.join(path));
-        Ok(Some(MachineSource {
-            urdf: UrdfSource::named(urdf, directory)?,
-            base: self.base.clone(),
-            tip: self.tip.clone(),
-            packages: self.packages.iter().flatten().map(beside).collect(),
-        }))
+        Ok(())
     }
 
     /// Refuses the datasheets' noise where one of them does not state it.
     pub(super) fn check_noise(&self, sensor: &Sensor, imu: Option<&ImuPlan>) -> Result<()> {
-        let missing = if self.sensor_noise != Some(NoiseFrom::Datasheet) {
+        let missing = if self.sensor_noise == NoiseFrom::Residuals {
             return Ok(());
         } else if sensor.noise_mps2.is_none() && sensor.noise_counts.is_none() {
             "noise_mps2 (or noise_counts) in [sensor]"
@@ -284,7 +246,8 @@ impl MachineSection {
 }
 
 impl LogSection {
-    fn noise_of(&self, has_joints: bool) -> Result<Option<LogNoise>> {
+    /// The noise of each component of a log: of each joint, or of three axes of position and three of orientation.
+    fn noise_of(&self, has_joints: bool, joints: usize) -> Result<Option<Vec<f64>>> {
         let key = |key: &str| format!("machine.log.{key}");
         let (position, orientation) = (self.position_noise_m, self.orientation_noise_rad);
         if has_joints && (position.is_some() || orientation.is_some()) {
@@ -297,13 +260,13 @@ impl LogSection {
             return Err(refused(key("noise"), "without a urdf the log has poses", help));
         }
         match (&self.noise, position, orientation) {
-            (Some(Either::Single(noise)), _, _) => Ok(Some(LogNoise::OfEachJoint(noise.get()))),
+            (Some(Either::Single(noise)), _, _) => Ok(Some(vec![noise.get(); joints])),
             (Some(Either::Compound(noise)), _, _) => {
-                Ok(Some(LogNoise::OfJoints(noise.iter().map(|noise| noise.get()).collect())))
+                Ok(Some(noise.iter().map(|noise| noise.get()).collect()))
             }
             (None, None, None) => Ok(None),
             (None, Some(position), Some(orientation)) => {
-                Ok(Some(LogNoise::OfPoses { position_m: position.get(), orientation_rad: orientation.get() }))
+                Ok(Some([[position.get(); 3], [orientation.get(); 3]].concat()))
             }
             (None, Some(_), None) => Err(missing(key("orientation_noise_rad"), "give both, or neither")),
             (None, None, Some(_)) => Err(missing(key("position_noise_m"), "give both, or neither")),

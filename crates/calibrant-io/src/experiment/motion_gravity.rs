@@ -3,7 +3,6 @@
 //! Three numbers give it in the sensor's axes; for a sensor of one axis one number may stand for them. A
 //! direction (`gravity = "z"`) takes its magnitude as `[holds]` does, from a value or from latitude and height.
 
-use super::direction::unit_vector;
 use super::gravity::GravityKeys;
 use super::motion::MotionSection;
 use super::number::{Either, PerAxis, Range};
@@ -44,8 +43,8 @@ impl MotionSection {
                     latitude_deg: self.latitude_deg,
                     height_m: self.height_m,
                 };
-                let (gravity, _) = keys.magnitude(false)?;
-                (unit_vector("motion.gravity", up)? * gravity.magnitude_mps2, gravity.sd_mps2)
+                let gravity = keys.magnitude(false)?;
+                (up.unit() * gravity.magnitude_mps2, gravity.sd_mps2)
             }
             (None, Some(value)) => {
                 if let Some((key, _)) = place.iter().find(|(_, is_there)| *is_there) {

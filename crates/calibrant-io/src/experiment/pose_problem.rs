@@ -26,17 +26,17 @@ impl Experiment {
         let between = earlier.iter().filter_map(|earlier| earlier.between_holds_sd_mps2);
         let between = between.fold(plan.between_holds_sd_mps2, f64::max);
         let directions = if self.design.knows_directions() {
-            DirectionKnowledge::Known { sd_rad: plan.face_sd_rad.unwrap_or(0.0) }
+            DirectionKnowledge::Known { sd_rad: plan.face_sd_rad().unwrap_or(0.0) }
         } else {
             DirectionKnowledge::Unknown
         };
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
             mean_sd: self.mean_sd(plan, &at, between)?,
-            nuisance: self.nuisance(plan, &at, self.design.knows_directions()),
+            nuisance: self.nuisance(plan, &at, self.design.knows_directions())?,
             list,
             at,
-            gravity_mps2: plan.gravity.magnitude_mps2,
+            gravity_mps2: plan.gravity()?.magnitude_mps2,
             directions,
             allowed: self.design.allowed_directions()?,
             prior,
@@ -70,10 +70,10 @@ impl Experiment {
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
             mean_sd,
-            nuisance: self.nuisance(plan, &at, known.is_some()),
+            nuisance: self.nuisance(plan, &at, known.is_some())?,
             list,
             at,
-            gravity_mps2: plan.gravity.magnitude_mps2,
+            gravity_mps2: plan.gravity()?.magnitude_mps2,
             directions: known.unwrap_or(DirectionKnowledge::Unknown),
             allowed: self.design.allowed_directions()?,
             prior: None,
@@ -102,14 +102,14 @@ impl Experiment {
     }
 
     /// A calibration of an accelerometer alone in known directions allows for no drift.
-    fn nuisance(&self, plan: &HoldsPlan, at: &SensorParameters, known: bool) -> PoseNuisance {
+    fn nuisance(&self, plan: &HoldsPlan, at: &SensorParameters, known: bool) -> Result<PoseNuisance> {
         let has_drift = !known || self.imu.is_some();
         let gain = |axis: usize| if has_drift { at.matrix.row(axis).norm() } else { 0.0 };
-        PoseNuisance {
-            gravity_sd_mps2: plan.gravity.sd_mps2,
+        Ok(PoseNuisance {
+            gravity_sd_mps2: plan.gravity()?.sd_mps2,
             drift_sd: Vector3::from_fn(|axis, _| plan.bias_drift_sd_mps2 * gain(axis)),
             has_gyroscope: self.imu.is_some(),
-        }
+        })
     }
 
     /// Standard deviation of the mean reading of a hold.

@@ -1,6 +1,6 @@
 //! The keys of `[design]` that are about poses: what is known of their directions, and which are allowed.
 
-use super::direction::{Direction, unit_vectors};
+use super::direction::Direction;
 use super::number::{Either, Within};
 use super::ranges::Cone;
 use super::refused_key::refused;
@@ -46,7 +46,7 @@ pub(super) fn allowed(of: Option<&AllowedDirections>, within: Option<Within<Cone
         Some(Either::Compound(list)) if list.is_empty() => {
             return Err(refused("design.allowed", "no direction is allowed", remedy("design.allowed")));
         }
-        Some(Either::Compound(list)) => Allowed::Of(unit_vectors("design.allowed", list)?),
+        Some(Either::Compound(list)) => Allowed::Of(list.iter().map(Direction::unit).collect()),
     };
     Ok(match (allowed, within.map_or(0.0, f64::from)) {
         (Allowed::Of(list), degrees) if degrees > 0.0 => Allowed::Near(list, degrees.to_radians()),

@@ -11,7 +11,7 @@ use super::remedies::remedy;
 use super::spreads::need_spreads;
 use super::{CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions};
 use crate::experiment_presets::preset;
-use crate::{ImuReadOptions, text_decoding};
+use crate::{HashedFile, ImuReadOptions, file_name, text_decoding};
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
@@ -22,6 +22,8 @@ use std::path::Path;
 /// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
+    /// The text from which it was read, by its content; results state it. Without a file its name is `experiment`.
+    pub source: HashedFile,
     /// `[sensor]`: the datasheet.
     pub sensor: Sensor,
     /// `[motion]`, `[holds]` or `[machine]`.
@@ -114,12 +116,18 @@ fn limits_of(section: Option<&AcceptSection>) -> Result<Vec<AcceptanceLimit>> {
     section.map_or(Ok(Vec::new()), acceptance_limits)
 }
 
+fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+    text_decoding::read_bytes(path, LARGEST, "the experiment file")
+        .map_err(|input_error| Error::experiment(*input_error))
+}
+
+fn as_text<'b>(bytes: &'b [u8], path: &Path) -> Result<&'b str> {
+    text_decoding::as_text(bytes).map_err(|input_error| Error::experiment(input_error.in_file(path)))
+}
+
 fn read_text(path: &Path) -> Result<String> {
-    let bytes = text_decoding::read_bytes(path, LARGEST, "the experiment file")
-        .map_err(|input_error| Error::experiment(*input_error))?;
-    let text =
-        text_decoding::as_text(&bytes).map_err(|input_error| Error::experiment(input_error.in_file(path)))?;
-    Ok(text.to_owned())
+    let bytes = read_bytes(path)?;
+    Ok(as_text(&bytes, path)?.to_owned())
 }
 
 impl ExperimentFile {
@@ -151,7 +159,11 @@ impl ExperimentFile {
             let error = refused(*other, format!("[{one}] and [{other}] are both there"), help);
             return Err(document.placed(error));
         }
-        document.read()
+        let form: Self = document.read()?;
+        if form.holds.is_some() && !document.has("holds.gauge") {
+            return Err(document.placed(missing("holds.gauge", remedy("holds.gauge"))));
+        }
+        Ok(form)
     }
 
     /// The text of such a file.
@@ -166,17 +178,19 @@ impl ExperimentFile {
     /// [`Error::Experiment`] with the key, as [`Experiment::parse`], where a value is out of range or keys
     /// contradict each other.
     pub fn experiment(&self) -> Result<Experiment> {
-        Experiment::parse(&self.to_toml(), None).map_err(|error| match error {
+        let text = self.to_toml();
+        let within = Self::parse(&text, None).map_err(|error| match error {
             // nobody has seen the text
             Error::Experiment(input_error) => {
                 Error::experiment(InputError { line: None, column: None, excerpt: None, ..*input_error })
             }
             other => other,
-        })
+        });
+        within.and_then(|_| self.made(HashedFile::of_bytes("experiment", text.as_bytes()), None))
     }
 
     /// The experiment, with the directory of the file.
-    fn made(&self, directory: Option<&Path>) -> Result<Experiment> {
+    fn made(&self, source: HashedFile, directory: Option<&Path>) -> Result<Experiment> {
         if self.schema.get() != 1 {
             let message = format!("schema {} is not known to this version", self.schema.get());
             return Err(refused("schema", message, "schema = 1"));
@@ -202,14 +216,16 @@ impl ExperimentFile {
         let limits = self.limits.as_ref().map(|limits| limits.limits("limits", sensor.axes)).transpose()?;
         let design = self.design.clone().unwrap_or_default();
         design.check(&sensor, &list)?;
-        let study = self.study.as_ref().map(|study| study.options(&plan, sensor.axes)).transpose()?;
+        let study = self.study.clone().unwrap_or_default();
+        study.check(&plan, sensor.axes)?;
         Ok(Experiment {
+            source,
             limits: limits.flatten().unwrap_or_default(),
             columns: options_of(self.columns.as_ref())?,
             calibrate,
             accept: limits_of(self.accept.as_ref())?,
             design,
-            study: study.unwrap_or_default(),
+            study,
             sensor,
             plan,
             imu,
@@ -232,11 +248,13 @@ impl ExperimentFile {
             }
             (None, Some(holds), _) => {
                 three_axes("holds")?;
-                Ok(Plan::Holds(holds.plan(self.sensor.is_imu())?))
+                holds.check(self.sensor.is_imu())?;
+                Ok(Plan::Holds(holds.clone()))
             }
             (None, None, Some(machine)) => {
                 three_axes("machine")?;
-                Ok(Plan::Machine(Box::new(machine.plan(sensor, directory)?)))
+                machine.check(sensor)?;
+                Ok(Plan::Machine(Box::new(machine.clone().beside(directory))))
             }
             (None, None, None) => Err(refused(
                 "",
@@ -295,7 +313,9 @@ impl Experiment {
     /// # Errors
     /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
     pub fn read(path: &Path) -> Result<Self> {
-        Self::parse(&read_text(path)?, Some(path))
+        let bytes = read_bytes(path)?;
+        let source = HashedFile::of_bytes(file_name(path), &bytes);
+        Ok(Self { source, ..Self::parse(as_text(&bytes, path)?, Some(path))? })
     }
 
     /// Reads the text of an experiment file. `file` serves only for its name in errors.
@@ -316,8 +336,10 @@ impl Experiment {
     /// ```
     pub fn parse(text: &str, file: Option<&Path>) -> Result<Self> {
         let document = Document::parse(text, file)?;
+        let source =
+            HashedFile::of_bytes(file.map_or_else(|| "experiment".into(), file_name), text.as_bytes());
         let form = ExperimentFile::of(&document)?;
-        form.made(document.directory()).map_err(|error| document.placed(error))
+        form.made(source, document.directory()).map_err(|error| document.placed(error))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Plan;
 use super::limits::section_with_limits;
 use super::motion::{InputNoiseSection, Intervals, MotionPlan};
-use super::number::{Count, PerAxis, Within};
+use super::number::{Count, PerAxis, Within, size, whole};
 use super::ranges::{Acceleration, Displacement, Duration, Jerk, Rate, SignedAcceleration, Velocity};
 use super::refused_key::{missing, refused};
 use super::sensor::per_axis;
@@ -12,19 +12,22 @@ use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
 use calibrant_design::SurfaceSettings;
 use serde::{Deserialize, Serialize};
 
-/// A number of sensors.
-type Sensors = Count<1, 10_000_000>;
+/// Largest number of sensors.
+const MOST: u64 = 10_000_000;
 
 /// `[study]`: which studies over many sensors are run.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StudySection {
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct StudyOptions {
     /// Number of simulated sensors.
-    pub sensors: Option<Sensors>,
+    #[serde(deserialize_with = "size::<1, MOST, _>")]
+    pub sensors: usize,
     /// Seed of everything random.
-    pub seed: Option<Count<0, { u64::MAX }>>,
+    #[serde(deserialize_with = "whole")]
+    pub seed: u64,
     /// Number of the optimal motions that are shown together.
-    pub motions: Option<Sensors>,
+    #[serde(deserialize_with = "size::<1, MOST, _>")]
+    pub motions: usize,
     /// Starts of each sensor's design; without it, as `[design]` says.
     pub starts: Option<Count<1, 1_000_000>>,
     /// The criterion over the jerks of two intervals.
@@ -33,6 +36,12 @@ pub struct StudySection {
     pub unknown: Option<UnknownSection>,
     /// The experiment of `[motion]` with process noise.
     pub noisy: Option<NoisySection>,
+}
+
+impl Default for StudyOptions {
+    fn default() -> Self {
+        Self { sensors: 30, seed: 1, motions: 10, starts: None, surface: None, unknown: None, noisy: None }
+    }
 }
 
 /// `[study.surface]`: one axis, two intervals, the motion known.
@@ -55,7 +64,7 @@ section_with_limits! {
     /// `[study.unknown]`: what is not there is as in `[motion]`; its limits replace all of `[limits]`.
     pub struct UnknownSection {
         /// Number of simulated sensors.
-        pub sensors: Option<Sensors>,
+        pub sensors: Option<Count<1, MOST>>,
         /// Number of intervals.
         pub intervals: Option<Intervals>,
         /// Duration of an interval.
@@ -72,31 +81,6 @@ section_with_limits! {
     pub struct NoisySection {
         /// Process noise; without it, that of `[motion]`.
         pub input_noise: Option<InputNoiseSection>,
-    }
-}
-
-/// The options of `[study]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StudyOptions {
-    /// Number of simulated sensors.
-    pub sensors: usize,
-    /// Seed of everything random.
-    pub seed: u64,
-    /// Number of the optimal motions that are shown together.
-    pub motions: usize,
-    /// Starts of each sensor's design; `None`: as `[design]` says.
-    pub starts: Option<usize>,
-    /// `[study.surface]`: the criterion over the jerks of two intervals.
-    pub surface: Option<SurfaceSettings>,
-    /// `[study.unknown]`: a calibration without knowledge of the motion.
-    pub unknown: Option<UnknownVariant>,
-    /// `[study.noisy]`: the experiment of `[motion]` with process noise.
-    pub noisy: Option<NoisyVariant>,
-}
-
-impl Default for StudyOptions {
-    fn default() -> Self {
-        Self { sensors: 30, seed: 1, motions: 10, starts: None, surface: None, unknown: None, noisy: None }
     }
 }
 
@@ -122,37 +106,49 @@ pub struct NoisyVariant {
     pub limits: Option<Limits>,
 }
 
-impl StudySection {
-    /// The options of such a study.
-    pub(super) fn options(&self, plan: &Plan, axes: usize) -> Result<StudyOptions> {
-        let otherwise = StudyOptions::default();
-        let options = StudyOptions {
-            sensors: self.sensors.map_or(otherwise.sensors, Count::size),
-            seed: self.seed.map_or(otherwise.seed, Count::get),
-            motions: self.motions.map_or(otherwise.motions, Count::size),
-            starts: self.starts.map(Count::size),
-            ..otherwise
-        };
+impl StudyOptions {
+    /// The surface of the criterion beside this motion, where it is asked for.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) where its motion has no samples.
+    pub fn surface(&self, base: &MotionPlan) -> Result<Option<SurfaceSettings>> {
+        self.surface.as_ref().map(|surface| surface.settings(base)).transpose()
+    }
+
+    /// The calibration without knowledge of the motion, where it is asked for, of a sensor with these axes.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) where its motion has no samples, or a limit not one number for each axis.
+    pub fn unknown(&self, base: &MotionPlan, axes: usize) -> Result<Option<UnknownVariant>> {
+        self.unknown.as_ref().map(|unknown| unknown.variant(base, self.sensors, axes)).transpose()
+    }
+
+    /// The experiment with process noise, where it is asked for, of a sensor with these axes.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) without process noise, or where a limit is not one number for each axis.
+    pub fn noisy(&self, base: &MotionPlan, axes: usize) -> Result<Option<NoisyVariant>> {
+        self.noisy.as_ref().map(|noisy| noisy.variant(base, axes)).transpose()
+    }
+
+    /// Refuses keys that contradict each other, or this plan.
+    pub(super) fn check(&self, plan: &Plan, axes: usize) -> Result<()> {
+        if let Plan::Motion(plan) = plan {
+            self.surface(plan)?;
+            self.unknown(plan, axes)?;
+            return self.noisy(plan, axes).map(drop);
+        }
         let variants = [
             ("study.surface", self.surface.is_some()),
             ("study.unknown", self.unknown.is_some()),
             ("study.noisy", self.noisy.is_some()),
         ];
-        let Plan::Motion(plan) = plan else {
-            return match variants.iter().find(|(_, is_there)| *is_there) {
-                Some((key, _)) => {
-                    Err(refused(*key, "this needs a [motion]", "take it out, or describe a motion"))
-                }
-                None => Ok(options),
-            };
-        };
-        let sensors = options.sensors;
-        Ok(StudyOptions {
-            surface: self.surface.as_ref().map(|of| of.settings(plan)).transpose()?,
-            unknown: self.unknown.as_ref().map(|of| of.variant(plan, sensors, axes)).transpose()?,
-            noisy: self.noisy.as_ref().map(|of| of.variant(plan, axes)).transpose()?,
-            ..options
-        })
+        match variants.iter().find(|(_, is_there)| *is_there) {
+            Some((key, _)) => {
+                Err(refused(*key, "this needs a [motion]", "take it out, or describe a motion"))
+            }
+            None => Ok(()),
+        }
     }
 }
 

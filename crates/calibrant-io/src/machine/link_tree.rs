@@ -3,7 +3,7 @@
 use super::element::Place;
 use super::joint::UrdfJoint;
 use crate::experiment::{nearest, shorten};
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
 use std::collections::HashMap;
 
@@ -143,7 +143,7 @@ impl LinkTree {
                 let names: Vec<&str> = many.iter().map(|&link| self.names[link].as_str()).collect();
                 let message = format!("the machine has {} ends: {}", many.len(), listed(&names));
                 let help = "name the one that carries the sensor as the tip";
-                Err(InputError::new(Refusal::ChainUnknown, message, help).into())
+                refuse(Refusal::ChainUnknown, message, help)
             }
         }
     }

@@ -1,7 +1,7 @@
 //! A check for a lost sign: negative readings that were written as positive ones, as two's complement.
 
-use crate::text_decoding::Checked;
-use calibrant_core::error::{InputError, Refusal};
+use crate::text_decoding::{Checked, refuse};
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{Axis, ReadingUnit, Recording};
 
 /// Widths of a converter's words, bits.
@@ -31,7 +31,7 @@ pub(super) fn check(recording: &Recording, of: &str) -> Checked<()> {
                 "{of}axis {axis} reads from {least} to {most} counts, but hardly anything in the middle: negative numbers of {bits} bits were written as positive ones"
             );
             let help = format!("subtract {range} from each reading of {} or more", 0.5 * range);
-            return Err(InputError::new(Refusal::SignLost, message, help).into());
+            return refuse(Refusal::SignLost, message, help);
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::cdr::Unreadable;
 use super::mcap_footer::Cut;
 use super::mcap_records::chunk_lengths_add_up;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::counted;
@@ -129,9 +129,7 @@ impl<'t, M> Bag<'t, M> {
                         "messages of `{}` are encoded as `{}`",
                         channel.topic, channel.message_encoding
                     );
-                    return Err(
-                        InputError::new(Refusal::FormatUnsupported, message, "only CDR is read").into()
-                    );
+                    return refuse(Refusal::FormatUnsupported, message, "only CDR is read");
                 }
                 let topic = channel.topic.clone();
                 let new = || Channel { topic, schema, message_type, messages: Vec::new() };

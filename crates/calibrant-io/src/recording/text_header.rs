@@ -1,7 +1,7 @@
 //! The lines above the rows of a text: comments, lines of `key: value`, and the header.
 
 use crate::delimited_text::{Delimiter, Line, Lines};
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
 
 /// The beginning of a text, up to its first row.
@@ -55,10 +55,11 @@ impl<'t> Head<'t> {
             true => (Refusal::HeaderMissing, "there is no header with the names of the columns"),
             false => (Refusal::FileEmpty, "the file has only comments"),
         };
-        Err(InputError::new(code, message,
+        refuse(
+            code,
+            message,
             "a recording has a header, such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
         )
-        .into())
     }
 
     fn at(line: Line<'t>, preamble: Vec<Line<'t>>, rest: Lines<'t>) -> Self {

@@ -3,7 +3,7 @@
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use crate::experiment::nearest;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
@@ -77,7 +77,7 @@ impl ReferenceLogFile {
             let message =
                 format!("the log has {} joints, and the chain has {}", log.names.len(), names.len());
             let help = "RTDE does not name its joints, so each must be one of the chain";
-            return Err(InputError::new(Refusal::ColumnMissing, message, help).into());
+            return refuse(Refusal::ColumnMissing, message, help);
         }
         let column = |name: &str| log.names.iter().position(|known| known == name);
         let missing: Vec<&str> = names.iter().copied().filter(|name| column(name).is_none()).collect();
@@ -94,7 +94,7 @@ impl ReferenceLogFile {
         let joints = if missing.len() == 1 { "joint" } else { "joints" };
         let message = format!("the log lacks the {joints} {}", listed.join(", "));
         let help = format!("give them the names of the chain; the log has {}", quoted(&log.names, 20));
-        Err(InputError::new(Refusal::ColumnMissing, message, help).into())
+        refuse(Refusal::ColumnMissing, message, help)
     }
 }
 

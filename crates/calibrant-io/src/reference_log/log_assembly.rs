@@ -10,7 +10,7 @@ use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
 use crate::recording::tally::Tally;
 use crate::recording::{TimeUnit, recording_quality};
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, ValuesMissing};
 use calibrant_core::error::{InputError, Refusal};
@@ -91,7 +91,7 @@ fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>
     match (kept.first(), kept.last()) {
         (Some(first), Some(last)) if first != last && rows.times[*first] == rows.times[*last] => {
             let message = format!("the time is {:?} s in every row", rows.times[*first]);
-            Err(InputError::new(Refusal::TimesNotIncreasing, message, "did the clock stand still?").into())
+            refuse(Refusal::TimesNotIncreasing, message, "did the clock stand still?")
         }
         (Some(first), Some(last)) if first != last => Ok(kept),
         _ if rows.times.len() == 1 => Err(short("there is only one row".into(), rows).into()),
@@ -126,12 +126,7 @@ fn check_seen(log: &ReferenceLog, rows: &Rows) -> Checked<()> {
             let has_position = |joint: usize| (0..log.times_s.len()).any(|k| !log.row(k)[joint].is_nan());
             if let Some(joint) = (0..log.names.len()).find(|&joint| !has_position(joint)) {
                 let message = format!("the joint `{}` has no position in any row", log.names[joint]);
-                return Err(InputError::new(
-                    Refusal::RecordingShort,
-                    message,
-                    "was it recorded? leave its column out",
-                )
-                .into());
+                return refuse(Refusal::RecordingShort, message, "was it recorded? leave its column out");
             }
             (0..log.times_s.len()).filter(|&k| log.row(k).iter().any(|value| !value.is_nan())).count()
         }

@@ -106,6 +106,5 @@ fn read_mcap(bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLo
 
 #[cfg(not(feature = "mcap"))]
 fn read_mcap(_: &[u8], _: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    let message = "this build of calibrant does not read mcap files";
-    Err(InputError::new(Refusal::FormatUnsupported, message, "build it with the feature `mcap`").into())
+    crate::text_decoding::without("mcap")
 }

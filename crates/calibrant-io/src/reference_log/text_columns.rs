@@ -10,7 +10,7 @@ use crate::recording::imu_column;
 use crate::recording::row_parser::Layout;
 use crate::recording::text_header::Head;
 use crate::recording::{ColumnMeaning, ColumnUnit, TimeUnit};
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal};
 
@@ -76,7 +76,7 @@ impl TextColumns {
             if let Some(missing) = (0..last).find(|number| !numbers().any(|known| known == *number)) {
                 let message = format!("the column `actual_q_{missing}` is missing");
                 let help = "record actual_q with all of its joints";
-                return Err(InputError::new(Refusal::ColumnMissing, message, help).into());
+                return refuse(Refusal::ColumnMissing, message, help);
             }
             let joint = |number: usize| format!("actual_q_{number}");
             let column =
@@ -127,7 +127,7 @@ impl TextColumns {
                 values.clone().filter(|&value| !has(&found, value)).map(|value| NAMES[value]).collect();
             if !missing.is_empty() && missing.len() < values.len() {
                 let message = format!("the {what} has no column for {}", missing.join(", "));
-                return Err(InputError::new(Refusal::ColumnMissing, message, EXAMPLES).into());
+                return refuse(Refusal::ColumnMissing, message, EXAMPLES);
             }
         }
         let mut slots = vec![None; names.len()];
@@ -176,9 +176,8 @@ impl TextColumns {
 
     /// The unit of the times: stated by the name or the format, or given, or plain from their size.
     fn set_time_unit(&mut self, first_row: &[&str], options: &ReferenceLogOptions) -> Checked<()> {
-        let contradicts = |message: String| {
-            Err(InputError::new(Refusal::UnitContradicted, message, "leave option `time_unit` away").into())
-        };
+        let contradicts =
+            |message: String| refuse(Refusal::UnitContradicted, message, "leave option `time_unit` away");
         match (options.time_unit, self.time_unit) {
             (Some(TimeUnit::Sample), _) => {
                 return contradicts("a log of a motion has times, not numbers of samples".into());
@@ -275,12 +274,9 @@ fn time_column(names: &[String]) -> Checked<(usize, Option<TimeUnit>)> {
     let known: Vec<_> = times.iter().copied().filter(|(_, unit)| unit.is_some()).collect();
     match (known.as_slice(), times.as_slice()) {
         ([one], _) | ([], [one]) => Ok(*one),
-        (_, []) => Err(InputError::new(
-            Refusal::ColumnMissing,
-            "there is no column of times",
-            "name it t_s (or t_ms, t_us, t_ns)",
-        )
-        .into()),
+        (_, []) => {
+            refuse(Refusal::ColumnMissing, "there is no column of times", "name it t_s (or t_ms, t_us, t_ns)")
+        }
         (_, [(one, _), ..]) => {
             let (other, _) = times[times.len() - 1];
             Err(repeated("time", &names[*one], &names[other]).into())

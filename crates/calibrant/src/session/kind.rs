@@ -41,9 +41,9 @@ impl<'e> Kind<'e> {
     ) -> Result<Setup<'e>> {
         Ok(match self {
             Self::Motion(command) => Setup::Motion((*command).clone()),
-            Self::Holds(plan) => held(plan, notes),
+            Self::Holds(plan) => held(plan, notes)?,
             // it cannot be lost unnoticed: the calibration gets a diagnostic
-            Self::Imu(_, plan) if recording.gyroscope.is_none() => held(plan, notes),
+            Self::Imu(_, plan) if recording.gyroscope.is_none() => held(plan, notes)?,
             Self::Imu(plan, holds) => {
                 Setup::Imu(&plan.gyroscope, Box::new(setup_of(plan, holds, source, recording, notes)?))
             }
@@ -52,14 +52,13 @@ impl<'e> Kind<'e> {
 }
 
 /// An accelerometer that is held still.
-fn held<'e>(plan: &'e HoldsPlan, notes: &mut Vec<Diagnostic>) -> Setup<'e> {
-    match &plan.directions {
-        Some(directions) => {
-            Setup::Faces(Faces { holds: plan.setup(), directions, face_sd_rad: plan.face_sd_rad })
-        }
+fn held<'e>(plan: &HoldsPlan, notes: &mut Vec<Diagnostic>) -> Result<Setup<'e>> {
+    let (holds, face_sd_rad) = (plan.setup()?, plan.face_sd_rad());
+    Ok(match plan.directions() {
+        Some(directions) => Setup::Faces(Faces { holds, directions, face_sd_rad }),
         None => {
-            notes.extend(unused_face_sd(plan.face_sd_rad));
-            Setup::Holds(plan.setup())
+            notes.extend(unused_face_sd(face_sd_rad));
+            Setup::Holds(holds)
         }
-    }
+    })
 }

@@ -69,7 +69,7 @@ impl<'e> MachineTask<'e> {
         notes: &mut Vec<Diagnostic>,
     ) -> Result<Outcome> {
         let recorded = self.reader.read(source)?;
-        let setup = self.setup();
+        let setup = self.setup()?;
         let moved = self.moved(source, recorded, (self.log, TaskOption::Motion), notes)?;
         let nominal = self.experiment.nominal()?;
         let quantities = self.experiment.quantities(&moved.recorded.recording);
@@ -121,7 +121,7 @@ impl<'e> MachineTask<'e> {
     }
 
     /// What is known beforehand.
-    fn setup(&self) -> MachineSetup {
+    fn setup(&self) -> Result<MachineSetup> {
         let joints = self.chain.map_or(0, |chain| chain.joints.len());
         self.plan.setup(&self.experiment.sensor, self.experiment.imu.as_ref(), joints)
     }

@@ -34,7 +34,7 @@ impl Prepared {
             Plan::Machine(plan) => {
                 let log = options.motion.as_ref();
                 Ok(Self::OnMachine {
-                    chain: plan.source.as_ref().map(|source| source.chain()).transpose()?,
+                    chain: plan.kinematic_chain()?,
                     log: log
                         .map(|log| LogFile::read(log, &log_options(plan), notes))
                         .transpose()?
@@ -53,7 +53,7 @@ pub(crate) fn unsuited() -> Error {
 
 /// How the logs of a machine are read.
 pub(crate) fn log_options(plan: &MachinePlan) -> ReferenceLogOptions {
-    ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() }
+    ReferenceLogOptions { topic: plan.log.topic.clone(), ..Default::default() }
 }
 
 /// The commanded motion of a `[motion]` experiment.

@@ -12,7 +12,7 @@ use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
-use calibrant_io::{Experiment, HashedFile, Origin, Plan};
+use calibrant_io::{Experiment, Origin, Plan};
 
 /// From recordings to calibrations, in files or in memory. It holds what all recordings share, and can calibrate several at the same time.
 pub struct Session {
@@ -42,7 +42,7 @@ impl Session {
         let mut notes = Vec::new();
         let prepared = Prepared::read(&experiment, &options, &mut notes)?;
         let origin = Origin {
-            experiment: HashedFile::of(&options.experiment_file),
+            experiment: Some(experiment.source.clone()),
             motion: options.motion.as_ref().and_then(MotionSource::hashed),
             ..Origin::default()
         };

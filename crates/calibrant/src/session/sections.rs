@@ -16,7 +16,7 @@ pub(crate) fn setup_of(
     recording: &ImuRecording,
     notes: &mut Vec<Diagnostic>,
 ) -> Result<ImuSetup> {
-    let mut setup = plan.setup(holds);
+    let mut setup = plan.setup(holds)?;
     if let Some(list) = &source.sections {
         let times = recording.accelerometer.as_ref().map_or(&[][..], |recording| recording.times_s());
         let (sections, path) = list.read()?;

@@ -18,15 +18,15 @@ use nalgebra::Vector3;
 pub(crate) enum Setup<'e> {
     Motion(CommandedMotion),
     Holds(HoldsSetup),
-    Faces(Faces<'e>),
+    Faces(Faces),
     Imu(&'e Gyroscope, Box<ImuSetup>),
 }
 
 /// Holds of an accelerometer in known directions.
 #[derive(Clone)]
-pub(crate) struct Faces<'e> {
+pub(crate) struct Faces {
     pub(crate) holds: HoldsSetup,
-    pub(crate) directions: &'e [Vector3<f64>],
+    pub(crate) directions: Vec<Vector3<f64>>,
     pub(crate) face_sd_rad: Option<f64>,
 }
 

@@ -51,14 +51,16 @@ pub(super) fn simulate(
         hold_s: holds.hold_s,
         turn_s: TURN_S,
         rate_hz: holds.rate_hz,
-        gravity_mps2: holds.gravity.magnitude_mps2,
+        gravity_mps2: holds.gravity()?.magnitude_mps2,
         accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise_a, &mut remarks),
         between_holds_sd_mps2: holds.between_holds_sd_mps2,
         gyroscope_noise: one_for_all(SensorKind::Gyroscope, &noise_g, &mut remarks),
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
-        face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
-        earth_rate_radps: holds.latitude_deg.map_or_else(Vector3::zeros, earth_rate),
+        face_sd_rad: holds.face_sd_rad().unwrap_or(0.0),
+        earth_rate_radps: holds
+            .latitude_deg
+            .map_or_else(Vector3::zeros, |latitude| earth_rate(latitude.get())),
         temperature_c: warming(plan),
     };
     let units = [sensor.unit, plan.gyroscope.unit];
@@ -75,7 +77,7 @@ pub(super) fn simulate(
         }
     };
     // the quantities that a calibration of this experiment finds, and those that it fixes
-    let quantities = plan.setup(holds).quantities(sensor.model, &plan.gyroscope);
+    let quantities = plan.setup(holds)?.quantities(sensor.model, &plan.gyroscope);
     if let Some([from, to]) = setup.temperature_c {
         truth.thermal.reference_c = plan.thermal.reference_c.unwrap_or(0.5 * (from + to));
         draw_thermal(&mut truth, &plan.thermal.quantities(), [gain_a, gain_g], &mut rng);

@@ -11,7 +11,7 @@ use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, ParameterList, ReadingUnit, SensorKind, SensorModel,
 };
 use calibrant_core::simulate::{GyroscopeToDraw, ImuSimulation, Rng, draw_imu};
-use calibrant_io::{Experiment, MachinePlan, MachineSource, TrueMachine, Truth};
+use calibrant_io::{Experiment, MachinePlan, TrueMachine, Truth};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{MachineSetup, MountingPrior};
 use calibrant_machine::simulate::{
@@ -30,14 +30,14 @@ pub(super) fn simulate(
     options: &SimulationOptions,
     random: Random,
 ) -> Result<Simulation> {
-    let chain = plan.source.as_ref().map(MachineSource::chain).transpose()?;
+    let chain = plan.kinematic_chain()?;
     let joints = chain.as_ref().map_or(0, |chain| chain.joints.len());
     if chain.is_some() && joints == 0 {
         let message = "no joint between base and tip moves";
         let help = "name other links in [machine]: base and tip";
         return Err(Error::experiment(InputError::new(Refusal::MachineUnsuited, message, help)));
     }
-    let setup = plan.setup(&experiment.sensor, experiment.imu.as_ref(), joints);
+    let setup = plan.setup(&experiment.sensor, experiment.imu.as_ref(), joints)?;
     let asked = &plan.simulation;
     let log_errors = LogErrors {
         rate_hz: asked.log_rate_hz,

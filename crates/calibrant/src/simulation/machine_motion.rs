@@ -67,7 +67,7 @@ fn given(
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
 ) -> Result<TrueMotion> {
-    let options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
+    let options = ReferenceLogOptions { topic: plan.log.topic.clone(), ..Default::default() };
     let (file, path) = (source.logged(&options)?, source.path());
     notes.extend(file.findings.iter().map(|found| found.clone().in_file(file_name(path))));
     let log = file.of_machine(chain, path)?;

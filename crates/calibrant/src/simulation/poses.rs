@@ -38,9 +38,9 @@ pub(super) fn simulate(
             accelerometer_on_table(sensor, &truth, plan, steps, (options, &mut remarks), &mut rng)?
         }
         (None, Some(poses)) => {
-            simulate_holds_in(&truth, &noise, sensor.unit, poses, &by_hand(plan), &mut rng).0
+            simulate_holds_in(&truth, &noise, sensor.unit, poses, &by_hand(plan)?, &mut rng).0
         }
-        (None, None) => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan), &mut rng).0,
+        (None, None) => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan)?, &mut rng).0,
     };
     let truth = Truth::of_sensor(random.seed, &list, sensor.unit, &truth);
     Ok(Simulation { notes, remarks, ..Simulation::new(random.seed, recording, truth) })
@@ -52,13 +52,13 @@ pub(super) fn unused_motion(options: &SimulationOptions) -> Vec<Diagnostic> {
     options.motion.iter().map(|_| SettingUnused::of(&["option `motion`"], why).into()).collect()
 }
 
-fn by_hand(plan: &HoldsPlan) -> HoldsSimulation {
-    HoldsSimulation {
+fn by_hand(plan: &HoldsPlan) -> Result<HoldsSimulation> {
+    Ok(HoldsSimulation {
         poses: plan.poses,
         hold_s: plan.hold_s,
         turn_s: 2.0,
         rate_hz: plan.rate_hz,
-        gravity_mps2: plan.gravity.magnitude_mps2,
+        gravity_mps2: plan.gravity()?.magnitude_mps2,
         between_holds_sd_mps2: plan.between_holds_sd_mps2,
-    }
+    })
 }

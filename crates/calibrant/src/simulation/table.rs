@@ -24,11 +24,11 @@ pub(super) fn accelerometer_on_table(
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let setup = ImuSimulation {
         rate_hz: holds.rate_hz,
-        gravity_mps2: holds.gravity.magnitude_mps2,
+        gravity_mps2: holds.gravity()?.magnitude_mps2,
         accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise, remarks),
         between_holds_sd_mps2: holds.between_holds_sd_mps2,
         accelerometer_unit: sensor.unit,
-        face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
+        face_sd_rad: holds.face_sd_rad().unwrap_or(0.0),
         ..ImuSimulation::default()
     };
     let nothing = Recording::new(Vec::new(), Vec::new(), 3, sensor.unit)?;
@@ -38,8 +38,8 @@ pub(super) fn accelerometer_on_table(
 
 /// The steps on the table, in order of time; `None` where the sensor is turned by hand.
 pub(super) fn table(holds: &HoldsPlan, turns: &[Turn]) -> Option<Vec<TableStep>> {
-    let (intervals, directions) = (holds.intervals_s.as_ref()?, holds.directions.as_ref()?);
-    let faces = intervals.iter().zip(directions).map(|(&(start_s, end_s), &direction)| TableStep {
+    let (intervals, directions) = (holds.intervals_s.as_ref()?, holds.directions()?);
+    let faces = intervals.iter().zip(directions).map(|(&(start_s, end_s), direction)| TableStep {
         start_s,
         end_s,
         action: TableAction::Hold(direction),

@@ -9,10 +9,10 @@ use super::unit::ColumnUnit;
 use super::{column_names, imu_tk};
 use crate::recording::text_header::Head;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ColumnsIgnored, UnitUnexpected};
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// The layout of a plain text of one accelerometer: a time and `ax,ay,az`, or `t x y z` without a header. `None`
@@ -76,12 +76,11 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
         return Ok(file);
     };
     let Some(recording) = file.recording.accelerometer.take() else {
-        return Err(InputError::new(
+        return refuse(
             Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
             "`calibrant inspect` says what it has",
-        )
-        .into());
+        );
     };
     let recording = recording.with_axes(axes);
     let mut found = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::column_values::{READINGS, SLOTS, Samples, TIME, slots_of};
 use crate::recording::row_parser::Sense;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;
@@ -12,12 +12,11 @@ impl Samples {
     pub(super) fn from_columns(columns: [Vec<f64>; SLOTS], origin: i64) -> Checked<Self> {
         let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
         if columns.iter().any(|column| !column.is_empty() && column.len() != rows) {
-            return Err(InputError::new(
+            return refuse(
                 Refusal::FileDamaged,
                 "the columns have different lengths",
                 "was the file written to its end?",
-            )
-            .into());
+            );
         }
         let (mut invalid, mut first) = (0, None);
         for (slot, column) in columns.iter().enumerate() {

@@ -6,7 +6,7 @@ use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::unit::ColumnUnit;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
@@ -95,18 +95,11 @@ impl Draft {
                 "[columns] names `{name}`, which the file does not have; it has {}",
                 quoted(&names, 20)
             );
-            return Err(InputError::new(
-                Refusal::ColumnMissing,
-                message,
-                "names count letter by letter, capitals too",
-            )
-            .into());
+            return refuse(Refusal::ColumnMissing, message, "names count letter by letter, capitals too");
         };
         if other.is_some() {
             let message = format!("[columns] names `{name}`, which the file has twice");
-            return Err(
-                InputError::new(Refusal::ColumnRepeated, message, "rename one of them in the file").into()
-            );
+            return refuse(Refusal::ColumnRepeated, message, "rename one of them in the file");
         }
         // what the user gives takes precedence over the name
         let unit = unit
@@ -128,12 +121,7 @@ impl Draft {
                         stated.symbol(),
                         given.symbol()
                     );
-                    return Err(InputError::new(
-                        Refusal::UnitContradicted,
-                        message,
-                        "leave option `time_unit` away",
-                    )
-                    .into());
+                    return refuse(Refusal::UnitContradicted, message, "leave option `time_unit` away");
                 }
                 Some(_) => (),
                 None if given == TimeUnit::Sample => {
@@ -161,7 +149,7 @@ impl Draft {
                     true => "rename one of them in the file",
                     false => "say which in [columns] of an experiment file",
                 };
-                return Err(InputError::new(Refusal::ColumnRepeated, message, help).into());
+                return refuse(Refusal::ColumnRepeated, message, help);
             }
             slots[k] = Some(slot);
         }
@@ -180,7 +168,7 @@ impl Draft {
                     Some(_) => "a recording of an accelerometer has the columns t_s,ax,ay,az",
                     None => "three axes are needed; or leave its columns out altogether",
                 };
-                return Err(InputError::new(Refusal::ColumnMissing, message, help).into());
+                return refuse(Refusal::ColumnMissing, message, help);
             }
         }
         let readings =
@@ -189,14 +177,14 @@ impl Draft {
         let accelerometer =
             slot_of(ColumnMeaning::Reading(SensorKind::Accelerometer, Axis::X)).is_some_and(has);
         if let Some(column) = of(ColumnMeaning::GravityRemoved).filter(|_| !accelerometer) {
-            return Err(InputError::new(Refusal::GravityRemoved,
+            return refuse(
+                Refusal::GravityRemoved,
                 format!(
                     "gravity has been removed from the acceleration (column `{}`): what the sensor read cannot be got back, and gravity is what calibrates it",
                     column.name
                 ),
                 "export the accelerometer's own readings (Acc_X, Acc_Y, Acc_Z)",
-            )
-            .into());
+            );
         }
         if !readings {
             return Err(self.nothing_to_read().into());

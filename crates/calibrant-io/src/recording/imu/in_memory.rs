@@ -9,8 +9,8 @@ use super::options::ImuReadOptions;
 use super::read::finish;
 use super::two_files::joined;
 use crate::recording::checksum::hex_of_lists;
-use crate::text_decoding::Checked;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use crate::text_decoding::{Checked, refuse};
+use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 /// Reads a table in memory, whose columns are named as those of a CSV: `t_s`, `ax_mps2`, `gyr_x`, `temp_c`. Missing values are NaN.
@@ -49,7 +49,7 @@ fn read(columns: &[(&str, &[f64])], options: &ImuReadOptions) -> Checked<ImuFile
     {
         let message = format!("`{first}` has {} values, `{name}` {}", one.len(), other.len());
         let help = "give columns of one length, with NaN where a value is missing";
-        return Err(InputError::new(Refusal::RecordingsUnlike, message, help).into());
+        return refuse(Refusal::RecordingsUnlike, message, help);
     }
     let described = columns.iter().map(|(name, _)| column_names::column(name)).collect();
     let mut draft = Draft::new(FileFormat::Columns, described);

@@ -8,7 +8,7 @@ use super::format::FileFormat;
 use super::parquet_pages::Pages;
 use super::unit::ColumnUnit;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use bytes::Bytes;
 use calibrant_core::budget::Budget;
 use calibrant_core::error::{InputError, Refusal};
@@ -88,12 +88,11 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) ->
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
                 if group.metadata().column(at).compression() == Compression::LZO {
-                    return Err(InputError::new(
+                    return refuse(
                         Refusal::FormatUnsupported,
                         "the file is compressed with LZO, which is not read",
                         "write it again with zstd, snappy or no compression",
-                    )
-                    .into());
+                    );
                 }
                 let descriptor = file.reader.metadata().file_metadata().schema_descr().column(at);
                 let pages = group.get_column_page_reader(at).map_err(|error| damaged(&error))?;
@@ -156,12 +155,11 @@ impl Column<'_> {
             }
             _ => {
                 let message = format!("column `{}` does not hold numbers", self.name);
-                Err(InputError::new(
+                refuse(
                     Refusal::NumberMalformed,
                     message,
                     "is it the right column? numbers are float, double, int32 or int64",
                 )
-                .into())
             }
         }
     }
@@ -189,9 +187,7 @@ impl Column<'_> {
             }
             if self.values.len() + rows > self.most {
                 let message = format!("column `{}` has more rows than the file states", self.name);
-                return Err(
-                    InputError::new(Refusal::FileDamaged, message, "was it written to its end?").into()
-                );
+                return refuse(Refusal::FileDamaged, message, "was it written to its end?");
             }
             // where every value is there, there are no levels
             let all = values == rows;
@@ -218,11 +214,6 @@ fn damaged(error: &ParquetError) -> InputError {
 /// A damaged file must not end the program, even where the crate that reads it panics.
 fn guarded<T>(read: impl FnOnce() -> Checked<T>) -> Checked<T> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
-        Err(InputError::new(
-            Refusal::FileDamaged,
-            "the Parquet file is damaged",
-            "was it written to its end?",
-        )
-        .into())
+        refuse(Refusal::FileDamaged, "the Parquet file is damaged", "was it written to its end?")
     })
 }

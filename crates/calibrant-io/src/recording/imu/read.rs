@@ -19,7 +19,9 @@ use crate::recording::row_parser::Layout;
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+#[cfg(not(all(feature = "mcap", feature = "parquet")))]
+use crate::text_decoding::without;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
@@ -91,7 +93,7 @@ pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> 
         if let Some(given) = options.format.filter(|given| *given != format) {
             let message =
                 format!("the format was given as {}, but this is {}", given.name(), format.description());
-            return Err(InputError::new(Refusal::FormatContradicted, message, LEAVE_AWAY).into());
+            return refuse(Refusal::FormatContradicted, message, LEAVE_AWAY);
         }
         let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
         return Ok(ImuFile { sha256: vec![sha256], ..file? });
@@ -128,12 +130,11 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Sensor
 #[cfg(feature = "mcap")]
 fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     if !options.columns.is_empty() {
-        return Err(InputError::new(
+        return refuse(
             Refusal::OptionsContradict,
             "[columns] names columns, but the messages of a bag say what they hold",
             "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
-        )
-        .into());
+        );
     }
     let (mut draft, samples, cut) = mcap::read(bytes, options)?;
     draft.slots()?;
@@ -149,7 +150,7 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
 
 #[cfg(not(feature = "mcap"))]
 fn read_mcap(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
-    Err(without("mcap"))
+    without("mcap")
 }
 
 #[cfg(feature = "parquet")]
@@ -164,14 +165,7 @@ fn read_parquet(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
 
 #[cfg(not(feature = "parquet"))]
 fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
-    Err(without("parquet"))
-}
-
-#[cfg(not(all(feature = "mcap", feature = "parquet")))]
-fn without(feature: &str) -> Box<InputError> {
-    let message = format!("this build of calibrant does not read {feature} files");
-    InputError::new(Refusal::FormatUnsupported, message, format!("build it with the feature `{feature}`"))
-        .into()
+    without("parquet")
 }
 
 fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {

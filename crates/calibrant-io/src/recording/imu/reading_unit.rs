@@ -5,7 +5,7 @@ use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
@@ -52,12 +52,7 @@ pub(super) fn stated_unit(
     let given = options.unit(sensor_kind);
     if let Some(given) = given.filter(|given| !given.suits(sensor_kind)) {
         let message = format!("{} is no unit of the {sensor_kind}", given.symbol());
-        return Err(InputError::new(
-            Refusal::UnitContradicted,
-            message,
-            format!("say {}", ImuUnit::choices(sensor_kind)),
-        )
-        .into());
+        return refuse(Refusal::UnitContradicted, message, format!("say {}", ImuUnit::choices(sensor_kind)));
     }
     match (stated, given) {
         (Some(stated), Some(given)) if stated != given => {
@@ -144,26 +139,32 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         let near = |y: &Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
         let share = recording.readings().iter().filter(|y| near(y)).count() as f64 / recording.len() as f64;
         if share > 0.7 {
-            return Err(InputError::new(Refusal::UnitImplausible,
-                format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} most of the time: is it in g?"),
+            return refuse(
+                Refusal::UnitImplausible,
+                format!(
+                    "the accelerometer is said to be in {unit}, but its magnitude is {shown} most of the time: is it in g?"
+                ),
                 "correct the unit: a column's name may end in _g, and accelerometer_unit = \"g\" in [columns] counts where the columns are named there",
-            )
-            .into());
+            );
         }
     }
     if median < NO_GRAVITY_MPS2 {
-        return Err(InputError::new(Refusal::GravityRemoved,
-            format!("gravity has been removed from the accelerometer: its magnitude is {shown} {unit} half of the time or less"),
+        return refuse(
+            Refusal::GravityRemoved,
+            format!(
+                "gravity has been removed from the accelerometer: its magnitude is {shown} {unit} half of the time or less"
+            ),
             "export the sensor's own readings; is it really an acceleration, in the unit that is stated?",
-        )
-        .into());
+        );
     }
     if median > 100.0 * STANDARD_GRAVITY_MPS2 {
-        return Err(InputError::new(Refusal::UnitImplausible,
-            format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"),
+        return refuse(
+            Refusal::UnitImplausible,
+            format!(
+                "the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"
+            ),
             "correct the unit",
-        )
-        .into());
+        );
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use crate::recording::line_map::LineMap;
 use crate::recording::lost_sign;
 use crate::recording::recording_quality;
 use crate::recording::tally::Tally;
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{
@@ -136,9 +136,7 @@ fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<SensorKind>>
     }
     if sensor_kinds.is_empty() {
         let message = format!("the columns of the {} are empty", empty.join(" and the "));
-        return Err(
-            InputError::new(Refusal::SensorMissing, message, "were they recorded, and exported?").into()
-        );
+        return refuse(Refusal::SensorMissing, message, "were they recorded, and exported?");
     }
     Ok(sensor_kinds)
 }

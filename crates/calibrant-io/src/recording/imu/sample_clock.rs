@@ -6,7 +6,7 @@ use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use crate::recording::clock_column::{ClockColumn, unwrap};
-use crate::text_decoding::Checked;
+use crate::text_decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
@@ -89,12 +89,11 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<
     if let Some(rate) = options.rate_hz
         && !(rate.is_finite() && (1e-6..=1e9).contains(&rate))
     {
-        return Err(InputError::new(
+        return refuse(
             Refusal::ValueInvalid,
             format!("a sample rate of {rate:?} Hz makes no sense"),
             "give it in Hz",
-        )
-        .into());
+        );
     }
     match (options.rate_hz, draft.rate_hz) {
         (Some(given), Some((stated, key))) if (given / stated - 1.0).abs() > SAME_RATE => {
@@ -103,7 +102,7 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<
                 plain(stated, 6),
                 plain(given, 6)
             );
-            Err(InputError::new(Refusal::RateContradicted, message, "leave option `rate_hz` away").into())
+            refuse(Refusal::RateContradicted, message, "leave option `rate_hz` away")
         }
         (Some(given), None) => Ok(Some((given, None))),
         (_, stated) => Ok(stated.map(|(rate, key)| (rate, Some(key)))),

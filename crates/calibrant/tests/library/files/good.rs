@@ -28,6 +28,10 @@ fn holds(experiment: &Experiment) -> &HoldsPlan {
     }
 }
 
+fn gravity(experiment: &Experiment) -> Gravity {
+    holds(experiment).gravity().expect("given")
+}
+
 #[test]
 fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
     for Preset { name, text, .. } in PRESETS {
@@ -75,8 +79,9 @@ fn the_report_preset_is_the_report() {
     assert_eq!((study.sensors, study.seed, study.motions, study.starts), (30, 1, 10, None));
     let surface =
         SurfaceSettings { jerk_mps3: 0.5, points: 41, start_mps2: 0.0, interval_s: 1.0, rate_hz: 10.0 };
-    assert_eq!(study.surface, Some(surface));
-    let unknown = study.unknown.as_ref().expect("there");
+    let base = motion(&experiment);
+    assert_eq!(study.surface(base).expect("valid"), Some(surface));
+    let unknown = study.unknown(base, 3).expect("valid").expect("there");
     assert_eq!((unknown.sensors, unknown.detail_rate_hz), (50, Some(10.0)));
     let expected = MotionPlan {
         intervals: 14,
@@ -88,7 +93,8 @@ fn the_report_preset_is_the_report() {
     };
     assert_eq!(unknown.plan, expected);
     let noise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };
-    assert_eq!(study.noisy, Some(NoisyVariant { noise, limits: Some(bounds(20.0)) }));
+    let noisy = NoisyVariant { noise, limits: Some(bounds(20.0)) };
+    assert_eq!(study.noisy(base, 3).expect("valid"), Some(noisy));
     assert_eq!((experiment.design.criterion, experiment.design.starts), (CriterionLetter::A, 30));
     assert_eq!(experiment.calibrate.prior, Prior::None);
 
@@ -109,8 +115,8 @@ fn static_presets_are_for_si_and_for_counts() {
         (counts.sensor.unit, counts.sensor.gain, counts.sensor.offset),
         (ReadingUnit::Counts, None, None)
     );
-    assert_eq!(holds(&counts).gravity, Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 });
-    assert_eq!((holds(&counts).gauge, holds(&counts).gravity_source.as_str()), (Gauge::Upper, "given"));
+    assert_eq!(gravity(&counts), Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 });
+    assert_eq!(holds(&counts).gauge, Gauge::Upper);
 }
 
 /// A short experiment file with holds.
@@ -120,11 +126,9 @@ const HOLDS: &str =
 #[test]
 fn gravity_comes_from_latitude_and_height() {
     let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\nheight_m = 30\n"));
-    let plan = holds(&experiment);
-    assert_eq!(plan.gravity, Gravity::from_latitude(52.2, 30.0));
-    assert_eq!(plan.gravity_source, "from latitude 52.2°, height 30 m");
+    assert_eq!(gravity(&experiment), Gravity::from_latitude(52.2, 30.0));
     let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\nheight_m = 30\ngravity_sd_mps2 = 1e-3\n"));
-    assert_eq!(holds(&experiment).gravity.sd_mps2, 1e-3);
+    assert_eq!(gravity(&experiment).sd_mps2, 1e-3);
 }
 
 #[test]
@@ -133,8 +137,9 @@ fn a_latitude_beside_the_gravity_of_an_imu_is_for_the_rate_of_the_earth() {
     let gravity = "gravity_mps2 = 9.80665 ";
     let experiment = parse(&imu.replace(gravity, &format!("latitude_deg = -33.9\n{gravity}")));
     let plan = holds(&experiment);
-    assert_eq!((plan.gravity.magnitude_mps2, plan.latitude_deg), (9.80665, Some(-33.9)));
-    assert_eq!(experiment.imu.as_ref().expect("an IMU").setup(plan).latitude_deg, Some(-33.9));
+    assert_eq!(plan.gravity().expect("given").magnitude_mps2, 9.80665);
+    let setup = experiment.imu.as_ref().expect("an IMU").setup(plan).expect("valid");
+    assert_eq!(setup.latitude_deg, Some(-33.9));
     // the height is unused there
     let both = imu.replace(gravity, &format!("height_m = 30.0\nlatitude_deg = -33.9\n{gravity}"));
     let error = Experiment::parse(&both, None).expect_err("twice").to_string();
@@ -147,7 +152,7 @@ fn what_holds_leaves_out_has_its_default() {
     let experiment = parse(&format!("{HOLDS}gravity_mps2 = 9.81\n"));
     let plan = holds(&experiment);
     assert_eq!((plan.poses, plan.hold_s, plan.rate_hz, plan.minimum_hold_s), (24, 5.0, 100.0, 1.0));
-    assert_eq!((plan.gravity.sd_mps2, &plan.intervals_s), (0.0, &None));
+    assert_eq!((gravity(&experiment).sd_mps2, &plan.intervals_s), (0.0, &None));
     let experiment = parse(&format!("{HOLDS}gravity_mps2 = 9.81\nintervals_s = [[-1, 2.5], [2.5, 7]]\n"));
     assert_eq!(holds(&experiment).intervals_s, Some(vec![(-1.0, 2.5), (2.5, 7.0)]));
 }
@@ -250,13 +255,13 @@ fn a_variant_takes_what_it_does_not_say_from_the_motion() {
         "{head}[study]\nsensors = 4\n[study.surface]\n[study.unknown]\n[study.noisy]\ninput_noise = {{ floor_mps3 = 0.1, ratio = 0.0 }}\n"
     ));
     let (plan, study) = (motion(&experiment), &experiment.study);
-    let surface = study.surface.expect("there");
+    let surface = study.surface(plan).expect("valid").expect("there");
     assert_eq!((surface.points, surface.interval_s, surface.rate_hz), (41, plan.interval_s, plan.rate_hz));
-    let unknown = study.unknown.as_ref().expect("there");
+    let unknown = study.unknown(plan, 3).expect("valid").expect("there");
     assert_eq!((unknown.sensors, unknown.plan.intervals, &unknown.limits), (4, plan.intervals, &None));
-    assert_eq!(study.noisy.as_ref().map(|noisy| noisy.limits.is_none()), Some(true));
+    assert_eq!(study.noisy(plan, 3).expect("valid").map(|noisy| noisy.limits.is_none()), Some(true));
     let none = parse(&format!("{head}[study]\nstarts = 3\n")).study;
-    assert_eq!((none.starts, none.surface, none.unknown, none.noisy), (Some(3), None, None, None));
+    assert_eq!((none.starts, none.surface, none.unknown, none.noisy), (Some(3.into()), None, None, None));
 }
 
 #[test]
@@ -265,7 +270,8 @@ fn a_preset_that_is_written_again_is_the_same_experiment() {
         let file = ExperimentFile::preset(name).expect("known");
         let again = file.to_toml();
         assert_eq!(ExperimentFile::parse(&again, None).expect(name), file, "{again}");
-        assert_eq!(file.experiment().expect(name), parse(text));
+        let built = file.experiment().expect(name);
+        assert_eq!(Experiment { source: parse(text).source, ..built }, parse(text));
     }
 }
 
@@ -296,5 +302,5 @@ fn the_default_problem_of_the_library_is_that_of_the_preset() {
     let (plan, imu) = (holds(&experiment), experiment.imu.as_ref().expect("an IMU"));
     assert_eq!(experiment.sensor, Sensor::triaxial(SensorModel::Full));
     assert_eq!(imu.gyroscope, Gyroscope::default());
-    assert_eq!(imu.setup(plan), ImuSetup::default());
+    assert_eq!(imu.setup(plan).expect("valid"), ImuSetup::default());
 }

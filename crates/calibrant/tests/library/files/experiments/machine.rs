@@ -18,7 +18,7 @@ fn plan(experiment: &Experiment) -> &MachinePlan {
 
 fn setup(text: &str) -> MachineSetup {
     let experiment = Experiment::parse(text, None).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    plan(&experiment).setup(&experiment.sensor, experiment.imu.as_ref(), 2)
+    plan(&experiment).setup(&experiment.sensor, experiment.imu.as_ref(), 2).expect("valid")
 }
 
 #[test]
@@ -66,9 +66,9 @@ fn every_key_arrives_in_si() {
     assert!(setup(&wxyz).tip_from_sensor.angle_to(&quarter) < 1e-12);
 
     let experiment = Experiment::parse(&text, Some(Path::new("cell/arm.toml"))).expect("valid");
-    let source = plan(&experiment).source.clone().expect("a machine");
-    assert_eq!(source.urdf, UrdfSource::File(Path::new("cell/arms/two.urdf").into()));
-    assert_eq!((source.base.as_deref(), source.tip.as_deref()), (Some("b"), Some("t")));
+    let machine = plan(&experiment);
+    assert_eq!(machine.urdf, Some(UrdfSource::File(Path::new("cell/arms/two.urdf").into())));
+    assert_eq!((machine.base.as_deref(), machine.tip.as_deref()), (Some("b"), Some("t")));
 }
 
 #[test]
@@ -81,12 +81,13 @@ fn noise_of_poses_has_six_components() {
 fn the_machines_of_the_presets_are_built_in() {
     for name in ["arm", "rate-table", "gantry"] {
         let experiment = Experiment::parse(preset(name).expect("known"), None).expect("valid");
-        let source = plan(&experiment).source.clone().expect("a machine");
-        assert_eq!(source.urdf, UrdfSource::Preset(name));
-        assert!(!source.chain().expect("joints").joints.is_empty());
+        let machine = plan(&experiment);
+        assert_eq!(machine.urdf, Some(UrdfSource::Preset(name)));
+        let chain = machine.kinematic_chain().expect("joints").expect("a machine");
+        assert!(!chain.joints.is_empty());
     }
     let mocap = Experiment::parse(preset("mocap").expect("known"), None).expect("valid");
-    assert_eq!(plan(&mocap).source, None);
+    assert!(!plan(&mocap).has_joints());
 }
 
 /// Lines after those of [`LEAST`], and what is said of them.
