@@ -161,6 +161,7 @@
 
 mod correction;
 mod design_plan;
+pub mod inspection;
 mod noise_at_rest;
 mod rest_remark;
 pub mod session;
