@@ -2,12 +2,10 @@
 
 mod flags;
 mod manner;
-mod table;
 mod width;
 
 pub(crate) use flags::as_flags;
 pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
-pub(crate) use table::table;
 
 use calibrant::Error;
 use calibrant::diagnostic::Severity;

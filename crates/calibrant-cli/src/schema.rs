@@ -1,7 +1,8 @@
 //! `calibrant schema`: the JSON Schema of a file.
 
 use crate::{Exit, console};
-use calibrant::io::{FileKind, to_json};
+use calibrant::FileKind;
+use calibrant::io::to_json;
 use clap::builder::PossibleValuesParser;
 
 /// Print the JSON Schema of a kind of file. Without a kind: list them.

@@ -63,7 +63,6 @@ mod reference_log;
 mod result_places;
 mod resume_key;
 mod sampling;
-mod schema;
 mod sensor_naming;
 mod standard_input;
 mod stated_rate;
@@ -81,7 +80,7 @@ pub use atomic_output::{remove_unfinished, write_atomically};
 pub use calibration::CalibrationFile;
 pub use comparison::ComparisonFile;
 pub use convention::{
-    CalibratedImuFile, ConventionOptions, ImuCore, ImuFormat, ImuNoise, RawUnits, WrittenImu,
+    CalibratedImuFile, ConventionOptions, ConvertedFile, ImuCore, ImuFormat, ImuNoise, RawUnits, WrittenImu,
     calibrated_imu_texts, imu_tk_files, parse_calibrated_imu, parse_estimates, read_calibrated_imu,
     read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
@@ -132,7 +131,6 @@ pub use reference_log::{
 pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use resume_key::ResumeKey;
 pub use sampling::Sampling;
-pub use schema::FileKind;
 pub use sensor_naming::{NamedRecording, SensorNaming};
 #[cfg(feature = "study")]
 pub use study::StudyFile;

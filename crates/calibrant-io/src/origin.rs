@@ -29,7 +29,7 @@ json_object! {
         /// The serial number, or what else names the sensor.
         sensor: if_some(origin.sensor.as_deref()),
         /// When the recording was made, UTC.
-        recorded: if_some(origin.recorded.map(|time| time.to_string())),
+        recorded: if_some(origin.recorded),
         /// Where it was made.
         station: if_some(origin.station.as_deref()),
         /// The experiment file.

@@ -1,9 +1,10 @@
 //! A point of time in UTC, as files state it: `2026-05-01`, or `2026-05-01T08:30:00Z`.
 
+use calibrant_core::json_name;
 use jiff::Timestamp;
 use jiff::civil::{Date, Time};
 use jiff::tz::Offset;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer};
 use std::fmt;
 
 /// A day in UTC, with its time where that is known.
@@ -80,11 +81,7 @@ impl fmt::Display for UtcTime {
     }
 }
 
-impl Serialize for UtcTime {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
+json_name!(UtcTime: to_string);
 
 impl<'de> Deserialize<'de> for UtcTime {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -42,7 +42,7 @@ fn one_sensor_in_every_gauge_and_at_every_temperature_is_the_same() {
     let first = warm().at_reference_temperature(20.0).and_then(|imu| imu.in_gauge(Gauge::Upper)).expect("so");
     for parameter in &fleet.parameters {
         let quantity = first.quantities.iter().find(|of| of.name() == parameter.name).expect("of the first");
-        assert_eq!(parameter.values.count, 4, "{parameter:?}");
+        assert_eq!(parameter.values.sensors, 4, "{parameter:?}");
         assert!((parameter.values.mean - quantity.value(&first.parameters)).abs() < 1e-9, "{parameter:?}");
         assert!(parameter.values.sd < 1e-9, "{parameter:?}");
     }
@@ -55,7 +55,7 @@ fn what_cannot_be_brought_into_the_frame_is_left_out_and_named() {
     left_handed.parameters.accelerometer.matrix.row_mut(1).neg_mut();
     let fleet = fleet_of([imu(1).in_gauge(Gauge::Lower).expect("right-handed"), imu(2), left_handed]);
     assert_eq!(fleet.gauge, Some(Gauge::Lower));
-    assert_eq!(fleet.parameters[0].values.count, 2);
+    assert_eq!(fleet.parameters[0].values.sensors, 2);
     let [out] = &fleet.left_out[..] else { panic!("{:?}", fleet.left_out) };
     assert_eq!((out.sensor.as_str(), out.id), ("S7", 3));
     assert!(out.reason.contains("left-handed"), "{}", out.reason);

@@ -1,5 +1,6 @@
 //! A hundred thousand calibrations in one database: rates, times and sizes, as COMPARE.md has them.
 
+use super::tests::without_codes;
 use super::*;
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind};
@@ -48,8 +49,10 @@ fn record(k: usize, with_gyroscope: bool) -> Record {
             file: format!("SN{sensor:06}_{}.csv", 2016 + year),
             sha256: recording,
         }],
-        verdict: if (sensor + 7 * year).is_multiple_of(100) { Usability::Bad } else { Usability::Ok },
-        codes: Vec::new(),
+        verdict: without_codes(match (sensor + 7 * year).is_multiple_of(100) {
+            true => Usability::Bad,
+            false => Usability::Ok,
+        }),
         status: "converged".into(),
         imu: CalibratedImu {
             parameters,
@@ -103,7 +106,7 @@ fn measure(with_gyroscope: bool) {
     assert_eq!(count, CALIBRATIONS);
     assert_eq!(timed("drift of all sensors", || records.drifts().expect("read")).len(), CALIBRATIONS / 10);
     assert_eq!(
-        timed("fleet", || records.fleet().expect("read")).parameters[0].values.count,
+        timed("fleet", || records.fleet().expect("read")).parameters[0].values.sensors,
         CALIBRATIONS / 10
     );
     for (name, format) in [("t.csv", ExportFormat::Csv), ("t.parquet", ExportFormat::Parquet)] {

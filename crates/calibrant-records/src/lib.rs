@@ -33,15 +33,17 @@ mod export;
 mod fleet;
 mod json;
 mod record;
+mod sheet;
 
 pub use aging::{
     Aging, Dated, DatedCalibration, QuantityAging, SensorChange, SensorDrift, SensorHistory, aging_of,
 };
 pub use database::{Inserted, KeptRecord, RecordFilter, Records};
 pub use export::ExportFormat;
-pub use fleet::{Distribution, Fleet, FleetParameter, LeftOut};
+pub use fleet::{Distribution, FarSensor, Fleet, FleetParameter, LeftOut};
 pub use json::RecordFile;
-pub use record::Record;
+pub use record::{KeptVerdict, Record};
+pub use sheet::{drift_sheet, fleet_sheet, history_sheet, record_sheet, records_sheet};
 
 #[cfg(test)]
 mod fleet_tests;

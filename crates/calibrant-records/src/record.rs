@@ -2,61 +2,57 @@
 
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::CalibratedImu;
-use calibrant_io::{Checked, HashedFile, Input, UtcTime, parse_estimates, read_text};
-use serde::Deserialize;
+use calibrant_core::sensor::{CalibratedImu, ImuParameters};
+use calibrant_io::{Checked, HashedFile, UtcTime, parse_estimates, read_text};
+use schemars::JsonSchema;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// A calibration with where it comes from.
-#[derive(Debug, Clone, PartialEq)]
+/// A calibration with where it comes from. Its JSON has no parameters: those stand in [`RecordFile`](crate::RecordFile).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Record {
     /// The sensor.
     pub sensor: String,
-    /// When the recording was made, where that is known.
+    /// When the recording was made, UTC, where that is known.
     pub recorded: Option<UtcTime>,
     /// Where it was made.
     pub station: Option<String>,
-    /// The program that calibrated, with its version.
-    pub program: String,
     /// What the sensor was compared with: `motion`, `holds` or `machine`.
+    #[serde(default)]
     pub plan: String,
     /// The experiment file.
     pub experiment: Option<HashedFile>,
     /// The commanded motion, or the log of a machine, where it is a file of its own.
     pub motion_file: Option<HashedFile>,
     /// The files of the recording; there is at least one.
+    #[serde(alias = "inputs")]
     pub recordings: Vec<HashedFile>,
     /// May it be used?
-    pub verdict: Usability,
-    /// Codes of the diagnostics that decide the verdict.
-    pub codes: Vec<String>,
+    pub verdict: KeptVerdict,
     /// How the estimation ended: `converged`, ….
     pub status: String,
+    /// The program that calibrated, with its version.
+    pub program: String,
     /// The parameters with their covariance.
+    #[serde(skip, default = "no_parameters")]
     pub imu: CalibratedImu,
 }
 
-#[derive(Deserialize)]
-struct Fields {
-    program: Option<String>,
-    sensor: Option<String>,
-    recorded: Option<String>,
-    station: Option<String>,
-    experiment: Option<HashedFile>,
-    motion_file: Option<HashedFile>,
-    verdict: Option<VerdictFields>,
-    status: Option<String>,
-    #[serde(default)]
-    inputs: Vec<Input>,
-    motion: Option<serde::de::IgnoredAny>,
-    machine: Option<serde::de::IgnoredAny>,
+/// May a calibration be used, and which diagnostics decide it?
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct KeptVerdict {
+    /// May it be used?
+    pub usability: Usability,
+    /// Codes of the diagnostics that decide. They may be those of another version.
+    pub codes: Vec<String>,
 }
 
+/// The sections of a calibration that say what the sensor was compared with.
 #[derive(Deserialize)]
-struct VerdictFields {
-    usability: String,
-    #[serde(default)]
-    codes: Vec<String>,
+struct Sections {
+    motion: Option<IgnoredAny>,
+    machine: Option<IgnoredAny>,
 }
 
 impl Record {
@@ -81,38 +77,20 @@ impl Record {
 
     fn checked(text: &str) -> Checked<Self> {
         let imu = parse_estimates(text)?;
-        let fields: Fields = serde_json::from_str(text).map_err(|error| untraceable(error.to_string()))?;
-        let missing = |what: &str| untraceable(format!("`{what}` is missing"));
-        let verdict = fields.verdict.ok_or_else(|| missing("verdict"))?;
-        let plan = match (fields.machine, fields.motion) {
-            (Some(_), _) => "machine",
-            (None, Some(_)) => "motion",
-            (None, None) => "holds",
-        };
-        if fields.inputs.is_empty() {
-            return Err(missing("inputs"));
+        let broken = |error: serde_json::Error| untraceable(error.to_string());
+        let mut record: Self = serde_json::from_str(text).map_err(broken)?;
+        if record.recordings.is_empty() {
+            return Err(untraceable("`inputs` is empty".to_owned()));
         }
-        let recorded = fields.recorded.map(|text| {
-            UtcTime::parse(&text)
-                .ok_or_else(|| untraceable(format!("`recorded` is {text:?}, which is no date")))
-        });
-        Ok(Self {
-            sensor: fields.sensor.ok_or_else(|| missing("sensor"))?,
-            recorded: recorded.transpose()?,
-            station: fields.station,
-            program: fields.program.ok_or_else(|| missing("program"))?,
-            plan: plan.to_owned(),
-            experiment: fields.experiment,
-            motion_file: fields.motion_file,
-            recordings: (fields.inputs.into_iter())
-                .map(|Input { file, sha256, .. }| HashedFile { file, sha256 })
-                .collect(),
-            verdict: Usability::parse(&verdict.usability)
-                .ok_or_else(|| untraceable(format!("the verdict is {:?}", verdict.usability)))?,
-            codes: verdict.codes,
-            status: fields.status.ok_or_else(|| missing("status"))?,
-            imu,
-        })
+        if record.plan.is_empty() {
+            let plan = match serde_json::from_str(text).map_err(broken)? {
+                Sections { machine: Some(_), .. } => "machine",
+                Sections { motion: Some(_), .. } => "motion",
+                Sections { .. } => "holds",
+            };
+            record.plan = plan.to_owned();
+        }
+        Ok(Self { imu, ..record })
     }
 
     /// The hashes of its recordings, with blanks between them: what tells it from other recordings.
@@ -126,6 +104,11 @@ impl Record {
     pub fn recording(&self) -> String {
         self.recordings.iter().map(|file| file.file.as_str()).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// What a record has while only its JSON is read.
+fn no_parameters() -> CalibratedImu {
+    CalibratedImu::new(ImuParameters::identity(), [None, None], Vec::new(), "")
 }
 
 /// The hashes of the files of a recording, with blanks between them.

@@ -46,11 +46,17 @@ pub(super) fn record(sensor: &str, k: usize) -> Record {
         recordings: ["a", "g"]
             .map(|name| HashedFile { file: format!("{name}, {k}.csv"), sha256: format!("{sensor}{name}{k}") })
             .into(),
-        verdict: Usability::Doubtful,
-        codes: vec!["coarse-steps".into(), "sampling-gap".into()],
+        verdict: KeptVerdict {
+            usability: Usability::Doubtful,
+            codes: vec!["coarse-steps".into(), "sampling-gap".into()],
+        },
         status: "converged".into(),
         imu: imu(k),
     }
+}
+
+pub(super) fn without_codes(usability: Usability) -> KeptVerdict {
+    KeptVerdict { usability, codes: Vec::new() }
 }
 
 pub(super) fn place() -> (tempfile::TempDir, PathBuf) {
@@ -88,7 +94,7 @@ fn a_record_comes_back_to_the_last_bit() {
         station: None,
         experiment: None,
         motion_file: None,
-        codes: Vec::new(),
+        verdict: without_codes(Usability::Doubtful),
         imu: CalibratedImu { covariance: None, degrees_of_freedom: None, ..imu(5) },
         ..record("U", 5)
     };
@@ -109,7 +115,8 @@ fn one_recording_by_one_experiment_motion_and_program_is_there_once() {
     let (_directory, path) = place();
     let mut records = Records::open(&path).expect("made");
     records.insert_all((0..2500).map(|k| record("A", k))).expect("inserted");
-    let again = Record { station: None, verdict: Usability::Ok, imu: imu(9), ..record("A", 7) };
+    let again =
+        Record { station: None, verdict: without_codes(Usability::Ok), imu: imu(9), ..record("A", 7) };
     let replaced = records.insert(&again).expect("inserted");
     assert_eq!(replaced, Inserted { id: 8, replaced: true });
     assert_eq!(records.count().expect("read"), 2500);
@@ -136,7 +143,7 @@ fn records_are_found_by_sensor_station_and_verdict_in_order_of_their_dates() {
     let (_directory, path) = place();
     let mut records = Records::open(&path).expect("made");
     let undated = Record { recorded: None, ..record("A", 40) };
-    let bad = Record { verdict: Usability::Bad, station: None, ..record("B", 3) };
+    let bad = Record { verdict: without_codes(Usability::Bad), station: None, ..record("B", 3) };
     records.insert_all([record("A", 5), undated, record("A", 2), bad]).expect("inserted");
     let ids = |filter: RecordFilter| -> Vec<i64> {
         records.list(&filter).expect("read").iter().map(|kept| kept.id).collect()

@@ -13,7 +13,7 @@ const SIGNIFICANT: f64 = 0.01;
 pub fn comparison_sheet(comparison: &Comparison, names: [String; 2]) -> Sheet<'static> {
     let mut section = Section::default();
     section.facts(["A", "B"].map(str::to_owned).into_iter().zip(names).collect());
-    let mut table = Table::new(["quantity", "A", "B", "B − A", "in sd", "p", "unit"]);
+    let mut table = Table::new(["quantity", "B − A", "in sd", "p", "unit", "A", "B"]);
     comparison.quantities.iter().for_each(|quantity| table.row(row(quantity)));
     section.table(table);
     section.list(comparison.overall.iter().map(together).collect());
@@ -71,11 +71,11 @@ fn row(quantity: &ComparedQuantity) -> Vec<Cell> {
     let p_value = quantity.p_value.map(|p_value| if equal { 1.0 } else { p_value });
     vec![
         Cell::Name(quantity.invariant.name()),
-        value(&quantity.a),
-        value(&quantity.b),
         difference.map_or(Cell::Missing, in_digits),
         in_sd.map_or(Cell::Missing, |value| Cell::Value { value, digits: Digits::Signed(1) }),
         p_value.map_or(Cell::Missing, Cell::probability),
         Cell::Text(unit),
+        value(&quantity.a),
+        value(&quantity.b),
     ]
 }

@@ -161,6 +161,8 @@
 
 mod correction;
 mod design_plan;
+pub mod inspection;
+mod json_files;
 mod noise_at_rest;
 mod rest_remark;
 pub mod session;
@@ -182,6 +184,7 @@ pub use calibrant_report as report;
 pub use calibrant_study as study;
 pub use correction::{Applied, apply, read_for_correction};
 pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};
+pub use json_files::{FileKind, json_page};
 /// The linear algebra in the signatures: vectors and matrices.
 pub use nalgebra;
 pub use noise_at_rest::{NoiseAtRest, NoiseOptions, noise, read_for_noise};

@@ -6,9 +6,8 @@ use crate::exit::Exit;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::files::MeshMissing;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{MachineFile, MissingMesh, Urdf, missing_limits, to_json};
-use calibrant::machine::chain::{Joint, JointKind, KinematicChain, reach_m};
-use calibrant::report::number_format::{counted, short, significant};
+use calibrant::inspection::chain_sheet;
+use calibrant::io::{MachineFile, MissingMesh, Urdf, to_json};
 use std::path::{Path, PathBuf};
 
 /// What to show of a machine.
@@ -56,57 +55,8 @@ impl Options {
                 meshes: &meshes,
             }));
         } else {
-            console::print(&text(file, &machine, &chain));
+            console::sheet(&chain_sheet(&machine, &chain, &file.display().to_string()));
         }
         Ok(Exit::DONE)
     }
-}
-
-fn text(file: &Path, machine: &Urdf, chain: &KinematicChain) -> String {
-    let mut text = format!(
-        "{}: machine {}, {}\n  from {} to {}: {}{}\n\n",
-        file.display(),
-        machine.name,
-        counted(machine.links().count(), "link"),
-        chain.base,
-        chain.tip,
-        counted(chain.joints.len(), "joint"),
-        match reach_m(chain) {
-            Some(reach) => format!(", reach {} m", significant(reach, 3)),
-            None => String::new(),
-        }
-    );
-    if chain.joints.is_empty() {
-        return text + "No joint moves between them.\n";
-    }
-    let rows: Vec<_> = chain.joints.iter().map(row).collect();
-    text.push_str(&console::table(&["joint", "kind", "position", "velocity", "effort"], &rows));
-    for joint in &chain.joints {
-        let missing = missing_limits(joint);
-        if !missing.is_empty() {
-            text.push_str(&format!("  joint {}: no limit of {}\n", joint.name, missing.join(", ")));
-        }
-    }
-    text + "  URDF has no limits of acceleration and jerk.\n"
-}
-
-fn row(joint: &Joint) -> Vec<String> {
-    let unit = joint.kind.unit();
-    let effort_unit = if joint.kind.turns() { "N·m" } else { "N" };
-    let or_dash = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
-    let with_unit = |value: Option<f64>, unit: &str| {
-        value.map_or_else(|| "–".to_owned(), |value| format!("{} {unit}", short(value)))
-    };
-    let limits = &joint.limits;
-    let position = match joint.kind {
-        JointKind::Continuous => "any".to_owned(),
-        _ => format!("{} to {} {unit}", or_dash(limits.lower), or_dash(limits.upper)),
-    };
-    vec![
-        joint.name.clone(),
-        joint.kind.name().to_owned(),
-        position,
-        with_unit(limits.velocity, &format!("{unit}/s")),
-        with_unit(limits.effort, effort_unit),
-    ]
 }

@@ -4,7 +4,7 @@ use super::selection::Selection;
 use crate::console;
 use crate::exit::Exit;
 use calibrant::io::to_json;
-use calibrant::records::{KeptRecord, Records};
+use calibrant::records::{Records, records_sheet};
 use std::path::PathBuf;
 
 /// List calibrations: by sensor, and by date.
@@ -24,36 +24,9 @@ impl Arguments {
         let records = Records::open_existing(&self.records)?.list(&self.selection.filter())?;
         if self.json {
             console::print_always(&to_json(&records));
-            return Ok(Exit::DONE);
+        } else {
+            console::sheet(&records_sheet(&records));
         }
-        let header = [
-            "id",
-            "sensor",
-            "recorded",
-            "station",
-            "verdict",
-            "decided by",
-            "recording",
-            "experiment",
-            "program",
-        ];
-        console::print(&console::table(&header, &records.iter().map(row).collect::<Vec<_>>()));
         Ok(Exit::DONE)
     }
-}
-
-fn row(kept: &KeptRecord) -> Vec<String> {
-    let record = &kept.record;
-    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
-    vec![
-        kept.id.to_string(),
-        record.sensor.clone(),
-        or_dash(record.recorded.map(|time| time.to_string())),
-        or_dash(record.station.clone()),
-        record.verdict.name().to_owned(),
-        or_dash(Some(record.codes.join(" ")).filter(|codes| !codes.is_empty())),
-        record.recording(),
-        or_dash(record.experiment.as_ref().map(|file| file.file.clone())),
-        record.program.clone(),
-    ]
 }

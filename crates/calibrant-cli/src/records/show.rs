@@ -5,8 +5,7 @@ use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::to_json;
-use calibrant::records::{KeptRecord, RecordFile, Records};
-use calibrant::report::number_format;
+use calibrant::records::{RecordFile, Records, record_sheet};
 use std::path::PathBuf;
 
 /// Show one calibration: where it comes from, its verdict and its parameters.
@@ -32,42 +31,10 @@ impl Arguments {
             return Err(Error::experiment(error));
         };
         if self.json {
-            console::print_always(&to_json(&RecordFile(&kept)));
+            console::print_always(&to_json(&RecordFile::of(&kept)));
         } else {
-            console::print(&in_words(&kept));
+            console::sheet(&record_sheet(&kept));
         }
         Ok(Exit::DONE)
     }
-}
-
-fn in_words(kept: &KeptRecord) -> String {
-    let record = &kept.record;
-    let mut text = format!("calibration {} of sensor {}: {}", kept.id, record.sensor, record.verdict.name());
-    if !record.codes.is_empty() {
-        text.push_str(&format!(" ({})", record.codes.join(", ")));
-    }
-    text.push('\n');
-    let file = |what: &str, name: &str, sha256: &str| Some(format!("{what}: {name}, SHA-256 {sha256}"));
-    let mut facts = vec![
-        record.recorded.map(|time| format!("recorded: {time}")),
-        record.station.as_ref().map(|station| format!("station: {station}")),
-        Some(format!(
-            "by: {}, {}, {}; inserted {}",
-            record.program, record.plan, record.status, kept.inserted
-        )),
-        record.experiment.as_ref().and_then(|of| file("experiment", &of.file, &of.sha256)),
-        record.motion_file.as_ref().and_then(|of| file("motion", &of.file, &of.sha256)),
-    ];
-    facts.extend(record.recordings.iter().map(|of| file("recording", &of.file, &of.sha256)));
-    facts.iter().flatten().for_each(|fact| text.push_str(&format!("  {fact}\n")));
-    text.push('\n');
-    let imu = &record.imu;
-    let rows = imu.quantities.iter().enumerate().map(|(k, quantity)| {
-        let variance = imu.covariance.as_ref().map_or(0.0, |sigma| sigma[(k, k)]);
-        let readings = imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit());
-        let value =
-            number_format::with_sd_or_exact(quantity.value(&imu.parameters), variance.max(0.0).sqrt());
-        vec![quantity.name(), value, quantity.unit(readings).to_owned()]
-    });
-    text + &console::table(&["parameter", "value", "unit"], &rows.collect::<Vec<_>>())
 }

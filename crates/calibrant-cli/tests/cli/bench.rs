@@ -1,5 +1,6 @@
 //! The bench of the command-line tests: a directory in which the program runs, and the result of a run.
 
+use crate::schemas;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -31,8 +32,11 @@ impl Bench {
         std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
+    /// A JSON file. One of ours has the form of its kind.
     pub(crate) fn json(&self, name: &str) -> Value {
-        serde_json::from_str(&self.read(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+        let value = serde_json::from_str(&self.read(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        schemas::check(name, &value);
+        value
     }
 
     /// Writes a preset as an experiment file, after these replacements; each must find its text.
@@ -163,6 +167,21 @@ impl Outcome {
     pub(crate) fn ends_with(self, status: i32) -> Self {
         assert_eq!(self.status, status, "{}\n{}", self.command, self.stderr);
         self
+    }
+
+    /// The JSON on stdout. It has the form of its kind.
+    pub(crate) fn json(&self) -> Value {
+        let value =
+            serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{}: {error}", self.command));
+        schemas::check(&self.command, &value);
+        value
+    }
+
+    /// The JSON list on stdout. It has the form of this kind.
+    pub(crate) fn list(&self, kind: &str) -> Value {
+        let value = self.json();
+        schemas::check_kind(kind, &self.command, &value);
+        value
     }
 
     /// The words of stdout, wherever lines are broken.

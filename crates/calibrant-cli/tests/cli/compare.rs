@@ -27,9 +27,7 @@ fn a_comparison_knows_how_few_holds_there_were() {
             bench.write(&format!("{k}.json"), file.to_string());
         }
     };
-    let compared = || -> serde_json::Value {
-        serde_json::from_str(&bench.run("compare 1.json 2.json --json").done().stdout).expect("JSON")
-    };
+    let compared = || bench.run("compare 1.json 2.json --json").done().json();
     state(Some(r#"{"accelerometer": 3}"#));
     let few = compared();
     let behind = few["overall"]["degrees_behind"].as_f64().expect("a number");

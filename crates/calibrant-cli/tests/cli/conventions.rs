@@ -1,7 +1,6 @@
 //! Tests of `convert`, `apply` and `compare`: from one program's file to another's, with messages on the way.
 
 use crate::bench::Bench;
-use serde_json::Value;
 
 /// A whole IMU as imucal writes it.
 pub(crate) const IMUCAL: &str = r#"{"acc_unit": "m/s^2", "gyr_unit": "deg/s", "from_acc_unit": "a.u.", "from_gyr_unit": "a.u.", "comment": null,
@@ -40,9 +39,7 @@ fn one_file_goes_through_all_formats_and_stays_the_same_imu() {
     bench.run("convert imu.h back.json --to imucal").done();
     let json = bench.json("back.json");
     assert_eq!((json["cal_type"].as_str(), json["from_gyr_unit"].as_str()), (Some("Ferraris"), Some("a.u.")));
-    let table: Value =
-        serde_json::from_str(&bench.run("compare shimmer.json back.json --json").done().stdout)
-            .expect("JSON");
+    let table = bench.run("compare shimmer.json back.json --json").done().json();
     for row in table["quantities"].as_array().expect("rows") {
         let difference = row["difference"].as_f64().expect("the same units");
         assert!(difference.abs() < 1e-9, "{row}");

@@ -62,6 +62,7 @@ pub(crate) fn follow_text(bench: &Bench, name: &str, text: &str, commands: usize
         }
     }
     assert_eq!(ran, commands, "{name}: number of commands");
+    bench.files().iter().filter(|file| file.ends_with(".json")).for_each(|file| drop(bench.json(file)));
 }
 
 /// Runs the README of an example, in its folder.

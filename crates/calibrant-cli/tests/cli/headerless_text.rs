@@ -87,11 +87,10 @@ fn a_pair_is_asked_for_both_units_at_once_and_told_file_by_file() {
     {
         let message = plain(&message.stdout);
         let from = message.find(&format!("{file}: imu_tk text, t x y z, {rows} rows\n")).expect("a heading");
-        let table: Vec<&str> = message[from..].lines().skip(2).take(6).collect();
+        let table: Vec<&str> = message[from..].lines().skip(1).take(6).collect();
         assert!(table[3].contains(&format!("{sensor} x")), "{table:?}");
     }
-    let json = bench.run(&format!("inspect acc.mat --gyroscope gyro.mat {units} --json")).done().stdout;
-    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let json = bench.run(&format!("inspect acc.mat --gyroscope gyro.mat {units} --json")).done().json();
     assert_eq!((json["rows"].as_u64(), json["second_file"]["rows"].as_u64()), (Some(16_600), Some(16_590)));
     // another clock
     let later = |row: &str| {
@@ -118,7 +117,7 @@ fn exchanged_files_are_asked_about() {
     let says = "the accelerometer does not: are their files or columns exchanged?";
     let units = "--accelerometer-unit counts --gyroscope-unit counts";
     for (one, other, expected) in [("acc.mat", "gyro.mat", false), ("gyro.mat", "acc.mat", true)] {
-        let message = bench.run(&format!("inspect {one} --gyroscope {other} {units}")).done().stdout;
+        let message = bench.run(&format!("inspect {one} --gyroscope {other} {units}")).done().printed();
         assert_eq!(message.contains(says), expected, "{message}");
         let outcome =
             bench.run(&format!("calibrate counts.toml {one} --gyroscope {other} --no-report -o out"));
@@ -156,7 +155,7 @@ fn the_files_of_a_pair_keep_their_common_clock() {
     };
     bench.write("acc.csv", epoch(&[0, 1, 2, 3], "t_ms,ax_mps2,ay_mps2,az_mps2", 0));
     bench.write("gyro.csv", epoch(&[0, 4, 5, 6], "t_ms,gx_radps,gy_radps,gz_radps", 300));
-    let message = plain(&bench.run("inspect acc.csv --gyroscope gyro.csv").done().stdout);
+    let message = bench.run("inspect acc.csv --gyroscope gyro.csv").done().printed();
     assert!(message.contains("gyroscope: 16 300 samples from 3 to 165.99 s"), "{message}");
     assert!(
         message.contains(

@@ -120,10 +120,10 @@ fn holds_in_which_the_accelerometer_saturates_are_named() {
     };
     let text = poses("t_ms,ax_g,ay_g,az_g,gx_radps,gy_radps,gz_radps", 1.0);
     bench.write("imu.csv", text.lines().map(cut).collect::<String>());
-    let stdout = bench.run("inspect imu.csv").done().stdout;
+    let printed = bench.run("inspect imu.csv").done().printed();
     // sin(0.7 k) cos(1.9 k) is above 0.3 for k = 3, 5, 8 and 10
     let message = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and not used in a calibration";
-    assert!(stdout.contains(message), "{stdout}");
+    assert!(printed.contains(message), "{printed}");
     bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
     let table = &bench.json("inspection.json")["holds"]["table"];
     assert_eq!((table[3]["saturated_axis"].as_str(), table[4]["saturated_axis"].as_str()), (Some("x"), None));
@@ -206,7 +206,7 @@ fn times_in_another_unit_and_a_format_that_it_is_not_are_asked_about() {
     bench.write("ms.csv", text.lines().map(milliseconds).collect::<String>());
     let says =
         "the samples are 10 s apart: are the times in ms? at 100 Hz the name of their column ends in _ms";
-    let inspected = bench.run("inspect ms.csv").done().stdout;
+    let inspected = bench.run("inspect ms.csv").done().printed();
     assert!(inspected.contains(says), "{inspected}");
     bench.refuses("calibrate imu.toml ms.csv -o out", 3, &[says, "is the time column in seconds?"]);
     bench.refuses(

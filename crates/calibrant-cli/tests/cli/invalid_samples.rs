@@ -22,7 +22,7 @@ fn an_absurd_number_is_left_out_and_named_whatever_its_size() {
     outcome.says("gyroscope: 1 sample is a spike and was replaced");
     outcome.says("The farthest reads -1e300 rad/s at 49.990 s on axis y");
     assert_eq!(bench.json("out/calibration.json")["parameters"], expected, "not by a bit");
-    let inspected = bench.run("inspect wild.csv").done().stdout;
+    let inspected = bench.run("inspect wild.csv").done().printed();
     assert!(
         inspected.contains("The farthest reads -1e300 rad/s") && inspected.contains("24 holds found"),
         "{inspected}"

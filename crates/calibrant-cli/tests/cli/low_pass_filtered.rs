@@ -37,13 +37,13 @@ fn holds_that_a_filter_breaks_up_are_told_with_what_to_do() {
         let recording = bench.read("made/recording.csv");
         for pole in [0.0, 0.8] {
             bench.write("plain.csv", filtered(&recording, pole));
-            let message = bench.run("inspect plain.csv").done().stdout;
+            let message = bench.run("inspect plain.csv").done().printed();
             assert!(message.contains("24 holds found") && !message.contains(FILTER), "{pole}: {message}");
         }
         let outcome = calibrate("plain.csv").done();
         assert!(!outcome.stderr.contains(FILTER), "{outcome:?}");
         bench.write("slow.csv", filtered(&recording, 0.95));
-        let message = bench.run("inspect slow.csv").done().stdout;
+        let message = bench.run("inspect slow.csv").done().printed();
         assert!(message.contains(&format!("{found} holds found")) && message.contains(FILTER), "{message}");
         let outcome = calibrate("slow.csv");
         assert_eq!(outcome.status, if found > 9 { 0 } else { 4 }, "{outcome:?}");

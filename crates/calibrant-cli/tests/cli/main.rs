@@ -38,6 +38,7 @@ mod records;
 mod repaired_recordings;
 mod rest;
 mod resume;
+mod schemas;
 mod sensor_change;
 mod sensor_names;
 mod simulate;

@@ -61,8 +61,7 @@ fn white_noise_is_found_and_what_is_not_seen_is_said() {
 
     let printed = bench.run("noise still.csv --json").done();
     assert_eq!(printed.stdout, bench.read("result/noise.json"));
-    let part = bench.run("noise still.csv --hold 10 30 --json").done();
-    let part: Value = serde_json::from_str(&part.stdout).expect("JSON");
+    let part = bench.run("noise still.csv --hold 10 30 --json").done().json();
     assert_eq!(
         (&part["sensors"][0]["first_sample"], &part["sensors"][0]["end_sample"]),
         (&1000.into(), &3001.into())
@@ -80,7 +79,7 @@ fn an_outlier_is_named_and_left_out() {
     bench.write("spark.csv", lines.join("\n") + "\n");
     let n = |file: &str| {
         let outcome = bench.run(&format!("noise {file} --hold 0 60 --json")).done();
-        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        let json = outcome.json();
         (json["sensors"][0]["axes"][0]["random_walk"]["value"].as_f64().expect("determined"), outcome)
     };
     let ((expected, clean), (found, outcome)) = (n("still.csv"), n("spark.csv"));
@@ -206,7 +205,7 @@ fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
     bench.write("imu.csv", text);
     for sensor in ["accelerometer", "gyroscope"] {
         let outcome = bench.run(&format!("noise imu.csv --sensor {sensor} --json")).done();
-        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        let json = outcome.json();
         assert_eq!(json["sensors"].as_array().map(Vec::len), Some(1));
         let place = |name: &str| json["sensors"][0][name].as_u64().expect("a number");
         let (first, end) = (place("first_sample"), place("end_sample"));
@@ -350,7 +349,7 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
     // whatever gives the unit, the result is the same
     let n = |arguments: &str| {
         let outcome = bench.run(&format!("noise {arguments} --json")).done();
-        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        let json = outcome.json();
         let sensor = &json["sensors"][0];
         let unit = sensor["reading_unit"].as_str().expect("a unit").to_owned();
         (sensor["axes"][1]["random_walk"]["value"].as_f64().expect("determined"), unit)

@@ -110,21 +110,15 @@ fn a_line_is_recorded_listed_shown_compared_and_exported() {
     let rows = listed(&bench);
     assert_eq!(rows.len(), 18, "{rows:?}");
     assert!(rows[0].contains("s1 2024-05-01 L1") && rows[1].contains("s1 2025-05-01"), "{rows:?}");
-    let bad = bench.run("records list r.db --verdict bad --json").done().stdout;
-    let bad: serde_json::Value = serde_json::from_str(&bad).expect("JSON");
+    let bad = bench.run("records list r.db --verdict bad --json").done().list("records");
     let sensors: Vec<&str> =
         bad.as_array().expect("an array").iter().map(|row| row["sensor"].as_str().expect("a name")).collect();
     assert_eq!(sensors, ["s4", "s4", "s4"], "the gain of the fourth is far off");
 
     // what the records show is what the result says
     let result = bench.json("2025-05-01/s1_2025-05-01/calibration.json");
-    let id = serde_json::from_str::<serde_json::Value>(
-        &bench.run("records list r.db --sensor s1 --json").done().stdout,
-    )
-    .expect("JSON")[1]["id"]
-        .clone();
-    let shown = bench.run(&format!("records show r.db {id} --json")).done().stdout;
-    bench.write("shown.json", &shown);
+    let id = &bench.run("records list r.db --sensor s1 --json").done().list("records")[1]["id"];
+    bench.write("shown.json", bench.run(&format!("records show r.db {id} --json")).done().stdout);
     let shown = bench.json("shown.json");
     for field in
         ["program", "sensor", "recorded", "station", "experiment", "verdict", "status", "accelerometer"]
@@ -147,16 +141,14 @@ fn a_line_is_recorded_listed_shown_compared_and_exported() {
     assert!(words.contains("accelerometer.bias.x"), "{words}");
 
     // the bias in x was shifted by 0.01 m/s² a year
-    let history = bench.run("records drift r.db s1 --json").done().stdout;
-    let history: serde_json::Value = serde_json::from_str(&history).expect("JSON");
+    let history = bench.run("records drift r.db s1 --json").done().json();
     let aging = |k: usize, field: &str| history["aging"][k][field].as_f64().expect("a number");
     assert_eq!(history["aging"][0]["name"], "accelerometer.bias.x");
     assert!((aging(0, "per_year") - 0.01).abs() < 1e-4, "{}", history["aging"][0]);
     assert!(aging(0, "p_value") < 1e-6 && aging(1, "p_value") > 0.9, "{}", history["aging"]);
     assert_eq!(history["changes"].as_array().expect("an array").len(), 2);
     assert!(history["changes"][0]["overall"]["p_value"].as_f64().expect("a number") < 1e-6);
-    let direct = bench.run("compare 2024-05-01/s1_2024-05-01/calibration.json 2025-05-01/s1_2025-05-01/calibration.json --json").done().stdout;
-    let direct: serde_json::Value = serde_json::from_str(&direct).expect("JSON");
+    let direct = bench.run("compare 2024-05-01/s1_2024-05-01/calibration.json 2025-05-01/s1_2025-05-01/calibration.json --json").done().json();
     let chi2 = |overall: &serde_json::Value| overall["chi2"].as_f64().expect("a number");
     // but for the rounding of a covariance that is symmetric
     let ratio = chi2(&history["changes"][0]["overall"]) / chi2(&direct["overall"]);
@@ -167,6 +159,8 @@ fn a_line_is_recorded_listed_shown_compared_and_exported() {
     assert!(table.contains("accelerometer.bias.x +"), "{table}");
     let bad = bench.run("records drift r.db s4").done().stdout;
     assert!(bad.contains("no aging"), "{bad}");
+    let drifts = bench.run("records drift r.db --json").done().list("drift");
+    assert_eq!(drifts[0]["calibrations"], 3, "{drifts}");
     let all = bench.run("records drift r.db").done().printed();
     assert!(
         all.contains("p below 0.01: last change 6 of 6, where chance alone gives 0.06; aging 5 of 5"),
@@ -175,8 +169,7 @@ fn a_line_is_recorded_listed_shown_compared_and_exported() {
     let fleet = bench.run("records fleet r.db").done();
     assert!(fleet.printed().contains(" accelerometer.bias.x 5 "), "{}", fleet.stdout);
 
-    let fleet = bench.run("records fleet r.db --json").done().stdout;
-    let fleet: serde_json::Value = serde_json::from_str(&fleet).expect("JSON");
+    let fleet = bench.run("records fleet r.db --json").done().json();
     assert_eq!(fleet["parameters"][0]["sensors"], 5);
     assert_eq!(fleet["left_out"], serde_json::json!([]));
 
@@ -270,8 +263,7 @@ fn a_copy_under_the_name_of_another_sensor_is_refused_and_the_wrong_name_removed
     bench.refuses("records add r.db later/calibration.json", 3, &says);
 
     // the first name was wrong
-    let of_s1 = bench.run("records list r.db --sensor s1 --json").done().stdout;
-    let of_s1: serde_json::Value = serde_json::from_str(&of_s1).expect("JSON");
+    let of_s1 = bench.run("records list r.db --sensor s1 --json").done().list("records");
     let id = of_s1[0]["id"].as_i64().expect("a number");
     bench.refuses(&format!("records remove r.db {id} 99"), 2, &["r.db: there is no calibration 99"]);
     assert!(list().contains(" s1 "));
@@ -291,12 +283,11 @@ fn another_motion_is_another_calibration_of_the_recording() {
     };
     bench.run(&of("motion.csv")).done();
     let drift = bench.run("records drift r.db").done().stdout;
-    assert_eq!(drift, "no sensor has two calibrations to compare\n");
+    assert_eq!(drift, "  no sensor has two calibrations to compare\n");
     bench.write("other.csv", bench.read("motion.csv") + "\n");
     bench.run(&of("other.csv")).done();
     bench.run(&of("other.csv")).done();
-    let list = bench.run("records list r.db --json").done().stdout;
-    let list: serde_json::Value = serde_json::from_str(&list).expect("JSON");
+    let list = bench.run("records list r.db --json").done().list("records");
     let motions: Vec<_> =
         list.as_array().expect("rows").iter().map(|row| &row["motion_file"]["file"]).collect();
     assert_eq!(motions, ["motion.csv", "other.csv"]);

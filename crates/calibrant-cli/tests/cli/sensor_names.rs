@@ -17,8 +17,7 @@ fn folders() -> Bench {
 
 /// The sensors in the records, in their order.
 fn recorded(bench: &Bench) -> Vec<String> {
-    let list: Value =
-        serde_json::from_str(&bench.run("records list r.db --json").done().stdout).expect("JSON");
+    let list = bench.run("records list r.db --json").done().list("records");
     let sensor = |record: &Value| record["sensor"].as_str().expect("a name").to_owned();
     list.as_array().expect("a list").iter().map(sensor).collect()
 }

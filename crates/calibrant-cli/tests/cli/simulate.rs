@@ -186,10 +186,7 @@ fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
     {
         bench.run(&format!("simulate {experiment}.toml --seed 7 -o one")).done();
         bench.run(&format!("calibrate {experiment}.toml one/recording.csv -o result")).done();
-        let compare = |a: &str, b: &str| -> serde_json::Value {
-            let outcome = bench.run(&format!("compare {a} {b} --json")).done();
-            serde_json::from_str(&outcome.stdout).expect("JSON")
-        };
+        let compare = |a: &str, b: &str| bench.run(&format!("compare {a} {b} --json")).done().json();
         let found = compare("one/truth.json", "result/calibration.json");
         let p_value = found["overall"]["p_value"].as_f64().expect("a number");
         assert!(p_value > 1e-3, "{experiment}: {found}");

@@ -322,6 +322,6 @@ fn the_gyroscopes_columns_that_a_file_of_their_own_replaces_are_said() {
     ] {
         assert!(outcome.stderr.contains(says), "{}", outcome.stderr);
     }
-    let inspected = bench.run("inspect one/recording.csv one/recording.csv").done().stdout;
+    let inspected = bench.run("inspect one/recording.csv one/recording.csv").done().printed();
     assert!(inspected.contains("its own columns of the gyroscope"), "{inspected}");
 }

@@ -71,7 +71,7 @@ crate::json_object! {
 crate::json_object! {
     /// One invariant in two calibrations.
     ComparedQuantity as row {
-        name: row.invariant.name(),
+        name: row.invariant,
         /// Its unit; where they differ, that of A, a bar, and that of B.
         unit: row.unit(),
         a: row.a.value,

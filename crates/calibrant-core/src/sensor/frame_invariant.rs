@@ -30,6 +30,8 @@ pub enum Invariant {
     Thermal(SensorKind, ThermalTerm),
 }
 
+crate::json_name!(Invariant);
+
 /// An invariant of an IMU.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InvariantValue {

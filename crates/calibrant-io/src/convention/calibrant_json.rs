@@ -26,11 +26,13 @@ const KIND: &str = "calibration";
 /// The remedy for a broken file.
 const HELP: &str = "give a file that calibrant wrote";
 
-struct File<'a>(&'a CalibratedImuFile);
+/// A calibrated IMU as calibrant JSON.
+#[derive(Debug, Clone, Copy)]
+pub struct ConvertedFile<'a>(pub(super) &'a CalibratedImuFile);
 
 json_object! {
     /// A calibrated IMU.
-    File<'_> as file {
+    ConvertedFile<'_> as file {
         heading: flat(Heading::of(KIND)),
         imu: flat(ImuFields::of(file.0.imu.clone())),
         inputs: &file.0.inputs,
@@ -51,7 +53,7 @@ struct Header {
 }
 
 pub(super) fn write(file: &CalibratedImuFile) -> String {
-    json::to_json(&File(file))
+    json::to_json(&ConvertedFile(file))
 }
 
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {

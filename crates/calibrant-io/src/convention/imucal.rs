@@ -33,7 +33,7 @@ const HELP: &str = "give the JSON of imucal's to_json_file";
 
 #[derive(Serialize, Deserialize)]
 #[allow(non_snake_case)] // imucal's names
-struct Fields {
+struct ImucalFile {
     acc_unit: Option<String>,
     #[serde(alias = "gyro_unit")]
     gyr_unit: Option<String>,
@@ -91,7 +91,7 @@ fn unit_of_readings(
 }
 
 pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
-    let fields: Fields =
+    let fields: ImucalFile =
         serde_json::from_str(text).map_err(|error| json::broken(&error, "imucal's JSON", HELP))?;
     match fields.cal_type.as_deref() {
         Some("Ferraris" | "Turntable") => (),
@@ -190,7 +190,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let (k_a, r_a) = factors(&imu.parameters.accelerometer.matrix);
     let (k_g, r_g) = factors(&(imu.parameters.gyroscope.matrix * (DEGREE / gyr)));
     let vector = |v: &Vector3<f64>| Some(v.iter().copied().collect());
-    let fields = Fields {
+    let fields = ImucalFile {
         acc_unit: Some("m/s^2".into()),
         gyr_unit: Some("deg/s".into()),
         from_acc_unit: Some(if counts(acc_unit) { "a.u." } else { "m/s^2" }.into()),

@@ -34,8 +34,8 @@ mod usable_calibration;
 mod words;
 mod write;
 
-pub use calibrant_json::parse_estimates;
 pub(crate) use calibrant_json::read_estimates;
+pub use calibrant_json::{ConvertedFile, parse_estimates};
 pub use file::{CalibratedImuFile, WrittenImu};
 pub use format::ImuFormat;
 pub use imu_noise::ImuNoise;

@@ -43,7 +43,7 @@ pub struct MachineFile<'a> {
 json_object! {
     /// A machine and a chain of it.
     MachineFile<'_> as of {
-        heading: flat(Heading::of("machine")),
+        heading: flat(Heading::of("chain")),
         machine: &of.machine.name,
         links: of.machine.links().collect::<Vec<_>>(),
         base: &of.chain.base,

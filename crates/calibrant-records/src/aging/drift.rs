@@ -7,16 +7,20 @@ use calibrant_core::error::Result;
 use calibrant_core::estimate::{Comparison, OverallDifference};
 use calibrant_io::UtcTime;
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The drift of one sensor in short.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SensorDrift {
     /// The sensor.
     pub sensor: String,
     /// Number of its recordings; at least two.
     pub calibrations: usize,
-    /// The earliest and the latest date, where two are known.
-    pub dates: Option<[UtcTime; 2]>,
+    /// The earliest date, UTC, where two are known.
+    pub first: Option<UtcTime>,
+    /// The latest.
+    pub last: Option<UtcTime>,
     /// The last change of all parameters together; `None` where it cannot be computed.
     pub last_change: Option<OverallDifference>,
     /// The quantity whose aging is the most significant.
@@ -93,15 +97,13 @@ impl SensorDrift {
             last_two.and_then(|(last, before)| Comparison::of(&before.record.imu, &last.record.imu).overall);
         let (aging, _) = aging(calibrations);
         let largest = aging.iter().min_by(|one, other| one.aging.p_value.total_cmp(&other.aging.p_value));
-        let dates = || calibrations.iter().filter_map(|kept| kept.record.recorded);
+        let mut dates = calibrations.iter().filter_map(|kept| kept.record.recorded);
+        let dates = dates.next().zip(dates.next_back()).filter(|(first, last)| first != last);
         Self {
             sensor: calibrations[0].record.sensor.clone(),
             calibrations: calibrations.len(),
-            dates: dates()
-                .next()
-                .zip(dates().next_back())
-                .map(|(first, last)| [first, last])
-                .filter(|[a, b]| a != b),
+            first: dates.map(|(first, _)| first),
+            last: dates.map(|(_, last)| last),
             last_change,
             largest_aging: largest.copied(),
             aging_p_value: largest.map(|of| (of.aging.p_value * aging.len() as f64).min(1.0)),

@@ -5,6 +5,8 @@ use crate::database::{KeptRecord, RecordFilter, Records};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{CalibrationStatus, Comparison};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Seconds of a year of 365.25 days.
 const YEAR_S: f64 = 365.25 * 86_400.0;
@@ -25,13 +27,14 @@ pub struct SensorHistory {
 }
 
 /// What changed between two calibrations.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SensorChange {
     /// The number of the earlier.
     pub from: i64,
     /// The number of the later.
     pub to: i64,
     /// The later beside the earlier.
+    #[serde(flatten)]
     pub comparison: Comparison,
 }
 
@@ -70,7 +73,7 @@ pub(super) fn has_converged(kept: &KeptRecord) -> bool {
 
 /// The aging by calibrations of one sensor that have a date and are not bad, and their number.
 pub(super) fn aging(calibrations: &[KeptRecord]) -> (Vec<QuantityAging>, usize) {
-    let counts = |kept: &&KeptRecord| kept.record.verdict != Usability::Bad && has_converged(kept);
+    let counts = |kept: &&KeptRecord| kept.record.verdict.usability != Usability::Bad && has_converged(kept);
     let seconds = |kept: &KeptRecord| Some(kept.record.recorded?.seconds() as f64);
     let from_s = calibrations.iter().find_map(seconds).unwrap_or_default();
     let dated = |kept| {

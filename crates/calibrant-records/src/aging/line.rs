@@ -19,6 +19,9 @@
 //! in 5.1 % for five and in 9 % for ten. With σ taken as known it would be 8.7 %, 6.2 %, 6.3 % and 9.6 %, and without the Birge ratio up to 20 %. From ν = 10 on it is at most 5.1 %.
 
 use calibrant_core::estimate::{chi2_p_value, degrees_of_sum, f_p_value};
+use calibrant_core::form::As;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A value with its date.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,11 +37,12 @@ pub struct Dated {
 }
 
 /// How a quantity changes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Aging {
     /// Change per year, in the unit of the quantity.
     pub per_year: f64,
     /// Its standard deviation, with the Birge ratio where that is above 1.
+    #[serde(rename = "per_year_sd")]
     pub sd: f64,
     /// The Birge ratio `√(χ²/ν)`; `None` for two values.
     pub birge_ratio: Option<f64>,
@@ -48,12 +52,11 @@ pub struct Aging {
     pub degrees_of_freedom: usize,
     /// Probability of a larger χ² if a line and the standard deviations are right; `None` for two values.
     pub fit_p_value: Option<f64>,
-    /// Degrees of freedom behind the standard deviation of the change: those of χ² where the Birge ratio widens it, and otherwise those behind the values together.
+    /// Degrees of freedom behind the standard deviation of the change: those of χ² where the Birge ratio widens it, and otherwise those behind the values together. None where they are known.
+    #[serde(with = "As::<Option<f64>>")]
     pub degrees_behind: f64,
     /// Probability of a larger change if there is none, by Student's t of these degrees of freedom.
     pub p_value: f64,
-    /// The line at the weighted mean time of the values: that time, and the value.
-    pub at_mean: (f64, f64),
 }
 
 impl Aging {
@@ -108,7 +111,6 @@ impl Aging {
             degrees_behind,
             fit_p_value: chi2_p_value(chi2, degrees_of_freedom),
             p_value: f_p_value((per_year / sd).powi(2), 1, degrees_behind)?,
-            at_mean: (mean_time, mean_value),
         })
     }
 }
@@ -134,7 +136,6 @@ mod tests {
         // v̄ = 1.6, Σ w (t − t̄) v = −2.2 − 0.4 − 0.6 + 7.6
         let per_year = 4.4 / 4.9;
         assert!((aging.per_year - per_year).abs() < 1e-14, "{aging:?}");
-        assert_eq!(aging.at_mean, (0.1, 1.6));
         let residual = |t: f64, v: f64| v - 1.6 - per_year * (t - 0.1);
         let chi2 = residual(-1.0, 2.0).powi(2)
             + 4.0 * residual(0.0, 1.0).powi(2)

@@ -2,6 +2,8 @@
 
 use super::line::{Aging, Dated};
 use calibrant_core::sensor::{CalibratedImu, Invariant};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A calibration with its date.
 #[derive(Debug, Clone, Copy)]
@@ -13,13 +15,15 @@ pub struct DatedCalibration<'a> {
 }
 
 /// The aging of one quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct QuantityAging {
     /// Which quantity.
+    #[serde(rename = "name")]
     pub invariant: Invariant,
     /// Its unit; an angle is in rad.
     pub unit: &'static str,
     /// Its change.
+    #[serde(flatten)]
     pub aging: Aging,
 }
 

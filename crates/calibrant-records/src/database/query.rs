@@ -3,13 +3,15 @@
 use super::failure::{damaged, failed};
 use super::model::{self, Further};
 use super::records::Records;
-use crate::record::Record;
+use crate::record::{KeptVerdict, Record};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::CalibratedImu;
 use calibrant_io::{HashedFile, UtcTime};
 use rusqlite::types::ToSql;
 use rusqlite::{CachedStatement, Row};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::collections::HashMap;
 
 /// Which records are asked for. Each field that is given restricts them.
@@ -26,13 +28,14 @@ pub struct RecordFilter {
 }
 
 /// A record of a database.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct KeptRecord {
     /// Its number.
     pub id: i64,
-    /// When it was inserted.
+    /// When it was inserted, UTC.
     pub inserted: UtcTime,
     /// The calibration.
+    #[serde(flatten)]
     pub record: Record,
 }
 
@@ -177,7 +180,7 @@ impl<'r> Reader<'r> {
             Ok(file.map(|file| HashedFile { file, sha256 }))
         };
         let fitting = self.models[&number].as_ref().and_then(|model| further.onto(model, &estimates));
-        let (Some(imu), Some(verdict), Some(inserted)) =
+        let (Some(imu), Some(usability), Some(inserted)) =
             (fitting, Usability::parse(&verdict), time(inserted))
         else {
             return Ok(None);
@@ -192,8 +195,7 @@ impl<'r> Reader<'r> {
             experiment: optional(7)?,
             motion_file: optional(9)?,
             recordings: files.split('/').zip(hashes.split(' ')).map(file).collect(),
-            verdict,
-            codes: codes.split_whitespace().map(str::to_owned).collect(),
+            verdict: KeptVerdict { usability, codes: codes.split_whitespace().map(str::to_owned).collect() },
             status: row.get(15)?,
             imu,
         };

@@ -5,4 +5,4 @@ mod frame;
 mod parameters;
 
 pub use distribution::Distribution;
-pub use parameters::{Fleet, FleetParameter, LeftOut};
+pub use parameters::{FarSensor, Fleet, FleetParameter, LeftOut};

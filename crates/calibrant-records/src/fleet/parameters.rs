@@ -6,6 +6,8 @@ use crate::database::{KeptRecord, Records};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{CalibratedImu, Gauge};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::collections::HashMap;
 
 /// The parameters of all sensors, in one true frame and at one reference temperature.
@@ -24,7 +26,7 @@ pub struct Fleet {
 }
 
 /// A sensor that is not compared with the others.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LeftOut {
     /// The sensor.
     pub sensor: String,
@@ -35,18 +37,30 @@ pub struct LeftOut {
 }
 
 /// A parameter over all sensors.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FleetParameter {
     /// Its name.
     pub name: String,
     /// Its unit.
     pub unit: &'static str,
     /// The values of the sensors.
+    #[serde(flatten)]
     pub values: Distribution,
     /// Root mean square of the standard deviations of the calibrations; `None` where they have none.
     pub calibration_sd: Option<f64>,
-    /// The sensors that are farthest from the median, the farthest first: the sensor, its value, and the distance ([`Distribution::distance`]).
-    pub farthest: Vec<(String, f64, f64)>,
+    /// The sensors that are farthest from the median, the farthest first.
+    pub farthest: Vec<FarSensor>,
+}
+
+/// A sensor that is far from the median.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct FarSensor {
+    /// The sensor.
+    pub sensor: String,
+    /// Its value.
+    pub value: f64,
+    /// Its distance from the median ([`Distribution::distance`]).
+    pub in_robust_sd: f64,
 }
 
 /// Number of sensors that are named.
@@ -121,11 +135,12 @@ impl Parameters {
 impl Found {
     fn over_sensors(self) -> Option<FleetParameter> {
         let values = Distribution::of(self.sensors.iter().map(|(_, value)| *value))?;
-        let mut farthest: Vec<(String, f64, f64)> = (self.sensors.into_iter())
-            .filter_map(|(sensor, value)| Some((sensor, value, values.distance(value)?)))
-            .collect();
-        farthest
-            .sort_by(|one, other| other.2.abs().total_cmp(&one.2.abs()).then_with(|| one.0.cmp(&other.0)));
+        let far = |(sensor, value)| Some(FarSensor { sensor, value, in_robust_sd: values.distance(value)? });
+        let mut farthest: Vec<FarSensor> = self.sensors.into_iter().filter_map(far).collect();
+        let distance = |of: &FarSensor| of.in_robust_sd.abs();
+        farthest.sort_by(|one, other| {
+            distance(other).total_cmp(&distance(one)).then_with(|| one.sensor.cmp(&other.sensor))
+        });
         farthest.truncate(FARTHEST);
         let count = self.variances.len() as f64;
         let calibration_sd = (count > 0.0).then(|| (self.variances.iter().sum::<f64>() / count).sqrt());

@@ -1,10 +1,10 @@
 //! The times of samples, in words.
 
-use calibrant::io::Sampling;
-use calibrant::report::number_format::{count, short, significant};
+use calibrant_io::Sampling;
+use calibrant_report::number_format::{count, short, significant};
 
 /// A line about the times of samples; `what` are the samples of.
-pub(super) fn line(what: &str, sampling: &Sampling) -> String {
+pub(super) fn sampling_line(what: &str, sampling: &Sampling) -> String {
     let (start, end) = sampling.span_s;
     // seconds since 1970 hide the duration behind many digits
     let span = match end.abs() < 1e5 {
@@ -27,7 +27,7 @@ pub(super) fn line(what: &str, sampling: &Sampling) -> String {
         format!("{} ms (sd)", significant(1e3 * sampling.jitter_s, 2))
     };
     format!(
-        "  {what}: {} samples {span}, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}\n",
+        "{what}: {} samples {span}, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}",
         count(sampling.samples),
         significant(sampling.rate_hz, 5),
         significant(1e3 * sampling.steps_s.0, 4),

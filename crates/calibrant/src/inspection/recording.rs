@@ -1,0 +1,81 @@
+//! What a recording contains.
+
+use super::columns;
+use super::holds::hold_sections;
+use super::sampling::sampling_line;
+use calibrant_core::diagnostic::{Diagnostic, samples};
+use calibrant_core::sensor::Axis;
+use calibrant_io::{FileFormat, ImuColumn, ImuFile, Inspection, SensorInspection};
+use calibrant_report::number_format::{count, short};
+use calibrant_report::{Cell, Section, Sheet, Table};
+
+/// A recording as a sheet: its columns, sampling, ranges, what was noticed, its holds, and what to expect of a calibration. `names`: what the
+/// file is called, and that of the gyroscope of a pair.
+#[must_use]
+pub fn recording_sheet(file: &ImuFile, inspection: &Inspection, names: &[String]) -> Sheet<'static> {
+    let mut sections = files(file, names);
+    sections.push(readings(file, inspection));
+    let mut noticed = Section::new("Noticed");
+    noticed.list(noticed_in(file, inspection));
+    sections.push(noticed);
+    match &inspection.holds {
+        Some(Ok(found)) => sections.extend(hold_sections(found, inspection)),
+        Some(Err(why)) => sections.push(sentence(format!("No search for holds: {why}"))),
+        None => sections.push(sentence("Without an accelerometer there are no holds.".into())),
+    }
+    Sheet { title: names.join(", "), sections, ..Sheet::default() }
+}
+
+/// Each file with its columns.
+fn files(file: &ImuFile, names: &[String]) -> Vec<Section<'static>> {
+    let of_second = file.second.as_ref().map_or(0, |second| second.columns);
+    let (first, second) = file.columns.split_at(file.columns.len() - of_second);
+    let formats = [(file.format, file.rows, first)].into_iter();
+    let formats = formats.chain(file.second.as_ref().map(|of| (of.format, of.rows, second)));
+    let one = |((format, rows, of), name): ((FileFormat, usize, &[ImuColumn]), &String)| {
+        columns::file(format!("{name}: {}, {} rows", format.description(), count(rows)), of)
+    };
+    formats.zip(names).map(one).collect()
+}
+
+/// Times and values of each sensor.
+fn readings(file: &ImuFile, inspection: &Inspection) -> Section<'static> {
+    let mut section = Section::default();
+    for sensor in &inspection.sensors {
+        section.paragraph(sampling_line(sensor.sensor_kind.name(), &sensor.sampling));
+    }
+    let mut table = Table::new(["readings", "least", "mean", "most", "unit"]);
+    for sensor in &inspection.sensors {
+        Axis::ALL.into_iter().for_each(|axis| table.row(range(sensor, axis)));
+    }
+    section.table(table);
+    if let Some(temperature) = &file.recording.temperature_c {
+        let least = temperature.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        section.paragraph(format!("temperature from {} to {} °C", short(least), short(most)));
+    }
+    section
+}
+
+fn range(sensor: &SensorInspection, axis: Axis) -> Vec<Cell> {
+    let values = [&sensor.least, &sensor.mean, &sensor.most];
+    let mut row = vec![Cell::Name(format!("{} {axis}", sensor.sensor_kind))];
+    row.extend(values.map(|of| Cell::significant(of[axis.index()], 5)));
+    row.push(Cell::unit(sensor.unit.symbol()));
+    row
+}
+
+/// What the reader noticed, and the spikes.
+fn noticed_in(file: &ImuFile, inspection: &Inspection) -> Vec<String> {
+    let spikes = inspection.spikes.iter().filter_map(|(sensor_kind, spikes)| {
+        let unit = file.recording.sensor(*sensor_kind)?.unit();
+        Some(Diagnostic::from(samples::Spikes::of(spikes, *sensor_kind, unit)).to_string())
+    });
+    file.all_findings().map(ToString::to_string).chain(spikes).collect()
+}
+
+fn sentence(text: String) -> Section<'static> {
+    let mut section = Section::default();
+    section.paragraph(text);
+    section
+}
