@@ -1,12 +1,12 @@
 //! The sheet of a user's motion, compared with the best motion and the limits.
 
-use super::About;
 use super::design::{
     axes, confidence_section, criterion_in_words, motion_section, promised_table, times, undetermined_items,
     violation,
 };
 use super::figure::Drawn;
 use super::number_format::{self, counted, short, significant};
+use super::report_context::{About, READINGS};
 use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::motion::Limits;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
@@ -37,13 +37,8 @@ pub fn evaluation_sheet<'a>(assessment: &'a Assessment, about: &'a About) -> She
     );
     let best = optimum.map(|design| ("optimal", &design.optimal));
     let confidence = confidence_section(parameters, ("your motion", own), best, own);
-    Sheet {
-        title: if about.title.is_empty() { "Evaluation of a motion".into() } else { about.title.clone() },
-        verdict: Some(verdict(assessment, about)),
-        sections: vec![predicted(assessment), motion, confidence],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = vec![predicted(assessment), motion, confidence];
+    about.sheet("Evaluation of a motion", verdict(assessment, about), sections, READINGS)
 }
 
 fn predicted(assessment: &Assessment) -> Section<'_> {

@@ -1,8 +1,8 @@
 //! The noise of a sensor at rest: a page of its own, and a section for the pages of calibrations.
 
-use super::About;
 use super::figure::allan_figure;
 use super::number_format;
+use super::report_context::{About, READINGS};
 use crate::number_format::capitalised;
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::noise::{
@@ -19,13 +19,8 @@ const FILTERED: f64 = 0.95;
 /// `examined` names the part of the recording that was examined, where that is not nearly all of it.
 #[must_use]
 pub fn noise_sheet<'a>(noise: &'a [SensorNoise], examined: Option<&str>, about: &'a About) -> Sheet<'a> {
-    Sheet {
-        title: if about.title.is_empty() { "Noise".into() } else { about.title.clone() },
-        verdict: Some(verdict(noise, about)),
-        sections: noise.iter().map(|sensor| with_line(noise_section(sensor, examined), sensor)).collect(),
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = noise.iter().map(|sensor| with_line(noise_section(sensor, examined), sensor));
+    about.sheet("Noise", verdict(noise, about), sections.collect(), READINGS)
 }
 
 /// A section on each sensor: its figure, coefficients, samples.

@@ -1,9 +1,9 @@
 //! The sheet of a sweep: the best designs for several values of one quantity.
 
-use super::About;
 use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
 use super::number_format;
+use super::report_context::{About, READINGS};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
@@ -22,13 +22,7 @@ pub fn sweep_sheet<'a>(sweep: &'a Sweep, about: &'a About) -> Sheet<'a> {
         sweep.criterion.scaling()
     ));
     values.table(table(sweep));
-    Sheet {
-        title: if about.title.is_empty() { "Sweep".into() } else { about.title.clone() },
-        verdict: Some(verdict(sweep, about)),
-        sections: vec![curves, values],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    about.sheet("Sweep", verdict(sweep, about), vec![curves, values], READINGS)
 }
 
 fn verdict(sweep: &Sweep, about: &About) -> SheetVerdict {

@@ -11,7 +11,6 @@ use super::quality::nuisances_in_words;
 use super::rotations::{rotation_summary, rotation_table, turn_table};
 use super::temperature::temperature_in_words;
 use super::verdict::verdict;
-use crate::About;
 use crate::figure::{
     bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, holds_before_and_after,
     recording_before_and_after, recording_overview, rotation_errors, still_gyroscope,
@@ -19,6 +18,7 @@ use crate::figure::{
 use crate::limits::limit_section;
 use crate::noise::noise_sections;
 use crate::number_format::capitalised;
+use crate::report_context::{About, READINGS};
 use crate::sheet::{Section, Sheet, Shown};
 use crate::validation::validation_section;
 use calibrant_core::estimate::{Calibration, HoldCalibration, Recovered};
@@ -58,17 +58,13 @@ pub fn calibration_sheet<'a>(
         sections.extend(residual_section(calibration, motion, recording));
     }
     sections.push(fit(calibration));
-    let directions = "Directions are true → raw unless stated otherwise. sd is the standard deviation.";
-    Sheet {
-        title: if about.title.is_empty() { "Calibration".into() } else { about.title.clone() },
-        verdict: Some(verdict(calibration, about)),
-        sections,
-        inputs: about.facts.clone(),
-        footer: match calibration.recovered {
-            Recovered::Motion(_) => about.footer(),
-            Recovered::Holds(_) => vec![about.made(), directions.to_owned()],
-        },
-    }
+    let meaning = match calibration.recovered {
+        Recovered::Motion(_) => READINGS,
+        Recovered::Holds(_) => {
+            "Directions are true → raw unless stated otherwise. sd is the standard deviation."
+        }
+    };
+    about.sheet("Calibration", verdict(calibration, about), sections, meaning)
 }
 
 /// The numbers: on the first screen with the verdict, as far as it goes. Those of two sensors stand beside each other on a page, which has their

@@ -6,8 +6,8 @@ use super::motions::{confidence_section, motion_section};
 use super::predicted_sd::{criterion_table, promised_table};
 use super::starts;
 use super::verdict::verdict;
-use crate::About;
 use crate::figure::{Drawn, start_values};
+use crate::report_context::{About, READINGS};
 use crate::sheet::{Section, Sheet};
 use calibrant_design::{Design, limit_use};
 
@@ -29,13 +29,8 @@ pub fn design_sheet<'a>(design: &'a Design, about: &'a About) -> Sheet<'a> {
         (&limit_use(&design.limits, axes.len(), &design.optimal.motion), "optimal motion"),
     );
     let confidence = confidence_section(&design.parameters, initial, Some(optimal), &design.optimal);
-    Sheet {
-        title: if about.title.is_empty() { "Design".into() } else { about.title.clone() },
-        verdict: Some(verdict(design, about)),
-        sections: vec![predicted(design), motion, confidence, search(design)],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = vec![predicted(design), motion, confidence, search(design)];
+    about.sheet("Design", verdict(design, about), sections, READINGS)
 }
 
 fn predicted(design: &Design) -> Section<'_> {

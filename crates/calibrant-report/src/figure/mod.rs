@@ -14,10 +14,13 @@ mod correlation;
 #[cfg(feature = "study")]
 mod design_population;
 mod device;
+mod drawing;
 mod ellipse;
 mod frame;
-mod gyroscope_at_rest;
+mod gyroscope_in_holds;
+mod histogram;
 mod holds;
+mod kinds;
 mod machine;
 mod motion;
 mod motion_pair;
@@ -33,10 +36,10 @@ mod starts;
 mod surface;
 mod svg;
 mod sweep;
-mod temperature;
 mod ticks;
 mod unit;
 mod validation;
+mod view;
 
 pub(super) use allan::allan_figure;
 pub(super) use batch::{code_bars, drifts, parameter_histograms};
@@ -49,7 +52,7 @@ pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;
 pub(super) use ellipse::confidence_ellipses;
 pub(super) use frame::{Figure, drawn};
-pub(super) use gyroscope_at_rest::still_gyroscope;
+pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use machine::{
     PLAYER_SCRIPT, Scene, budget_bars, correction_bars, player, residual_coherence, residual_densities,
@@ -66,6 +69,5 @@ pub(super) use starts::start_values;
 #[cfg(feature = "study")]
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
-pub(super) use temperature::bias_over_temperature;
 pub(super) use unit::DisplayUnit;
 pub(super) use validation::validation_errors;

@@ -1,12 +1,14 @@
 //! Thinning of points: fewer points for the same picture.
 
+use crate::number_format::count;
+
 /// Largest number of columns of pixels in a panel.
 const COLUMNS: usize = 400;
 
 /// The smallest and the largest value of each column of pixels, in order of x. It looks the same as all
 /// points.
 pub(super) fn thinned(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    if points.len() <= 3 * COLUMNS {
+    if !is_thinned(points.len()) {
         return points.collect();
     }
     let per_column = points.len().div_ceil(COLUMNS);
@@ -69,6 +71,14 @@ pub(super) fn every(len: usize, most: usize) -> Vec<usize> {
         return (0..len.min(most.max(1))).collect();
     }
     (0..most).map(|i| i * (len - 1) / (most - 1)).collect()
+}
+
+/// That a figure draws so many of all sensors; nothing where it draws all.
+pub(super) fn drawn_in_words(all: usize, drawn: usize) -> String {
+    if drawn >= all {
+        return String::new();
+    }
+    format!(" Of {} sensors, {drawn} spread evenly over the list are drawn.", count(all))
 }
 
 #[cfg(test)]

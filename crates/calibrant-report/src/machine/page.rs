@@ -20,6 +20,9 @@ use calibrant_machine::estimate::{
 };
 use std::sync::{Arc, OnceLock};
 
+/// What a reading is, and the delay.
+const MODEL: &str = "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope. Motion time = IMU time + delay. sd is the standard deviation.";
+
 /// A calibration on a machine as a sheet: verdict, parameters, limits and validations, mount, the budget of the variances, the machine in motion, residuals
 /// over time and by frequency, noise, geometry and correlations.
 ///
@@ -44,14 +47,8 @@ pub fn machine_sheet<'a>(
     sections.push(noise(calibration));
     sections.extend(corrections(calibration, setup));
     sections.push(fit(calibration));
-    let model = "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope. Motion time = IMU time + delay. sd is the standard deviation.";
-    Sheet {
-        title: if about.title.is_empty() { "Calibration on a machine".into() } else { about.title.clone() },
-        verdict: Some(verdict(calibration, validations, about)),
-        sections,
-        inputs: about.facts.clone(),
-        footer: vec![about.made(), model.to_owned()],
-    }
+    let verdict = verdict(calibration, validations, about);
+    about.sheet("Calibration on a machine", verdict, sections, MODEL)
 }
 
 /// The machine in motion. It is followed once, by the first figure that needs it.

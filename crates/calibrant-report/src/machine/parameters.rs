@@ -125,7 +125,7 @@ fn bars(calibration: &MachineCalibration) -> String {
             (row.quantity.name(), sd, row.parts.map(|part| part / row.variance))
         })
         .collect();
-    budget_bars(&rows)
+    budget_bars(rows)
 }
 
 fn deviations(calibration: &MachineCalibration) -> Table {

@@ -1,7 +1,6 @@
 //! A section of a sheet: its pieces in order.
 
-use super::shown::Shown;
-use super::table::Table;
+use super::table::{Shown, Table};
 use crate::figure::Figure;
 use std::fmt;
 

@@ -1,7 +1,30 @@
 //! Tables of typed cells. Columns and rows say where they are shown.
 
 use super::cell::Cell;
-use super::shown::Shown;
+
+/// The printers that show a part of a sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Shown {
+    /// On pages and on terminals.
+    #[default]
+    Everywhere,
+    /// On pages only: details, explanations, long tables.
+    OnPage,
+    /// On terminals only.
+    OnTerminal,
+}
+
+impl Shown {
+    /// Does a page show it?
+    pub(super) fn on_page(self) -> bool {
+        self != Self::OnTerminal
+    }
+
+    /// Does a terminal show it?
+    pub(super) fn on_terminal(self) -> bool {
+        self != Self::OnPage
+    }
+}
 
 /// A column: its heading, what it means, and where it is shown.
 #[derive(Debug, Clone)]

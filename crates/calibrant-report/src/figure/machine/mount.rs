@@ -1,9 +1,10 @@
 //! The sensor on the tip, enlarged: its lever arm and its axes.
 
-use super::view::{View, round_step};
 use super::views::{AXIS_COLOURS, SENSOR};
 use crate::figure::colour;
+use crate::figure::drawing::{opened, stroke};
 use crate::figure::frame::framed;
+use crate::figure::view::{View, round_step};
 use crate::number_format;
 use calibrant_machine::chain::SensorMount;
 use nalgebra::Vector3;
@@ -39,15 +40,12 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
         SIZE.0 / 2.0 - view.scale * (left + right) / 2.0,
         SIZE.1 / 2.0 - 8.0 - view.scale * (top + bottom) / 2.0,
     );
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"The sensor on the {tip}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"#1b1f24\" stroke-linecap=\"round\">",
-        SIZE.0, SIZE.1
-    );
+    let frame = [0.0, 0.0, SIZE.0, SIZE.1];
+    let name = format!("The sensor on the {tip}");
+    let mut svg = opened(frame, &name, "fill=\"#1b1f24\" stroke-linecap=\"round\"");
     let line = |from: &Vector3<f64>, to: &Vector3<f64>, colour: &str, width: f64, dashes: &str| {
-        format!(
-            "<path d=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\"/>",
-            view.line([from, to])
-        )
+        let line = stroke(&view.line([from, to]), colour, width);
+        format!("<g stroke-dasharray=\"{dashes}\">{line}</g>")
     };
     for pair in corners.windows(2) {
         svg += &line(&pair[0], &pair[1], colour::GREY, 1.2, "2 4");
@@ -73,12 +71,8 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
         }
     }
     svg += &line(&Vector3::zeros(), &lever, SENSOR, 3.0, "");
-    svg += &format!("<path d=\"{}\" stroke=\"{SENSOR}\" stroke-width=\"12\"/>", view.dots([&lever]));
-    svg += &format!(
-        "<path d=\"{}\" stroke=\"{}\" stroke-width=\"8\"/>",
-        view.dots([&Vector3::zeros()]),
-        colour::BLACK
-    );
+    svg += &stroke(&view.dots([&lever]), SENSOR, 12.0);
+    svg += &stroke(&view.dots([&Vector3::zeros()]), colour::BLACK, 8.0);
     svg += &scale_bar(&view, SIZE);
     let millimetres: Vec<String> = lever.iter().map(|x| number_format::fixed(1e3 * x, 2)).collect();
     let caption = format!(

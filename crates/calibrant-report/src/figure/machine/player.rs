@@ -2,9 +2,10 @@
 
 use super::mount::scale_bar;
 use super::scene::Scene;
-use super::view::{View, round_step};
 use super::views::{AXIS_COLOURS, SENSOR, legend};
 use crate::figure::colour;
+use crate::figure::drawing::opened;
+use crate::figure::view::{View, round_step};
 use crate::html::escape;
 use crate::number_format;
 use calibrant_machine::reference::Posture;
@@ -38,12 +39,9 @@ pub(crate) fn player(scene: &Scene) -> String {
         format!("<path data-part=\"{name}\" d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
     };
     let lines = |of: &[Vec<Vector3<f64>>]| of.iter().map(|run| view.line(run)).collect::<String>();
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" tabindex=\"0\" aria-label=\"The machine at {} s\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">",
-        SIZE.0,
-        SIZE.1,
-        number_format::fixed(first.time_s, 1)
-    );
+    let name = format!("The machine at {} s", number_format::fixed(first.time_s, 1));
+    let still = "tabindex=\"0\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
+    let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], &name, still);
     svg += &part("floor", &lines(&floor), "#d0d7de", 0.8);
     svg += &part("path", &lines(&path), colour::SKY, 1.0);
     if scene.is_chain {
