@@ -1,12 +1,12 @@
 //! The sheet of a user's motion, compared with the best motion and the limits.
 
 use super::design::{
-    axes, confidence_section, criterion_in_words, motion_section, promised_table, times, undetermined_items,
-    violation,
+    axes, confidence_section, criterion_in_words, criterion_with_formula, motion_section, promised_table,
+    times, undetermined_items, violation,
 };
 use super::figure::Drawn;
-use super::number_format::{self, counted, short, significant};
 use super::report_context::{About, READINGS};
+use crate::number_format::{self, UNKNOWN, counted, short, significant};
 use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::motion::Limits;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
@@ -49,7 +49,7 @@ fn predicted(assessment: &Assessment) -> Section<'_> {
         "{}: {} own, {} optimal",
         criterion_in_words(&assessment.criterion),
         significant(assessment.evaluation.value, 5),
-        optimum.map_or_else(|| number_format::UNKNOWN.into(), |design| significant(design.optimal.value, 5))
+        optimum.map_or_else(|| UNKNOWN.into(), |design| significant(design.optimal.value, 5))
     ));
     section.table(promised_table(
         &assessment.parameters,
@@ -211,8 +211,7 @@ fn not_alike(other: &OtherSetting) -> String {
 }
 
 fn criterion_table(assessment: &Assessment) -> Table {
-    let criterion = &assessment.criterion;
-    let name = format!("criterion {}, {}{}", criterion.letter(), criterion.formula(), criterion.scaling());
+    let name = criterion_with_formula(&assessment.criterion);
     let mut table = Table::new([name.as_str(), "value", "efficiency of your motion"]);
     let mut row = |name: &str, value: f64, efficiency: Option<f64>| {
         let efficiency = efficiency.map_or(Cell::Missing, Cell::percent);

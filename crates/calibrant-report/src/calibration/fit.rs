@@ -1,7 +1,7 @@
 //! The table of the fit: each statistic with its meaning.
 
 use crate::figure::DisplayUnit;
-use crate::number_format;
+use crate::number_format::{count, probability, significant};
 use crate::sheet::{Shown, Table, explained};
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::Axis;
@@ -21,12 +21,12 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     );
     table.explain_on_page(
         "gradient norm",
-        number_format::significant(calibration.gradient_norm, 2),
+        significant(calibration.gradient_norm, 2),
         "Distance from the optimum in standard deviations of the parameters. Good: far below 1.",
     );
     table.explain(
         "χ²",
-        number_format::significant(fit.chi2, 5)
+        significant(fit.chi2, 5)
             + if fit.p_value.is_some() { "" } else { ", weights from the data" },
         match fit.p_value {
             Some(_) => "Sum of squared residuals over the assumed noise. Good: near the degrees of freedom.",
@@ -37,13 +37,13 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     );
     table.explain(
         "degrees of freedom",
-        number_format::count(fit.degrees_of_freedom),
+        count(fit.degrees_of_freedom),
         "Number of data less number of unknowns. χ² scatters about it by √(2·dof).",
     );
     if let Some(p) = fit.p_value {
         table.explain_on_page(
             "p-value",
-            number_format::probability(p),
+            probability(p),
             "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.",
         );
     }
@@ -52,7 +52,7 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
         DisplayUnit::suited_to(calibration.accelerometer_unit.symbol(), rms.iter().map(|rms| 3.0 * rms));
     let names = axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let per_axis = |values: &Vector3<f64>, factor: f64, symbol: &str| {
-        let number = |axis: &Axis| number_format::significant(values[axis.index()] * factor, 3);
+        let number = |axis: &Axis| significant(values[axis.index()] * factor, 3);
         format!("{} {symbol}", axes.iter().map(number).collect::<Vec<_>>().join(", "))
     };
     let rows = [
@@ -79,11 +79,11 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     for (test, axis) in fit.whiteness.iter().zip(axes) {
         table.explain_on_page(
             &format!("whiteness {axis}, p"),
-            number_format::probability(test.p_value),
+            probability(test.p_value),
             &format!(
                 "Ljung–Box test of {} lags (Q = {}). Below 0.001, the residuals are not white, and the stated sd are too small.",
                 test.lags,
-                number_format::significant(test.statistic, 3)
+                significant(test.statistic, 3)
             ),
         );
     }

@@ -7,12 +7,11 @@ use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::motion::{motion_section, residual_section};
 use super::parameters::{estimate_table, parameter_table};
-use super::quality::nuisances_in_words;
+use super::quality::{nuisances_in_words, temperature_in_words};
 use super::rotations::{rotation_summary, rotation_table, turn_table};
-use super::temperature::temperature_in_words;
 use super::verdict::verdict;
 use crate::figure::{
-    bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, holds_before_and_after,
+    bias_over_temperature, correlation_map, hold_directions, hold_residuals, holds_before_and_after,
     recording_before_and_after, recording_overview, rotation_errors, still_gyroscope,
 };
 use crate::limits::limit_section;
@@ -165,9 +164,8 @@ fn fit(calibration: &Calibration) -> Section<'_> {
     );
     section.table(fit_table(calibration));
     section.drawn(|| {
-        let names: Vec<&str> =
-            calibration.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        correlation_map_of(&names, &calibration.covariance)
+        let names = calibration.parameters.iter().map(|parameter| parameter.name.as_str());
+        correlation_map(names, &calibration.covariance)
     });
     section
 }

@@ -1,13 +1,24 @@
 //! A design in a few lines, for terminals.
 
-use super::axes;
+use super::limits::uses;
 use crate::number_format::{counted, short, significant};
 use calibrant_core::information::Criterion;
-use calibrant_design::{AT_BEST, Design, LimitUse, limit_use};
+use calibrant_design::{AT_BEST, Design, LimitUse};
 
 /// The name of a criterion with its formula: `criterion A (trace C, in SI units)`.
 pub(crate) fn criterion_in_words(criterion: &Criterion) -> String {
     format!("criterion {} ({}{})", criterion.letter(), criterion.formula(), criterion.scaling())
+}
+
+/// The same without brackets: `criterion A, trace C, in SI units`.
+pub(crate) fn criterion_with_formula(criterion: &Criterion) -> String {
+    format!("criterion {}, {}{}", criterion.letter(), criterion.formula(), criterion.scaling())
+}
+
+/// The same, with what C is.
+pub(crate) fn criterion_explained(criterion: &Criterion) -> String {
+    let (letter, formula, scaling) = (criterion.letter(), criterion.formula(), criterion.scaling());
+    format!("criterion {letter}, {formula} (C is the covariance of the parameters{scaling})")
 }
 
 /// The values of the criterion for both motions.
@@ -45,7 +56,7 @@ pub(super) fn starts(design: &Design) -> Option<String> {
 
 /// The limits that the optimal motion reaches to within a thousandth.
 pub(super) fn reached_limits(design: &Design) -> Option<String> {
-    let uses = limit_use(&design.limits, axes(&design.parameters).len(), &design.optimal.motion);
+    let uses = uses(&design.limits, &design.parameters, &design.optimal.motion);
     let is_reached = |found: &&LimitUse| found.limit > 0.0 && found.value.abs() >= 0.999 * found.limit;
     let mut names: Vec<&str> = uses.iter().filter(is_reached).map(|found| found.kind.name()).collect();
     names.sort_unstable();

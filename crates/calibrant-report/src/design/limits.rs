@@ -1,11 +1,28 @@
 //! The table of limits, and their use by a motion.
 
-use crate::number_format;
+use crate::number_format::{fixed, percent, short, significant};
 use crate::sheet::{Cell, Table};
-use calibrant_design::{LimitKind, LimitUse};
+use calibrant_core::motion::{JerkControlledMotion, Limits};
+use calibrant_core::sensor::{Axis, Parameter};
+use calibrant_design::{LimitKind, LimitUse, limit_use};
 
 /// A limit is active from this share of its use on.
 const ACTIVE: f64 = 0.9999;
+
+/// The axes of these parameters of a design.
+pub(crate) fn axes(parameters: &[Parameter]) -> &'static [Axis] {
+    let biases = parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count();
+    &Axis::ALL[..biases.min(3)]
+}
+
+/// How far a motion of these axes uses the limits.
+pub(crate) fn uses(
+    limits: &Limits,
+    parameters: &[Parameter],
+    motion: &JerkControlledMotion,
+) -> Vec<LimitUse> {
+    limit_use(limits, axes(parameters).len(), motion)
+}
 
 /// One row for each limit of each axis, at the time of its largest use.
 pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> Table {
@@ -52,15 +69,15 @@ fn line(found: &LimitUse) -> [String; 6] {
     let share = (found.value / found.limit).abs();
     let used = match () {
         () if found.is_violated() => {
-            format!("broken by {} {}", number_format::significant(found.excess(), 3), found.kind.unit())
+            format!("broken by {} {}", significant(found.excess(), 3), found.kind.unit())
         }
         () if prescribed => "kept".to_string(),
         () if share >= ACTIVE => "100 %: the limit is active".to_string(),
-        () => number_format::percent(share),
+        () => percent(share),
     };
     let allowed = match found.kind {
-        _ if prescribed => number_format::short(found.limit),
-        _ => format!("± {}", number_format::short(found.limit)),
+        _ if prescribed => short(found.limit),
+        _ => format!("± {}", short(found.limit)),
     };
     let value = match found.kind {
         _ if prescribed && !found.is_violated() => found.limit,
@@ -71,8 +88,8 @@ fn line(found: &LimitUse) -> [String; 6] {
         found.kind.name().to_string(),
         found.kind.unit().to_string(),
         allowed,
-        number_format::significant(value, 4),
-        number_format::fixed(found.time_s, 2),
+        significant(value, 4),
+        fixed(found.time_s, 2),
         used,
     ]
 }

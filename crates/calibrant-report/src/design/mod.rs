@@ -1,6 +1,5 @@
 //! The sheet of a design: verdict, predicted standard deviations, motion, search.
 
-mod axes;
 mod in_short;
 mod limits;
 mod motions;
@@ -9,13 +8,13 @@ mod sections;
 pub(super) mod starts;
 mod verdict;
 
-pub(super) use axes::axes;
-pub(super) use in_short::criterion_in_words;
 pub use in_short::gap_in_words;
+pub(super) use in_short::{criterion_explained, criterion_in_words, criterion_with_formula};
+pub(super) use limits::axes;
 #[cfg(feature = "study")]
-pub(super) use limits::limit_table;
+pub(super) use limits::{limit_table, uses};
 pub(super) use motions::{confidence_section, motion_section};
 pub(super) use predicted_sd::{above, promised_table, times};
 pub use sections::design_sheet;
-pub(super) use starts::status;
+pub(super) use starts::{ended, status};
 pub(super) use verdict::{undetermined_items, violation};

@@ -47,7 +47,9 @@ pub(crate) fn confidence_section<'a>(
         .lead("The uncertainty of the parameters, and which errors are correlated.");
     section.figure(move || confidence_ellipses(parameters, before, after));
     match &correlated.covariance {
-        Some(covariance) => section.drawn(move || correlation_map(parameters, covariance)),
+        Some(covariance) => section.drawn(move || {
+            correlation_map(parameters.iter().map(|parameter| parameter.name.as_str()), covariance)
+        }),
         None => {
             section.paragraph("The motion does not determine the parameters, so they have no covariance.")
         }

@@ -1,7 +1,7 @@
 //! The sections of a design, in their order.
 
-use super::axes;
-use super::in_short;
+use super::in_short::{self, criterion_explained};
+use super::limits::{axes, uses};
 use super::motions::{confidence_section, motion_section};
 use super::predicted_sd::{criterion_table, promised_table};
 use super::starts;
@@ -9,7 +9,7 @@ use super::verdict::verdict;
 use crate::figure::{Drawn, start_values};
 use crate::report_context::{About, READINGS};
 use crate::sheet::{Section, Sheet};
-use calibrant_design::{Design, limit_use};
+use calibrant_design::Design;
 
 /// A design as a sheet: the certificate in words, the predicted standard deviations of initial and optimal motion,
 /// the motions with their limits, confidence ellipses, correlations, and the starts of the search.
@@ -26,7 +26,7 @@ pub fn design_sheet<'a>(design: &'a Design, about: &'a About) -> Sheet<'a> {
         ],
         axes,
         design.limits.clone(),
-        (&limit_use(&design.limits, axes.len(), &design.optimal.motion), "optimal motion"),
+        (&uses(&design.limits, &design.parameters, &design.optimal.motion), "optimal motion"),
     );
     let confidence = confidence_section(&design.parameters, initial, Some(optimal), &design.optimal);
     let sections = vec![predicted(design), motion, confidence, search(design)];
@@ -45,12 +45,7 @@ fn predicted(design: &Design) -> Section<'_> {
         Some(("optimal", &design.optimal)),
         design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice()),
     ));
-    section.explanation(format!(
-        "The design minimises criterion {}, {} (C is the covariance of the parameters{}).",
-        design.criterion.letter(),
-        design.criterion.formula(),
-        design.criterion.scaling()
-    ));
+    section.explanation(format!("The design minimises {}.", criterion_explained(&design.criterion)));
     section.table(criterion_table(design).on_page());
     if let Some(certificate) = &design.certificate {
         section.heading_on_page("The lower bound");

@@ -6,7 +6,7 @@ use super::panel::{Panel, Points, Series, Shape};
 use super::point_thinning::{drawn_in_words, every};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use crate::number_format;
+use crate::number_format::{self, significant, superscript};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
 use calibrant_study::{DesignOutcome, DesignStudy, MotionOutcome};
@@ -78,7 +78,7 @@ pub(crate) fn traces(title: &str, study: &DesignStudy) -> Figure {
     let exponent = if least.is_finite() { least.log10().floor() } else { 0.0 };
     let label = match exponent as i32 {
         0 => "trace of C".to_string(),
-        exponent => format!("trace of C (10{})", number_format::superscript(exponent)),
+        exponent => format!("trace of C (10{})", superscript(exponent)),
     };
     let mut panel = against(Panel::new("", "sensor", label), pair, |trace| trace / 10f64.powf(exponent));
     panel.log_y = true;
@@ -86,9 +86,9 @@ pub(crate) fn traces(title: &str, study: &DesignStudy) -> Figure {
     let caption = format!(
         "Sum of the variances of all biases and scale factors, in SI units, as each calibration states it. The axis is logarithmic. \
          Whatever the initial motion (from {} to {}), the optimal motions reach one level (median {}).{}",
-        number_format::significant(trace.initial.least, 2),
-        number_format::significant(trace.initial.most, 2),
-        number_format::significant(trace.optimal.median, 3),
+        significant(trace.initial.least, 2),
+        significant(trace.initial.most, 2),
+        significant(trace.optimal.median, 3),
         drawn_in_words(study.outcomes.len(), sensors.len())
     );
     Figure::new(title, vec![panel], caption)

@@ -7,7 +7,6 @@
 mod allan;
 mod batch;
 mod before_after;
-mod chart;
 mod clipping;
 mod colour;
 mod correlation;
@@ -44,9 +43,8 @@ mod view;
 pub(super) use allan::allan_figure;
 pub(super) use batch::{code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
-pub(super) use chart::CHART_SCRIPT;
-pub(super) use clipping::renumbered;
-pub(super) use correlation::{correlation_map, correlation_map_of};
+pub(super) use clipping::{CHART_SCRIPT, renumbered};
+pub(super) use correlation::correlation_map;
 #[cfg(feature = "study")]
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;

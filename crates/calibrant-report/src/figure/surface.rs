@@ -5,7 +5,7 @@
 
 use super::frame::framed;
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::{fixed, short, tick};
 use calibrant_design::TraceSurface;
 
 /// Left edge of the map.
@@ -43,9 +43,9 @@ pub(crate) fn trace_map(surface: &TraceSurface) -> String {
          where the jerks are largest, so the optimum lies on the limits. Edges of the bands are contours. The thesis estimates at each \
          point, draws a surface in space, and does not name its logarithm. The trace needs no estimation: it follows from \
          the motion alone.",
-        number_format::short(settings.interval_s),
-        number_format::short(settings.rate_hz),
-        number_format::short(settings.start_mps2),
+        short(settings.interval_s),
+        short(settings.rate_hz),
+        short(settings.start_mps2),
     );
     let title = "Figure 7 of the thesis: logarithm of the trace over the two jerks";
     framed(title, &legend, &drawing(surface), 1, &caption)
@@ -112,8 +112,7 @@ fn axes(surface: &TraceSurface) -> String {
     let inset = SIDE / surface.jerk_mps3.len() as f64 / 2.0;
     for step in 0..5 {
         let share = f64::from(step) / 4.0;
-        let (value, offset) =
-            (number_format::tick(most * (2.0 * share - 1.0)), inset + (SIDE - 2.0 * inset) * share);
+        let (value, offset) = (tick(most * (2.0 * share - 1.0)), inset + (SIDE - 2.0 * inset) * share);
         let (x, y) = (LEFT + offset, bottom - offset);
         svg.push_str(&format!(
             "<path d=\"M{x:.1} {bottom}v5M{LEFT} {y:.1}h-5\" stroke=\"#424a53\"/>\
@@ -152,7 +151,7 @@ fn bar(bands: &Bands) -> String {
             left + width,
             left + width + 9.0,
             y + 4.5,
-            number_format::fixed(bands.low + edge as f64 * bands.step, bands.decimals)
+            fixed(bands.low + edge as f64 * bands.step, bands.decimals)
         ));
     }
     svg.push_str(&format!(

@@ -3,7 +3,7 @@
 use super::drawing::{FONT, opened};
 use super::panel::{Mark, Panel, Series, Shape};
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::{self, fixed};
 use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot, Theme};
 use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
 use std::sync::Arc;
@@ -76,7 +76,7 @@ fn tick(value: f64, x: (f64, f64)) -> String {
         return number_format::tick(value);
     }
     let decimals = (1.0 - span.log10()).ceil().clamp(0.0, 9.0) as usize;
-    number_format::fixed(value, decimals)
+    fixed(value, decimals)
 }
 
 fn theme() -> Theme {

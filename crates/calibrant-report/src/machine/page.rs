@@ -7,13 +7,14 @@ use super::parameters::{budget, is_widened, mount_table, sensor_table};
 use super::quantity::place;
 use super::validation::validation_section;
 use super::verdict::verdict;
+use crate::About;
 use crate::figure::{
-    PLAYER_SCRIPT, Scene, correlation_map_of, drawn, player, residual_coherence, residual_densities,
+    PLAYER_SCRIPT, Scene, correlation_map, drawn, player, residual_coherence, residual_densities,
     residuals_and_speed, sensor_on_tip, three_views,
 };
 use crate::limits::limit_section;
+use crate::number_format::{count, probability, significant};
 use crate::sheet::{Section, Sheet, Table};
-use crate::{About, number_format};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, SensorResidual,
@@ -98,7 +99,7 @@ fn machine<'a>(calibration: &'a MachineCalibration, scene: &SceneOnce) -> Sectio
 /// How fast the machine moved, the player, and what it looks like.
 fn in_motion(scene: &Scene) -> String {
     let largest = |of: fn(&calibrant_machine::reference::Posture) -> f64| {
-        number_format::significant(scene.path.iter().map(of).fold(0.0, f64::max), 3)
+        significant(scene.path.iter().map(of).fold(0.0, f64::max), 3)
     };
     let mut table = Table::explained();
     table.explain(
@@ -173,9 +174,8 @@ fn fit(calibration: &MachineCalibration) -> Section<'_> {
         let places: Vec<usize> =
             (0..calibration.quantities.len()).filter(|k| !of_joint(&calibration.quantities[*k])).collect();
         let names = calibration.names();
-        let names: Vec<&str> = places.iter().map(|place| names[*place].as_str()).collect();
         let covariance = calibration.covariance.select_rows(&places).select_columns(&places);
-        correlation_map_of(&names, &covariance)
+        correlation_map(places.iter().map(|place| names[*place].as_str()), &covariance)
     });
     section
 }
@@ -186,38 +186,34 @@ fn fit_table(calibration: &MachineCalibration) -> Table {
     table.explain("status", calibration.status.name().into(), "How the iteration ended.");
     table.explain(
         "iterations",
-        number_format::count(calibration.iterations),
+        count(calibration.iterations),
         "Gauss–Newton steps, once the noise was known.",
     );
     table.explain_on_page(
         "last step",
-        number_format::significant(calibration.gradient_norm, 2),
+        significant(calibration.gradient_norm, 2),
         "Length of the last step, in standard deviations of the parameters. Good: far below 1.",
     );
     let weights = if fit.p_value.is_some() { "" } else { ", noise from the residuals" };
-    table.explain("χ²", number_format::significant(fit.chi2, 5) + weights, match fit.p_value {
+    table.explain("χ²", significant(fit.chi2, 5) + weights, match fit.p_value {
         Some(_) => "Sum of squared residuals over the given noise. Good: near the degrees of freedom.",
         None => "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.",
     });
     table.explain(
         "degrees of freedom",
-        number_format::count(fit.degrees_of_freedom),
+        count(fit.degrees_of_freedom),
         "Number of data less number of unknowns.",
     );
     if let Some(p) = fit.p_value {
-        table.explain("p-value", number_format::probability(p), "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.");
+        table.explain("p-value", probability(p), "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.");
     }
     let knots = calibration.motion.knots();
     table.explain(
         "knots of the motion",
-        format!(
-            "every {} ms, degree {}",
-            number_format::significant(1e3 * knots.step_s, 3),
-            knots.degree.number()
-        ),
+        format!("every {} ms, degree {}", significant(1e3 * knots.step_s, 3), knots.degree.number()),
         &format!(
             "The motion is a spline with {} intervals. It cannot follow anything much faster than two knots.",
-            number_format::count(knots.intervals)
+            count(knots.intervals)
         ),
     );
     table

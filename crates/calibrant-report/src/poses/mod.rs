@@ -4,11 +4,11 @@ mod attitude;
 
 pub use attitude::pose_in_words;
 
-use super::design::{criterion_in_words, gap_in_words};
+use super::design::{criterion_explained, criterion_in_words, gap_in_words};
 use super::figure::{DisplayUnit, device, pose_directions};
 use super::html::escape;
-use super::number_format::{self, counted, significant};
 use super::report_context::{About, READINGS};
+use crate::number_format::{counted, signed, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use attitude::Attitude;
 use calibrant_core::sensor::ReadingUnit;
@@ -115,7 +115,7 @@ fn checklist(directions: &[Vector3<f64>]) -> String {
         .enumerate()
         .map(|(k, u)| {
             let attitude = Attitude::of(u);
-            let number = |value: f64| number_format::signed(value, 3);
+            let number = |value: f64| signed(value, 3);
             format!(
                 "<li><p><span class=\"box\"></span> <strong>{}</strong></p>{}<p>{}</p><p class=\"up\">up: ({}, {}, {})</p></li>",
                 k + 1,
@@ -163,12 +163,7 @@ fn predicted_section<'a>(
         significant(bound.value, 5)
     ));
     section.table(predicted(problem, sd, unit));
-    section.explanation(format!(
-        "The poses are compared by criterion {}, {} (C is the covariance of the parameters{}).",
-        criterion.letter(),
-        criterion.formula(),
-        criterion.scaling()
-    ));
+    section.explanation(format!("The poses are compared by {}.", criterion_explained(criterion)));
     section
 }
 

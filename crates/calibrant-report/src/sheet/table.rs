@@ -1,6 +1,7 @@
 //! Tables of typed cells. Columns and rows say where they are shown.
 
 use super::cell::Cell;
+use crate::number_format::capitalised;
 
 /// The printers that show a part of a sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -75,8 +76,7 @@ impl Column {
 
     /// The note with the name of the column before it; none without a note.
     pub(super) fn explanation(&self) -> Option<String> {
-        (!self.note.is_empty())
-            .then(|| format!("{}: {}.", crate::number_format::capitalised(&self.heading), self.note))
+        (!self.note.is_empty()).then(|| format!("{}: {}.", capitalised(&self.heading), self.note))
     }
 }
 

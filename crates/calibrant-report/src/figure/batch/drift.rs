@@ -8,10 +8,9 @@ use super::super::point_thinning::{drawn_in_words, every};
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour, frame};
 use super::groups::groups;
-use super::reach::{Reach, least_width, median};
-use super::steps::whole_step;
+use super::reach::{Reach, least_width, median, whole_step};
 use crate::batch::Batch;
-use crate::number_format;
+use crate::number_format::{count, significant};
 use calibrant_core::diagnostic::Usability;
 
 /// Half the width of the control limits over the mean moving range.
@@ -152,7 +151,7 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
     seen.control |= control.is_some();
     for (kind, ends) in [("control limits", control), ("acceptance limits", limits)] {
         if let Some(ends) = ends.filter(|ends| !near(ends)) {
-            let [low, high] = ends.map(|end| number_format::significant(end * factor, 3));
+            let [low, high] = ends.map(|end| significant(end * factor, 3));
             seen.far
                 .push(format!("the {kind} of {name}, {low} to {high} {}", unit.symbol).trim_end().to_owned());
         }
@@ -226,8 +225,8 @@ fn in_words(batch: &Batch, beyond: &[(usize, usize)], checked: usize, fewest: us
             "Beyond the control limits: {}. That is {} of {} values; chance alone puts about {} there.",
             found.join("; "),
             beyond.len(),
-            number_format::count(checked),
-            number_format::significant(BEYOND_BY_CHANCE * checked as f64, 2)
+            count(checked),
+            significant(BEYOND_BY_CHANCE * checked as f64, 2)
         ),
     };
     if fewest < RELIABLE {

@@ -5,8 +5,7 @@ use super::super::panel::{Mark, Panel, Series};
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour};
 use super::groups::groups;
-use super::reach::{Reach, least_width};
-use super::steps::whole_step;
+use super::reach::{Reach, least_width, whole_step};
 use crate::batch::{Batch, BatchParameter};
 use calibrant_core::diagnostic::Usability;
 

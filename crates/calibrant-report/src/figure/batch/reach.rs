@@ -83,6 +83,12 @@ pub(super) fn least_width(values: &[f64], sds: &[f64]) -> f64 {
     (2.0 * median(sds).unwrap_or(0.0)).max(rounding).max(f64::MIN_POSITIVE)
 }
 
+/// A step of 1, 2, 5, 10, … that makes at most five of them.
+pub(super) fn whole_step(most: usize) -> f64 {
+    let steps = (0..).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));
+    steps.into_iter().find(|step| 5.0 * step >= most as f64).unwrap_or(1.0)
+}
+
 /// The median of finite values.
 pub(super) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();

@@ -5,7 +5,7 @@ use crate::figure::colour;
 use crate::figure::drawing::{opened, stroke};
 use crate::figure::frame::framed;
 use crate::figure::view::{View, round_step};
-use crate::number_format;
+use crate::number_format::{fixed, tick};
 use calibrant_machine::chain::SensorMount;
 use nalgebra::Vector3;
 
@@ -74,11 +74,11 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
     svg += &stroke(&view.dots([&lever]), SENSOR, 12.0);
     svg += &stroke(&view.dots([&Vector3::zeros()]), colour::BLACK, 8.0);
     svg += &scale_bar(&view, SIZE);
-    let millimetres: Vec<String> = lever.iter().map(|x| number_format::fixed(1e3 * x, 2)).collect();
+    let millimetres: Vec<String> = lever.iter().map(|x| fixed(1e3 * x, 2)).collect();
     let caption = format!(
         "The {tip}’s axes are solid, those of the sensor dashed. Lever arm in the {tip}’s axes x, y, z: {} mm, length {} mm. Dotted: its way along x, then y, then z.",
         millimetres.join(", "),
-        number_format::fixed(1e3 * lever.norm(), 2)
+        fixed(1e3 * lever.norm(), 2)
     );
     framed("Where the sensor sits", "", &(svg + "</svg>"), 1, &caption)
 }
@@ -88,8 +88,8 @@ pub(super) fn scale_bar(view: &View, (_, height): (f64, f64)) -> String {
     let length_m = round_step(50.0 / view.scale, 1.0);
     let end = 14.0 + length_m * view.scale;
     let label = match length_m {
-        length if length < 0.1 => format!("{} mm", number_format::tick(1e3 * length)),
-        length => format!("{} m", number_format::tick(length)),
+        length if length < 0.1 => format!("{} mm", tick(1e3 * length)),
+        length => format!("{} m", tick(length)),
     };
     let y = height - 12.0;
     format!(

@@ -7,7 +7,7 @@ use crate::figure::colour;
 use crate::figure::drawing::opened;
 use crate::figure::view::{View, round_step};
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::fixed;
 use calibrant_machine::reference::Posture;
 use nalgebra::Vector3;
 
@@ -39,7 +39,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         format!("<path data-part=\"{name}\" d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
     };
     let lines = |of: &[Vec<Vector3<f64>>]| of.iter().map(|run| view.line(run)).collect::<String>();
-    let name = format!("The machine at {} s", number_format::fixed(first.time_s, 1));
+    let name = format!("The machine at {} s", fixed(first.time_s, 1));
     let still = "tabindex=\"0\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
     let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], &name, still);
     svg += &part("floor", &lines(&floor), "#d0d7de", 0.8);
@@ -86,9 +86,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         data.iter().map(|(name, value)| format!(" data-{name}=\"{}\"", escape(value))).collect();
     let path_end_s = scene.path.last().map_or(last, |posture| posture.time_s);
     let path_start_s = scene.path.first().map_or(first.time_s, |posture| posture.time_s);
-    let range = |from: f64, to: f64| {
-        format!("{} to {} s", number_format::fixed(from, 1), number_format::fixed(to, 1))
-    };
+    let range = |from: f64, to: f64| format!("{} to {} s", fixed(from, 1), fixed(to, 1));
     let which = if last - first.time_s < path_end_s - path_start_s - 0.1 {
         format!(
             "the liveliest part plays with its path: {} of {}",
@@ -105,7 +103,7 @@ pub(crate) fn player(scene: &Scene) -> String {
          <span><button type=\"button\" data-view=\"-90,0\">Front</button><button type=\"button\" data-view=\"0,0\">Side</button><button type=\"button\" data-view=\"-90,90\">Top</button></span><p>Drag to turn it, or use the arrow keys.</p></div>\
          <figcaption>In real time, {which}. Where no sample was used, it stands still. The letters x, y, z are at the ends of the base’s axes along the floor’s corner.</figcaption></figure>",
         legend(scene.is_chain),
-        number_format::fixed(first.time_s, 1)
+        fixed(first.time_s, 1)
     )
 }
 

@@ -5,7 +5,7 @@ use crate::figure::colour;
 use crate::figure::drawing::{self, entry, opened, stroke};
 use crate::figure::frame::framed;
 use crate::figure::view::{View, round_step};
-use crate::number_format;
+use crate::number_format::tick;
 use nalgebra::Vector3;
 
 /// Left edge, top edge and side of the plot.
@@ -113,7 +113,7 @@ fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
         svg += &format!(
             "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"11\" text-anchor=\"middle\">{}</text>",
             bottom + 16.0,
-            number_format::tick(value)
+            tick(value)
         );
     }
     for value in ticks(upward) {
@@ -122,7 +122,7 @@ fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
             "<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"end\">{}</text>",
             left - 5.0,
             y + 4.0,
-            number_format::tick(value)
+            tick(value)
         );
     }
     let [across, upward] = labels;
