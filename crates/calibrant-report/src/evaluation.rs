@@ -1,12 +1,12 @@
 //! The sheet of a user's motion, compared with the best motion and the limits.
 
 use super::design::{
-    axes, confidence_section, criterion_in_words, criterion_with_formula, motion_section, promised_table,
-    times, undetermined_items, violation,
+    axes, broken_limit, confidence_section, criterion_in_words, criterion_with_formula, motion_section,
+    promised_table, times, undetermined_items,
 };
 use super::figure::Drawn;
 use super::report_context::{About, READINGS};
-use crate::number_format::{self, UNKNOWN, counted, short, significant};
+use crate::number_format::{UNKNOWN, counted, short, significant};
 use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::motion::Limits;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
@@ -68,7 +68,7 @@ fn predicted(assessment: &Assessment) -> Section<'_> {
     if broken.is_empty() {
         section.line("all limits are kept, at all times");
     }
-    broken.iter().for_each(|found| section.line(broken_limit(found)));
+    broken.iter().for_each(|found| section.line(format!("BROKEN: {}", broken_limit(found))));
     section
 }
 
@@ -92,35 +92,9 @@ fn efficiency(assessment: &Assessment) -> Option<String> {
     Some(format!("Efficiency {percent} % of the best motion found{certain}: {meaning}."))
 }
 
-/// A broken limit, and by how much.
-fn broken_limit(found: &LimitUse) -> String {
-    let (axis, unit) = (found.axis, found.kind.unit());
-    let number = |value: f64| significant(value, 4);
-    match found.kind {
-        LimitKind::RestAtEnd => {
-            format!("BROKEN: axis {axis} still moves at the end, at {} {unit}", number(found.value))
-        }
-        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
-            "BROKEN: {} of axis {axis} is {} {unit}, prescribed is {}",
-            found.kind.name(),
-            number(found.value),
-            number(found.limit)
-        ),
-        kind => format!(
-            "BROKEN: {} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
-            kind.name(),
-            number(found.value),
-            number(found.time_s),
-            number(found.excess()),
-            number(found.limit),
-            significant(100.0 * found.violation, 3)
-        ),
-    }
-}
-
 /// The verdict of the page. Terminals show its sentences below the table.
 fn verdict(assessment: &Assessment, about: &About) -> SheetVerdict {
-    let broken: Vec<String> = assessment.violations().iter().map(violation).collect();
+    let broken: Vec<String> = assessment.violations().iter().map(broken_limit).collect();
     let mut sentences = Vec::new();
     let determined = assessment.evaluation.covariance.is_some();
     let factor = match &assessment.optimum {
@@ -175,20 +149,8 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
             times(most).trim_end_matches(" ×")
         )
     });
+    sentences.extend(efficiency(assessment));
     if let Some(efficiency) = assessment.efficiency() {
-        let mut sentence = format!(
-            "By criterion {}, its efficiency is {}: 100 recordings of it give as much information as {} of the best motion",
-            assessment.criterion.letter(),
-            number_format::percent(efficiency),
-            significant(100.0 * efficiency, 2)
-        );
-        if let Some(certain) = assessment.certain_efficiency() {
-            sentence.push_str(&format!(
-                ". Against the lower bound, the efficiency is {}",
-                number_format::percent(certain)
-            ));
-        }
-        sentences.push(sentence + ".");
         if efficiency > BLIND && most > WORTH_IT {
             sentences.push(
                 "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \

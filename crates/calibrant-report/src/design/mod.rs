@@ -17,4 +17,4 @@ pub(super) use motions::{confidence_section, motion_section};
 pub(super) use predicted_sd::{above, promised_table, times};
 pub use sections::design_sheet;
 pub(super) use starts::{ended, status};
-pub(super) use verdict::{undetermined_items, violation};
+pub(super) use verdict::{broken_limit, undetermined_items};

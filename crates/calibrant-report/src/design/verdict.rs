@@ -4,11 +4,11 @@ use super::limits::uses;
 use super::predicted_sd::{excess_in_words, times};
 use crate::About;
 use crate::figure::DisplayUnit;
-use crate::number_format::{percent, short, significant};
+use crate::number_format::{percent, significant};
 use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Parameter;
-use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitUse};
+use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitKind, LimitUse};
 
 /// A standard deviation within this share of its lower bound counts as optimal.
 const PROVED: f64 = 0.01;
@@ -20,7 +20,7 @@ const NEAR: f64 = 0.1;
 /// The verdict and everything that qualifies it. Terminals show the sentence on the certificate instead.
 pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
     let uses = uses(&design.limits, &design.parameters, &design.optimal.motion);
-    let broken: Vec<String> = uses.iter().filter(|found| found.is_violated()).map(violation).collect();
+    let broken: Vec<String> = uses.iter().filter(|found| found.is_violated()).map(broken_limit).collect();
     let (grade, word, sentences) = judge(design, &broken);
     SheetVerdict::new(grade, word, sentences.join(" "))
         .with("Broken limits", broken)
@@ -168,15 +168,28 @@ pub(crate) fn undetermined_items(evaluation: &Evaluation) -> Vec<String> {
         .collect()
 }
 
-/// A broken limit in words.
-pub(crate) fn violation(found: &LimitUse) -> String {
-    let unit = found.kind.unit();
-    format!(
-        "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
-        found.kind.name(),
-        found.axis,
-        significant(found.value, 4),
-        short(found.time_s),
-        short(found.limit)
-    )
+/// A broken limit, and by how much.
+pub(crate) fn broken_limit(found: &LimitUse) -> String {
+    let (axis, unit) = (found.axis, found.kind.unit());
+    let number = |value: f64| significant(value, 4);
+    match found.kind {
+        LimitKind::RestAtEnd => {
+            format!("axis {axis} still moves at the end, at {} {unit}", number(found.value))
+        }
+        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
+            "{} of axis {axis} is {} {unit}, prescribed is {}",
+            found.kind.name(),
+            number(found.value),
+            number(found.limit)
+        ),
+        kind => format!(
+            "{} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
+            kind.name(),
+            number(found.value),
+            number(found.time_s),
+            number(found.excess()),
+            number(found.limit),
+            significant(100.0 * found.violation, 3)
+        ),
+    }
 }

@@ -110,6 +110,19 @@ pub(super) struct Shade {
     pub(super) to: f64,
 }
 
+/// A quantity over both axes, shown as bands of colours whose edges are contours.
+#[derive(Debug, Clone)]
+pub(super) struct Map {
+    /// Its name, beside the bar of the colours.
+    pub(super) label: &'static str,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    /// A row for each y.
+    pub(super) values: Vec<Vec<f64>>,
+    /// Edges of the bands.
+    pub(super) levels: Vec<f64>,
+}
+
 /// One pair of axes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Panel {
@@ -118,6 +131,8 @@ pub(super) struct Panel {
     pub(super) x_label: String,
     /// Label of the y axis with its unit.
     pub(super) y_label: String,
+    /// A map below the series. It fills the panel.
+    pub(super) map: Option<Map>,
     pub(super) series: Vec<Series>,
     pub(super) shades: Vec<Shade>,
     /// Values that the y axis must show.
@@ -213,6 +228,10 @@ impl Panel {
 
     /// The axes; `None` where nothing can be drawn.
     pub(super) fn axes(&self) -> Option<[AxisRange; 2]> {
+        if let Some(Map { x, y, .. }) = &self.map {
+            let ends = |of: &[f64]| Some((*of.first()?, *of.last()?));
+            return Some([ends(x)?, ends(y)?].map(|range| AxisRange { range, step: None }));
+        }
         let mut x = Range { log: self.log_x, ..Range::default() };
         let mut y = Range { log: self.log_y, ..Range::default() };
         for series in &self.series {

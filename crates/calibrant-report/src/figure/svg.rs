@@ -1,11 +1,11 @@
 //! Panels as SVG: the only file that knows the plotting library.
 
 use super::drawing::{FONT, opened};
-use super::panel::{Mark, Panel, Series, Shape};
+use super::panel::{Map, Mark, Panel, Series, Shape};
 use crate::html::escape;
 use crate::number_format::{self, fixed};
 use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot, Theme};
-use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
+use kuva::{TickFormat, plot::BandPlot, plot::ContourPlot, render::annotations::ShadedRegion};
 use std::sync::Arc;
 
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
@@ -21,7 +21,8 @@ pub(super) fn svg(panel: &Panel) -> String {
         return nothing(panel, height);
     };
     let [x, y] = axes.map(|axis| axis.range);
-    let plots: Vec<Plot> = panel.series.iter().flat_map(|series| plots(panel, series)).collect();
+    let mut plots: Vec<Plot> = panel.map.iter().map(contours).collect();
+    plots.extend(panel.series.iter().flat_map(|series| self::plots(panel, series)));
     let mut layout = Layout::new(x, y)
         .with_width(WIDTH)
         .with_height(height)
@@ -53,6 +54,7 @@ pub(super) fn svg(panel: &Panel) -> String {
     if panel.log_y {
         layout = layout.with_log_y();
     }
+    layout.show_colorbar = panel.map.is_some();
     for shade in &panel.shades {
         layout = layout.with_shaded_region(
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
@@ -88,6 +90,11 @@ fn theme() -> Theme {
         font_family: Some(FONT.into()),
         ..Theme::light()
     }
+}
+
+fn contours(map: &Map) -> Plot {
+    let grid = ContourPlot::new().with_grid(map.values.clone(), map.x.clone(), map.y.clone());
+    grid.with_levels(&map.levels).with_filled().with_line_width(0.5).with_legend(map.label).into()
 }
 
 fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {

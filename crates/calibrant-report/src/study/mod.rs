@@ -21,7 +21,7 @@ pub fn study_sheet<'a>(studies: &'a Studies, about: &'a About) -> Sheet<'a> {
     sections.extend(studies.surface.as_ref().map(|surface| {
         let mut section = Section::on_page("The criterion")
             .lead("How the trace of the covariance depends on the motion, in the simplest case.");
-        section.drawn(move || trace_map(surface));
+        section.figure(move || Some(trace_map(surface)));
         section
     }));
     sections.extend(studies.design.as_ref().map(|study| design::chapter(study, &design::OPTIMAL)));
