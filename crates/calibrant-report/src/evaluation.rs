@@ -189,7 +189,6 @@ fn criterion_table(assessment: &Assessment) -> Table {
     table
 }
 
-/// The limits to draw, from how far they are used.
 fn drawn_limits(uses: &[LimitUse]) -> Limits {
     let mut limits = Limits::default();
     for found in uses {

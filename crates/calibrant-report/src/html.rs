@@ -97,7 +97,6 @@ fn contents(entries: &[Entry]) -> String {
     format!("<nav class=\"contents\" aria-label=\"Contents\"><ol>{items}</ol></nav>\n")
 }
 
-/// A paragraph of plain text.
 pub(super) fn paragraph(text: &str) -> String {
     format!("<p>{}</p>", escape(text))
 }
@@ -111,7 +110,6 @@ pub(super) fn list(items: &[String]) -> String {
     format!("<ul>{items}</ul>")
 }
 
-/// Labels and values in two columns.
 pub(super) fn facts(facts: &[(String, String)]) -> String {
     let row = |(label, value): &(String, String)| {
         let class = if value.chars().count() > 40 { " class=\"long\"" } else { "" };

@@ -66,7 +66,6 @@ fn with_line<'a>(mut section: Section<'a>, noise: &SensorNoise) -> Section<'a> {
     section
 }
 
-/// Name of a coefficient.
 fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str {
     use calibrant_core::sensor::SensorKind;
     match (process, noise.sensor_kind) {

@@ -6,7 +6,6 @@ use crate::report_context::About;
 use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::diagnostic::Usability;
 
-/// The yield, with the other verdicts.
 pub(super) fn yield_of(batch: &Batch, about: &About) -> SheetVerdict {
     let count = |usability| batch.sensors.iter().filter(|of| of.usability() == usability).count();
     let [ok, doubtful, bad] =

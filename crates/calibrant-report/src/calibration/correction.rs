@@ -113,7 +113,6 @@ fn frame_in_words(calibration: &Calibration) -> &'static str {
     }
 }
 
-/// A matrix as text, row by row.
 fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     let largest = matrix.amax();
     let text = |value: f64| {
@@ -122,7 +121,6 @@ fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     (0..3).map(|row| (0..3).map(|column| text(matrix[(row, column)])).collect()).collect()
 }
 
-/// A named matrix as HTML.
 fn matrix(name: &str, rows: Vec<Vec<String>>) -> String {
     let row = |cells: &Vec<String>| {
         format!("<tr>{}</tr>", cells.iter().map(|cell| format!("<td>{cell}</td>")).collect::<String>())

@@ -88,7 +88,6 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
     table
 }
 
-/// One row for each hold.
 pub(super) fn hold_table(holds: &HoldCalibration, unit: ReadingUnit) -> Table {
     let seconds = |heading: &str| Column::new(heading).in_unit("s");
     let mean = |axis: Axis| Column::new(format!("mean {axis}")).in_unit(unit.symbol());

@@ -19,7 +19,6 @@ pub(super) fn estimate_table(calibration: &Calibration, sensor_kind: SensorKind)
     table
 }
 
-/// The first columns of a table of parameters.
 const ESTIMATE: [&str; 3] = ["parameter", "estimate ± sd", "unit"];
 
 fn estimate(calibration: &Calibration, k: usize) -> [Cell; 3] {

@@ -48,7 +48,6 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> Table {
     table
 }
 
-/// One row for each rotation.
 pub(super) fn rotation_table(rotations: &[RotationResult]) -> Table {
     let columns = [
         ("holds", ""),
@@ -82,7 +81,6 @@ pub(super) fn rotation_table(rotations: &[RotationResult]) -> Table {
     table
 }
 
-/// One row for each turn of known angle.
 pub(super) fn turn_table(calibration: &Calibration) -> Table {
     let columns = [
         ("turn", ""),

@@ -17,7 +17,6 @@ const MOSTLY_PRIOR: f64 = 0.5;
 /// them.
 const IMPROVED: f64 = 0.8;
 
-/// The verdict with its warnings.
 pub(super) fn verdict(calibration: &Calibration, about: &About) -> SheetVerdict {
     let remarks = (not_improved(calibration).into_iter())
         .chain(hardly_determined(calibration))

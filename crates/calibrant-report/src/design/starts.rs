@@ -22,13 +22,11 @@ impl StartGroup<'_> {
         self.criterion.gap(start.value, self.sorted[0].value)
     }
 
-    /// How many starts reached the best value.
     pub(crate) fn reached(&self) -> usize {
         self.sorted.iter().filter(|start| self.excess(start).abs() <= AT_BEST).count()
     }
 }
 
-/// The starts by their axes.
 pub(crate) fn groups<'a>(starts: &'a [StartOutcome], criterion: &'a Criterion) -> Vec<StartGroup<'a>> {
     let mut groups: Vec<StartGroup<'a>> = Vec::new();
     for start in starts {

@@ -9,9 +9,7 @@ use calibrant_core::estimate::{Calibration, HoldCalibration, Uncalibrated};
 use calibrant_core::sensor::{Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording};
 use nalgebra::Vector3;
 
-/// Legend of readings before the correction.
 const BEFORE: &str = "before";
-/// Legend of readings after the correction.
 const AFTER: &str = "after";
 
 /// Magnitude of the mean reading of each hold less gravity. One panel has both before and after, another has

@@ -26,7 +26,6 @@ impl Figure {
         self
     }
 
-    /// The figure as HTML.
     pub(crate) fn html(&self) -> String {
         let panels: Vec<String> = self.panels.par_iter().map(svg::svg).collect();
         framed(&self.title, &self.legend(), &panels.concat(), self.columns, &self.caption)

@@ -10,10 +10,8 @@ use nalgebra::Vector3;
 const SLOW_DEGPS: f64 = 0.02;
 /// Number of points of the fitted polynomial.
 const POINTS: usize = 60;
-/// Legends of a hold: used, and not.
 const HOLD: [&str; 2] = ["hold", "hold, not used"];
 
-/// The gyroscope in a hold.
 struct Still {
     time_s: f64,
     temperature_c: Option<f64>,

@@ -31,7 +31,6 @@ impl Histogram {
         Self { low, width, counts }
     }
 
-    /// The largest count.
     pub(super) fn most(&self) -> usize {
         self.counts.iter().copied().max().unwrap_or(1)
     }

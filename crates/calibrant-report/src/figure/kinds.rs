@@ -4,7 +4,6 @@ use super::colour;
 use super::panel::Shape;
 use calibrant_core::sensor::Parameter;
 
-/// The parameters of one kind.
 pub(super) struct Kind {
     pub(super) name: &'static str,
     prefix: &'static str,

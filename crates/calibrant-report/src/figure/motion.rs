@@ -10,7 +10,6 @@ use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::{Axis, Correction, ReadingUnit, Recording};
 use nalgebra::Vector3;
 
-/// Label of the time axis.
 pub(super) const TIME: &str = "time (s)";
 
 /// Acceleration as measured, as estimated, and the true one where it is known: the thesis's Figure 4.

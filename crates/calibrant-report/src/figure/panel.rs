@@ -23,7 +23,6 @@ pub(super) enum Mark {
     Stems,
 }
 
-/// Shapes of markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
     Circle,
@@ -123,13 +122,10 @@ pub(super) struct Map {
     pub(super) levels: Vec<f64>,
 }
 
-/// One pair of axes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Panel {
     pub(super) title: String,
-    /// Label of the x axis with its unit.
     pub(super) x_label: String,
-    /// Label of the y axis with its unit.
     pub(super) y_label: String,
     /// A map below the series. It fills the panel.
     pub(super) map: Option<Map>,

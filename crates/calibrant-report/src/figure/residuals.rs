@@ -11,7 +11,6 @@ use calibrant_core::sensor::{Axis, Recording};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
-/// Residuals of each axis over time.
 pub(crate) fn residuals_over_time(
     calibration: &Calibration,
     motion: &RecoveredMotion,

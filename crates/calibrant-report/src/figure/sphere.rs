@@ -8,7 +8,6 @@ use super::frame::framed;
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use nalgebra::Vector3;
 
-/// Radius of a hemisphere.
 const RADIUS: f64 = 165.0;
 /// Half the side of a hemisphere's drawing.
 const HALF: f64 = 212.0;

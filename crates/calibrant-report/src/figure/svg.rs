@@ -10,9 +10,7 @@ use std::sync::Arc;
 
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
 const WIDTH: f64 = 400.0;
-/// Height of a panel in SVG units.
 const HEIGHT: f64 = 270.0;
-/// Height of a square panel in SVG units.
 const SQUARE_HEIGHT: f64 = 400.0;
 /// The panel as an SVG that takes the width of its column.
 pub(super) fn svg(panel: &Panel) -> String {

@@ -29,7 +29,6 @@ fn with_widened(columns: &[Column], calibration: &MachineCalibration) -> Table {
     Table::new(columns.iter().cloned().chain(further))
 }
 
-/// The parameters of one sensor.
 pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind) -> Table {
     let mut table = with_widened(&["parameter", "estimate ± sd", "unit"].map(Column::new), calibration);
     let sds = calibration.sd();

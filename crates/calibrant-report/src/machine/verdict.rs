@@ -10,7 +10,6 @@ use calibrant_machine::estimate::{MachineCalibration, MachineTrust, MachineValid
 /// Below this probability, the noise does not explain the data.
 const UNEXPLAINED: f64 = 0.001;
 
-/// The verdict with its warnings.
 pub(super) fn verdict(
     calibration: &MachineCalibration,
     validations: &[MachineValidation],

@@ -57,7 +57,6 @@ pub fn pose_sheet<'a>(
     about.sheet("Poses", verdict, sections, READINGS)
 }
 
-/// The efficiency of designed poses in a sentence.
 fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
     let poses = design.directions.len();
     let (have, any) = if poses == 1 {

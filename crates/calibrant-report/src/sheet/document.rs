@@ -43,6 +43,7 @@ pub enum Grade {
 
 /// The verdict of a sheet.
 #[derive(Debug, Clone)]
+#[must_use]
 pub struct SheetVerdict {
     pub(super) grade: Grade,
     pub(super) word: String,
@@ -59,7 +60,6 @@ impl SheetVerdict {
     }
 
     /// Adds a headed list that qualifies the verdict. Pages show it; a command prints its diagnostics by itself.
-    #[must_use]
     pub fn with(mut self, heading: &str, items: Vec<String>) -> Self {
         if !items.is_empty() {
             self.remarks.push((heading.to_owned(), items));
@@ -68,7 +68,6 @@ impl SheetVerdict {
     }
 
     /// The line that terminals show in place of the word: `verdict: ok`. An empty one hides the verdict there.
-    #[must_use]
     pub fn on_terminal(mut self, line: impl Into<String>) -> Self {
         self.line = Some(line.into());
         self

@@ -6,9 +6,7 @@ use std::fmt;
 
 /// A piece of a section.
 pub(super) enum Piece<'a> {
-    /// A heading within the section.
     Subheading(String),
-    /// A paragraph.
     Paragraph(String),
     /// Sentences, one below the other.
     List(Vec<String>),
@@ -38,6 +36,7 @@ impl fmt::Debug for Piece<'_> {
 
 /// A section: a heading, a sentence on its purpose, and its pieces.
 #[derive(Debug, Default)]
+#[must_use]
 pub struct Section<'a> {
     pub(super) heading: String,
     /// The heading on terminals, where it is another one.
@@ -59,21 +58,18 @@ impl<'a> Section<'a> {
     }
 
     /// A sentence on its purpose, for pages.
-    #[must_use]
     pub fn lead(mut self, lead: impl Into<String>) -> Self {
         self.lead = lead.into();
         self
     }
 
     /// Its heading on terminals, in place of the one of pages; nothing for none.
-    #[must_use]
     pub fn on_terminal(mut self, heading: impl Into<String>) -> Self {
         self.on_terminal = Some(heading.into());
         self
     }
 
     /// The section for pages alone.
-    #[must_use]
     pub fn for_page(self) -> Self {
         Self { shown: Shown::OnPage, ..self }
     }

@@ -29,6 +29,7 @@ impl Shown {
 
 /// A column: its heading, what it means, and where it is shown.
 #[derive(Debug, Clone)]
+#[must_use]
 pub struct Column {
     heading: String,
     /// The unit of its numbers; empty where they have none or several.
@@ -44,7 +45,6 @@ impl Column {
     }
 
     /// Its numbers are in this unit, which stands in the heading.
-    #[must_use]
     pub fn in_unit(mut self, symbol: &str) -> Self {
         self.unit = symbol.to_owned();
         self
@@ -56,14 +56,12 @@ impl Column {
     }
 
     /// What the column means, for pages: a sentence without its full stop, or several.
-    #[must_use]
     pub fn noted(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
         self
     }
 
     /// The column where it is shown there.
-    #[must_use]
     pub fn shown(mut self, shown: Shown) -> Self {
         self.shown = shown;
         self
@@ -86,7 +84,6 @@ impl<T: Into<String>> From<T> for Column {
     }
 }
 
-/// A row.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     pub(super) cells: Vec<Cell>,
@@ -97,6 +94,7 @@ pub(super) struct Row {
 
 /// A table: columns, and rows of as many cells.
 #[derive(Debug, Clone, Default)]
+#[must_use]
 pub struct Table {
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<Row>,
@@ -112,21 +110,18 @@ impl Table {
     }
 
     /// A list of numbers, each with its name and its meaning. Terminals leave out the meaning.
-    #[must_use]
     pub fn explained() -> Self {
         let columns = [Column::new(""), Column::new("value"), Column::on_page("meaning")];
         Self { is_list: true, ..Self::new(columns) }
     }
 
     /// The table where it is shown there.
-    #[must_use]
     pub fn shown(mut self, shown: Shown) -> Self {
         self.shown = shown;
         self
     }
 
     /// The table of pages alone.
-    #[must_use]
     pub fn on_page(self) -> Self {
         self.shown(Shown::OnPage)
     }

@@ -23,7 +23,6 @@ pub(super) struct Chapter {
     errors: &'static str,
 }
 
-/// The thesis's section 4.2.
 pub(super) const OPTIMAL: Chapter = Chapter {
     heading: "Initial against optimal motion",
     lead: "Each sensor goes round the loop of the thesis's Figure 2: calibrated on a random initial motion, the best motion designed at that \
@@ -34,7 +33,6 @@ pub(super) const OPTIMAL: Chapter = Chapter {
     errors: "Figure 11 of the thesis: absolute errors of biases (a) and scale factors (b)",
 };
 
-/// The thesis's section 4.3.
 pub(super) const NOISY: Chapter = Chapter {
     heading: "Initial against optimal motion, with process noise",
     lead: "The arm follows its command only up to noise on the jerk, which is estimated along with the parameters. Motions and figures are those of the \

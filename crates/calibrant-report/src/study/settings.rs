@@ -24,7 +24,6 @@ pub(super) fn per_axis(values: &Vector3<f64>, axes: &[Axis]) -> String {
     texts.join(", ")
 }
 
-/// The settings of a study.
 pub(super) fn settings(study: &DesignStudy) -> Table {
     let [interval_s, rate_hz] = [study.interval_s, study.rate_hz].map(short);
     let initial = match study.initial_given {

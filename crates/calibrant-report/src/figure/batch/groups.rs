@@ -3,7 +3,6 @@
 use crate::batch::Batch;
 use crate::number_format::capitalised;
 
-/// The parameters of one sensor.
 pub(super) struct Group<'a> {
     /// Its name with a capital letter: `Accelerometer`.
     pub(super) name: String,

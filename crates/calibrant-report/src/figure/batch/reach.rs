@@ -16,7 +16,6 @@ const MOST_LONGER: f64 = 6.0;
 /// Of a normal distribution, standard deviation over median absolute deviation.
 const SD_OVER_MAD: f64 = 1.4826;
 
-/// A part of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
     pub(super) low: f64,
@@ -89,7 +88,6 @@ pub(super) fn whole_step(most: usize) -> f64 {
     steps.into_iter().find(|step| 5.0 * step >= most as f64).unwrap_or(1.0)
 }
 
-/// The median of finite values.
 pub(super) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);

@@ -9,7 +9,6 @@ use crate::number_format::{fixed, tick};
 use calibrant_machine::chain::SensorMount;
 use nalgebra::Vector3;
 
-/// Width and height of the drawing.
 const SIZE: (f64, f64) = (400.0, 330.0);
 
 /// The tip's axes, the lever arm along each of them and as a line, and the axes of the sensor. `tip` is what carries the sensor.

@@ -14,14 +14,12 @@ use nalgebra::Vector3;
 /// The script that turns and plays the figure.
 pub(crate) const PLAYER_SCRIPT: &str = include_str!("player.js");
 
-/// Width and height of the drawing.
 const SIZE: (f64, f64) = (580.0, 420.0);
 /// The first view: azimuth and elevation, degrees.
 const VIEW: (f64, f64) = (-55.0, 22.0);
 /// Coordinates are whole numbers of this, m.
 const GRAIN_M: f64 = 1e-4;
 
-/// The figure.
 pub(crate) fn player(scene: &Scene) -> String {
     let Some(first) = scene.played.first() else { return String::new() };
     let scale = 1.04 * (SIZE.1 / 2.0) / scene.half.norm();

@@ -18,7 +18,6 @@ const PLAYED_PATH: usize = 600;
 /// Farther than this from any sample of the sensor, the motion was not seen; in the usual distance of samples.
 const UNSEEN: f64 = 2.0;
 
-/// A machine in motion.
 #[derive(Debug)]
 pub(crate) struct Scene {
     /// Postures over the whole time, where samples of the sensor are.
@@ -27,9 +26,7 @@ pub(crate) struct Scene {
     pub(crate) played: Vec<Posture>,
     /// The same more densely, where samples of the sensor are.
     played_path: Vec<Posture>,
-    /// Where the sensor is.
     pub(crate) mount: SensorMount,
-    /// Is it a chain of joints?
     pub(crate) is_chain: bool,
     /// Middle of everything that is drawn, m.
     pub(crate) centre: Vector3<f64>,
@@ -130,7 +127,6 @@ impl Scene {
         without_gaps(&self.path)
     }
 
-    /// The path of the tip in the part that plays, m.
     pub(crate) fn played_path(&self) -> Vec<Vec<Vector3<f64>>> {
         without_gaps(&self.played_path)
     }

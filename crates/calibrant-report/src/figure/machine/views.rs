@@ -10,7 +10,6 @@ use nalgebra::Vector3;
 
 /// Left edge, top edge and side of the plot.
 const PLOT: (f64, f64, f64) = (52.0, 28.0, 336.0);
-/// Width and height of the drawing.
 const SIZE: (f64, f64) = (400.0, 410.0);
 
 /// Three views at one scale, with the path of the tip and a few postures.
@@ -29,7 +28,6 @@ pub(crate) fn three_views(scene: &Scene) -> String {
     framed(title, &legend(scene.is_chain), &panels.concat(), 3, &caption)
 }
 
-/// Legend of the scene.
 pub(super) fn legend(is_chain: bool) -> String {
     let line = |colour: &str, width: f64| stroke("M2 7H32", colour, width);
     let dot = |colour: &str| format!("<circle cx=\"17\" cy=\"7\" r=\"4\" fill=\"{colour}\"/>");
@@ -47,7 +45,6 @@ pub(super) fn legend(is_chain: bool) -> String {
     drawing::legend(&entries)
 }
 
-/// Colours of the axes of the tip.
 pub(super) const AXIS_COLOURS: [&str; 3] = [colour::VERMILLION, colour::GREEN, colour::BLUE];
 /// Colour of the sensor and its lever arm.
 pub(super) const SENSOR: &str = "#cc79a7";
@@ -79,7 +76,6 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
     svg + "</g></svg>"
 }
 
-/// The strokes of one posture.
 fn posture_strokes(scene: &Scene, posture: &calibrant_machine::reference::Posture, view: &View) -> String {
     let links = scene.links(posture);
     let tip = posture.tip().translation.vector;
