@@ -161,7 +161,8 @@ fn measured(kind: ErrorKind, value: f64) -> String {
     }
 }
 
-fn between(factor: f64, (low, high): (f64, f64)) -> String {
+/// A ratio with its interval.
+pub(crate) fn between(factor: f64, (low, high): (f64, f64)) -> String {
     let two = |value: f64| significant(value, 2);
     let high = if high < 1e3 { two(high) } else { "∞".into() };
     format!("{} ({} to {high})", two(factor), two(low))

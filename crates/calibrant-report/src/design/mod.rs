@@ -13,6 +13,8 @@ pub(super) use in_short::{criterion_explained, criterion_in_words, criterion_wit
 pub(super) use limits::axes;
 #[cfg(feature = "study")]
 pub(super) use limits::{limit_table, uses};
+#[cfg(feature = "study")]
+pub(super) use motions::motion_figures;
 pub(super) use motions::{confidence_section, motion_section};
 pub(super) use predicted_sd::{above, promised_table, times};
 pub use sections::design_sheet;

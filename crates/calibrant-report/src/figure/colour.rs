@@ -6,9 +6,10 @@ pub(super) const SKY: &str = "#56b4e9";
 pub(super) const GREEN: &str = "#009e73";
 pub(super) const BLUE: &str = "#0072b2";
 pub(super) const VERMILLION: &str = "#d55e00";
-#[cfg(feature = "study")]
 pub(super) const PURPLE: &str = "#cc79a7";
 pub(super) const GREY: &str = "#6e7781";
+/// Those of the axes x, y and z.
+pub(super) const AXES: [&str; 3] = [VERMILLION, GREEN, BLUE];
 
 #[cfg(feature = "study")]
 /// The look of each of many lines: a colour and SVG's dashes. The first ten have colours of their own, which also differ in lightness from

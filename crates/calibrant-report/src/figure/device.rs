@@ -15,8 +15,6 @@ const AXIS: f64 = 1.7;
 const SEEN_FROM: (f64, f64) = (-62.0, 24.0);
 /// Pixels for a unit.
 const SCALE: f64 = 34.0;
-/// Colours of the axes.
-const COLOURS: [&str; 3] = [colour::VERMILLION, colour::GREEN, colour::BLUE];
 /// Fill of the faces across x, y and z.
 const FACES: [&str; 3] = ["#d8dee4", "#eaeef2", "#f6f8fa"];
 
@@ -88,7 +86,7 @@ impl Seen {
         format!(
             "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"13\" font-weight=\"700\" text-anchor=\"middle\" fill=\"{}\" stroke=\"#ffffff\" \
              stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
-            COLOURS[axis],
+            colour::AXES[axis],
             ["x", "y", "z"][axis]
         )
     }
@@ -100,7 +98,7 @@ impl Seen {
         let (x1, y1) = self.at(&(unit * AXIS));
         let length = (x1 - x0).hypot(y1 - y0).max(1e-9);
         let (dx, dy) = ((x1 - x0) / length, (y1 - y0) / length);
-        let colour = COLOURS[axis];
+        let colour = colour::AXES[axis];
         // an axis that points at the eye is a dot
         let head = if length < 6.0 {
             String::new()

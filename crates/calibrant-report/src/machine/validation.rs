@@ -3,6 +3,7 @@
 use super::quantity::machine_unit;
 use crate::number_format::{fixed, significant};
 use crate::sheet::{Cell, Section, Table};
+use crate::validation::between;
 use calibrant_core::estimate::CovarianceVerdict;
 use calibrant_machine::estimate::{
     LargestShift, MachineCalibration, MachineValidation, MachineValidationSource, ParameterShift,
@@ -60,12 +61,6 @@ fn sentence(shift: &ParameterShift) -> String {
     }
 }
 
-fn ratio(shift: &ParameterShift) -> String {
-    let [factor, low, high] =
-        [shift.factor, shift.factor_interval.0, shift.factor_interval.1].map(|value| significant(value, 2));
-    format!("{factor} ({low} to {high})")
-}
-
 fn largest(
     largest: &LargestShift,
     source: &MachineValidationSource,
@@ -97,7 +92,9 @@ pub(super) fn doubts(validations: &[MachineValidation]) -> impl Iterator<Item = 
 /// A line for each sensor whose covariance a validation does not doubt: the others are among the [`doubts`].
 pub(super) fn validation_in_short(validations: &[MachineValidation]) -> Vec<String> {
     let agrees = |shift: &&ParameterShift| shift.verdict != CovarianceVerdict::TooSmall;
-    let line = |shift: &ParameterShift| format!("{} The ratio is {}.", sentence(shift), ratio(shift));
+    let line = |shift: &ParameterShift| {
+        format!("{} The ratio is {}.", sentence(shift), between(shift.factor, shift.factor_interval))
+    };
     validations.iter().flat_map(|of| of.shifts.iter().filter(agrees).map(line)).collect()
 }
 
@@ -122,7 +119,7 @@ pub(super) fn validation_section<'a>(
                 Cell::name(shift.sensor.to_string()),
                 Cell::significant(shift.chi2, 3),
                 Cell::Number(shift.degrees_of_freedom.to_string()),
-                Cell::Number(ratio(shift)),
+                Cell::Number(between(shift.factor, shift.factor_interval)),
                 Cell::Number(largest(&shift.largest, &validation.source, calibration)),
             ]);
         }

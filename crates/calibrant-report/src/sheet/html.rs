@@ -51,7 +51,7 @@ fn html(piece: &Piece<'_>) -> String {
                 format!("<div class=\"pair\">{each}</div>")
             }
         },
-        Piece::Drawn(draw) => draw(),
+        Piece::Drawn(drawing) => (drawing.0)(),
         Piece::Folded(summary, pieces) => {
             let within: String = pieces.iter().map(html).collect();
             format!("<details><summary>{}</summary>{within}</details>", escape(summary))

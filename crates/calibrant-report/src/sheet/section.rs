@@ -5,6 +5,7 @@ use crate::figure::Figure;
 use std::fmt;
 
 /// A piece of a section.
+#[derive(Debug)]
 pub(super) enum Piece<'a> {
     Subheading(String),
     Paragraph(String),
@@ -15,22 +16,17 @@ pub(super) enum Piece<'a> {
     /// Tables: beside each other on a page, where there are several.
     Tables(Vec<Table>),
     /// What only a page can show, as HTML, made when it is printed: a figure, a matrix.
-    Drawn(Box<dyn Fn() -> String + Send + Sync + 'a>),
+    Drawn(Drawing<'a>),
     /// Pieces that a page shows on demand, under this summary.
     Folded(String, Vec<Piece<'a>>),
 }
 
-impl fmt::Debug for Piece<'_> {
+/// HTML that is made when a page is printed.
+pub(super) struct Drawing<'a>(pub(super) Box<dyn Fn() -> String + Send + Sync + 'a>);
+
+impl fmt::Debug for Drawing<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Subheading(text) => out.debug_tuple("Subheading").field(text).finish(),
-            Self::Paragraph(text) => out.debug_tuple("Paragraph").field(text).finish(),
-            Self::List(items) => out.debug_tuple("List").field(items).finish(),
-            Self::Facts(facts) => out.debug_tuple("Facts").field(facts).finish(),
-            Self::Tables(tables) => out.debug_tuple("Tables").field(tables).finish(),
-            Self::Drawn(_) => out.write_str("Drawn"),
-            Self::Folded(summary, pieces) => out.debug_tuple("Folded").field(summary).field(pieces).finish(),
-        }
+        out.write_str("Drawing")
     }
 }
 
@@ -139,7 +135,7 @@ impl<'a> Section<'a> {
 
     /// A figure, or other HTML of pages alone. It is made when a page is printed, all at the same time.
     pub fn drawn(&mut self, html: impl Fn() -> String + Send + Sync + 'a) {
-        self.push(Shown::OnPage, Piece::Drawn(Box::new(html)));
+        self.push(Shown::OnPage, Piece::Drawn(Drawing(Box::new(html))));
     }
 
     /// A figure, drawn when a page is printed; `None` where there is nothing to draw.

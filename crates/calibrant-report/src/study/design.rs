@@ -1,11 +1,8 @@
 //! The chapter on initial against optimal motions over many sensors: the thesis's chapter 4.
 
 use super::settings::settings;
-use crate::design::{axes, limit_table, times, uses};
-use crate::figure::{
-    DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, states,
-    traces, velocity_and_displacement,
-};
+use crate::design::{axes, limit_table, motion_figures, times, uses};
+use crate::figure::{DisplayUnit, Drawn, absolute_errors, confidence_ellipses, optimal_motions, traces};
 use crate::number_format::{count, counted, percent, short, significant, with_sd};
 use crate::sheet::{Cell, Column, Section, Table};
 use calibrant_study::{DesignStudy, Factor, ParameterSummary};
@@ -70,9 +67,7 @@ pub(super) fn chapter<'a>(study: &'a DesignStudy, chapter: &Chapter) -> Section<
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
     let title = chapter.motion;
-    section.figure(move || Some(jerk_and_acceleration(title, &motions, axes, &study.limits)));
-    section.figure(move || states(&motions, axes, &study.limits));
-    section.figure(move || Some(velocity_and_displacement(&motions, axes, &study.limits)));
+    section.drawn(move || motion_figures(title, &motions, axes, &study.limits));
     section.table(
         limit_table(&uses(&study.limits, &study.parameters, &design.optimal.motion), "optimal motion")
             .on_page(),

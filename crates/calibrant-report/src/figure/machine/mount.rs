@@ -1,6 +1,6 @@
 //! The sensor on the tip, enlarged: its lever arm and its axes.
 
-use super::views::{AXIS_COLOURS, SENSOR};
+use super::views::SENSOR;
 use crate::figure::colour;
 use crate::figure::drawing::{opened, stroke};
 use crate::figure::frame::framed;
@@ -49,7 +49,7 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
     for pair in corners.windows(2) {
         svg += &line(&pair[0], &pair[1], colour::GREY, 1.2, "2 4");
     }
-    for ((unit, colour), name) in units.iter().zip(AXIS_COLOURS).zip(["x", "y", "z"]) {
+    for ((unit, colour), name) in units.iter().zip(colour::AXES).zip(["x", "y", "z"]) {
         let (of_tip, of_sensor) = (unit * axis, at_sensor(unit * axis));
         svg += &line(&Vector3::zeros(), &of_tip, colour, 3.0, "");
         svg += &line(&lever, &of_sensor, colour, 1.8, "6 4");

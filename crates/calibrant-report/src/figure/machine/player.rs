@@ -1,8 +1,8 @@
 //! The machine to turn and play. Without the script it is a still picture.
 
 use super::mount::scale_bar;
-use super::scene::Scene;
-use super::views::{AXIS_COLOURS, SENSOR, legend};
+use super::scene::{Scene, without_gaps};
+use super::views::{SENSOR, legend};
 use crate::figure::colour;
 use crate::figure::drawing::opened;
 use crate::figure::view::{View, round_step};
@@ -29,7 +29,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         scale,
         ..View::from(VIEW.0.to_radians(), VIEW.1.to_radians())
     };
-    let path = scene.played_path();
+    let path = without_gaps(&scene.played_path);
     let floor = floor(scene);
     let (links, ends) = (scene.links(first), scene.tip_and_sensor(first));
     let tip = first.tip().translation.vector;
@@ -47,7 +47,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         svg += &part("joints", &view.dots(&links), "#424a53", 10.0);
         svg += &part("base", &view.dots(&links[..1]), colour::BLACK, 18.0);
     }
-    for (k, colour) in AXIS_COLOURS.iter().enumerate() {
+    for (k, colour) in colour::AXES.iter().enumerate() {
         svg += &part(&format!("axis{k}"), &view.line([&tip, &ends[k]]), colour, 2.6);
     }
     svg += &part("lever", &view.line([&tip, &ends[3]]), SENSOR, 3.0);

@@ -25,7 +25,7 @@ pub(crate) struct Scene {
     /// Postures of the liveliest part, evenly in time. In a gap the last one before it stays.
     pub(crate) played: Vec<Posture>,
     /// The same more densely, where samples of the sensor are.
-    played_path: Vec<Posture>,
+    pub(super) played_path: Vec<Posture>,
     pub(crate) mount: SensorMount,
     pub(crate) is_chain: bool,
     /// Middle of everything that is drawn, m.
@@ -122,15 +122,6 @@ impl Scene {
         ]
     }
 
-    /// The whole path of the tip in parts without a gap, m.
-    pub(crate) fn tip_path(&self) -> Vec<Vec<Vector3<f64>>> {
-        without_gaps(&self.path)
-    }
-
-    pub(crate) fn played_path(&self) -> Vec<Vec<Vector3<f64>>> {
-        without_gaps(&self.played_path)
-    }
-
     /// A few postures, evenly over the played part.
     pub(crate) fn few(&self) -> impl Iterator<Item = &Posture> {
         const FEW: usize = 5;
@@ -138,8 +129,8 @@ impl Scene {
     }
 }
 
-/// The places of the tip, in parts of even steps.
-fn without_gaps(postures: &[Posture]) -> Vec<Vec<Vector3<f64>>> {
+/// The path of the tip in parts without a gap, m.
+pub(super) fn without_gaps(postures: &[Posture]) -> Vec<Vec<Vector3<f64>>> {
     let steps = postures.windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
     let step_s = steps.fold(f64::INFINITY, f64::min);
     postures

@@ -1,6 +1,6 @@
 //! The machine from the front, from the side and from above.
 
-use super::scene::Scene;
+use super::scene::{Scene, without_gaps};
 use crate::figure::colour;
 use crate::figure::drawing::{self, entry, opened, stroke};
 use crate::figure::frame::framed;
@@ -38,16 +38,15 @@ pub(super) fn legend(is_chain: bool) -> String {
         entries.push(entry(&dot(colour::BLACK), "base"));
     }
     entries.push(entry(&line(colour::SKY, 1.2), &format!("path of the {tip}")));
-    for (axis, colour) in ["x", "y", "z"].iter().zip(AXIS_COLOURS) {
+    for (axis, colour) in ["x", "y", "z"].iter().zip(colour::AXES) {
         entries.push(entry(&line(colour, 2.0), &format!("its {axis}")));
     }
     entries.push(entry(&dot(SENSOR), "sensor"));
     drawing::legend(&entries)
 }
 
-pub(super) const AXIS_COLOURS: [&str; 3] = [colour::VERMILLION, colour::GREEN, colour::BLUE];
 /// Colour of the sensor and its lever arm.
-pub(super) const SENSOR: &str = "#cc79a7";
+pub(super) const SENSOR: &str = colour::PURPLE;
 
 fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labels: [&str; 2]) -> String {
     let (left, top, side) = PLOT;
@@ -64,7 +63,7 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
     svg += &format!("<text x=\"{middle}\" y=\"17\" font-size=\"15\" text-anchor=\"middle\">{title}</text>");
     svg += &axes(&view, half, labels);
     svg += "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">";
-    for run in scene.tip_path() {
+    for run in without_gaps(&scene.path) {
         svg += &stroke(&view.line(&run), colour::SKY, 0.8);
     }
     for posture in scene.few() {
@@ -85,7 +84,7 @@ fn posture_strokes(scene: &Scene, posture: &calibrant_machine::reference::Postur
         svg += &format!("<g opacity=\"0.55\">{}</g>", stroke(&view.line(&links), colour::GREY, 3.2));
         svg += &stroke(&view.dots(&links[1..links.len() - 1]), "#424a53", 6.0);
     }
-    for (end, colour) in ends.iter().zip(AXIS_COLOURS) {
+    for (end, colour) in ends.iter().zip(colour::AXES) {
         svg += &stroke(&view.line([&tip, end]), colour, 1.6);
     }
     svg += &stroke(&view.line([&tip, &ends[3]]), SENSOR, 2.2);
