@@ -12,6 +12,7 @@ mod quality;
 mod rotations;
 mod verdict;
 
+pub(super) use fit::chi2_rows;
 pub use page::calibration_sheet;
 #[cfg(feature = "study")]
 pub(super) use parameters::parameter_table;

@@ -1,5 +1,6 @@
 //! The table of predicted standard deviations of two motions.
 
+use super::criterion::{above, excess_in_words};
 use crate::figure::DisplayUnit;
 use crate::number_format::{UNKNOWN, fixed, percent, significant};
 use crate::sheet::{Cell, Column, Table};
@@ -59,23 +60,6 @@ pub(crate) fn times(factor: f64) -> String {
         _ if factor.is_finite() && factor < 9.995 => format!("{} ×", fixed(factor, 2)),
         _ if factor.is_finite() => format!("{} ×", significant(factor, 3)),
         _ => UNKNOWN.to_string(),
-    }
-}
-
-/// An excess over a bound. Rounding may put it slightly below zero. A loose bound is a matter of factors.
-pub(crate) fn above(excess: f64) -> String {
-    match excess {
-        _ if excess.abs() < 5e-5 => "< 0.01 %".to_string(),
-        _ if excess < 10.0 => percent(excess),
-        _ => format!("{} times", significant(excess, 2)),
-    }
-}
-
-/// The same of a criterion's value: that of D in nats.
-pub(crate) fn excess_in_words(criterion: &Criterion, excess: f64) -> String {
-    match criterion {
-        Criterion::D(_) => format!("{} nats", significant(excess, 2)),
-        _ => above(excess),
     }
 }
 

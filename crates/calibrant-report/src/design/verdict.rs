@@ -1,7 +1,8 @@
 //! The verdict on a design: how good is the motion, and what is the evidence?
 
+use super::criterion::excess_in_words;
 use super::limits::uses;
-use super::predicted_sd::{excess_in_words, times};
+use super::predicted_sd::times;
 use crate::About;
 use crate::figure::DisplayUnit;
 use crate::number_format::{percent, significant};

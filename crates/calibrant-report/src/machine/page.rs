@@ -8,13 +8,14 @@ use super::quantity::place;
 use super::validation::validation_section;
 use super::verdict::verdict;
 use crate::About;
+use crate::calibration::chi2_rows;
 use crate::figure::{
     PLAYER_SCRIPT, Scene, correlation_map, drawn, player, residual_coherence, residual_densities,
     residuals_and_speed, sensor_on_tip, three_views,
 };
 use crate::limits::limit_section;
-use crate::number_format::{count, probability, significant};
-use crate::sheet::{Section, Sheet, Table};
+use crate::number_format::{count, significant};
+use crate::sheet::{Section, Sheet, Shown, Table};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, SensorResidual,
@@ -181,7 +182,6 @@ fn fit(calibration: &MachineCalibration) -> Section<'_> {
 }
 
 fn fit_table(calibration: &MachineCalibration) -> Table {
-    let fit = &calibration.fit;
     let mut table = Table::explained();
     table.explain("status", calibration.status.name().into(), "How the iteration ended.");
     table.explain(
@@ -194,19 +194,8 @@ fn fit_table(calibration: &MachineCalibration) -> Table {
         significant(calibration.gradient_norm, 2),
         "Length of the last step, in standard deviations of the parameters. Good: far below 1.",
     );
-    let weights = if fit.p_value.is_some() { "" } else { ", noise from the residuals" };
-    table.explain("χ²", significant(fit.chi2, 5) + weights, match fit.p_value {
-        Some(_) => "Sum of squared residuals over the given noise. Good: near the degrees of freedom.",
-        None => "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.",
-    });
-    table.explain(
-        "degrees of freedom",
-        count(fit.degrees_of_freedom),
-        "Number of data less number of unknowns.",
-    );
-    if let Some(p) = fit.p_value {
-        table.explain("p-value", probability(p), "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.");
-    }
+    let from_data = "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.";
+    chi2_rows(&mut table, &calibration.fit, [", noise from the residuals", from_data], Shown::Everywhere);
     let knots = calibration.motion.knots();
     table.explain(
         "knots of the motion",
