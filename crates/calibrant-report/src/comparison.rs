@@ -1,6 +1,6 @@
 //! Two calibrations side by side.
 
-use crate::number_format;
+use crate::number_format::{count, probability, significant};
 use crate::sheet::{Cell, Digits, Section, Sheet, Table};
 use calibrant_core::estimate::{ComparedQuantity, Comparison, OverallDifference};
 use calibrant_core::sensor::InvariantValue;
@@ -29,18 +29,15 @@ fn together(overall: &OverallDifference) -> String {
     };
     let behind = match overall.degrees_behind {
         behind if behind.is_finite() => {
-            format!(
-                "; the least known scatter has {} degrees of freedom",
-                number_format::significant(behind, 2)
-            )
+            format!("; the least known scatter has {} degrees of freedom", significant(behind, 2))
         }
         _ => String::new(),
     };
     format!(
         "all parameters together: {verdict}; χ² {} with {} degrees of freedom, p-value {}{behind}",
-        number_format::significant(overall.chi2, 5),
-        number_format::count(overall.degrees_of_freedom),
-        number_format::probability(overall.p_value)
+        significant(overall.chi2, 5),
+        count(overall.degrees_of_freedom),
+        probability(overall.p_value)
     )
 }
 

@@ -1,12 +1,12 @@
 //! The sheet of a user's motion, compared with the best motion and the limits.
 
-use super::About;
 use super::design::{
-    axes, confidence_section, criterion_in_words, motion_section, promised_table, times, undetermined_items,
-    violation,
+    axes, broken_limit, confidence_section, criterion_in_words, criterion_with_formula, motion_section,
+    promised_table, times, undetermined_items,
 };
 use super::figure::Drawn;
-use super::number_format::{self, counted, short, significant};
+use super::report_context::{About, READINGS};
+use crate::number_format::{UNKNOWN, counted, short, significant};
 use crate::sheet::{Cell, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::motion::Limits;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
@@ -37,13 +37,8 @@ pub fn evaluation_sheet<'a>(assessment: &'a Assessment, about: &'a About) -> She
     );
     let best = optimum.map(|design| ("optimal", &design.optimal));
     let confidence = confidence_section(parameters, ("your motion", own), best, own);
-    Sheet {
-        title: if about.title.is_empty() { "Evaluation of a motion".into() } else { about.title.clone() },
-        verdict: Some(verdict(assessment, about)),
-        sections: vec![predicted(assessment), motion, confidence],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = vec![predicted(assessment), motion, confidence];
+    about.sheet("Evaluation of a motion", verdict(assessment, about), sections, READINGS)
 }
 
 fn predicted(assessment: &Assessment) -> Section<'_> {
@@ -54,7 +49,7 @@ fn predicted(assessment: &Assessment) -> Section<'_> {
         "{}: {} own, {} optimal",
         criterion_in_words(&assessment.criterion),
         significant(assessment.evaluation.value, 5),
-        optimum.map_or_else(|| number_format::UNKNOWN.into(), |design| significant(design.optimal.value, 5))
+        optimum.map_or_else(|| UNKNOWN.into(), |design| significant(design.optimal.value, 5))
     ));
     section.table(promised_table(
         &assessment.parameters,
@@ -73,7 +68,7 @@ fn predicted(assessment: &Assessment) -> Section<'_> {
     if broken.is_empty() {
         section.line("all limits are kept, at all times");
     }
-    broken.iter().for_each(|found| section.line(broken_limit(found)));
+    broken.iter().for_each(|found| section.line(format!("BROKEN: {}", broken_limit(found))));
     section
 }
 
@@ -97,35 +92,9 @@ fn efficiency(assessment: &Assessment) -> Option<String> {
     Some(format!("Efficiency {percent} % of the best motion found{certain}: {meaning}."))
 }
 
-/// A broken limit, and by how much.
-fn broken_limit(found: &LimitUse) -> String {
-    let (axis, unit) = (found.axis, found.kind.unit());
-    let number = |value: f64| significant(value, 4);
-    match found.kind {
-        LimitKind::RestAtEnd => {
-            format!("BROKEN: axis {axis} still moves at the end, at {} {unit}", number(found.value))
-        }
-        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
-            "BROKEN: {} of axis {axis} is {} {unit}, prescribed is {}",
-            found.kind.name(),
-            number(found.value),
-            number(found.limit)
-        ),
-        kind => format!(
-            "BROKEN: {} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
-            kind.name(),
-            number(found.value),
-            number(found.time_s),
-            number(found.excess()),
-            number(found.limit),
-            significant(100.0 * found.violation, 3)
-        ),
-    }
-}
-
 /// The verdict of the page. Terminals show its sentences below the table.
 fn verdict(assessment: &Assessment, about: &About) -> SheetVerdict {
-    let broken: Vec<String> = assessment.violations().iter().map(violation).collect();
+    let broken: Vec<String> = assessment.violations().iter().map(broken_limit).collect();
     let mut sentences = Vec::new();
     let determined = assessment.evaluation.covariance.is_some();
     let factor = match &assessment.optimum {
@@ -180,20 +149,8 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
             times(most).trim_end_matches(" ×")
         )
     });
+    sentences.extend(efficiency(assessment));
     if let Some(efficiency) = assessment.efficiency() {
-        let mut sentence = format!(
-            "By criterion {}, its efficiency is {}: 100 recordings of it give as much information as {} of the best motion",
-            assessment.criterion.letter(),
-            number_format::percent(efficiency),
-            significant(100.0 * efficiency, 2)
-        );
-        if let Some(certain) = assessment.certain_efficiency() {
-            sentence.push_str(&format!(
-                ". Against the lower bound, the efficiency is {}",
-                number_format::percent(certain)
-            ));
-        }
-        sentences.push(sentence + ".");
         if efficiency > BLIND && most > WORTH_IT {
             sentences.push(
                 "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \
@@ -216,8 +173,7 @@ fn not_alike(other: &OtherSetting) -> String {
 }
 
 fn criterion_table(assessment: &Assessment) -> Table {
-    let criterion = &assessment.criterion;
-    let name = format!("criterion {}, {}{}", criterion.letter(), criterion.formula(), criterion.scaling());
+    let name = criterion_with_formula(&assessment.criterion);
     let mut table = Table::new([name.as_str(), "value", "efficiency of your motion"]);
     let mut row = |name: &str, value: f64, efficiency: Option<f64>| {
         let efficiency = efficiency.map_or(Cell::Missing, Cell::percent);
@@ -233,7 +189,6 @@ fn criterion_table(assessment: &Assessment) -> Table {
     table
 }
 
-/// The limits to draw, from how far they are used.
 fn drawn_limits(uses: &[LimitUse]) -> Limits {
     let mut limits = Limits::default();
     for found in uses {

@@ -1,6 +1,5 @@
-//! The page: escaped text, sections, and one file that needs nothing else.
+//! The page: escaped text, numbered sections with their contents, and one file that needs nothing else.
 
-use super::contents;
 use super::figure::{CHART_SCRIPT, renumbered};
 
 /// Text made safe for HTML, also within attributes.
@@ -27,94 +26,79 @@ const THESIS: &str = "“The thesis” is V. Vamvaka, Optimal Experimental Desig
 /// How to use the script of the figures.
 const HINT: &str = "<p class=\"screen\">Figures: point at a place for its values, drag to zoom along x, double-click to see all again. With the keyboard: Tab, arrows, + and Escape.</p>";
 
-/// A page under construction: its pieces in order.
-#[derive(Debug, Default)]
-pub(super) struct Page {
-    pieces: Vec<Piece>,
+/// Fewer sections need no contents.
+const FEWEST: usize = 3;
+
+/// The whole file: title, verdict, contents and sections, each with its heading and its HTML, and the lines at the foot. Headings are numbered; a section without one has no number.
+pub(super) fn page(title: &str, verdict: &str, sections: &[(&str, String)], footer: &[String]) -> String {
+    let title = escape(title);
+    let opening = format!("<h1>{title}</h1>\n{verdict}\n");
+    let has = |text: &str| opening.contains(text) || sections.iter().any(|(_, html)| html.contains(text));
+    let is_alive = has(" data-x=\"");
+    let source = has("the thesis").then_some(THESIS);
+    let footer: String = footer.iter().map(String::as_str).chain(source).map(paragraph).collect();
+    let (hint, script) = match is_alive {
+        true => (HINT, format!("<script>\n{CHART_SCRIPT}</script>\n")),
+        false => ("", String::new()),
+    };
+    let headings: Vec<&str> =
+        sections.iter().map(|(heading, _)| *heading).filter(|of| !of.is_empty()).collect();
+    let entries = entries(&headings);
+    let mut numbered = entries.iter();
+    let body: String = sections
+        .iter()
+        .map(|(name, html)| match name.is_empty() {
+            true => html.clone(),
+            false => numbered.next().map_or_else(String::new, heading) + html,
+        })
+        .collect();
+    renumbered(&format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"generator\" content=\"calibrant {}\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
+         {opening}{}{body}</main>\n<footer>{footer}{hint}</footer>\n{script}</body>\n</html>\n",
+        env!("CARGO_PKG_VERSION"),
+        include_str!("style.css"),
+        contents(&entries)
+    ))
 }
 
-#[derive(Debug)]
-enum Piece {
-    Html(String),
-    /// A heading of a section, to be numbered.
-    Heading(String),
-    /// The place of the contents.
-    Contents,
+/// A section in the contents: its number, its heading as HTML, and its address, which is unique on the page.
+type Entry = (usize, String, String);
+
+/// The sections of these headings, numbered from 1.
+fn entries(headings: &[&str]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for (number, heading) in (1..).zip(headings) {
+        // letters and digits, words joined by hyphens
+        let plain = heading.to_lowercase();
+        let words = plain.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+        let words = words.collect::<Vec<_>>().join("-");
+        let taken = words.is_empty() || entries.iter().any(|other| other.2 == words);
+        entries.push((number, escape(heading), if taken { format!("{words}-{number}") } else { words }));
+    }
+    entries
 }
 
-impl Page {
-    /// A page that opens with its title, the verdict, and the contents.
-    pub(super) fn opened(title: &str, verdict: String) -> Self {
-        let mut page = Self::default();
-        page.push(format!("<h1>{}</h1>", escape(title)));
-        page.push(verdict);
-        page.pieces.push(Piece::Contents);
-        page
-    }
+fn heading((number, heading, address): &Entry) -> String {
+    format!("<h2 id=\"{address}\"><span class=\"number\">{number}</span> {heading}</h2>\n")
+}
 
-    /// Appends HTML that is already safe.
-    pub(super) fn push(&mut self, html: impl Into<String>) {
-        self.pieces.push(Piece::Html(html.into()));
+/// The contents; nothing for a page of few sections.
+fn contents(entries: &[Entry]) -> String {
+    if entries.len() < FEWEST {
+        return String::new();
     }
+    let item = |(number, heading, address): &Entry| {
+        format!("<li><a href=\"#{address}\"><span class=\"number\">{number}</span> {heading}</a></li>")
+    };
+    let items: String = entries.iter().map(item).collect();
+    format!("<nav class=\"contents\" aria-label=\"Contents\"><ol>{items}</ol></nav>\n")
+}
 
-    /// Starts a section: a numbered heading and one sentence on its purpose.
-    pub(super) fn section(&mut self, heading: &str, lead: &str) {
-        self.pieces.push(Piece::Heading(escape(heading)));
-        if !lead.is_empty() {
-            self.paragraph(lead);
-        }
-    }
-
-    /// A paragraph of plain text.
-    pub(super) fn paragraph(&mut self, text: &str) {
-        self.push(format!("<p>{}</p>", escape(text)));
-    }
-
-    /// The whole file. It ends with the inputs: `facts` has the label and the value of each.
-    pub(super) fn finish(mut self, title: &str, inputs: &[(String, String)], footer: &[String]) -> String {
-        if !inputs.is_empty() {
-            self.section("Inputs", "");
-            self.push(facts(inputs.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-        }
-        let has = |text: &str| {
-            self.pieces.iter().any(|piece| matches!(piece, Piece::Html(html) if html.contains(text)))
-        };
-        let source = has("the thesis").then_some(THESIS).map(str::to_string);
-        let footer: String =
-            footer.iter().chain(&source).map(|line| format!("<p>{}</p>", escape(line))).collect();
-        let head = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta name=\"generator\" content=\"calibrant {}\">\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n",
-            env!("CARGO_PKG_VERSION"),
-            escape(title),
-            include_str!("style.css"),
-        );
-        let is_alive = has(" data-x=\"");
-        let script = match is_alive {
-            true => format!("<script>\n{CHART_SCRIPT}</script>\n"),
-            false => String::new(),
-        };
-        let footer = footer + if is_alive { HINT } else { "" };
-        let end = format!("</main>\n<footer>{footer}</footer>\n{script}</body>\n</html>\n");
-        let headings: Vec<&str> = (self.pieces.iter())
-            .filter_map(
-                |piece| if let Piece::Heading(heading) = piece { Some(heading.as_str()) } else { None },
-            )
-            .collect();
-        let entries = contents::entries(&headings);
-        let list = contents::list(&entries);
-        let mut sections = entries.iter();
-        let mut lines = vec![head];
-        lines.extend(self.pieces.iter().map(|piece| match piece {
-            Piece::Html(html) => format!("{html}\n"),
-            Piece::Heading(_) => sections.next().map_or_else(String::new, contents::heading),
-            Piece::Contents => list.clone(),
-        }));
-        lines.push(end);
-        renumbered(&lines.concat())
-    }
+pub(super) fn paragraph(text: &str) -> String {
+    format!("<p>{}</p>", escape(text))
 }
 
 /// An unordered list of plain texts; nothing for none.
@@ -126,35 +110,12 @@ pub(super) fn list(items: &[String]) -> String {
     format!("<ul>{items}</ul>")
 }
 
-/// The verdict in a prominent box of this class (`good`, `caution`, `bad`): a word, a sentence, and headed
-/// lists that qualify it.
-pub(super) fn verdict_box(
-    class: &str,
-    word: &str,
-    sentence: &str,
-    remarks: &[(&str, Vec<String>)],
-) -> String {
-    let lists: String = remarks
-        .iter()
-        .filter(|(_, items)| !items.is_empty())
-        .map(|(heading, items)| format!("<p><strong>{}</strong></p>{}", escape(heading), list(items)))
-        .collect();
-    format!(
-        "<div class=\"verdict {class}\"><p><span class=\"word\">{}</span> {}</p>{lists}</div>",
-        escape(word),
-        escape(sentence)
-    )
-}
-
-/// Labels and values in two columns.
-pub(super) fn facts<'a>(facts: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
-    let rows: String = facts
-        .into_iter()
-        .map(|(label, value)| {
-            let class = if value.chars().count() > 40 { " class=\"long\"" } else { "" };
-            format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value))
-        })
-        .collect();
+pub(super) fn facts(facts: &[(String, String)]) -> String {
+    let row = |(label, value): &(String, String)| {
+        let class = if value.chars().count() > 40 { " class=\"long\"" } else { "" };
+        format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value))
+    };
+    let rows: String = facts.iter().map(row).collect();
     if rows.is_empty() { rows } else { format!("<dl class=\"facts\">{rows}</dl>") }
 }
 
@@ -165,9 +126,17 @@ mod tests {
     #[test]
     fn user_text_cannot_leave_its_place() {
         assert_eq!(escape("a<b>&\"c\"'d'\u{0}"), "a&lt;b&gt;&amp;&quot;c&quot;&#39;d&#39;\u{fffd}");
-        let mut page = Page::default();
-        page.section("<script>", "1 < 2");
-        let html = page.finish("</title><b>", &[], &["x & y".to_string()]);
+        let html = page("</title><b>", "", &[("<script>", paragraph("1 < 2"))], &["x & y".to_string()]);
         assert!(!html.contains("<script") && !html.contains("</title><b>") && html.contains("x &amp; y"));
+    }
+
+    #[test]
+    fn addresses_are_unique_and_need_no_encoding() {
+        let found = entries(&["Correction, raw → true", "Noise", "Noise", "→"]);
+        let addresses: Vec<&str> = found.iter().map(|entry| entry.2.as_str()).collect();
+        assert_eq!(addresses, ["correction-raw-true", "noise", "noise-3", "-4"]);
+        let list = contents(&found);
+        assert!(list.contains("<a href=\"#noise-3\">") && heading(&found[2]).contains("id=\"noise-3\""));
+        assert!(contents(&found[..2]).is_empty());
     }
 }

@@ -6,7 +6,6 @@
 mod batch;
 mod calibration;
 mod comparison;
-mod contents;
 mod design;
 mod evaluation;
 mod figure;

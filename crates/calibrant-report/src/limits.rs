@@ -1,6 +1,6 @@
 //! Acceptance limits as a section.
 
-use crate::number_format;
+use crate::number_format::short;
 use crate::sheet::{Cell, Section, Table};
 use calibrant_core::acceptance::{CheckedLimit, Decision};
 
@@ -24,9 +24,7 @@ fn row(limit: &CheckedLimit) -> Vec<Cell> {
         Some(sd) if !figure.value.is_nan() => Cell::estimate(figure.value, sd),
         _ => Cell::significant(figure.value, 4),
     };
-    let range = limit.range.map(|(least, most)| {
-        Cell::Number(format!("{} to {}", number_format::short(least), number_format::short(most)))
-    });
+    let range = limit.range.map(|(least, most)| Cell::Number(format!("{} to {}", short(least), short(most))));
     let decision = in_words(limit.decision).to_owned();
     vec![
         Cell::name(&*figure.name),

@@ -1,9 +1,8 @@
 //! The noise of a sensor at rest: a page of its own, and a section for the pages of calibrations.
 
-use super::About;
 use super::figure::allan_figure;
-use super::number_format;
-use crate::number_format::capitalised;
+use super::report_context::{About, READINGS};
+use crate::number_format::{capitalised, count, fixed, significant, with_sd};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_core::noise::{
     AxisNoise, Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units, noise_line,
@@ -19,13 +18,8 @@ const FILTERED: f64 = 0.95;
 /// `examined` names the part of the recording that was examined, where that is not nearly all of it.
 #[must_use]
 pub fn noise_sheet<'a>(noise: &'a [SensorNoise], examined: Option<&str>, about: &'a About) -> Sheet<'a> {
-    Sheet {
-        title: if about.title.is_empty() { "Noise".into() } else { about.title.clone() },
-        verdict: Some(verdict(noise, about)),
-        sections: noise.iter().map(|sensor| with_line(noise_section(sensor, examined), sensor)).collect(),
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = noise.iter().map(|sensor| with_line(noise_section(sensor, examined), sensor));
+    about.sheet("Noise", verdict(noise, about), sections.collect(), READINGS)
 }
 
 /// A section on each sensor: its figure, coefficients, samples.
@@ -38,10 +32,10 @@ fn noise_section<'a>(noise: &'a SensorNoise, examined: Option<&str>) -> Section<
     let mut section = Section::new(format!("Noise of the {}", noise.sensor_kind));
     section.paragraph(format!(
         "From {} samples, {} to {} s, at {} Hz.",
-        number_format::count(segment.samples()),
-        number_format::fixed(segment.start_s, 2),
-        number_format::fixed(segment.end_s, 2),
-        number_format::significant(segment.rate_hz(), 5)
+        count(segment.samples()),
+        fixed(segment.start_s, 2),
+        fixed(segment.end_s, 2),
+        significant(segment.rate_hz(), 5)
     ));
     examined.into_iter().for_each(|words| section.line(words));
     section.table(coefficient_table(noise));
@@ -72,7 +66,6 @@ fn with_line<'a>(mut section: Section<'a>, noise: &SensorNoise) -> Section<'a> {
     section
 }
 
-/// Name of a coefficient.
 fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str {
     use calibrant_core::sensor::SensorKind;
     match (process, noise.sensor_kind) {
@@ -105,22 +98,22 @@ fn coefficient(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw) -> [Cel
     let (unit, others) = (Cell::unit(units[0].symbol), &units[1..]);
     match axis.fit.model.coefficient(process) {
         Coefficient::Determined(found) => {
-            let [low, high] = [found.low, found.high].map(|end| number_format::significant(end, 3));
+            let [low, high] = [found.low, found.high].map(|end| significant(end, 3));
             let mut words: Vec<String> = others
                 .iter()
                 .map(|unit| {
                     let found = found.scaled(unit.factor);
-                    format!("{} {}", number_format::with_sd(found.value, found.sd), unit.symbol)
+                    format!("{} {}", with_sd(found.value, found.sd), unit.symbol)
                 })
                 .collect();
             if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
-                words.push(format!("clearest at {} s", number_format::significant(tau, 2)));
+                words.push(format!("clearest at {} s", significant(tau, 2)));
             }
             let interval = Cell::Number(format!("{low} to {high}"));
             [Cell::estimate(found.value, found.sd), unit, interval, in_short(&words)]
         }
         Coefficient::NotDetermined { limit, .. } => {
-            let below = |limit: f64| format!("< {}", number_format::significant(limit, 2));
+            let below = |limit: f64| format!("< {}", significant(limit, 2));
             let in_unit = |unit: &CoefficientUnit| {
                 limit.map(|limit| format!("{} {}", below(unit.factor * limit), unit.symbol))
             };

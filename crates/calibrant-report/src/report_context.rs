@@ -1,5 +1,6 @@
 //! The context of a report: everything that it states beside the result itself.
 
+use crate::sheet::{Section, Sheet, SheetVerdict};
 use calibrant_core::acceptance::CheckedLimit;
 use calibrant_core::diagnostic::Verdict;
 use calibrant_core::estimate::Validation;
@@ -45,16 +46,26 @@ pub struct About {
     pub program: String,
 }
 
-impl About {
-    /// The program, without its run time: equal inputs give equal pages.
-    pub(super) fn made(&self) -> String {
-        format!("{}.", if self.program.is_empty() { "calibrant" } else { &self.program })
-    }
+/// What most results mean by a reading.
+pub(super) const READINGS: &str = "Readings are y = S s + b + ν (true → raw); sd is the standard deviation.";
 
-    pub(super) fn footer(&self) -> Vec<String> {
-        vec![
-            self.made(),
-            "Readings are y = S s + b + ν (true → raw); sd is the standard deviation.".to_string(),
-        ]
+impl About {
+    /// A sheet of these parts, with the inputs, and at its foot the program and what `meaning` says. `title` is that of a context without one.
+    pub(super) fn sheet<'a>(
+        &self,
+        title: &str,
+        verdict: SheetVerdict,
+        sections: Vec<Section<'a>>,
+        meaning: &str,
+    ) -> Sheet<'a> {
+        // without the run time: equal inputs give equal pages
+        let made = format!("{}.", if self.program.is_empty() { "calibrant" } else { &self.program });
+        Sheet {
+            title: if self.title.is_empty() { title.to_owned() } else { self.title.clone() },
+            verdict: Some(verdict),
+            sections,
+            inputs: self.facts.clone(),
+            footer: vec![made, meaning.to_owned()],
+        }
     }
 }

@@ -1,9 +1,9 @@
 //! The sheet of a sweep: the best designs for several values of one quantity.
 
-use super::About;
-use super::design::{above, status};
+use super::design::{above, criterion_with_formula, ended, status};
 use super::figure::{DisplayUnit, sweep_curves};
-use super::number_format;
+use super::report_context::{About, READINGS};
+use crate::number_format::{short, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
@@ -15,20 +15,10 @@ pub fn sweep_sheet<'a>(sweep: &'a Sweep, about: &'a About) -> Sheet<'a> {
         "The best motion was designed for each value. The figure shows the standard deviation of a calibration from one recording of it.",
     );
     curves.figure(|| Some(sweep_curves(sweep)));
-    let mut values = Section::new("Best motion for each value").lead(format!(
-        "The design minimises criterion {}, {}{}.",
-        sweep.criterion.letter(),
-        sweep.criterion.formula(),
-        sweep.criterion.scaling()
-    ));
+    let mut values = Section::new("Best motion for each value")
+        .lead(format!("The design minimises {}.", criterion_with_formula(&sweep.criterion)));
     values.table(table(sweep));
-    Sheet {
-        title: if about.title.is_empty() { "Sweep".into() } else { about.title.clone() },
-        verdict: Some(verdict(sweep, about)),
-        sections: vec![curves, values],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    about.sheet("Sweep", verdict(sweep, about), vec![curves, values], READINGS)
 }
 
 fn verdict(sweep: &Sweep, about: &About) -> SheetVerdict {
@@ -67,9 +57,7 @@ fn worth(sweep: &Sweep) -> Option<String> {
         .max_by(|&a, &b| change(a).total_cmp(&change(b)))?;
     let parameter = &sweep.parameters[p];
     let unit = DisplayUnit::suited_to(parameter.unit, [low[p], high[p]]);
-    let shown = |sd: f64| {
-        format!("{} {}", number_format::significant(sd * unit.factor, 3), unit.symbol).trim_end().to_string()
-    };
+    let shown = |sd: f64| unit.text(sd, 3);
     let mut sentence = format!(
         "From {} to {}, the standard deviation of {} goes from {} to {}",
         value(sweep, first),
@@ -84,12 +72,9 @@ fn worth(sweep: &Sweep) -> Option<String> {
         sentence.push_str(&match ratio {
             _ if (ratio - 1.0).abs() < 5e-3 => ". It hardly depends on this quantity".to_string(),
             _ if ratio > 1.0 => {
-                format!(". On average, each doubling divides it by {}", number_format::significant(ratio, 3))
+                format!(". On average, each doubling divides it by {}", significant(ratio, 3))
             }
-            _ => format!(
-                ". On average, each doubling multiplies it by {}",
-                number_format::significant(1.0 / ratio, 3)
-            ),
+            _ => format!(". On average, each doubling multiplies it by {}", significant(1.0 / ratio, 3)),
         });
     }
     sentence.push('.');
@@ -101,7 +86,7 @@ fn worth(sweep: &Sweep) -> Option<String> {
 
 /// The value of a point with its unit.
 fn value(sweep: &Sweep, point: &SweepPoint) -> String {
-    format!("{} {}", number_format::short(point.value), sweep.variable.unit()).trim_end().to_string()
+    format!("{} {}", short(point.value), sweep.variable.unit()).trim_end().to_string()
 }
 
 fn table(sweep: &Sweep) -> Table {
@@ -132,7 +117,7 @@ fn table(sweep: &Sweep) -> Table {
         let design = point.outcome.as_ref().ok();
         let gap = design.and_then(|design| design.certificate.as_ref()).map(|certificate| certificate.gap);
         let mut cells = vec![
-            Cell::name(number_format::short(point.value)),
+            Cell::name(short(point.value)),
             Cell::Number(point.intervals.to_string()),
             design.map_or(Cell::Missing, |design| Cell::significant(design.optimal.value, 4)),
             gap.map_or(Cell::Missing, |gap| match nats {
@@ -146,9 +131,7 @@ fn table(sweep: &Sweep) -> Table {
         cells.extend(sd.iter().zip(&units).flat_map(in_units));
         match design {
             Some(design) => {
-                let ended = status(design.status).to_owned();
-                let converged = design.status == DesignStatus::Converged;
-                cells.push(if converged { Cell::Text(ended) } else { Cell::Mark(ended) });
+                cells.push(ended(design.status));
                 table.row(cells);
             }
             None => {

@@ -1,7 +1,7 @@
 //! Validation on a sheet: the errors of a calibration on data that it did not use, in sentences and a table.
 
 use super::figure::validation_errors;
-use super::number_format;
+use crate::number_format::{counted, fixed, missed_angle, significant};
 use crate::sheet::{Cell, Section, Table};
 use calibrant_core::estimate::{
     BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
@@ -155,14 +155,15 @@ fn what(kind: ErrorKind) -> &'static str {
 
 fn measured(kind: ErrorKind, value: f64) -> String {
     match kind {
-        ErrorKind::Magnitude => format!("{} mm/s²", number_format::significant(1e3 * value, 2)),
-        ErrorKind::Rate => format!("{} °/s", number_format::significant(value.to_degrees(), 2)),
-        ErrorKind::Rotation => number_format::missed_angle(value),
+        ErrorKind::Magnitude => format!("{} mm/s²", significant(1e3 * value, 2)),
+        ErrorKind::Rate => format!("{} °/s", significant(value.to_degrees(), 2)),
+        ErrorKind::Rotation => missed_angle(value),
     }
 }
 
-fn between(factor: f64, (low, high): (f64, f64)) -> String {
-    let two = |value: f64| number_format::significant(value, 2);
+/// A ratio with its interval.
+pub(crate) fn between(factor: f64, (low, high): (f64, f64)) -> String {
+    let two = |value: f64| significant(value, 2);
     let high = if high < 1e3 { two(high) } else { "∞".into() };
     format!("{} ({} to {high})", two(factor), two(low))
 }
@@ -195,9 +196,9 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     let ratio = between(errors.factor, errors.factor_interval);
     let misses = format!(
         "In {}{repeated}, {error} is {rms} rms, predicted {predicted}: the ratio is {ratio}",
-        number_format::counted(count, item)
+        counted(count, item)
     );
-    let two = |value: f64| number_format::significant(value, 2);
+    let two = |value: f64| significant(value, 2);
     let verdict = match (errors.verdict, errors.parameters) {
         (CovarianceVerdict::Believed, _) => "The covariance is consistent with the errors".into(),
         (CovarianceVerdict::LargerThanNeeded, _) => {
@@ -238,9 +239,7 @@ fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
         ErrorKind::Magnitude | ErrorKind::Rate => "hold",
         ErrorKind::Rotation => "rotation",
     };
-    let from_to = |start_s: f64, end_s: f64| {
-        format!("from {} to {} s", number_format::fixed(start_s, 1), number_format::fixed(end_s, 1))
-    };
+    let from_to = |start_s: f64, end_s: f64| format!("from {} to {} s", fixed(start_s, 1), fixed(end_s, 1));
     match caveat {
         Caveat::Change(change) => {
             format!("{}, and the prediction includes the scatter of this change", change.headline())
@@ -256,26 +255,26 @@ fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
         ),
         Caveat::InARow { count, start_s, end_s } => format!(
             "{} in a row, {}, {} not counted. This is not by chance. Did the sensor change there?",
-            number_format::counted(*count, what),
+            counted(*count, what),
             from_to(*start_s, *end_s),
             if *count == 1 { "is" } else { "are" }
         ),
         Caveat::Several { count } => format!(
             "{} of {} are not counted, which is too many to be chance",
-            number_format::counted(*count, what),
+            counted(*count, what),
             errors.errors.len()
         ),
     }
 }
 
 fn other_noise(noise: &NoiseRatio) -> String {
-    let ratio = number_format::significant(noise.overall(), 2);
+    let ratio = significant(noise.overall(), 2);
     if let Some(coarse) = noise.coarse {
         return format!(
             "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?). They scatter {ratio} times as much as in the calibration's recording. \
              The prediction includes that. It is no reason to distrust the calibration.",
             noise.sensor_kind,
-            number_format::significant(coarse.step, 2),
+            significant(coarse.step, 2),
             coarse.unit.symbol()
         );
     }
@@ -288,22 +287,22 @@ fn other_noise(noise: &NoiseRatio) -> String {
 
 fn likely_explanation(reason: &LikelyExplanation) -> String {
     let list = |values: &nalgebra::Vector3<f64>, scale: f64| {
-        values.iter().map(|value| number_format::significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
+        values.iter().map(|value| significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
     };
     let most = |values: &nalgebra::Vector3<f64>, sd: &nalgebra::Vector3<f64>| {
-        number_format::significant(values.component_div(sd).amax(), 2)
+        significant(values.component_div(sd).amax(), 2)
     };
     match reason {
         LikelyExplanation::Temperature { calibrated_c, here_c } => format!(
             "This recording was made at a mean of {} °C, the calibration at {} °C and without temperature terms. This is the likely cause of the differences. Calibrate over the temperatures of \
              use, with [temperature].",
-            number_format::fixed(*here_c, 1),
-            number_format::fixed(*calibrated_c, 1)
+            fixed(*here_c, 1),
+            fixed(*calibrated_c, 1)
         ),
         LikelyExplanation::BeyondTemperatures { calibrated_c, here_c } => {
             let between = |[low, high]: &[f64; 2]| match high - low < 0.1 {
-                true => number_format::fixed(*low, 1),
-                false => format!("{} to {}", number_format::fixed(*low, 1), number_format::fixed(*high, 1)),
+                true => fixed(*low, 1),
+                false => format!("{} to {}", fixed(*low, 1), fixed(*high, 1)),
             };
             format!(
                 "This recording was made at {} °C, the calibration at {} °C. The temperature terms are extrapolated, which is the likely cause of the differences. Calibrate over \
@@ -351,14 +350,14 @@ fn bias(shift: &BiasShift) -> String {
     if !shift.moved {
         return "The gyroscope's bias agrees with the calibration, within its uncertainty.".into();
     }
-    let degrees = |value: f64| number_format::significant(value.to_degrees(), 2);
+    let degrees = |value: f64| significant(value.to_degrees(), 2);
     let values: Vec<String> = shift.shift_radps.iter().map(|value| degrees(*value)).collect();
     let most = shift.shift_radps.component_div(&shift.sd_radps).amax();
     format!(
         "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations. Estimate it again where the gyroscope is used. Rates and rotations are judged \
          with the new bias.",
         values.join(", "),
-        number_format::significant(most, 2)
+        significant(most, 2)
     )
 }
 
@@ -374,10 +373,10 @@ fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {
     };
     format!(
         "{name} ({} to {} s) {has} {}, {} times the predicted one. It is not counted.",
-        number_format::fixed(error.start_s, 1),
-        number_format::fixed(error.end_s, 1),
+        fixed(error.start_s, 1),
+        fixed(error.end_s, 1),
         measured(kind, error.error.norm()),
-        number_format::significant(error.in_sd, 2)
+        significant(error.in_sd, 2)
     )
 }
 

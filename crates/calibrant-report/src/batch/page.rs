@@ -7,6 +7,9 @@ use crate::figure::{code_bars, drifts, parameter_histograms};
 use crate::report_context::About;
 use crate::sheet::{Section, Sheet};
 
+/// What a value is.
+const MEANING: &str = "Values are of the readings: true → raw. sd is the standard deviation.";
+
 /// A batch of sensors as a sheet: yield, the sensors that are not ok, the codes that occur most, and each parameter as a histogram and
 /// over the order of the recordings.
 ///
@@ -16,16 +19,7 @@ use crate::sheet::{Section, Sheet};
 pub fn batch_sheet<'a>(batch: &'a Batch, about: &'a About) -> Sheet<'a> {
     let sections =
         [Some(worst(batch)), causes(batch), distributions(batch), order(batch), all_sensors(batch)];
-    Sheet {
-        title: if about.title.is_empty() { "Batch".into() } else { about.title.clone() },
-        verdict: Some(yield_of(batch, about)),
-        sections: sections.into_iter().flatten().collect(),
-        inputs: about.facts.clone(),
-        footer: vec![
-            about.made(),
-            "Values are of the readings: true → raw. sd is the standard deviation.".to_owned(),
-        ],
-    }
+    about.sheet("Batch", yield_of(batch, about), sections.into_iter().flatten().collect(), MEANING)
 }
 
 /// The worst first. Pages show those that are not ok, terminals the first of all.

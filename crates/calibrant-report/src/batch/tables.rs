@@ -1,7 +1,7 @@
 //! The tables of sensors: those that are not ok, and all.
 
 use super::sensors::{Batch, BatchSensor};
-use crate::number_format::UNKNOWN;
+use crate::number_format::{UNKNOWN, capitalised};
 use crate::sheet::{Cell, Column, Shown, Table};
 use calibrant_core::diagnostic::acceptance::LimitBroken;
 use calibrant_core::diagnostic::{Check, Usability};
@@ -113,7 +113,7 @@ fn reasons(sensor: &BatchSensor) -> String {
 fn sentence(reason: &str) -> String {
     // the name of a file or of a parameter keeps its letters
     let is_name = reason.split([' ', ':']).next().is_some_and(|word| word.contains(['.', '_', '/']));
-    let text = if is_name { reason.to_owned() } else { crate::number_format::capitalised(reason) };
+    let text = if is_name { reason.to_owned() } else { capitalised(reason) };
     if text.ends_with(['.', '?', '!', ')']) { text } else { text + "." }
 }
 

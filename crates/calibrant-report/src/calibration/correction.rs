@@ -1,7 +1,7 @@
 //! The corrections raw → true of the sensors, to read and to copy.
 
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::significant;
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{Correction, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
@@ -20,7 +20,7 @@ pub(super) fn correction(calibration: &Calibration) -> String {
     let Some(corrections) = corrections else {
         return "<p>A matrix has no inverse: there is no correction.</p>".to_string();
     };
-    let column = |v: &Vector3<f64>| v.iter().map(|&b| vec![number_format::significant(b, 8)]).collect();
+    let column = |v: &Vector3<f64>| v.iter().map(|&b| vec![significant(b, 8)]).collect();
     let mut parts = Vec::new();
     for (sensor_kind, correction) in &corrections {
         let (unit, of) = (calibration.unit(*sensor_kind), letter(*sensor_kind));
@@ -70,8 +70,8 @@ fn of_one_axis(calibration: &Calibration) -> String {
     let sensor = &calibration.imu.accelerometer;
     format!(
         "<p class=\"formula\">f = (y − {}) / {}</p><p>y in {}, f in m/s².</p>",
-        number_format::significant(sensor.bias.x, 7),
-        number_format::significant(sensor.matrix[(0, 0)], 7),
+        significant(sensor.bias.x, 7),
+        significant(sensor.matrix[(0, 0)], 7),
         escape(calibration.accelerometer_unit.symbol())
     )
 }
@@ -84,7 +84,7 @@ fn at_other_temperatures(calibration: &Calibration) -> String {
     format!(
         "<p>This is the correction at T₀ = {} °C. At another temperature T, replace b by b(T) and C by C(T) = C diag(1/(1 + k₁ τ + k₂ τ²)), with τ = T − T₀, b(T) = b + b₁ τ + b₂ τ² \
          and the coefficients above; <code>calibrant apply</code> and the C header of <code>calibrant convert</code> do so.</p>",
-        number_format::significant(thermal.reference_c, 3)
+        significant(thermal.reference_c, 3)
     )
 }
 
@@ -113,16 +113,14 @@ fn frame_in_words(calibration: &Calibration) -> &'static str {
     }
 }
 
-/// A matrix as text, row by row.
 fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     let largest = matrix.amax();
     let text = |value: f64| {
-        if value.abs() < 1e-14 * largest { "0".to_string() } else { number_format::significant(value, 7) }
+        if value.abs() < 1e-14 * largest { "0".to_string() } else { significant(value, 7) }
     };
     (0..3).map(|row| (0..3).map(|column| text(matrix[(row, column)])).collect()).collect()
 }
 
-/// A named matrix as HTML.
 fn matrix(name: &str, rows: Vec<Vec<String>>) -> String {
     let row = |cells: &Vec<String>| {
         format!("<tr>{}</tr>", cells.iter().map(|cell| format!("<td>{cell}</td>")).collect::<String>())

@@ -1,11 +1,28 @@
 //! The table of the fit: each statistic with its meaning.
 
 use crate::figure::DisplayUnit;
-use crate::number_format;
+use crate::number_format::{count, probability, significant};
 use crate::sheet::{Shown, Table, explained};
-use calibrant_core::estimate::Calibration;
+use calibrant_core::estimate::{Calibration, FitStatistics};
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
+
+/// The rows on χ². Where the noise was estimated, `from_data` says so, and what χ² then means. The p-value is shown there.
+pub(crate) fn chi2_rows(table: &mut Table, fit: &FitStatistics, from_data: [&str; 2], p_value: Shown) {
+    let [suffix, meaning] = match fit.p_value {
+        Some(_) => {
+            ["", "Sum of squared residuals over the assumed noise. Good: near the degrees of freedom."]
+        }
+        None => from_data,
+    };
+    table.explain("χ²", significant(fit.chi2, 5) + suffix, meaning);
+    let meaning = "Number of data less number of unknowns. χ² scatters about it by √(2·dof).";
+    table.explain("degrees of freedom", count(fit.degrees_of_freedom), meaning);
+    if let Some(p) = fit.p_value {
+        let meaning = "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.";
+        table.row_shown(p_value, explained("p-value", probability(p), meaning));
+    }
+}
 
 /// The statistics of the fit with one line of explanation each.
 pub(super) fn fit_table(calibration: &Calibration) -> Table {
@@ -21,38 +38,17 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     );
     table.explain_on_page(
         "gradient norm",
-        number_format::significant(calibration.gradient_norm, 2),
+        significant(calibration.gradient_norm, 2),
         "Distance from the optimum in standard deviations of the parameters. Good: far below 1.",
     );
-    table.explain(
-        "χ²",
-        number_format::significant(fit.chi2, 5)
-            + if fit.p_value.is_some() { "" } else { ", weights from the data" },
-        match fit.p_value {
-            Some(_) => "Sum of squared residuals over the assumed noise. Good: near the degrees of freedom.",
-            None => {
-                "Sum of weighted squared residuals. The weights come from these data, so it is always near the degrees of freedom and tests nothing."
-            }
-        },
-    );
-    table.explain(
-        "degrees of freedom",
-        number_format::count(fit.degrees_of_freedom),
-        "Number of data less number of unknowns. χ² scatters about it by √(2·dof).",
-    );
-    if let Some(p) = fit.p_value {
-        table.explain_on_page(
-            "p-value",
-            number_format::probability(p),
-            "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.",
-        );
-    }
+    let from_data = "Sum of weighted squared residuals. The weights come from these data, so it is always near the degrees of freedom and tests nothing.";
+    chi2_rows(&mut table, fit, [", weights from the data", from_data], Shown::OnPage);
     let rms = fit.residual_rms.unwrap_or_else(Vector3::zeros);
     let unit =
         DisplayUnit::suited_to(calibration.accelerometer_unit.symbol(), rms.iter().map(|rms| 3.0 * rms));
     let names = axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let per_axis = |values: &Vector3<f64>, factor: f64, symbol: &str| {
-        let number = |axis: &Axis| number_format::significant(values[axis.index()] * factor, 3);
+        let number = |axis: &Axis| significant(values[axis.index()] * factor, 3);
         format!("{} {symbol}", axes.iter().map(number).collect::<Vec<_>>().join(", "))
     };
     let rows = [
@@ -79,11 +75,11 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     for (test, axis) in fit.whiteness.iter().zip(axes) {
         table.explain_on_page(
             &format!("whiteness {axis}, p"),
-            number_format::probability(test.p_value),
+            probability(test.p_value),
             &format!(
                 "Ljung–Box test of {} lags (Q = {}). Below 0.001, the residuals are not white, and the stated sd are too small.",
                 test.lags,
-                number_format::significant(test.statistic, 3)
+                significant(test.statistic, 3)
             ),
         );
     }

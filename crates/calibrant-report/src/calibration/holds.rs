@@ -1,7 +1,7 @@
 //! Tables of the holds of a static calibration.
 
 use super::quality::bias_drift;
-use crate::number_format;
+use crate::number_format::{significant, with_sd_or_exact};
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::estimate::{Calibration, HoldCalibration, HoldResult};
 use calibrant_core::sensor::{Axis, ReadingUnit};
@@ -20,7 +20,7 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
         false => ("given", "As given by the user."),
     };
     table.explain("holds used", format!("{used} of {}, {how}", holds.holds.len()), found);
-    let gravity = number_format::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2);
+    let gravity = with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2);
     table.explain(
         "gravity g",
         format!("{gravity} m/s²"),
@@ -34,14 +34,14 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
         ),
         _ => table.explain_on_page(
             "magnitude residual, rms",
-            format!("{} mm/s²", number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
+            format!("{} mm/s²", significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
             "Corrected magnitude less g, over the used holds.",
         ),
     }
     if let Some(tilt) = &holds.tilt {
         table.explain_on_page(
             "tilt of the faces, sd",
-            format!("{}°", number_format::significant(tilt.sd_rad.to_degrees(), 2)),
+            format!("{}°", significant(tilt.sd_rad.to_degrees(), 2)),
             &format!(
                 "Face alignment about each axis: {}. It decides the standard deviations of the cross-axis terms. Along gravity, only the square of a tilt acts.",
                 tilt.source_in_words()
@@ -63,7 +63,7 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
             name,
             format!(
                 "{} mm/s², {}",
-                number_format::significant(1e3 * holds.between_holds_sd_mps2, 3),
+                significant(1e3 * holds.between_holds_sd_mps2, 3),
                 if holds.between_holds_dominates { "decides the sd" } else { "explained by the noise" }
             ),
             if holds.between_holds_dominates {
@@ -82,13 +82,12 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
     }
     table.explain(
         "condition number",
-        number_format::significant(holds.condition_number, 3),
+        significant(holds.condition_number, 3),
         "How unevenly the orientations determine the parameters. Below about 100 is good.",
     );
     table
 }
 
-/// One row for each hold.
 pub(super) fn hold_table(holds: &HoldCalibration, unit: ReadingUnit) -> Table {
     let seconds = |heading: &str| Column::new(heading).in_unit("s");
     let mean = |axis: Axis| Column::new(format!("mean {axis}")).in_unit(unit.symbol());

@@ -10,11 +10,11 @@ mod page;
 mod parameters;
 mod quality;
 mod rotations;
-mod temperature;
 mod verdict;
 
+pub(super) use fit::chi2_rows;
 pub use page::calibration_sheet;
 #[cfg(feature = "study")]
 pub(super) use parameters::parameter_table;
 pub(super) use quality::noise_explains;
-pub(super) use verdict::calibration_verdict;
+pub(super) use verdict::{calibration_verdict, worst_gain};

@@ -7,18 +7,17 @@ use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::motion::{motion_section, residual_section};
 use super::parameters::{estimate_table, parameter_table};
-use super::quality::nuisances_in_words;
+use super::quality::{nuisances_in_words, temperature_in_words};
 use super::rotations::{rotation_summary, rotation_table, turn_table};
-use super::temperature::temperature_in_words;
 use super::verdict::verdict;
-use crate::About;
 use crate::figure::{
-    bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, holds_before_and_after,
+    bias_over_temperature, correlation_map, hold_directions, hold_residuals, holds_before_and_after,
     recording_before_and_after, recording_overview, rotation_errors, still_gyroscope,
 };
 use crate::limits::limit_section;
 use crate::noise::noise_sections;
 use crate::number_format::capitalised;
+use crate::report_context::{About, READINGS};
 use crate::sheet::{Section, Sheet, Shown};
 use crate::validation::validation_section;
 use calibrant_core::estimate::{Calibration, HoldCalibration, Recovered};
@@ -58,17 +57,13 @@ pub fn calibration_sheet<'a>(
         sections.extend(residual_section(calibration, motion, recording));
     }
     sections.push(fit(calibration));
-    let directions = "Directions are true → raw unless stated otherwise. sd is the standard deviation.";
-    Sheet {
-        title: if about.title.is_empty() { "Calibration".into() } else { about.title.clone() },
-        verdict: Some(verdict(calibration, about)),
-        sections,
-        inputs: about.facts.clone(),
-        footer: match calibration.recovered {
-            Recovered::Motion(_) => about.footer(),
-            Recovered::Holds(_) => vec![about.made(), directions.to_owned()],
-        },
-    }
+    let meaning = match calibration.recovered {
+        Recovered::Motion(_) => READINGS,
+        Recovered::Holds(_) => {
+            "Directions are true → raw unless stated otherwise. sd is the standard deviation."
+        }
+    };
+    about.sheet("Calibration", verdict(calibration, about), sections, meaning)
 }
 
 /// The numbers: on the first screen with the verdict, as far as it goes. Those of two sensors stand beside each other on a page, which has their
@@ -169,9 +164,8 @@ fn fit(calibration: &Calibration) -> Section<'_> {
     );
     section.table(fit_table(calibration));
     section.drawn(|| {
-        let names: Vec<&str> =
-            calibration.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        correlation_map_of(&names, &calibration.covariance)
+        let names = calibration.parameters.iter().map(|parameter| parameter.name.as_str());
+        correlation_map(names, &calibration.covariance)
     });
     section
 }

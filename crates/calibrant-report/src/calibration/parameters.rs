@@ -1,6 +1,6 @@
 //! The table of the parameters of one sensor, also in units of the stimulus.
 
-use crate::number_format;
+use crate::number_format::{percent, significant, with_sd};
 use crate::sheet::{Cell, Column, Digits, Table};
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{
@@ -19,7 +19,6 @@ pub(super) fn estimate_table(calibration: &Calibration, sensor_kind: SensorKind)
     table
 }
 
-/// The first columns of a table of parameters.
 const ESTIMATE: [&str; 3] = ["parameter", "estimate ± sd", "unit"];
 
 fn estimate(calibration: &Calibration, k: usize) -> [Cell; 3] {
@@ -72,7 +71,7 @@ pub(crate) fn parameter_table(
         }
         if with_prior {
             let share = calibration.known_beforehand(k);
-            row.push(share.map_or(Cell::Missing, |share| Cell::Mark(number_format::percent(share))));
+            row.push(share.map_or(Cell::Missing, |share| Cell::Mark(percent(share))));
         }
         if let Some(truth) = truth {
             let truth = match quantity {
@@ -131,7 +130,7 @@ fn in_display_unit(unit: &'static str, per: &str, value: Option<f64>, sd: f64) -
         _ => (1.0, unit),
     };
     match value {
-        Some(value) => format!("{} {symbol}{per}", number_format::with_sd(factor * value, factor * sd)),
-        None => format!("± {} {symbol}{per}", number_format::significant(factor * sd, 2)),
+        Some(value) => format!("{} {symbol}{per}", with_sd(factor * value, factor * sd)),
+        None => format!("± {} {symbol}{per}", significant(factor * sd, 2)),
     }
 }

@@ -1,6 +1,6 @@
 //! The data and the quality of a calibration, in words.
 
-use crate::number_format;
+use crate::number_format::{count, counted, missed_angle, probability, significant, with_sd};
 use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, RecoveredMotion, TimeOffset};
 use calibrant_core::sensor::SensorKind;
 
@@ -11,16 +11,13 @@ const SIGNIFICANT: f64 = 0.001;
 pub(super) fn used_in_words(calibration: &Calibration) -> String {
     let holds = match &calibration.recovered {
         Recovered::Motion(motion) => {
-            let intervals = number_format::counted(motion.motion.intervals(), "interval");
-            return format!(
-                "{} samples of a motion of {intervals}",
-                number_format::count(motion.residuals.len())
-            );
+            let intervals = counted(motion.motion.intervals(), "interval");
+            return format!("{} samples of a motion of {intervals}", count(motion.residuals.len()));
         }
         Recovered::Holds(holds) => holds,
     };
     let used = |all: usize, what: &str, left_out: Vec<String>| {
-        let from = format!("{} of {}", all - left_out.len(), number_format::counted(all, what));
+        let from = format!("{} of {}", all - left_out.len(), counted(all, what));
         match left_out.as_slice() {
             [] => from,
             some => format!("{from} (not used: {})", some.join(", ")),
@@ -35,7 +32,7 @@ pub(super) fn used_in_words(calibration: &Calibration) -> String {
         from.push(used(rotations.len(), "rotation", bad.collect()) + " between them");
     }
     if !turns.is_empty() {
-        from.push(number_format::counted(turns.len(), "turn") + " of known angle");
+        from.push(counted(turns.len(), "turn") + " of known angle");
     }
     let last = from.pop().unwrap_or_default();
     if from.is_empty() { last } else { format!("{} and {last}", from.join(", ")) }
@@ -48,8 +45,8 @@ pub(super) fn calibration_quality(calibration: &Calibration) -> Vec<String> {
     if calibration.used_rotations().next().is_some() {
         parts.push(format!(
             "the rotation error is {} rms ({} before)",
-            number_format::missed_angle(calibration.rotation_rms_rad()),
-            number_format::missed_angle(calibration.rotation_rms_before_rad())
+            missed_angle(calibration.rotation_rms_rad()),
+            missed_angle(calibration.rotation_rms_before_rad())
         ));
     }
     if !calibration.turns().is_empty() && !calibration.turns_check_the_gains() {
@@ -58,7 +55,7 @@ pub(super) fn calibration_quality(calibration: &Calibration) -> Vec<String> {
         let squares =
             calibration.turns().iter().map(|turn| (turn.measured_rad - turn.angle_rad).norm_squared());
         let rms = (squares.sum::<f64>() / calibration.turns().len() as f64).sqrt();
-        parts.push(format!("the error of the known turns is {} rms", number_format::missed_angle(rms)));
+        parts.push(format!("the error of the known turns is {} rms", missed_angle(rms)));
     }
     if let Some(holds) = calibration.holds() {
         parts.extend(holds.tilt.as_ref().map(face_alignment));
@@ -66,7 +63,7 @@ pub(super) fn calibration_quality(calibration: &Calibration) -> Vec<String> {
             0 => "gravity in the holds determines the accelerometer, and no data are left to check it".into(),
             _ => format!(
                 "the gravity residual in the holds is {} mm/s² rms",
-                number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 2)
+                significant(1e3 * holds.magnitude_residual_rms_mps2, 2)
             ),
         });
     }
@@ -77,7 +74,7 @@ pub(super) fn calibration_quality(calibration: &Calibration) -> Vec<String> {
 /// A time offset with its standard deviation: `+11.4 ± 0.7 ms`.
 pub(super) fn milliseconds(time: &TimeOffset) -> String {
     let sign = if time.offset_s > 0.0 { "+" } else { "" };
-    format!("{sign}{} ms", number_format::with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
+    format!("{sign}{} ms", with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
 }
 
 /// What is unknown, or was taken out of the readings: the latitude, gravity beside a motion.
@@ -92,12 +89,27 @@ pub(super) fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
     latitude.into_iter().chain(tilt(calibration)).collect()
 }
 
+/// The reference temperature, the polynomials and the temperatures of the holds; `None` without temperature terms.
+pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> {
+    calibration.holds()?.temperatures_c.as_ref()?;
+    let thermal = &calibration.imu.thermal;
+    let celsius = |t: f64| significant(t, 3);
+    let range = thermal.range_c.map_or_else(String::new, |[low, high]| {
+        format!(". The holds were at {} to {} °C", celsius(low), celsius(high))
+    });
+    Some(format!(
+        "Biases and gains are those at T₀ = {} °C. With τ = T − T₀, a bias increases by bias_per_k τ + bias_per_k2 τ², and a gain is multiplied by \
+         1 + scale_per_k τ + scale_per_k2 τ²{range}.",
+        celsius(thermal.reference_c)
+    ))
+}
+
 /// The tilt of the sensor against gravity beside a commanded motion.
 fn tilt(calibration: &Calibration) -> Option<String> {
     let Recovered::Motion(RecoveredMotion { gravity: Some(recovered), .. }) = &calibration.recovered else {
         return None;
     };
-    let force = recovered.gravity.force_mps2.map(|f| number_format::significant(f, 6));
+    let force = recovered.gravity.force_mps2.map(|f| significant(f, 6));
     let given =
         format!("gravity of ({}, {}, {}) m/s² was taken out of the readings", force.x, force.y, force.z);
     let tilts = recovered.tilts();
@@ -105,7 +117,7 @@ fn tilt(calibration: &Calibration) -> Option<String> {
         return Some(format!("{given}; its direction counts as exact"));
     }
     let degrees = |(name, value, sd): &(String, f64, f64)| {
-        format!("{name} {}°", number_format::with_sd(value.to_degrees(), sd.to_degrees()))
+        format!("{name} {}°", with_sd(value.to_degrees(), sd.to_degrees()))
     };
     let all: Vec<String> = tilts.iter().map(degrees).collect();
     Some(format!("{given}; the sensor's tilt against it is {}, which the biases carry", all.join(", ")))
@@ -115,7 +127,7 @@ fn tilt(calibration: &Calibration) -> Option<String> {
 pub(super) fn bias_drift(calibration: &Calibration) -> Option<(String, &'static str)> {
     let drift = calibration.holds()?.drift.as_deref()?;
     let sd = drift.sd();
-    let axes = [0, 1, 2].map(|axis| number_format::with_sd(drift.value[axis], sd[axis]));
+    let axes = [0, 1, 2].map(|axis| with_sd(drift.value[axis], sd[axis]));
     Some((axes.join(", "), calibration.unit(SensorKind::Accelerometer).symbol()))
 }
 
@@ -124,13 +136,13 @@ fn face_alignment(tilt: &FaceTilt) -> String {
     if tilt.sd_rad == 0.0 && tilt.degrees_of_freedom > 0 {
         return "noise alone explains the scatter of the faces, so no tilt shows".into();
     }
-    let sd = number_format::significant(tilt.sd_rad.to_degrees(), 2);
+    let sd = significant(tilt.sd_rad.to_degrees(), 2);
     format!("the face alignment is {sd}° about each axis, {}", tilt.source_in_words())
 }
 
 /// Whether model and assumed noise explain the data.
 pub(crate) fn noise_explains(p: f64) -> String {
-    let p_value = number_format::probability(p);
+    let p_value = probability(p);
     if p < SIGNIFICANT {
         format!(
             "model and assumed noise do not explain the data (χ² p-value {p_value}): the noise is larger than assumed, or the model misses something"

@@ -1,7 +1,7 @@
 //! Tables of the rotations between holds and of the turns of known angle.
 
 use super::quality::milliseconds;
-use crate::number_format;
+use crate::number_format::{fixed, missed_angle};
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::diagnostic::RotationReason;
 use calibrant_core::estimate::{Calibration, RotationResult};
@@ -19,19 +19,19 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> Table {
     if used > 0 {
         table.explain_on_page(
             "rotation error, rms",
-            number_format::missed_angle(calibration.rotation_rms_rad()),
+            missed_angle(calibration.rotation_rms_rad()),
             "Angle from propagated gravity to measured gravity after a rotation, over the used rotations.",
         );
         table.explain_on_page(
             "rotation error before",
-            number_format::missed_angle(calibration.rotation_rms_before_rad()),
+            missed_angle(calibration.rotation_rms_before_rad()),
             "With one bias and one gain for all axes, or the datasheet's.",
         );
     }
     let excess = calibration.gyroscope.as_ref().map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad);
     table.explain_on_page(
         "beyond the noise, sd per axis",
-        number_format::missed_angle(excess),
+        missed_angle(excess),
         if excess > 0.0 {
             "The part of these errors that the gyroscope's noise does not explain: a wandering bias, timing, vibration. The standard deviations include it."
         } else {
@@ -48,20 +48,19 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> Table {
     table
 }
 
-/// One row for each rotation.
 pub(super) fn rotation_table(rotations: &[RotationResult]) -> Table {
-    let degrees = |heading: &str| Column::new(heading).in_unit("°");
-    let mut table = Table::new([
-        Column::new("holds"),
-        Column::new("start").in_unit("s"),
-        Column::new("end").in_unit("s"),
-        degrees("path"),
-        Column::new("peak").in_unit("°/s"),
-        degrees("before"),
-        degrees("after"),
-        Column::new("studentised"),
-        Column::new("used"),
-    ]);
+    let columns = [
+        ("holds", ""),
+        ("start", "s"),
+        ("end", "s"),
+        ("path", "°"),
+        ("peak", "°/s"),
+        ("before", "°"),
+        ("after", "°"),
+        ("studentised", ""),
+        ("used", ""),
+    ];
+    let mut table = Table::new(columns.map(|(heading, unit)| Column::new(heading).in_unit(unit)));
     for rotation in rotations {
         let found = |value: f64, decimals: usize| {
             if rotation.is_integrated() { Cell::fixed(value, decimals) } else { Cell::Missing }
@@ -82,22 +81,21 @@ pub(super) fn rotation_table(rotations: &[RotationResult]) -> Table {
     table
 }
 
-/// One row for each turn of known angle.
 pub(super) fn turn_table(calibration: &Calibration) -> Table {
-    let degrees = |heading: &str| Column::new(heading).in_unit("°");
-    let mut table = Table::new([
-        Column::new("turn"),
-        Column::new("start").in_unit("s"),
-        Column::new("end").in_unit("s"),
-        degrees("made x, y, z"),
-        degrees("shown x, y, z"),
-        degrees("difference"),
-        Column::new("of the angle"),
-    ]);
+    let columns = [
+        ("turn", ""),
+        ("start", "s"),
+        ("end", "s"),
+        ("made x, y, z", "°"),
+        ("shown x, y, z", "°"),
+        ("difference", "°"),
+        ("of the angle", ""),
+    ];
+    let mut table = Table::new(columns.map(|(heading, unit)| Column::new(heading).in_unit(unit)));
     let checked = calibration.turns_check_the_gains();
     for (number, turn) in calibration.turns().iter().enumerate() {
         let axes = |angle: &nalgebra::Vector3<f64>| {
-            angle.iter().map(|a| number_format::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
+            angle.iter().map(|a| fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
         };
         let missed = (turn.measured_rad - turn.angle_rad).norm();
         let [difference, share] = match checked {

@@ -1,13 +1,13 @@
 //! The verdict on a calibration: can it be used?
 
 use super::quality::{calibration_quality, used_in_words};
-use crate::number_format::capitalised;
+use crate::About;
+use crate::number_format::{capitalised, percent};
 use crate::sheet::{Grade, SheetVerdict};
 use crate::validation::validation_in_short;
-use crate::{About, number_format};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability, Verdict};
 use calibrant_core::estimate::Calibration;
-use calibrant_core::sensor::{Axis, ImuQuantity, Invariant, Quantity, SensorKind};
+use calibrant_core::sensor::{Axis, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind};
 
 /// A standard deviation above this share of the datasheet spread means that the recording determined little.
 const HARDLY_DETERMINED: f64 = 0.5;
@@ -17,7 +17,6 @@ const MOSTLY_PRIOR: f64 = 0.5;
 /// them.
 const IMPROVED: f64 = 0.8;
 
-/// The verdict with its warnings.
 pub(super) fn verdict(calibration: &Calibration, about: &About) -> SheetVerdict {
     let remarks = (not_improved(calibration).into_iter())
         .chain(hardly_determined(calibration))
@@ -80,22 +79,23 @@ fn gains(calibration: &Calibration) -> String {
         let scale = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Scale(Axis::X));
         let place = calibration.quantities.iter().position(|quantity| *quantity == scale);
         let share = place.map_or(f64::NAN, |k| calibration.sd()[k] / calibration.values[k].abs());
-        return format!("The gain is known to {}, one standard deviation", number_format::percent(share));
+        return format!("The gain is known to {}, one standard deviation", percent(share));
     }
     let invariants = calibration.calibrated().invariants();
     let of_sensor = |&sensor_kind: &SensorKind| {
-        let worst = invariants
-            .iter()
-            .filter(|found| matches!(found.invariant, Invariant::Gain(of, _) if of == sensor_kind))
-            .map(|found| found.sd.unwrap_or(0.0) / found.value)
-            .fold(0.0, f64::max);
-        match calibration.gyroscope {
-            None => number_format::percent(worst),
-            Some(_) => format!("{} ({sensor_kind})", number_format::percent(worst)),
-        }
+        let worst = percent(worst_gain(&invariants, sensor_kind));
+        if calibration.gyroscope.is_some() { format!("{worst} ({sensor_kind})") } else { worst }
     };
     let known: Vec<String> = calibration.sensor_kinds().iter().map(of_sensor).collect();
     format!("The gains are known to {}, one standard deviation on the worst axis", known.join(" and "))
+}
+
+/// The largest relative standard deviation of a sensor's gains; 0 where none is known.
+pub(crate) fn worst_gain(invariants: &[InvariantValue], sensor: SensorKind) -> f64 {
+    let of_sensor =
+        |found: &&InvariantValue| matches!(found.invariant, Invariant::Gain(of, _) if of == sensor);
+    let known = invariants.iter().filter(of_sensor).filter_map(|found| Some(found.sd? / found.value));
+    known.fold(0.0, f64::max)
 }
 
 fn not_improved(calibration: &Calibration) -> Option<String> {
@@ -107,37 +107,30 @@ fn not_improved(calibration: &Calibration) -> Option<String> {
     })
 }
 
+/// The names of the parameters that this holds for, by their places; `None` where there are none.
+fn names(calibration: &Calibration, of: impl Fn(usize) -> bool) -> Option<String> {
+    let chosen = (0..calibration.parameters.len()).filter(|&k| of(k));
+    let names: Vec<&str> = chosen.map(|k| calibration.parameters[k].name.as_str()).collect();
+    (!names.is_empty()).then(|| names.join(", "))
+}
+
 /// Parameters that are known little better than from the datasheet. Parameters that are known worse have a warning.
 fn hardly_determined(calibration: &Calibration) -> Option<String> {
-    let names: Vec<&str> = calibration
-        .parameters
-        .iter()
-        .zip(calibration.sd())
-        .filter(|(parameter, sd)| {
-            let within = |spread: f64| spread > 0.0 && (HARDLY_DETERMINED * spread..=spread).contains(sd);
-            parameter.spread.is_some_and(within)
-        })
-        .map(|(parameter, _)| parameter.name.as_str())
-        .collect();
-    (!names.is_empty()).then(|| {
-        format!(
-            "The data determine {} hardly better than the datasheet: the standard deviation is more than half the datasheet spread. \
-             Use a motion that excites it more, or record more data.",
-            names.join(", ")
-        )
-    })
+    let sd = calibration.sd();
+    let within = |k: usize, spread: f64| (HARDLY_DETERMINED * spread..=spread).contains(&sd[k]);
+    let is_hardly =
+        |k: usize| calibration.parameters[k].spread.is_some_and(|spread| spread > 0.0 && within(k, spread));
+    let names = names(calibration, is_hardly)?;
+    Some(format!(
+        "The data determine {names} hardly better than the datasheet: the standard deviation is more than half the datasheet spread. \
+         Use a motion that excites it more, or record more data."
+    ))
 }
 
 fn mostly_prior(calibration: &Calibration) -> Option<String> {
-    let names: Vec<&str> = calibration
-        .parameters
-        .iter()
-        .zip(&calibration.prior_share)
-        .filter(|(_, share)| **share > MOSTLY_PRIOR)
-        .map(|(parameter, _)| parameter.name.as_str())
-        .collect();
-    (!names.is_empty())
-        .then(|| format!("The data give less information than the prior about {}.", names.join(", ")))
+    let names =
+        names(calibration, |k| calibration.prior_share.get(k).is_some_and(|share| *share > MOSTLY_PRIOR))?;
+    Some(format!("The data give less information than the prior about {names}."))
 }
 
 /// An accelerometer alone has a warning about this.

@@ -2,13 +2,13 @@
 
 use super::limits::limit_table;
 use crate::figure::{
-    Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, states, velocity_and_displacement,
+    Drawn, confidence_ellipses, correlation_map, drawn, jerk_and_acceleration, states,
+    velocity_and_displacement,
 };
 use crate::sheet::Section;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{Axis, Parameter};
 use calibrant_design::{Evaluation, LimitUse};
-use std::sync::Arc;
 
 /// A motion with its name: the one before, and the best.
 pub(crate) type Named<'a> = (&'static str, &'a Evaluation);
@@ -23,17 +23,23 @@ pub(crate) fn motion_section<'a>(
     (uses, name): (&[LimitUse], &str),
 ) -> Section<'a> {
     let mut section = Section::on_page("The motion").lead(lead);
-    let drawn = Arc::new((motions, limits));
-    let (first, second, third) = (Arc::clone(&drawn), Arc::clone(&drawn), drawn);
-    section.figure(move || Some(jerk_and_acceleration(title, &first.0, axes, &first.1)));
-    section.figure(move || Some(velocity_and_displacement(&second.0, axes, &second.1)));
-    section.figure(move || states(&third.0, axes, &third.1));
+    section.drawn(move || motion_figures(title, &motions, axes, &limits));
     section.heading_on_page("Use of the limits");
     if uses.is_empty() {
         section.paragraph("There are no limits.");
     }
     section.table(limit_table(uses, name));
     section
+}
+
+/// The figures of motions with their limits.
+pub(crate) fn motion_figures(title: &str, motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> String {
+    drawn([
+        &|| Some(jerk_and_acceleration(title, motions, axes, limits)),
+        &|| Some(velocity_and_displacement(motions, axes, limits)),
+        &|| states(motions, axes, limits),
+    ])
+    .join("\n")
 }
 
 /// The ellipses of both motions, and the correlations of one.
@@ -47,7 +53,9 @@ pub(crate) fn confidence_section<'a>(
         .lead("The uncertainty of the parameters, and which errors are correlated.");
     section.figure(move || confidence_ellipses(parameters, before, after));
     match &correlated.covariance {
-        Some(covariance) => section.drawn(move || correlation_map(parameters, covariance)),
+        Some(covariance) => section.drawn(move || {
+            correlation_map(parameters.iter().map(|parameter| parameter.name.as_str()), covariance)
+        }),
         None => {
             section.paragraph("The motion does not determine the parameters, so they have no covariance.")
         }

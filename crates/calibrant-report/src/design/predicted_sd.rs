@@ -1,7 +1,8 @@
 //! The table of predicted standard deviations of two motions.
 
+use super::criterion::{above, excess_in_words};
 use crate::figure::DisplayUnit;
-use crate::number_format;
+use crate::number_format::{UNKNOWN, fixed, percent, significant};
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Parameter;
@@ -56,55 +57,39 @@ pub(crate) fn promised_table(
 /// A factor of improvement: `65 ×`.
 pub(crate) fn times(factor: f64) -> String {
     match factor {
-        _ if factor.is_finite() && factor < 9.995 => format!("{} ×", number_format::fixed(factor, 2)),
-        _ if factor.is_finite() => format!("{} ×", number_format::significant(factor, 3)),
-        _ => number_format::UNKNOWN.to_string(),
-    }
-}
-
-/// An excess over a bound. Rounding may put it slightly below zero. A loose bound is a matter of factors.
-pub(crate) fn above(excess: f64) -> String {
-    match excess {
-        _ if excess.abs() < 5e-5 => "< 0.01 %".to_string(),
-        _ if excess < 10.0 => number_format::percent(excess),
-        _ => format!("{} times", number_format::significant(excess, 2)),
+        _ if factor.is_finite() && factor < 9.995 => format!("{} ×", fixed(factor, 2)),
+        _ if factor.is_finite() => format!("{} ×", significant(factor, 3)),
+        _ => UNKNOWN.to_string(),
     }
 }
 
 /// The criterion's value for both motions, and its bound.
 pub(crate) fn criterion_table(design: &Design) -> Table {
     let nats = matches!(design.criterion, Criterion::D(_));
-    let shown = |value: f64| Cell::Number(number_format::significant(value - design.floor, 6));
+    let shown = |value: f64| Cell::Number(significant(value - design.floor, 6));
     let mut table = Table::new(["criterion", "value", "meaning"]);
     let mut row = |name: &str, value: Cell, meaning: String| {
         table.row(vec![Cell::Name(name.to_string()), value, Cell::Words(meaning)]);
     };
     if design.floor > 0.0 {
         let meaning = "No motion changes it, and the values below are above it.".to_string();
-        row("share of the tilt", Cell::Number(number_format::significant(design.floor, 4)), meaning);
+        row("share of the tilt", Cell::Number(significant(design.floor, 4)), meaning);
     }
     row("initial motion", shown(design.initial.value), String::new());
     let better = design.gap(design.initial.value, design.optimal.value);
     let meaning = match better {
         _ if !better.is_finite() => String::new(),
-        _ if nats => format!("{} nats below the initial motion.", number_format::significant(better, 3)),
+        _ if nats => format!("{} nats below the initial motion.", significant(better, 3)),
         _ if better < 0.5 => {
-            format!("The initial motion's value is {} higher.", number_format::percent(better))
+            format!("The initial motion's value is {} higher.", percent(better))
         }
         _ => {
-            format!(
-                "The initial motion's value is {} times as large.",
-                number_format::significant(1.0 + better, 3)
-            )
+            format!("The initial motion's value is {} times as large.", significant(1.0 + better, 3))
         }
     };
     row("optimal motion", shown(design.optimal.value), meaning);
     if let Some(certificate) = &design.certificate {
-        let gap = if nats {
-            format!("{} nats", number_format::significant(certificate.gap, 2))
-        } else {
-            above(certificate.gap)
-        };
+        let gap = excess_in_words(&design.criterion, certificate.gap);
         row(
             "lower bound",
             shown(certificate.lower_bound),

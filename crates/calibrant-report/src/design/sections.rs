@@ -1,15 +1,17 @@
 //! The sections of a design, in their order.
 
-use super::axes;
-use super::in_short;
+use super::criterion::{criterion_explained, criterion_in_words};
+use super::limits::{axes, uses};
 use super::motions::{confidence_section, motion_section};
 use super::predicted_sd::{criterion_table, promised_table};
 use super::starts;
 use super::verdict::verdict;
-use crate::About;
 use crate::figure::{Drawn, start_values};
+use crate::number_format::{counted, short, significant};
+use crate::report_context::{About, READINGS};
 use crate::sheet::{Section, Sheet};
-use calibrant_design::{Design, limit_use};
+use calibrant_core::information::Criterion;
+use calibrant_design::{AT_BEST, Design, LimitUse};
 
 /// A design as a sheet: the certificate in words, the predicted standard deviations of initial and optimal motion,
 /// the motions with their limits, confidence ellipses, correlations, and the starts of the search.
@@ -26,16 +28,11 @@ pub fn design_sheet<'a>(design: &'a Design, about: &'a About) -> Sheet<'a> {
         ],
         axes,
         design.limits.clone(),
-        (&limit_use(&design.limits, axes.len(), &design.optimal.motion), "optimal motion"),
+        (&uses(&design.limits, &design.parameters, &design.optimal.motion), "optimal motion"),
     );
     let confidence = confidence_section(&design.parameters, initial, Some(optimal), &design.optimal);
-    Sheet {
-        title: if about.title.is_empty() { "Design".into() } else { about.title.clone() },
-        verdict: Some(verdict(design, about)),
-        sections: vec![predicted(design), motion, confidence, search(design)],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = vec![predicted(design), motion, confidence, search(design)];
+    about.sheet("Design", verdict(design, about), sections, READINGS)
 }
 
 fn predicted(design: &Design) -> Section<'_> {
@@ -43,19 +40,14 @@ fn predicted(design: &Design) -> Section<'_> {
         "Standard deviations that a calibration from a recording of the motion will state. The initial motion is what experience would \
          choose: random, within a tenth of the limits.",
     );
-    section.line(in_short::values(design));
+    section.line(values(design));
     section.table(promised_table(
         &design.parameters,
         ("initial", &design.initial),
         Some(("optimal", &design.optimal)),
         design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice()),
     ));
-    section.explanation(format!(
-        "The design minimises criterion {}, {} (C is the covariance of the parameters{}).",
-        design.criterion.letter(),
-        design.criterion.formula(),
-        design.criterion.scaling()
-    ));
+    section.explanation(format!("The design minimises {}.", criterion_explained(&design.criterion)));
     section.table(criterion_table(design).on_page());
     if let Some(certificate) = &design.certificate {
         section.heading_on_page("The lower bound");
@@ -63,8 +55,8 @@ fn predicted(design: &Design) -> Section<'_> {
         section
             .explanation("Each standard deviation has its own bound. One motion need not reach all of them.");
     }
-    in_short::starts(design).into_iter().for_each(|line| section.line(line));
-    in_short::reached_limits(design).into_iter().for_each(|line| section.line(line));
+    starts_in_short(design).into_iter().for_each(|line| section.line(line));
+    reached_limits(design).into_iter().for_each(|line| section.line(line));
     section.line(design.statement());
     section
 }
@@ -82,4 +74,47 @@ fn search(design: &Design) -> Section<'_> {
     section.figure(|| start_values(&design.starts, &design.criterion));
     starts::add_start_table(&mut section, &design.starts, &design.criterion);
     section
+}
+
+/// The values of the criterion for both motions.
+fn values(design: &Design) -> String {
+    let above = if design.floor > 0.0 {
+        format!(", above {} of the tilt, which no motion changes", significant(design.floor, 4))
+    } else {
+        String::new()
+    };
+    format!(
+        "{}: {} initial, {} optimal{above}",
+        criterion_in_words(&design.criterion),
+        significant(design.initial.value - design.floor, 5),
+        significant(design.optimal.value - design.floor, 5)
+    )
+}
+
+/// The starts of the search; `None` where none is recorded.
+fn starts_in_short(design: &Design) -> Option<String> {
+    let all = design.starts.len();
+    let at_best = match &design.criterion {
+        _ if !design.optimal.value.is_finite() => String::new(),
+        Criterion::D(_) => format!(", {} within {AT_BEST} nats of the best", design.starts_at_best()),
+        _ => format!(", {} within {} % of the best", design.starts_at_best(), short(100.0 * AT_BEST)),
+    };
+    (all > 0).then(|| {
+        format!(
+            "{}, {} converged{at_best}; {}",
+            counted(all, "start"),
+            design.starts_converged(),
+            counted(design.iterations, "iteration")
+        )
+    })
+}
+
+/// The limits that the optimal motion reaches to within a thousandth.
+fn reached_limits(design: &Design) -> Option<String> {
+    let uses = uses(&design.limits, &design.parameters, &design.optimal.motion);
+    let is_reached = |found: &&LimitUse| found.limit > 0.0 && found.value.abs() >= 0.999 * found.limit;
+    let mut names: Vec<&str> = uses.iter().filter(is_reached).map(|found| found.kind.name()).collect();
+    names.sort_unstable();
+    names.dedup();
+    (!names.is_empty()).then(|| format!("the motion reaches its limits of {}", names.join(", ")))
 }

@@ -1,7 +1,6 @@
 //! The table of the starts of the search.
 
-use crate::number_format;
-use crate::number_format::capitalised;
+use crate::number_format::{capitalised, count, counted, percent, short, significant};
 use crate::sheet::{Cell, Section, Table};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
@@ -23,13 +22,11 @@ impl StartGroup<'_> {
         self.criterion.gap(start.value, self.sorted[0].value)
     }
 
-    /// How many starts reached the best value.
     pub(crate) fn reached(&self) -> usize {
         self.sorted.iter().filter(|start| self.excess(start).abs() <= AT_BEST).count()
     }
 }
 
-/// The starts by their axes.
 pub(crate) fn groups<'a>(starts: &'a [StartOutcome], criterion: &'a Criterion) -> Vec<StartGroup<'a>> {
     let mut groups: Vec<StartGroup<'a>> = Vec::new();
     for start in starts {
@@ -53,19 +50,18 @@ pub(crate) fn name(axes: &[Axis]) -> String {
 /// One sentence for each group: how many starts reached its best value.
 pub(crate) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<String> {
     let within = match criterion {
-        Criterion::D(_) => format!("{} nats", number_format::significant(AT_BEST, 1)),
-        _ => format!("{} %", number_format::short(100.0 * AT_BEST)),
+        Criterion::D(_) => format!("{} nats", significant(AT_BEST, 1)),
+        _ => format!("{} %", short(100.0 * AT_BEST)),
     };
     groups(starts, criterion)
         .iter()
         .map(|group| {
             let all = group.sorted.len();
             format!(
-                "{}: {} of {} start{} ended within {within} of the best value.",
+                "{}: {} of {} ended within {within} of the best value.",
                 capitalised(&name(&group.axes)),
                 group.reached(),
-                number_format::count(all),
-                if all == 1 { "" } else { "s" }
+                counted(all, "start")
             )
         })
         .collect()
@@ -90,10 +86,10 @@ fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Table {
         for (rank, start) in group.sorted.iter().enumerate() {
             let excess = group.excess(start);
             let excess = match criterion {
-                Criterion::D(_) => number_format::significant(excess, 2),
+                Criterion::D(_) => significant(excess, 2),
                 _ if excess == 0.0 => "0 %".to_string(),
-                _ if excess <= AT_BEST => format!("< {} %", number_format::short(100.0 * AT_BEST)),
-                _ => number_format::percent(excess),
+                _ if excess <= AT_BEST => format!("< {} %", short(100.0 * AT_BEST)),
+                _ => percent(excess),
             };
             let cells = vec![
                 Cell::Name((rank + 1).to_string()),
@@ -103,15 +99,12 @@ fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Table {
                 } else {
                     start.number.to_string()
                 }),
-                Cell::Number(number_format::significant(start.initial_value, 5)),
-                Cell::Number(number_format::significant(start.value, 8)),
+                Cell::Number(significant(start.initial_value, 5)),
+                Cell::Number(significant(start.value, 8)),
                 Cell::Number(excess),
                 Cell::Number(start.iterations.to_string()),
             ];
-            let converged = start.status == DesignStatus::Converged;
-            let ended = status(start.status).to_string();
-            let ended = if converged { Cell::Text(ended) } else { Cell::Mark(ended) };
-            table.row(cells.into_iter().chain([ended]).collect());
+            table.row(cells.into_iter().chain([ended(start.status)]).collect());
         }
     }
     table
@@ -123,10 +116,16 @@ pub(crate) fn add_start_table(section: &mut Section<'_>, starts: &[StartOutcome]
     if starts.len() > MOST_UNFOLDED {
         let mut within = Section::default();
         within.table(table);
-        section.folded(format!("All {} starts, best first", number_format::count(starts.len())), within);
+        section.folded(format!("All {} starts, best first", count(starts.len())), within);
     } else {
         section.table(table);
     }
+}
+
+/// The cell of how a search ended.
+pub(crate) fn ended(ended: DesignStatus) -> Cell {
+    let words = status(ended).to_owned();
+    if ended == DesignStatus::Converged { Cell::Text(words) } else { Cell::Mark(words) }
 }
 
 /// How a search ended, in words.

@@ -1,15 +1,15 @@
 //! The verdict on a design: how good is the motion, and what is the evidence?
 
-use super::axes;
-use super::predicted_sd::{above, times};
+use super::criterion::excess_in_words;
+use super::limits::uses;
+use super::predicted_sd::times;
 use crate::About;
 use crate::figure::DisplayUnit;
-use crate::number_format;
+use crate::number_format::{percent, significant};
 use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::information::Criterion;
-use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
-use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitUse, limit_use};
+use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitKind, LimitUse};
 
 /// A standard deviation within this share of its lower bound counts as optimal.
 const PROVED: f64 = 0.01;
@@ -20,7 +20,8 @@ const NEAR: f64 = 0.1;
 
 /// The verdict and everything that qualifies it. Terminals show the sentence on the certificate instead.
 pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
-    let broken = violations(&design.limits, axes(&design.parameters).len(), &design.optimal);
+    let uses = uses(&design.limits, &design.parameters, &design.optimal.motion);
+    let broken: Vec<String> = uses.iter().filter(|found| found.is_violated()).map(broken_limit).collect();
     let (grade, word, sentences) = judge(design, &broken);
     SheetVerdict::new(grade, word, sentences.join(" "))
         .with("Broken limits", broken)
@@ -35,10 +36,7 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
                     move the named axes.";
         return (Grade::Bad, "✗ Useless for calibration.".into(), vec![what.to_string()]);
     }
-    let mut sentences = Vec::new();
-    if let Some(sentence) = unfinished(design.status) {
-        sentences.push(sentence.to_string());
-    }
+    let mut sentences: Vec<String> = unfinished(design.status).into_iter().collect();
     let nearest = design.certificate.as_ref().map(|certificate| bound(design, certificate, &mut sentences));
     if design.certificate.is_none() {
         sentences.push(
@@ -48,38 +46,27 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
     }
     sentences.extend(design.gap_statement());
     sentences.extend(improvement(design));
-    match nearest {
-        _ if !broken.is_empty() => (Grade::Bad, "✗ Not admissible.".into(), sentences),
-        _ if design.status == DesignStatus::Interrupted => {
-            (Grade::Caution, "! Interrupted.".into(), sentences)
+    let (grade, word) = match nearest {
+        _ if !broken.is_empty() => (Grade::Bad, "✗ Not admissible.".into()),
+        _ if design.status == DesignStatus::Interrupted => (Grade::Caution, "! Interrupted.".into()),
+        _ if design.status != DesignStatus::Converged => (Grade::Caution, "! Not converged.".into()),
+        Some(excess) if excess < 5e-5 => (Grade::Good, "✓ Proved optimal.".into()),
+        Some(excess) if excess <= NEAR => {
+            (Grade::Good, format!("✓ Proved optimal to within {}.", percent(excess)))
         }
-        _ if design.status != DesignStatus::Converged => {
-            (Grade::Caution, "! Not converged.".into(), sentences)
-        }
-        Some(excess) if excess < 5e-5 => (Grade::Good, "✓ Proved optimal.".into(), sentences),
-        Some(excess) if excess <= NEAR => (
-            Grade::Good,
-            format!("✓ Proved optimal to within {}.", number_format::percent(excess)),
-            sentences,
-        ),
-        _ => (Grade::Good, "✓ Converged.".into(), sentences),
-    }
+        _ => (Grade::Good, "✓ Converged.".into()),
+    };
+    (grade, word, sentences)
 }
 
-fn unfinished(status: DesignStatus) -> Option<&'static str> {
-    match status {
-        DesignStatus::Converged => None,
-        DesignStatus::IterationLimit => Some(
-            "The search stopped at its limit of iterations. The motion keeps the limits and can be used, but a better one may be near.",
-        ),
-        DesignStatus::Stalled => Some(
-            "The search stalled because a step could not be computed. The motion keeps the limits and can be used, but a better one may be \
-             near.",
-        ),
-        DesignStatus::Interrupted => Some(
-            "The search was interrupted. The motion is the best so far. It keeps the limits and can be used, but a better one may be near.",
-        ),
-    }
+fn unfinished(status: DesignStatus) -> Option<String> {
+    let what = match status {
+        DesignStatus::Converged => return None,
+        DesignStatus::IterationLimit => "stopped at its limit of iterations. The motion",
+        DesignStatus::Stalled => "stalled because a step could not be computed. The motion",
+        DesignStatus::Interrupted => "was interrupted. The motion is the best so far. It",
+    };
+    Some(format!("The search {what} keeps the limits and can be used, but a better one may be near."))
 }
 
 /// Adds what the certificate proves. Returns the distance of the worst parameter from its bound.
@@ -97,23 +84,22 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
         sentences.push(format!(
             "No admissible motion can bring criterion {} below {}; this motion is at most {} above it.",
             design.criterion.letter(),
-            number_format::significant(certificate.lower_bound, 5),
-            gap(&design.criterion, certificate.gap)
+            significant(certificate.lower_bound, 5),
+            excess_in_words(&design.criterion, certificate.gap)
         ));
         return if matches!(design.criterion, Criterion::D(_)) { f64::INFINITY } else { certificate.gap };
     };
     let unit = DisplayUnit::suited(parameter.unit, sd);
-    let shown =
-        |value: f64| format!("{} {}", number_format::significant(value * unit.factor, 4), unit.symbol);
+    let shown = |value: f64| unit.text(value, 4);
     sentences.push(format!(
         "No motion within the limits can give {} a standard deviation below {}; this motion gives {}, {}.",
         parameter.name,
-        shown(least).trim_end(),
-        shown(sd).trim_end(),
+        shown(least),
+        shown(sd),
         match sd / least - 1.0 {
             excess if excess < 5e-5 => "less than 0.01 % above the bound".to_string(),
-            excess if excess < 1.0 => format!("{} above the bound", number_format::percent(excess)),
-            excess => format!("{} times the bound", number_format::significant(1.0 + excess, 2)),
+            excess if excess < 1.0 => format!("{} above the bound", percent(excess)),
+            excess => format!("{} times the bound", significant(1.0 + excess, 2)),
         }
     ));
     if excess.len() > 1 {
@@ -127,13 +113,6 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
         );
     }
     farthest
-}
-
-fn gap(criterion: &Criterion, gap: f64) -> String {
-    match criterion {
-        Criterion::D(_) => format!("{} nats", number_format::significant(gap, 2)),
-        _ => above(gap),
-    }
 }
 
 fn improvement(design: &Design) -> Option<String> {
@@ -190,21 +169,28 @@ pub(crate) fn undetermined_items(evaluation: &Evaluation) -> Vec<String> {
         .collect()
 }
 
-/// One item for each limit that a motion breaks.
-fn violations(limits: &Limits, axes: usize, evaluation: &Evaluation) -> Vec<String> {
-    let uses = limit_use(limits, axes, &evaluation.motion);
-    uses.iter().filter(|found| found.is_violated()).map(violation).collect()
-}
-
-/// A broken limit in words.
-pub(crate) fn violation(found: &LimitUse) -> String {
-    let unit = found.kind.unit();
-    format!(
-        "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
-        found.kind.name(),
-        found.axis,
-        number_format::significant(found.value, 4),
-        number_format::short(found.time_s),
-        number_format::short(found.limit)
-    )
+/// A broken limit, and by how much.
+pub(crate) fn broken_limit(found: &LimitUse) -> String {
+    let (axis, unit) = (found.axis, found.kind.unit());
+    let number = |value: f64| significant(value, 4);
+    match found.kind {
+        LimitKind::RestAtEnd => {
+            format!("axis {axis} still moves at the end, at {} {unit}", number(found.value))
+        }
+        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
+            "{} of axis {axis} is {} {unit}, prescribed is {}",
+            found.kind.name(),
+            number(found.value),
+            number(found.limit)
+        ),
+        kind => format!(
+            "{} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
+            kind.name(),
+            number(found.value),
+            number(found.time_s),
+            number(found.excess()),
+            number(found.limit),
+            significant(100.0 * found.violation, 3)
+        ),
+    }
 }

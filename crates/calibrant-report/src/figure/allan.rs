@@ -1,6 +1,7 @@
 //! The Allan deviation plot.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::frame::caption;
+use super::panel::{Panel, Points, Series, Shape};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::noise::{AxisNoise, PowerLaw, SensorNoise};
@@ -19,35 +20,35 @@ pub(crate) fn allan_figure(noise: &SensorNoise) -> Figure {
     let extremes: Vec<f64> =
         panels.iter().filter_map(Panel::axes).flat_map(|[_, y]| [y.range.0, y.range.1]).collect();
     panels.iter_mut().for_each(|panel| panel.y_includes.clone_from(&extremes));
-    let caption = "Markers: overlapping Allan deviation. Band: its 95 % bounds, wide for cluster times with few clusters. Solid: the fit. \
-                   Dashed: its parts, each with its slope: −1 quantisation, −½ white noise (N is its value at 1 s), 0 bias instability (0.664 B), \
-                   +½ rate random walk (K √(τ/3)). A part that is drawn, but not determined in the table, is too uncertain for a value.";
-    let mut caption = caption.to_string();
-    let mut add = |applies: bool, sentence: &str| {
-        if applies {
-            caption.push(' ');
-            caption.push_str(sentence);
-        }
-    };
     let has_filter = |panel: &Panel| panel.series.iter().any(|series| series.label == FILTER);
     let any = |of: fn(&AxisNoise) -> bool| noise.axes.iter().any(of);
-    add(
-        panels.iter().any(has_filter),
-        "The samples are filtered: slope −1 at short cluster times comes from the filter, not from quantisation.",
-    );
-    add(any(|axis| axis.fit.vibration.is_some()), "The markers include the vibration. The fit excludes it.");
-    add(
-        any(|axis| axis.fit.drift.is_significant()),
-        "A linear drift (slope +1) has its own line. It is not noise, and the fit excludes it.",
+    let caption = caption(
+        "Markers: overlapping Allan deviation. Band: its 95 % bounds, wide for cluster times with few clusters. Solid: the fit. \
+         Dashed: its parts, each with its slope: −1 quantisation, −½ white noise (N is its value at 1 s), 0 bias instability (0.664 B), \
+         +½ rate random walk (K √(τ/3)). A part that is drawn, but not determined in the table, is too uncertain for a value.",
+        &[
+            (
+                panels.iter().any(has_filter),
+                "The samples are filtered: slope −1 at short cluster times comes from the filter, not from quantisation.",
+            ),
+            (
+                any(|axis| axis.fit.vibration.is_some()),
+                "The markers include the vibration. The fit excludes it.",
+            ),
+            (
+                any(|axis| axis.fit.drift.is_significant()),
+                "A linear drift (slope +1) has its own line. It is not noise, and the fit excludes it.",
+            ),
+        ],
     );
     Figure::new(format!("Allan deviation of the {}", noise.sensor_kind), panels, caption).with_columns(2)
 }
 
 fn panel(axis: &AxisNoise, unit: DisplayUnit) -> Panel {
-    let points = &axis.allan.points;
+    let (fit, points) = (&axis.fit, &axis.allan.points);
     let (first, last) =
         (points.first().map_or(1.0, |point| point.tau_s), points.last().map_or(1.0, |point| point.tau_s));
-    let curve = |f: &dyn Fn(f64) -> f64, from: f64, to: f64| -> Vec<(f64, f64)> {
+    let curve = |f: &dyn Fn(f64) -> f64, from: f64, to: f64| -> Points {
         let tau = |i: usize| from * (to / from).powf(i as f64 / (LINE - 1) as f64);
         (0..LINE).map(|i| (tau(i), unit.factor * f(tau(i)))).collect()
     };
@@ -59,38 +60,32 @@ fn panel(axis: &AxisNoise, unit: DisplayUnit) -> Panel {
         points.iter().map(|point| (point.tau_s, 0.5 * unit.factor * (point.low + point.high))).collect();
     let half = points.iter().map(|point| 0.5 * unit.factor * (point.high - point.low)).collect();
     let marks = points.iter().map(|point| (point.tau_s, unit.factor * point.deviation)).collect();
-    panel = panel
-        .with(Series::new("95 % bounds", colour::SKY, Mark::Band, middle).with_spread(half))
-        .with(Series::dots("Allan deviation", colour::BLUE, Shape::Circle, marks));
+    panel = panel.with(Series::band("95 % bounds", colour::SKY, middle, half)).with(Series::dots(
+        "Allan deviation",
+        colour::BLUE,
+        (Shape::Circle, 2.2),
+        marks,
+    ));
 
-    let (fit, lowest) =
-        (&axis.fit, 0.5 * unit.factor * points.iter().map(|point| point.low).fold(f64::INFINITY, f64::min));
+    let lowest = 0.5 * unit.factor * points.iter().map(|point| point.low).fold(f64::INFINITY, f64::min);
+    let part = |f: &dyn Fn(f64) -> f64| -> Points {
+        curve(f, first, last).into_iter().filter(|point| point.1 > lowest).collect()
+    };
     let shortest = if fit.filtered { FILTER } else { "quantisation Q" };
-    let parts = [
+    for (process, label, colour) in [
         (PowerLaw::Quantisation, shortest, colour::GREY),
         (PowerLaw::White, "white noise N", colour::GREEN),
         (PowerLaw::Flicker, "bias instability B", colour::ORANGE),
         (PowerLaw::RandomWalk, "rate random walk K", colour::VERMILLION),
-    ];
-    let dashed = Mark::Line { width: 1.4, dashes: "5 4" };
-    for (process, label, colour) in parts {
-        let part: Vec<_> = curve(&|tau| fit.model.share(process, tau), first, last)
-            .into_iter()
-            .filter(|point| point.1 > lowest)
-            .collect();
+    ] {
+        let part = part(&|tau| fit.model.share(process, tau));
         if part.len() > 1 {
-            panel = panel.with(Series::new(label, colour, dashed, part));
+            panel = panel.with(Series::stroke(label, colour, (1.4, "5 4"), part));
         }
     }
     if fit.drift.is_significant() {
-        let part = curve(&|tau| fit.drift.allan_deviation(tau), first, last);
-        let part: Vec<_> = part.into_iter().filter(|point| point.1 > lowest).collect();
-        panel = panel.with(Series::new(
-            "linear drift",
-            colour::GREY,
-            Mark::Line { width: 1.4, dashes: "1 3" },
-            part,
-        ));
+        let part = part(&|tau| fit.drift.allan_deviation(tau));
+        panel = panel.with(Series::stroke("linear drift", colour::GREY, (1.4, "1 3"), part));
     }
     let fitted = curve(&|tau| fit.model.deviation(tau), fit.shortest_tau_s, fit.longest_tau_s);
     panel.with(Series::line("fit", colour::BLACK, fitted))

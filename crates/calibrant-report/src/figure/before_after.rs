@@ -1,6 +1,7 @@
 //! Figures of the readings before and after the correction.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::frame::caption;
+use super::panel::{Mark, Panel, Points, Series, Shape};
 use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
@@ -8,44 +9,28 @@ use calibrant_core::estimate::{Calibration, HoldCalibration, Uncalibrated};
 use calibrant_core::sensor::{Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording};
 use nalgebra::Vector3;
 
-/// Legend of readings before the correction.
 const BEFORE: &str = "before";
-/// Legend of readings after the correction.
 const AFTER: &str = "after";
 
 /// Magnitude of the mean reading of each hold less gravity. One panel has both before and after, another has
 /// after alone. `None` without holds.
 pub(crate) fn holds_before_and_after(holds: &HoldCalibration) -> Option<Figure> {
     let numbered = || (1..).map(f64::from).zip(&holds.holds);
-    let before: Vec<(f64, f64)> = numbered()
+    let before: Points = numbered()
         .filter_map(|(number, result)| Some((number, holds.magnitude_residual_before_mps2(&result.hold)?)))
         .collect();
     if before.is_empty() {
         return None;
     }
-    let after = |used: bool| -> Vec<(f64, f64)> {
-        numbered()
-            .filter(|(_, result)| result.used == used)
-            .map(|(number, result)| (number, result.magnitude_residual_mps2))
-            .collect()
+    let with_after = |panel: Panel, factor: f64| {
+        let after = numbered()
+            .map(|(number, result)| (result.used, (number, factor * result.magnitude_residual_mps2)));
+        let panel = panel.with_used([AFTER, "after, not used"], [3.0, 4.5], after);
+        panel.log_or_from_zero(false)
     };
-    let with_after = |mut panel: Panel, factor: f64| {
-        let mut dots = |label: &str, colour, shape, radius, points: Vec<(f64, f64)>| {
-            let points = points.into_iter().map(|(number, residual)| (number, factor * residual)).collect();
-            panel.series.push(Series::new(label, colour, Mark::Dots { shape, radius }, points));
-        };
-        dots(AFTER, colour::BLUE, Shape::Circle, 3.0, after(true));
-        let left_out = after(false);
-        if !left_out.is_empty() {
-            dots("after, not used", colour::VERMILLION, Shape::Cross, 4.5, left_out);
-        }
-        panel.y_includes.push(0.0);
-        panel
-    };
-    let stems = Series::new("", colour::GREY, Mark::Stems, before.clone());
-    let squares =
-        Series::new(BEFORE, colour::ORANGE, Mark::Dots { shape: Shape::Square, radius: 3.0 }, before);
-    let both = Panel::new("before and after", "hold", "|f| − g (m/s²)").with(stems).with(squares);
+    let both = Panel::new("before and after", "hold", "|f| − g (m/s²)")
+        .with(Series::new("", colour::GREY, Mark::Stems, before.clone()))
+        .with(Series::dots(BEFORE, colour::ORANGE, (Shape::Square, 3.0), before));
     let residuals = holds.holds.iter().map(|result| result.magnitude_residual_mps2);
     let unit = DisplayUnit::suited_to("m/s²", residuals);
     let alone = Panel::new("after alone", "hold", unit.label("|f| − g"));
@@ -78,19 +63,31 @@ pub(crate) fn recording_before_and_after(
         )
     };
     let (forces, rates) = rayon::join(|| force_panels(holds, &forces.values, accelerometer), rates);
-    let (before, rates_in_words) = match &calibration.gyroscope {
-        None => (format!("Before: {}.", holds.before.source), ""),
-        Some(gyroscope) => (
-            format!(
-                "Before, accelerometer: {}; gyroscope: {}.",
-                holds.before.source, gyroscope.before.source
-            ),
-            " The correction of the gyroscope is far smaller than the rates, so its change is shown. At rest, only the g-sensitivity changes the rate. In rotations, misalignment \
-             and gains change it, too.",
-        ),
+    let before = match &calibration.gyroscope {
+        None => format!("Before: {}.", holds.before.source),
+        Some(of) => {
+            format!("Before, accelerometer: {}; gyroscope: {}.", holds.before.source, of.before.source)
+        }
     };
     let panels = forces?.into_iter().chain(rates.into_iter().flatten()).collect();
-    let caption = caption(recording.gyroscope.as_ref().unwrap_or(accelerometer), &before, rates_in_words);
+    let always = format!(
+        "Magnitude of the specific force, of all samples and in the holds, where a bar reaches from the smallest to the largest. {before} Good: the blue line and all \
+         blue bars lie about g, as wide as the noise of the samples."
+    );
+    let caption = caption(
+        &always,
+        &[
+            (
+                calibration.gyroscope.is_some(),
+                "The correction of the gyroscope is far smaller than the rates, so its change is shown. At rest, only the g-sensitivity changes the rate. In rotations, misalignment \
+             and gains change it, too.",
+            ),
+            (
+                is_thinned(recording.gyroscope.as_ref().unwrap_or(accelerometer).len()),
+                "The smallest and the largest value of each pixel column are drawn.",
+            ),
+        ],
+    );
     Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
 }
 
@@ -106,20 +103,16 @@ fn force_panels(
     let after: Vec<f64> = after.iter().map(Vector3::norm).collect();
     let before = |k: usize| (recording.times_s()[k], before[k]);
     let after = |k: usize| (recording.times_s()[k], after[k]);
-    let all = || 0..recording.len();
-    let thin = Mark::Line { width: 0.9, dashes: "" };
-    let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
+    let line = |label: &str, colour, of: &dyn Fn(usize) -> (f64, f64)| {
+        Series::stroke(label, colour, (0.9, ""), thinned((0..recording.len()).map(of)))
+    };
     let (first, last) = (*recording.times_s().first()?, *recording.times_s().last()?);
-    let at_gravity = Series::new(
-        "g",
-        colour::BLACK,
-        Mark::Line { width: 1.2, dashes: "7 4" },
-        vec![(first, gravity), (last, gravity)],
-    );
+    let at_gravity =
+        Series::stroke("g", colour::BLACK, (1.2, "7 4"), vec![(first, gravity), (last, gravity)]);
     Some(vec![
         Panel::new("specific force", "time (s)", "|f| (m/s²)")
-            .with(line(BEFORE, colour::ORANGE, thinned(all().map(before))))
-            .with(line(AFTER, colour::BLUE, thinned(all().map(after))))
+            .with(line(BEFORE, colour::ORANGE, &before))
+            .with(line(AFTER, colour::BLUE, &after))
             .with(at_gravity.clone()),
         Panel::new("specific force in holds", "time (s)", "|f| (m/s²)")
             .with(ranges("before, in a hold", colour::ORANGE, 5.5, holds, before))
@@ -143,19 +136,18 @@ fn ranges(
         ((middle_s, 0.5 * (low + high)), 0.5 * (high - low))
     });
     let (points, spread) = ends.unzip();
-    Series::new(label, colour, Mark::Ranges { width }, points).with_spread(spread)
+    Series { spread, ..Series::new(label, colour, Mark::Ranges { width }, points) }
 }
 
 /// The rate after the correction, and the change by it. `after` are the corrected readings.
 fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Recording) -> Option<Vec<Panel>> {
     let before = Correction::of(&before.sensor)?;
     let after = || recording.times_s().iter().copied().zip(after);
-    let thin = Mark::Line { width: 0.9, dashes: "" };
     let magnitude = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
-    let rate = Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
+    let rate = Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::stroke(
         AFTER,
         colour::BLUE,
-        thin,
+        (0.9, ""),
         magnitude,
     ));
     let mut change = Panel::new("change by the correction", "time (s)", "ω after − before (°/s)");
@@ -165,23 +157,8 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
         let difference = thinned(after().zip(recording.readings()).map(|((t, after), reading)| {
             (t, (after[axis.index()] - row.dot(&(reading - before.bias))).to_degrees())
         }));
-        change = change.with(Series::new(
-            &format!("change of axis {axis}"),
-            colour,
-            Mark::Line { width: 1.1, dashes },
-            difference,
-        ));
+        let label = format!("change of axis {axis}");
+        change = change.with(Series::stroke(&label, colour, (1.1, dashes), difference));
     }
     Some(vec![rate, change])
-}
-
-fn caption(recording: &Recording, before: &str, more: &str) -> String {
-    let mut caption = format!(
-        "Magnitude of the specific force, of all samples and in the holds, where a bar reaches from the smallest to the largest. {before} Good: the blue line and all \
-         blue bars lie about g, as wide as the noise of the samples.{more}"
-    );
-    if is_thinned(recording.len()) {
-        caption.push_str(" The smallest and the largest value of each pixel column are drawn.");
-    }
-    caption
 }

@@ -1,6 +1,9 @@
-//! Names of clipping paths in a page, made the same in every run.
+//! What a page needs for its figures: their script, and names of clipping paths that are the same in every run.
 
 use std::collections::BTreeMap;
+
+/// Shows values, and zooms, in panels that state the ranges of their axes. It reads the drawings and the legends.
+pub(crate) const CHART_SCRIPT: &str = include_str!("chart.js");
 
 /// The prefix of the plotting library's names of clipping paths; a number follows.
 const CLIP: &str = "kuva-clip-";

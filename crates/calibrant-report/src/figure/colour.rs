@@ -1,22 +1,15 @@
 //! Okabe–Ito colours, which readers with all common kinds of colour vision can distinguish.
 
-/// Black.
 pub(super) const BLACK: &str = "#000000";
-/// Orange.
 pub(super) const ORANGE: &str = "#e69f00";
-/// Sky blue.
 pub(super) const SKY: &str = "#56b4e9";
-/// Bluish green.
 pub(super) const GREEN: &str = "#009e73";
-/// Blue.
 pub(super) const BLUE: &str = "#0072b2";
-/// Vermillion, an orange red.
 pub(super) const VERMILLION: &str = "#d55e00";
-#[cfg(feature = "study")]
-/// Reddish purple.
 pub(super) const PURPLE: &str = "#cc79a7";
-/// Grey.
 pub(super) const GREY: &str = "#6e7781";
+/// Those of the axes x, y and z.
+pub(super) const AXES: [&str; 3] = [VERMILLION, GREEN, BLUE];
 
 #[cfg(feature = "study")]
 /// The look of each of many lines: a colour and SVG's dashes. The first ten have colours of their own, which also differ in lightness from

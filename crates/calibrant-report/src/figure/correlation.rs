@@ -3,21 +3,20 @@
 //! A table rather than a plot: its letters keep their size on a phone, and its numbers can be read aloud and copied.
 
 use crate::html::escape;
-use crate::number_format;
-use calibrant_core::sensor::Parameter;
+use crate::number_format::{UNKNOWN, fixed};
 use nalgebra::DMatrix;
 
 /// Beyond this number of parameters, columns bear numbers in place of names.
 const NARROW: usize = 14;
 
-/// The correlations of a covariance: their lower triangle, coloured by sign and size.
-pub(crate) fn correlation_map(parameters: &[Parameter], covariance: &DMatrix<f64>) -> String {
-    let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-    correlation_map_of(&names, covariance)
-}
-
-/// The same for parameters of these names. Many of them are numbered, so that the map stays narrow.
-pub(crate) fn correlation_map_of(names: &[&str], covariance: &DMatrix<f64>) -> String {
+/// The correlations of a covariance of parameters of these names: their lower triangle, coloured by sign and size. Many of them are numbered, so that the
+/// map stays narrow.
+pub(crate) fn correlation_map<'a>(
+    names: impl IntoIterator<Item = &'a str>,
+    covariance: &DMatrix<f64>,
+) -> String {
+    let names: Vec<&str> = names.into_iter().collect();
+    let names = names.as_slice();
     let sd = covariance.diagonal().map(f64::sqrt);
     let numbered = names.len() > NARROW;
     let mut rows = String::new();
@@ -66,12 +65,12 @@ fn shared_sensor<'a>(names: &[&'a str]) -> &'a str {
 
 fn cell(r: f64, diagonal: bool, short: bool) -> String {
     if !r.is_finite() {
-        return format!("<td>{}</td>", number_format::UNKNOWN);
+        return format!("<td>{}</td>", UNKNOWN);
     }
     if diagonal {
         return "<td style=\"background:#e8ebee\">1</td>".to_string();
     }
-    let text = match number_format::fixed(r, if short { 1 } else { 2 }) {
+    let text = match fixed(r, if short { 1 } else { 2 }) {
         text if short && r.abs() < 0.95 => text.replacen("0.", ".", 1),
         text => text,
     };
@@ -94,10 +93,10 @@ mod tests {
 
     #[test]
     fn columns_leave_out_the_sensor_that_all_rows_name() {
-        let map = correlation_map_of(&["gyroscope.bias.x", "gyroscope.scale.x"], &DMatrix::identity(2, 2));
+        let map = correlation_map(["gyroscope.bias.x", "gyroscope.scale.x"], &DMatrix::identity(2, 2));
         assert!(map.contains("<th scope=\"col\">bias.<br>x</th><th scope=\"col\">scale.<br>x</th>"), "{map}");
         assert!(map.contains("<th scope=\"row\">gyroscope.bias.x</th>"));
-        let map = correlation_map_of(&["bias.x", "scale.x"], &DMatrix::identity(2, 2));
+        let map = correlation_map(["bias.x", "scale.x"], &DMatrix::identity(2, 2));
         assert!(map.contains("<th scope=\"col\">bias.<br>x</th>"), "{map}");
         assert_eq!(shared_sensor(&["g"]), "");
     }

@@ -3,7 +3,8 @@
 //! This file draws it itself: the plotting library has no solids.
 
 use super::colour;
-use crate::html::escape;
+use super::drawing::opened;
+use super::view::View;
 use nalgebra::{Matrix3, Vector3};
 
 /// Half edges of the box.
@@ -14,8 +15,6 @@ const AXIS: f64 = 1.7;
 const SEEN_FROM: (f64, f64) = (-62.0, 24.0);
 /// Pixels for a unit.
 const SCALE: f64 = 34.0;
-/// Colours of the axes.
-const COLOURS: [&str; 3] = [colour::VERMILLION, colour::GREEN, colour::BLUE];
 /// Fill of the faces across x, y and z.
 const FACES: [&str; 3] = ["#d8dee4", "#eaeef2", "#f6f8fa"];
 
@@ -25,11 +24,8 @@ const UP: &str = "<path d=\"M-61 62V38\" stroke=\"#6e7781\" stroke-width=\"2.4\"
 
 /// The device as SVG. `room_from_sensor`: its axes in the room, whose third axis is up; `words`: the same in words.
 pub(crate) fn device(room_from_sensor: Matrix3<f64>, words: &str) -> String {
-    let view = View::new(room_from_sensor);
-    let mut svg = format!(
-        "<svg viewBox=\"-70 -70 140 140\" role=\"img\" aria-label=\"{}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\">",
-        escape(words)
-    );
+    let view = Seen::new(room_from_sensor);
+    let mut svg = opened([-70.0, -70.0, 140.0, 140.0], words, "");
     let (behind, before): (Vec<usize>, Vec<usize>) =
         (0..3).partition(|&axis| view.depth(&Vector3::ith(axis, 1.0)) < 0.0);
     behind.iter().for_each(|&axis| svg.push_str(&view.axis(axis)));
@@ -40,26 +36,24 @@ pub(crate) fn device(room_from_sensor: Matrix3<f64>, words: &str) -> String {
     svg + UP + "</svg>"
 }
 
-/// The sensor's axes as seen: to the right, up and towards the eye.
-struct View(Matrix3<f64>);
+/// The sensor as it is seen.
+struct Seen {
+    view: View,
+    room_from_sensor: Matrix3<f64>,
+}
 
-impl View {
+impl Seen {
     fn new(room_from_sensor: Matrix3<f64>) -> Self {
-        let (azimuth, elevation) = (SEEN_FROM.0.to_radians(), SEEN_FROM.1.to_radians());
-        let eye =
-            Vector3::new(azimuth.cos() * elevation.cos(), azimuth.sin() * elevation.cos(), elevation.sin());
-        let right = Vector3::z().cross(&eye).normalize();
-        let rows = [right, eye.cross(&right), eye].map(|row| row.transpose());
-        Self(Matrix3::from_rows(&rows) * room_from_sensor)
+        let view = View::from(SEEN_FROM.0.to_radians(), SEEN_FROM.1.to_radians());
+        Self { view: View { scale: SCALE, ..view }, room_from_sensor }
     }
 
     fn at(&self, point: &Vector3<f64>) -> (f64, f64) {
-        let seen = self.0 * point * SCALE;
-        (seen.x, -seen.y)
+        self.view.at(&(self.room_from_sensor * point))
     }
 
     fn depth(&self, direction: &Vector3<f64>) -> f64 {
-        (self.0 * direction).z
+        self.view.right.cross(&self.view.up).dot(&(self.room_from_sensor * direction))
     }
 
     /// The faces towards the eye, with the name of the axis on that of its positive end.
@@ -92,7 +86,7 @@ impl View {
         format!(
             "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"13\" font-weight=\"700\" text-anchor=\"middle\" fill=\"{}\" stroke=\"#ffffff\" \
              stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
-            COLOURS[axis],
+            colour::AXES[axis],
             ["x", "y", "z"][axis]
         )
     }
@@ -104,7 +98,7 @@ impl View {
         let (x1, y1) = self.at(&(unit * AXIS));
         let length = (x1 - x0).hypot(y1 - y0).max(1e-9);
         let (dx, dy) = ((x1 - x0) / length, (y1 - y0) / length);
-        let colour = COLOURS[axis];
+        let colour = colour::AXES[axis];
         // an axis that points at the eye is a dot
         let head = if length < 6.0 {
             String::new()

@@ -1,6 +1,7 @@
 //! The figure of confidence ellipses of bias and scale factor.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::frame::caption;
+use super::panel::{Panel, Series, Shape};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::sensor::{Axis, Parameter};
@@ -54,21 +55,18 @@ pub(crate) fn confidence_ellipses(
     if together.is_empty() {
         return None;
     }
-    let columns = if pairs.len() == 1 { 2 } else { 3 };
-    let mut caption = "In 95 of 100 calibrations, the errors of bias and scale factor together lie within the ellipse. Good: small, and \
-                       upright rather than tilted. A tilted ellipse means that the data confuse errors of the two."
-        .to_string();
     if magnified {
         together.append(&mut alone);
-        caption.push_str(&format!(
-            " The {} ellipse is much smaller, and is shown again on its own axes, magnified.",
-            after_name
-        ));
     }
-    Some(
-        Figure::new("Confidence ellipses of bias and scale factor, 95 %", together, caption)
-            .with_columns(columns),
-    )
+    let again =
+        format!("The {after_name} ellipse is much smaller, and is shown again on its own axes, magnified.");
+    let caption = caption(
+        "In 95 of 100 calibrations, the errors of bias and scale factor together lie within the ellipse. Good: small, and \
+         upright rather than tilted. A tilted ellipse means that the data confuse errors of the two.",
+        &[(magnified, &again)],
+    );
+    let title = "Confidence ellipses of bias and scale factor, 95 %";
+    Some(Figure::new(title, together, caption).with_columns(if pairs.len() == 1 { 2 } else { 3 }))
 }
 
 /// The Cholesky factor of the covariance of parameters i and j.
@@ -92,24 +90,19 @@ fn panel(title: String, [x, y]: [DisplayUnit; 2]) -> Panel {
 }
 
 /// Colour, width and dashes of a line: those of the motion in the other figures.
-type Look = (&'static str, f64, &'static str);
-const BEFORE: Look = (colour::BLUE, 1.6, "2 2.5");
-const AFTER: Look = (colour::VERMILLION, 2.2, "");
+type Look = (&'static str, (f64, &'static str));
+const BEFORE: Look = (colour::BLUE, (1.6, "2 2.5"));
+const AFTER: Look = (colour::VERMILLION, (2.2, ""));
 
-fn ellipse(
-    label: &str,
-    (colour, width, dashes): Look,
-    factor: &Matrix2<f64>,
-    [x, y]: [DisplayUnit; 2],
-) -> Series {
+fn ellipse(label: &str, (colour, stroke): Look, factor: &Matrix2<f64>, [x, y]: [DisplayUnit; 2]) -> Series {
     let points = (0..=90)
         .map(|k| f64::from(k) * std::f64::consts::TAU / 90.0)
         .map(|angle| factor * Vector2::new(angle.cos(), angle.sin()) * RADIUS_95)
         .map(|error| (error.x * x.factor, error.y * y.factor))
         .collect();
-    Series::new(label, colour, Mark::Line { width, dashes }, points)
+    Series::stroke(label, colour, stroke, points)
 }
 
 fn centre() -> Series {
-    Series::new("no error", colour::BLACK, Mark::Dots { shape: Shape::Cross, radius: 2.5 }, vec![(0.0, 0.0)])
+    Series::dots("no error", colour::BLACK, (Shape::Cross, 2.5), vec![(0.0, 0.0)])
 }

@@ -1,5 +1,6 @@
 //! The frame of a figure: panels with title, legend and caption, as HTML.
 
+use super::drawing::entry;
 use super::panel::{Panel, Series};
 use super::svg;
 use crate::html::escape;
@@ -25,7 +26,6 @@ impl Figure {
         self
     }
 
-    /// The figure as HTML.
     pub(crate) fn html(&self) -> String {
         let panels: Vec<String> = self.panels.par_iter().map(svg::svg).collect();
         framed(&self.title, &self.legend(), &panels.concat(), self.columns, &self.caption)
@@ -40,15 +40,20 @@ impl Figure {
         }
         let mut entries: Vec<String> =
             seen.iter().map(|series| entry(&svg::key(series), &series.label)).collect();
-        let mut shades: Vec<&str> = Vec::new();
         for shade in self.panels.iter().flat_map(|panel| &panel.shades) {
-            if !shade.label.is_empty() && !shades.contains(&shade.label) {
-                shades.push(shade.label);
-                entries.push(entry(&svg::shade_key(shade.colour), shade.label));
+            let entry = entry(&svg::shade_key(shade.colour), shade.label);
+            if !entries.contains(&entry) {
+                entries.push(entry);
             }
         }
         format!("<ul class=\"legend\">{}</ul>", entries.concat())
     }
+}
+
+/// A caption, with those of further sentences that apply.
+pub(super) fn caption(always: &str, further: &[(bool, &str)]) -> String {
+    let further = further.iter().filter(|(applies, _)| *applies).map(|(_, sentence)| *sentence);
+    std::iter::once(always).chain(further).collect::<Vec<_>>().join(" ")
 }
 
 /// Figures as HTML, drawn in parallel, since a report mostly waits for drawing. Nothing for a figure that is
@@ -59,10 +64,6 @@ pub(crate) fn drawn<const N: usize>(figures: [&(dyn Fn() -> Option<Figure> + Syn
         *html = figure().map_or_else(String::new, |figure| figure.html());
     });
     html
-}
-
-fn entry(key: &str, label: &str) -> String {
-    format!("<li>{key}{}</li>", escape(label))
 }
 
 /// Title, legend, panels and caption in their frame.

@@ -7,17 +7,19 @@
 mod allan;
 mod batch;
 mod before_after;
-mod chart;
 mod clipping;
 mod colour;
 mod correlation;
 #[cfg(feature = "study")]
 mod design_population;
 mod device;
+mod drawing;
 mod ellipse;
 mod frame;
-mod gyroscope_at_rest;
+mod gyroscope_in_holds;
+mod histogram;
 mod holds;
+mod kinds;
 mod machine;
 mod motion;
 mod motion_pair;
@@ -33,23 +35,22 @@ mod starts;
 mod surface;
 mod svg;
 mod sweep;
-mod temperature;
 mod ticks;
 mod unit;
 mod validation;
+mod view;
 
 pub(super) use allan::allan_figure;
 pub(super) use batch::{code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
-pub(super) use chart::CHART_SCRIPT;
-pub(super) use clipping::renumbered;
-pub(super) use correlation::{correlation_map, correlation_map_of};
+pub(super) use clipping::{CHART_SCRIPT, renumbered};
+pub(super) use correlation::correlation_map;
 #[cfg(feature = "study")]
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;
 pub(super) use ellipse::confidence_ellipses;
 pub(super) use frame::{Figure, drawn};
-pub(super) use gyroscope_at_rest::still_gyroscope;
+pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use machine::{
     PLAYER_SCRIPT, Scene, budget_bars, correction_bars, player, residual_coherence, residual_densities,
@@ -66,6 +67,5 @@ pub(super) use starts::start_values;
 #[cfg(feature = "study")]
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
-pub(super) use temperature::bias_over_temperature;
 pub(super) use unit::DisplayUnit;
 pub(super) use validation::validation_errors;

@@ -1,6 +1,7 @@
 //! Figures of the recovered motion: the thesis's Figures 4 and 5.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::frame::caption;
+use super::panel::{Panel, Points, Series, Shape};
 use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
@@ -9,7 +10,6 @@ use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::{Axis, Correction, ReadingUnit, Recording};
 use nalgebra::Vector3;
 
-/// Label of the time axis.
 pub(super) const TIME: &str = "time (s)";
 
 /// Acceleration as measured, as estimated, and the true one where it is known: the thesis's Figure 4.
@@ -34,28 +34,21 @@ pub(crate) fn acceleration_figure(
         (true, Some(_)) => "readings, corrected, less gravity",
         (false, Some(_)) => "readings, less gravity",
     };
-    let panels = panels_by_axis(recording, "acceleration (m/s²)", |axis, panel| {
-        let dots = if counts && correction.is_none() {
-            Vec::new()
-        } else {
-            (first..end)
-                .map(|k| {
-                    let reading = &recording.readings()[k];
-                    let value = correction.as_ref().map_or(*reading, |c| c.apply(reading)) - gravity;
-                    (recording.times_s()[k], value[axis.index()])
-                })
-                .collect()
+    let panels = Panel::by_axis(recording.active_axes(), TIME, "acceleration (m/s²)", |axis, panel| {
+        let value = |k: usize| {
+            let reading = &recording.readings()[k];
+            let value = correction.as_ref().map_or(*reading, |c| c.apply(reading)) - gravity;
+            (recording.times_s()[k], value[axis.index()])
         };
-        let mark = Mark::Dots { shape: Shape::Circle, radius: 3.0 };
-        let dots = Series::new(readings_label, colour::SKY, mark, thinned(dots.into_iter()));
-        let mut panel = panel.with(dots);
+        let used = if counts && correction.is_none() { 0..0 } else { first..end };
+        let dots = thinned(used.map(value));
+        let mut panel = panel.with(Series::dots(readings_label, colour::SKY, (Shape::Circle, 3.0), dots));
         if let Some(truth) = truth {
-            let mark = Mark::Line { width: 2.6, dashes: "" };
-            panel = panel.with(Series::new("true", colour::BLACK, mark, nodes(truth, axis)));
+            panel = panel.with(Series::stroke("true", colour::BLACK, (2.6, ""), nodes(truth, axis)));
         }
         panel.with(Series::dashed("estimated", colour::VERMILLION, nodes(&recovered.motion, axis)))
     });
-    let mut caption = match (truth.is_some(), counts) {
+    let good = match (truth.is_some(), counts) {
         (true, _) => {
             "Good: the dashed line lies on the solid one. The readings differ from both by the sensor's bias and \
              scale error, which the calibration corrects."
@@ -67,11 +60,9 @@ pub(crate) fn acceleration_figure(
         (false, true) => {
             "Good: the readings, converted to m/s² with the estimated parameters, lie on the estimated line."
         }
-    }
-    .to_string();
-    if is_thinned(end.saturating_sub(first)) {
-        caption.push_str(" Only the smallest and the largest reading of each pixel column are drawn.");
-    }
+    };
+    let thinned = "Only the smallest and the largest reading of each pixel column are drawn.";
+    let caption = caption(good, &[(is_thinned(end.saturating_sub(first)), thinned)]);
     Figure::new(title, panels, caption)
 }
 
@@ -96,23 +87,21 @@ pub(crate) fn motion_error_figure(
         return None;
     }
     let label = unit.label(if truth.is_some() { "estimated − true" } else { "uncertainty" });
-    let panels = panels_by_axis(recording, &label, |axis, mut panel| {
+    let panels = Panel::by_axis(recording.active_axes(), TIME, &label, |axis, mut panel| {
         let a = axis.index();
         let spread: Vec<f64> = sd.iter().map(|sd| 2.0 * sd[a] * unit.factor).collect();
         if spread.len() == times.len() {
             let zero = times.iter().map(|&t| (t, 0.0)).collect();
-            panel =
-                panel.with(Series::new("±2 sd as stated", colour::SKY, Mark::Band, zero).with_spread(spread));
+            panel = panel.with(Series::band("±2 sd as stated", colour::SKY, zero, spread));
         }
         if truth.is_some() {
-            let points: Vec<_> = times.iter().zip(&errors).map(|(&t, e)| (t, e[a] * unit.factor)).collect();
-            let mark = Mark::Line { width: 0.8, dashes: "" };
-            panel = panel.with(Series::new("", colour::VERMILLION, mark, thinned(points.iter().copied())));
-            panel = panel.with(Series::dots(
-                "estimated − true at the nodes",
-                colour::VERMILLION,
-                Shape::Circle,
-                thinned(points.into_iter()),
+            let points = thinned(times.iter().zip(&errors).map(|(&t, e)| (t, e[a] * unit.factor)));
+            let (red, label) = (colour::VERMILLION, "estimated − true at the nodes");
+            panel = panel.with(Series::stroke("", red, (0.8, ""), points.clone())).with(Series::dots(
+                label,
+                red,
+                (Shape::Circle, 2.2),
+                points,
             ));
         }
         panel
@@ -140,10 +129,10 @@ pub(crate) fn state_and_jerk_figure(
     truth: Option<&JerkControlledMotion>,
 ) -> Figure {
     let quantity = |label: &str, of: fn(&JerkControlledMotion) -> Vec<Vector3<f64>>| {
-        panels_by_axis(recording, label, |axis, mut panel| {
+        Panel::by_axis(recording.active_axes(), TIME, label, |axis, mut panel| {
             if let Some(truth) = truth {
-                let mark = Mark::Line { width: 2.8, dashes: "" };
-                panel = panel.with(Series::new("true", colour::BLACK, mark, steps(truth, &of(truth), axis)));
+                let points = steps(truth, &of(truth), axis);
+                panel = panel.with(Series::stroke("true", colour::BLACK, (2.8, ""), points));
             }
             let estimate = steps(&recovered.motion, &of(&recovered.motion), axis);
             panel.with(Series::dashed("estimated", colour::VERMILLION, estimate))
@@ -160,24 +149,14 @@ pub(crate) fn state_and_jerk_figure(
     Figure::new(title, panels, caption).with_columns(columns)
 }
 
-fn panels_by_axis(recording: &Recording, label: &str, fill: impl Fn(Axis, Panel) -> Panel) -> Vec<Panel> {
-    recording
-        .active_axes()
-        .iter()
-        .map(|&axis| fill(axis, Panel::new(format!("axis {axis}"), TIME, label)))
-        .collect()
-}
-
-pub(super) fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
+pub(super) fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Points {
     let values = motion.acceleration_mps2().iter().map(|a| a[axis.index()]);
     thinned(motion.times_s().iter().copied().zip(values))
 }
 
-pub(super) fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Vec<(f64, f64)> {
+pub(super) fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Points {
     let ends = motion.times_s().windows(2);
-    let points: Vec<_> = ends
-        .zip(values)
-        .flat_map(|(ends, v)| [(ends[0], v[axis.index()]), (ends[1], v[axis.index()])])
-        .collect();
+    let points: Points =
+        ends.zip(values).flat_map(|(ends, v)| [0, 1].map(|k| (ends[k], v[axis.index()]))).collect();
     thinned(points.into_iter())
 }

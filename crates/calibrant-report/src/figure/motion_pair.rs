@@ -1,9 +1,9 @@
 //! Figures of motions over time with their limits: the thesis's Figure 8, and the motion of the arm for it.
 
 use super::motion::{TIME, nodes, steps};
-use super::panel::{Mark, Panel, Series};
+use super::panel::{Panel, Points, Series};
 use super::point_thinning::thinned;
-use super::{Figure, colour};
+use super::{Figure, colour, frame};
 use crate::design::starts::name;
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits};
 use calibrant_core::sensor::Axis;
@@ -14,25 +14,26 @@ const POINTS_PER_INTERVAL: usize = 24;
 /// curves.
 const NEAR: f64 = 4.0;
 
-/// A motion as it is drawn: name in the legend, colour, width and dashes of its lines.
+/// Colour, width and dashes of a line.
+type Look = (&'static str, (f64, &'static str));
+
+/// A motion as it is drawn, with its name in the legend.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drawn<'a> {
     pub(crate) name: &'static str,
     pub(crate) motion: &'a JerkControlledMotion,
-    colour: &'static str,
-    width: f64,
-    dashes: &'static str,
+    look: Look,
 }
 
 impl<'a> Drawn<'a> {
     /// The motion to compare with: thin and blue.
     pub(crate) fn before(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
-        Self { name, motion, colour: colour::BLUE, width: 1.4, dashes: "2 2.5" }
+        Self { name, motion, look: (colour::BLUE, (1.4, "2 2.5")) }
     }
 
     /// The motion that the page is about: bold and vermillion.
     pub(crate) fn after(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
-        Self { name, motion, colour: colour::VERMILLION, width: 2.3, dashes: "" }
+        Self { name, motion, look: (colour::VERMILLION, (2.3, "")) }
     }
 }
 
@@ -47,37 +48,18 @@ enum Profile {
 }
 
 impl Profile {
-    fn name(self) -> &'static str {
+    /// Its name, the label of its axis, and its limit.
+    fn of(self, limits: &AxisLimits) -> (&'static str, &'static str, Option<f64>) {
         match self {
-            Self::Jerk => "jerk",
-            Self::Acceleration => "acceleration",
-            Self::Intercept => "state",
-            Self::Velocity => "velocity",
-            Self::Displacement => "displacement",
+            Self::Jerk => ("jerk", "jerk uᵢ (m/s³)", limits.jerk),
+            Self::Acceleration => ("acceleration", "acceleration (m/s²)", limits.acceleration),
+            Self::Intercept => ("state", "state xᵢ (m/s²)", limits.intercept),
+            Self::Velocity => ("velocity", "velocity (m/s)", limits.velocity),
+            Self::Displacement => ("displacement", "displacement (m)", limits.displacement),
         }
     }
 
-    fn label(self) -> &'static str {
-        match self {
-            Self::Jerk => "jerk uᵢ (m/s³)",
-            Self::Acceleration => "acceleration (m/s²)",
-            Self::Intercept => "state xᵢ (m/s²)",
-            Self::Velocity => "velocity (m/s)",
-            Self::Displacement => "displacement (m)",
-        }
-    }
-
-    fn limit(self, limits: &AxisLimits) -> Option<f64> {
-        match self {
-            Self::Jerk => limits.jerk,
-            Self::Acceleration => limits.acceleration,
-            Self::Intercept => limits.intercept,
-            Self::Velocity => limits.velocity,
-            Self::Displacement => limits.displacement,
-        }
-    }
-
-    fn curve(self, motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
+    fn curve(self, motion: &JerkControlledMotion, axis: Axis) -> Points {
         let a = axis.index();
         match self {
             Self::Jerk => steps(motion, &motion.jerk_mps3(), axis),
@@ -152,32 +134,28 @@ fn figure(
     let mut panels = Vec::new();
     for (&profile, letter) in profiles.iter().zip(["(a) ", "(b) "]) {
         let letter = if profiles.len() > 1 { letter } else { "" };
-        let mut hidden = Vec::new();
+        let (mut hidden, mut what) = (Vec::new(), "");
         for &axis in axes {
-            let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, profile.label());
+            let (name, label, limit) = profile.of(&limits.axis(axis.index()));
+            let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, label);
             // thin over bold: both show where they coincide
-            for drawn in motions.iter().rev() {
-                let mark = Mark::Line { width: drawn.width, dashes: drawn.dashes };
-                let curve = profile.curve(drawn.motion, axis);
-                panel = panel.with(Series::new(drawn.name, drawn.colour, mark, curve));
+            for Drawn { name, motion, look: (colour, stroke) } in motions.iter().rev() {
+                panel = panel.with(Series::stroke(name, colour, *stroke, profile.curve(motion, axis)));
             }
-            if let Some(limit) = profile.limit(&limits.axis(axis.index())) {
-                if limit <= NEAR * panel.largest() {
-                    panel = panel.with_limits(limit);
-                } else {
-                    hidden.push(axis);
-                }
+            what = name;
+            match limit {
+                Some(limit) if limit <= NEAR * panel.largest() => panel = panel.with_limits(limit),
+                Some(_) => hidden.push(axis),
+                None => {}
             }
             panels.push(panel);
         }
         if !hidden.is_empty() {
-            far.push(format!("{} of {}", profile.name(), name(&hidden)));
+            far.push(format!("{what} of {}", name(&hidden)));
         }
     }
-    let mut caption = caption.to_string();
-    if !far.is_empty() {
-        caption.push_str(&format!(" Limits far outside the panel are not drawn: {}.", far.join("; ")));
-    }
+    let far_away = format!("Limits far outside the panel are not drawn: {}.", far.join("; "));
+    let caption = frame::caption(caption, &[(!far.is_empty(), &far_away)]);
     let columns = if axes.len() == 1 { 2 } else { 3 };
     Figure::new(title, panels, caption).with_columns(columns)
 }

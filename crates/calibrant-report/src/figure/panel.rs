@@ -1,6 +1,8 @@
 //! One pair of axes and the series in it, as data.
 
+use super::colour::{BLACK, BLUE, VERMILLION};
 use super::ticks::{Ticked, ticked};
+use calibrant_core::sensor::Axis;
 
 /// The look of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,10 +23,6 @@ pub(super) enum Mark {
     Stems,
 }
 
-/// Colour of limits.
-const LIMIT: &str = super::colour::BLACK;
-
-/// Shapes of markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
     Circle,
@@ -33,6 +31,9 @@ pub(super) enum Shape {
     Cross,
 }
 
+/// Places on the axes.
+pub(super) type Points = Vec<(f64, f64)>;
+
 /// Points that belong together.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
@@ -40,31 +41,49 @@ pub(super) struct Series {
     pub(super) label: String,
     pub(super) colour: &'static str,
     pub(super) mark: Mark,
-    pub(super) points: Vec<(f64, f64)>,
+    pub(super) points: Points,
     /// Half widths of bands and error bars, one for each point.
     pub(super) spread: Vec<f64>,
 }
 
 impl Series {
-    pub(super) fn new(label: &str, colour: &'static str, mark: Mark, points: Vec<(f64, f64)>) -> Self {
+    pub(super) fn new(label: &str, colour: &'static str, mark: Mark, points: Points) -> Self {
         Self { label: label.to_string(), colour, mark, points, spread: Vec::new() }
     }
 
-    pub(super) fn line(label: &str, colour: &'static str, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, colour, Mark::Line { width: 1.8, dashes: "" }, points)
+    /// A line of this width. The dashes are SVG's, empty for solid.
+    pub(super) fn stroke(
+        label: &str,
+        colour: &'static str,
+        (width, dashes): (f64, &'static str),
+        points: Points,
+    ) -> Self {
+        Self::new(label, colour, Mark::Line { width, dashes }, points)
     }
 
-    pub(super) fn dashed(label: &str, colour: &'static str, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, colour, Mark::Line { width: 1.8, dashes: "6 4" }, points)
+    pub(super) fn line(label: &str, colour: &'static str, points: Points) -> Self {
+        Self::stroke(label, colour, (1.8, ""), points)
     }
 
-    pub(super) fn dots(label: &str, colour: &'static str, shape: Shape, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, colour, Mark::Dots { shape, radius: 2.2 }, points)
+    pub(super) fn dashed(label: &str, colour: &'static str, points: Points) -> Self {
+        Self::stroke(label, colour, (1.8, "6 4"), points)
     }
 
-    pub(super) fn with_spread(mut self, spread: Vec<f64>) -> Self {
-        self.spread = spread;
-        self
+    pub(super) fn dots(
+        label: &str,
+        colour: &'static str,
+        (shape, radius): (Shape, f64),
+        points: Points,
+    ) -> Self {
+        Self::new(label, colour, Mark::Dots { shape, radius }, points)
+    }
+
+    pub(super) fn band(label: &str, colour: &'static str, points: Points, spread: Vec<f64>) -> Self {
+        Self { spread, ..Self::new(label, colour, Mark::Band, points) }
+    }
+
+    pub(super) fn bars(label: &str, colour: &'static str, points: Points, spread: Vec<f64>) -> Self {
+        Self { spread, ..Self::new(label, colour, Mark::ErrorBars, points) }
     }
 
     /// Points and half widths that can be drawn: the finite ones.
@@ -90,14 +109,26 @@ pub(super) struct Shade {
     pub(super) to: f64,
 }
 
-/// One pair of axes.
+/// A quantity over both axes, shown as bands of colours whose edges are contours.
+#[derive(Debug, Clone)]
+pub(super) struct Map {
+    /// Its name, beside the bar of the colours.
+    pub(super) label: &'static str,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    /// A row for each y.
+    pub(super) values: Vec<Vec<f64>>,
+    /// Edges of the bands.
+    pub(super) levels: Vec<f64>,
+}
+
 #[derive(Debug, Clone, Default)]
 pub(super) struct Panel {
     pub(super) title: String,
-    /// Label of the x axis with its unit.
     pub(super) x_label: String,
-    /// Label of the y axis with its unit.
     pub(super) y_label: String,
+    /// A map below the series. It fills the panel.
+    pub(super) map: Option<Map>,
     pub(super) series: Vec<Series>,
     pub(super) shades: Vec<Shade>,
     /// Values that the y axis must show.
@@ -138,13 +169,45 @@ impl Panel {
         self
     }
 
+    /// Blue dots for what the computation used, and vermillion crosses for what it did not, where there is any.
+    pub(super) fn with_used(
+        self,
+        labels: [&str; 2],
+        radii: [f64; 2],
+        points: impl IntoIterator<Item = (bool, (f64, f64))>,
+    ) -> Self {
+        let (mut used, mut left_out) = (Vec::new(), Vec::new());
+        points.into_iter().for_each(|(is_used, at)| if is_used { used.push(at) } else { left_out.push(at) });
+        let panel = self.with(Series::dots(labels[0], BLUE, (Shape::Circle, radii[0]), used));
+        match left_out.as_slice() {
+            [] => panel,
+            _ => panel.with(Series::dots(labels[1], VERMILLION, (Shape::Cross, radii[1]), left_out)),
+        }
+    }
+
+    /// With a logarithmic y axis where values differ widely, and else one that shows zero.
+    pub(super) fn log_or_from_zero(mut self, is_wide: bool) -> Self {
+        self.log_y = is_wide;
+        self.y_includes.extend((!is_wide).then_some(0.0));
+        self
+    }
+
+    /// A panel for each of these axes.
+    pub(super) fn by_axis(
+        axes: &[Axis],
+        x_label: &str,
+        y_label: &str,
+        mut fill: impl FnMut(Axis, Self) -> Self,
+    ) -> Vec<Self> {
+        axes.iter().map(|&axis| fill(axis, Self::new(format!("axis {axis}"), x_label, y_label))).collect()
+    }
+
     /// Dashed lines at plus and minus `limit` over the whole width.
     pub(super) fn with_limits(mut self, limit: f64) -> Self {
         let x = || self.series.iter().flat_map(Series::finite).map(|point| point.0);
         let (first, last) = (x().fold(f64::INFINITY, f64::min), x().fold(f64::NEG_INFINITY, f64::max));
-        let mark = Mark::Line { width: 1.2, dashes: "7 4" };
         for (label, y) in [("limit", limit), ("", -limit)] {
-            self.series.push(Series::new(label, LIMIT, mark, vec![(first, y), (last, y)]));
+            self.series.push(Series::stroke(label, BLACK, (1.2, "7 4"), vec![(first, y), (last, y)]));
         }
         self
     }
@@ -161,6 +224,10 @@ impl Panel {
 
     /// The axes; `None` where nothing can be drawn.
     pub(super) fn axes(&self) -> Option<[AxisRange; 2]> {
+        if let Some(Map { x, y, .. }) = &self.map {
+            let ends = |of: &[f64]| Some((*of.first()?, *of.last()?));
+            return Some([ends(x)?, ends(y)?].map(|range| AxisRange { range, step: None }));
+        }
         let mut x = Range { log: self.log_x, ..Range::default() };
         let mut y = Range { log: self.log_y, ..Range::default() };
         for series in &self.series {
@@ -276,9 +343,9 @@ mod tests {
 
     #[test]
     fn an_axis_may_show_less_than_all_values() {
-        let bars = Series::new("", "#000000", Mark::ErrorBars, vec![(0.0, 1.0), (1.0, 2.0)]);
+        let bars = Series::bars("", BLACK, vec![(0.0, 1.0), (1.0, 2.0)], vec![0.5, 1e6]);
         let panel = Panel { y_shown: Some((0.0, 3.0)), ..Panel::new("", "", "") };
-        let [_, y] = panel.with(bars.with_spread(vec![0.5, 1e6])).axes().expect("bars");
+        let [_, y] = panel.with(bars).axes().expect("bars");
         assert!(y.range.0 > -1.0 && y.range.1 < 4.0, "{y:?}");
     }
 

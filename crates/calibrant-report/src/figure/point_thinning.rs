@@ -1,61 +1,29 @@
 //! Thinning of points: fewer points for the same picture.
 
+use crate::number_format::count;
+
 /// Largest number of columns of pixels in a panel.
 const COLUMNS: usize = 400;
 
 /// The smallest and the largest value of each column of pixels, in order of x. It looks the same as all
 /// points.
 pub(super) fn thinned(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    if points.len() <= 3 * COLUMNS {
+    if !is_thinned(points.len()) {
         return points.collect();
     }
     let per_column = points.len().div_ceil(COLUMNS);
-    let mut kept = Vec::with_capacity(2 * COLUMNS);
-    let (mut column, mut room) = (Column::default(), per_column);
-    points.for_each(|point| {
-        if room == 0 {
-            kept.extend(std::mem::take(&mut column).extremes());
-            room = per_column;
-        }
-        room -= 1;
-        column.add(point);
-    });
-    kept.extend(column.extremes());
-    kept
+    let points: Vec<(f64, f64)> = points.collect();
+    points.chunks(per_column).flat_map(extremes).collect()
 }
 
-/// The extremes of a column of pixels.
-struct Column {
-    low: (f64, f64),
-    high: (f64, f64),
-}
-
-impl Default for Column {
-    fn default() -> Self {
-        Self { low: (f64::NAN, f64::INFINITY), high: (f64::NAN, f64::NEG_INFINITY) }
-    }
-}
-
-impl Column {
-    /// Takes another point, if it is finite.
-    fn add(&mut self, point: (f64, f64)) {
-        // few points get here
-        let is_finite = || point.0.is_finite() && point.1.is_finite();
-        if point.1 < self.low.1 && is_finite() {
-            self.low = point;
-        }
-        if point.1 > self.high.1 && is_finite() {
-            self.high = point;
-        }
-    }
-
-    /// In order of x; one value where both are the same.
-    fn extremes(self) -> impl Iterator<Item = (f64, f64)> {
-        let Self { low, high } = self;
-        let (first, second) = if high.0 < low.0 { (high, low) } else { (low, high) };
-        let is_there = first.0.is_finite();
-        is_there.then_some(first).into_iter().chain((is_there && first != second).then_some(second))
-    }
+/// The smallest and the largest finite value in order of x; one value where both are the same.
+fn extremes(column: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
+    let finite = || column.iter().copied().filter(|point| point.0.is_finite() && point.1.is_finite());
+    let low = finite().reduce(|low, point| if point.1 < low.1 { point } else { low });
+    let high = finite().reduce(|high, point| if point.1 > high.1 { point } else { high });
+    let (first, second) =
+        if high.zip(low).is_some_and(|(h, l)| h.0 < l.0) { (high, low) } else { (low, high) };
+    first.into_iter().chain(second.filter(|_| first != second))
 }
 
 /// Is a series of this length shown thinned?
@@ -69,6 +37,14 @@ pub(super) fn every(len: usize, most: usize) -> Vec<usize> {
         return (0..len.min(most.max(1))).collect();
     }
     (0..most).map(|i| i * (len - 1) / (most - 1)).collect()
+}
+
+/// That a figure draws so many of all sensors; nothing where it draws all.
+pub(super) fn drawn_in_words(all: usize, drawn: usize) -> String {
+    if drawn >= all {
+        return String::new();
+    }
+    format!(" Of {} sensors, {drawn} spread evenly over the list are drawn.", count(all))
 }
 
 #[cfg(test)]

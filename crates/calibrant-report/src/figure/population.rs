@@ -1,8 +1,9 @@
 //! Figures of a population of sensors: the thesis's Figure 6 and the errors behind it.
 
-use super::panel::{Mark, Panel, Series, Shape};
-use super::point_thinning::every;
-use super::residuals::{Histogram, bin_count};
+use super::histogram::{Histogram, bin_count, normal_curve};
+use super::kinds::{Kind, kinds, look};
+use super::panel::{Mark, Panel, Points, Series, Shape};
+use super::point_thinning::{drawn_in_words, every};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::sensor::Parameter;
@@ -16,52 +17,44 @@ const MOST_BARS: usize = 150;
 /// Estimated against true parameters, biases left and scale factors right: the thesis's Figure 6.
 pub(crate) fn parameters_against_truth(study: &Study) -> Figure {
     let sensors = every(study.outcomes.len(), MOST_POINTS);
-    let panels: Vec<Panel> = groups(study)
-        .into_iter()
-        .map(|group| {
-            let error = |value: f64, index: usize| value - study.parameters[index].nominal.unwrap_or(0.0);
-            let values = group.members.iter().flat_map(|&p| study.outcomes.iter().map(move |o| (p, o)));
-            let unit = DisplayUnit::suited_to(
-                group.unit,
-                values.filter_map(|(p, o)| o.truth.get(p).map(|&v| error(v, p))),
-            );
-            let mut panel = Panel {
-                square: true,
-                ..Panel::new(
-                    format!("{} error", group.name),
-                    unit.label("true value − nominal"),
-                    unit.label("estimate − nominal"),
-                )
+    let error = |value: f64, p: usize| value - study.parameters[p].nominal.unwrap_or(0.0);
+    let panel = |kind: Kind| {
+        let values = kind.members.iter().flat_map(|&p| study.outcomes.iter().map(move |o| (p, o)));
+        let truths = values.filter_map(|(p, o)| o.truth.get(p).map(|&v| error(v, p)));
+        let unit = DisplayUnit::suited_to(kind.unit, truths);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut dots = Vec::new();
+        for (position, &p) in kind.members.iter().enumerate() {
+            let points: Points = sensors
+                .iter()
+                .filter_map(|&i| study.outcomes[i].truth.get(p).zip(study.outcomes[i].values.get(p)))
+                .map(|(&truth, &value)| (error(truth, p) * unit.factor, error(value, p) * unit.factor))
+                .filter(|point| point.0.is_finite() && point.1.is_finite())
+                .collect();
+            for (x, y) in &points {
+                (low, high) = (low.min(*x).min(*y), high.max(*x).max(*y));
+            }
+            let (colour, shape) = look(position);
+            let label = match kind.suffix(&study.parameters[p]) {
+                axis if axis.len() == 1 => format!("axis {axis}"),
+                axes => axes.to_string(),
             };
-            let mut ends: Option<(f64, f64)> = None;
-            for (position, &p) in group.members.iter().enumerate() {
-                let points: Vec<(f64, f64)> = sensors
-                    .iter()
-                    .map(|&i| &study.outcomes[i])
-                    .filter_map(|o| o.truth.get(p).zip(o.values.get(p)))
-                    .map(|(&truth, &value)| (error(truth, p) * unit.factor, error(value, p) * unit.factor))
-                    .filter(|point| point.0.is_finite() && point.1.is_finite())
-                    .collect();
-                for point in &points {
-                    let (low, high) = ends.unwrap_or(*point);
-                    ends = Some((low.min(point.0).min(point.1), high.max(point.0).max(point.1)));
-                }
-                panel = panel.with(axis_dots(position, group.suffix(study, p), points));
-            }
-            if let Some((low, high)) = ends {
-                let mark = Mark::Line { width: 1.0, dashes: "" };
-                panel.series.insert(
-                    0,
-                    Series::new("estimate = truth", colour::GREY, mark, vec![(low, low), (high, high)]),
-                );
-            }
-            panel
-        })
-        .collect();
+            dots.push(Series::dots(&label, colour, (shape, 3.0), points));
+        }
+        let label = |of: &str| unit.label(&format!("{of} − nominal"));
+        let mut panel = Panel::new(format!("{} error", kind.name), label("true value"), label("estimate"));
+        panel.square = true;
+        if low <= high {
+            let line = vec![(low, low), (high, high)];
+            panel = panel.with(Series::stroke("estimate = truth", colour::GREY, (1.0, ""), line));
+        }
+        dots.into_iter().fold(panel, Panel::with)
+    };
+    let panels: Vec<Panel> = kinds(&study.parameters).into_iter().map(panel).collect();
     let caption = format!(
         "One marker for each sensor and axis. Good: all on the line. Errors much smaller than the spread of the sensors cannot be \
          seen here. The next figure shows them.{}",
-        subset(study, sensors.len())
+        drawn_in_words(study.outcomes.len(), sensors.len())
     );
     let columns = if panels.len() > 2 { 3 } else { 2 };
     Figure::new("Figure 6 of the thesis: actual and estimated parameter errors", panels, caption)
@@ -71,40 +64,28 @@ pub(crate) fn parameters_against_truth(study: &Study) -> Figure {
 /// Estimate less truth of each sensor with its stated uncertainty.
 pub(crate) fn parameter_errors(study: &Study) -> Figure {
     let sensors = every(study.outcomes.len(), MOST_BARS);
-    let panels: Vec<Panel> = study
-        .parameters
-        .iter()
-        .enumerate()
-        .map(|(p, parameter)| {
-            let drawn = || {
-                sensors
-                    .iter()
-                    .map(|&i| (i, &study.outcomes[i]))
-                    .filter(move |(_, o)| p < o.truth.len() && p < o.values.len() && p < o.sd.len())
+    let panel = |(p, parameter): (usize, &Parameter)| {
+        let drawn = || {
+            let of = |&i: &usize| {
+                let o = &study.outcomes[i];
+                Some(((i + 1) as f64, o.values.get(p)? - o.truth.get(p)?, 2.0 * o.sd.get(p)?))
             };
-            let largest = drawn().map(|(_, o)| (o.values[p] - o.truth[p]).abs() + 2.0 * o.sd[p]);
-            let unit = DisplayUnit::suited_to(parameter.unit, largest);
-            let points: Vec<_> =
-                drawn().map(|(i, o)| ((i + 1) as f64, (o.values[p] - o.truth[p]) * unit.factor)).collect();
-            let spread = drawn().map(|(_, o)| 2.0 * o.sd[p] * unit.factor).collect();
-            let ends = points
-                .first()
-                .zip(points.last())
-                .map(|(a, b)| vec![(a.0, 0.0), (b.0, 0.0)])
-                .unwrap_or_default();
-            Panel::new(parameter.name.as_str(), "sensor", unit.label("estimate − truth"))
-                .with(
-                    Series::new("±2 sd as stated", colour::SKY, Mark::ErrorBars, points.clone())
-                        .with_spread(spread),
-                )
-                .with(Series::new("zero", colour::BLACK, Mark::Line { width: 1.0, dashes: "" }, ends))
-                .with(Series::dots("estimate − truth", colour::VERMILLION, Shape::Circle, points))
-        })
-        .collect();
+            sensors.iter().filter_map(of)
+        };
+        let unit = DisplayUnit::suited_to(parameter.unit, drawn().map(|(_, error, bar)| error.abs() + bar));
+        let points: Points = drawn().map(|(x, error, _)| (x, error * unit.factor)).collect();
+        let spread = drawn().map(|(_, _, bar)| bar * unit.factor).collect();
+        let ends = points.first().zip(points.last()).map(|(a, b)| vec![(a.0, 0.0), (b.0, 0.0)]);
+        Panel::new(parameter.name.as_str(), "sensor", unit.label("estimate − truth"))
+            .with(Series::bars("±2 sd as stated", colour::SKY, points.clone(), spread))
+            .with(Series::stroke("zero", colour::BLACK, (1.0, ""), ends.unwrap_or_default()))
+            .with(Series::dots("estimate − truth", colour::VERMILLION, (Shape::Circle, 2.2), points))
+    };
+    let panels: Vec<Panel> = study.parameters.iter().enumerate().map(panel).collect();
     let caption = format!(
         "The error of each estimate with the uncertainty that its calibration states. Good: nineteen in twenty bars cross zero, \
          and the points lie evenly on both sides of it.{}",
-        subset(study, sensors.len())
+        drawn_in_words(study.outcomes.len(), sensors.len())
     );
     let columns = if study.parameters.len() == 2 { 2 } else { 3 };
     Figure::new("Errors of the estimates, sensor by sensor", panels, caption).with_columns(columns)
@@ -121,14 +102,11 @@ pub(crate) fn p_values(study: &Study) -> Option<Figure> {
     let expected = values.len() as f64 * bins.width;
     let spread = 2.0 * (expected * (1.0 - bins.width)).sqrt();
     let ends = vec![(0.0, expected), (1.0, expected)];
-    let panel =
-        Panel::new("", "p-value of the fit", "number of sensors")
-            .with(
-                Series::new("±2 sd of chance", colour::ORANGE, Mark::Band, ends.clone())
-                    .with_spread(vec![spread.min(expected); 2]),
-            )
-            .with(Series::new("sensors", colour::SKY, Mark::Area, bins.outline()))
-            .with(Series::dashed("expected", colour::VERMILLION, ends));
+    let chance = vec![spread.min(expected); 2];
+    let panel = Panel::new("", "p-value of the fit", "number of sensors")
+        .with(Series::band("±2 sd of chance", colour::ORANGE, ends.clone(), chance))
+        .with(Series::new("sensors", colour::SKY, Mark::Area, bins.outline()))
+        .with(Series::dashed("expected", colour::VERMILLION, ends));
     let caption = "Good: flat, apart from chance. A peak at 0 means that model or noise do not describe the data, one at 1 that the \
                    assumed noise is too large.";
     Some(Figure::new("p-values of the fits", vec![panel], caption))
@@ -136,80 +114,19 @@ pub(crate) fn p_values(study: &Study) -> Option<Figure> {
 
 /// Histogram of all errors in stated standard deviations with the standard normal curve; `None` where there is none.
 pub(crate) fn standardised_errors(study: &Study) -> Option<Figure> {
-    let values: Vec<f64> = study
-        .outcomes
-        .iter()
-        .flat_map(|o| {
-            o.values.iter().zip(&o.truth).zip(&o.sd).map(|((value, truth), sd)| (value - truth) / sd)
-        })
-        .filter(|z| z.is_finite())
-        .collect();
+    let all = study.outcomes.iter().flat_map(|o| o.values.iter().zip(&o.truth).zip(&o.sd));
+    let values: Vec<f64> =
+        all.map(|((value, truth), sd)| (value - truth) / sd).filter(|z| z.is_finite()).collect();
     let reach = values.iter().fold(3.5_f64, |most, z| most.max(z.abs())).min(6.0);
     if values.is_empty() {
         return None;
     }
     let bins = Histogram::within(&values, -reach, reach, (2 * bin_count(values.len()) / 2).max(10));
-    let area = values.len() as f64 * bins.width;
-    let curve = (0..=120)
-        .map(|i| reach * (f64::from(i) / 60.0 - 1.0))
-        .map(|z| (z, area * (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt()))
-        .collect();
+    let curve = normal_curve(values.len() as f64 * bins.width, 1.0, reach);
     let panel = Panel::new("", "error in stated standard deviations", "number of estimates")
         .with(Series::new("all parameters and sensors", colour::SKY, Mark::Area, bins.outline()))
         .with(Series::line("standard normal curve", colour::VERMILLION, curve));
     let caption = "Good: the bars follow the curve. A wider histogram means that the stated standard deviations are too small. Errors \
                    beyond six are counted in the outer bars.";
     Some(Figure::new("Errors in standard deviations", vec![panel], caption))
-}
-
-/// Parameters that share a panel.
-struct Group {
-    name: &'static str,
-    unit: &'static str,
-    members: Vec<usize>,
-}
-
-impl Group {
-    fn suffix<'a>(&self, study: &'a Study, index: usize) -> &'a str {
-        study.parameters[index].name.split_once('.').map_or("", |(_, suffix)| suffix)
-    }
-}
-
-fn groups(study: &Study) -> Vec<Group> {
-    [("bias.", "bias"), ("scale.", "scale factor"), ("matrix.", "cross-axis sensitivity")]
-        .into_iter()
-        .filter_map(|(prefix, name)| {
-            let is_member = |parameter: &Parameter| parameter.name.starts_with(prefix);
-            let members: Vec<usize> =
-                (0..study.parameters.len()).filter(|&i| is_member(&study.parameters[i])).collect();
-            let unit = study.parameters[*members.first()?].unit;
-            Some(Group { name, unit, members })
-        })
-        .collect()
-}
-
-fn axis_dots(position: usize, suffix: &str, points: Vec<(f64, f64)>) -> Series {
-    let looks = [
-        (colour::BLUE, Shape::Circle),
-        (colour::ORANGE, Shape::Square),
-        (colour::GREEN, Shape::Triangle),
-        (colour::VERMILLION, Shape::Cross),
-        (colour::SKY, Shape::Circle),
-        (colour::BLACK, Shape::Square),
-    ];
-    let (colour, shape) = looks[position % looks.len()];
-    let label = if suffix.len() == 1 { format!("axis {suffix}") } else { suffix.to_string() };
-    Series::new(&label, colour, Mark::Dots { shape, radius: 3.0 }, points)
-}
-
-fn subset(study: &Study, drawn: usize) -> String {
-    let all = study.outcomes.len();
-    if drawn < all {
-        format!(
-            " Of {} sensors, {drawn} spread evenly over the list are drawn.",
-            crate::number_format::count(all)
-        )
-    } else {
-        String::new()
-    }
 }

@@ -1,6 +1,6 @@
 //! The figure of the rotation errors of an IMU.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::panel::{Panel, Series, Shape};
 use super::{Figure, colour};
 use calibrant_core::estimate::RotationResult;
 
@@ -18,32 +18,15 @@ pub(crate) fn rotation_errors(rotations: &[RotationResult]) -> Option<Figure> {
             |r: &RotationResult| [r.error_before_rad, r.error_rad].map(|error| (x(r), error.to_degrees()));
         let mut panel = Panel::new("", label, "rotation error (°)");
         for rotation in &shown {
-            let line = Mark::Line { width: 0.8, dashes: "" };
-            panel = panel.with(Series::new("", colour::GREY, line, pair(rotation).to_vec()));
+            panel = panel.with(Series::stroke("", colour::GREY, (0.8, ""), pair(rotation).to_vec()));
         }
-        let dots = |label: &str, colour, shape, radius, chosen: &dyn Fn(&RotationResult) -> Option<usize>| {
-            let points = shown.iter().filter_map(|r| Some(pair(r)[chosen(r)?])).collect();
-            Series::new(label, colour, Mark::Dots { shape, radius }, points)
-        };
-        panel = panel.with(dots("before", colour::ORANGE, Shape::Square, 3.0, &|_| Some(0))).with(dots(
-            "after",
-            colour::BLUE,
-            Shape::Circle,
-            3.2,
-            &|r| r.used.then_some(1),
-        ));
-        if shown.iter().any(|rotation| !rotation.used) {
-            panel = panel.with(dots("after, not used", colour::VERMILLION, Shape::Cross, 5.0, &|r| {
-                (!r.used).then_some(1)
-            }));
-        }
+        let before = shown.iter().map(|r| pair(r)[0]).collect();
         let errors = || shown.iter().flat_map(|r| pair(r)).map(|point| point.1).filter(|error| *error > 0.0);
         let (low, high) = errors().fold((f64::INFINITY, 0.0_f64), |(l, h), e| (l.min(e), h.max(e)));
-        panel.log_y = high > WIDE * low;
-        if !panel.log_y {
-            panel.y_includes.push(0.0);
-        }
         panel
+            .with(Series::dots("before", colour::ORANGE, (Shape::Square, 3.0), before))
+            .with_used(["after", "after, not used"], [3.2, 5.0], shown.iter().map(|r| (r.used, pair(r)[1])))
+            .log_or_from_zero(high > WIDE * low)
     };
     let panels = vec![
         of("time (s)", |rotation| 0.5 * (rotation.start_s + rotation.end_s)),

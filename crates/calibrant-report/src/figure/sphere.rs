@@ -3,11 +3,11 @@
 //! This file draws it itself: a sphere with a graticule and numbered points is beyond the plotting library.
 
 use super::colour;
+use super::drawing::{entry, legend, opened};
 use super::frame::framed;
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use nalgebra::Vector3;
 
-/// Radius of a hemisphere.
 const RADIUS: f64 = 165.0;
 /// Half the side of a hemisphere's drawing.
 const HALF: f64 = 212.0;
@@ -20,29 +20,21 @@ pub(crate) fn hold_directions(holds: &HoldCalibration) -> String {
         .enumerate()
         .filter_map(|(i, hold)| direction(hold).map(|d| (i + 1, d, hold.used)))
         .collect();
-    let legend = format!(
-        "<ul class=\"legend\"><li>{}used</li>{}</ul>",
-        key(&dot(17.0, 7.0)),
-        if holds.holds.iter().all(|hold| hold.used) {
-            String::new()
-        } else {
-            format!("<li>{}not used</li>", key(&cross(17.0, 7.0)))
-        }
-    );
+    let mut signs = vec![entry(&dot(17.0, 7.0), "used")];
+    if holds.holds.iter().any(|hold| !hold.used) {
+        signs.push(entry(&cross(17.0, 7.0), "not used"));
+    }
     let caption = "Specific force over its magnitude in the true frame, with the number of the hold. Both halves are seen from \
                    +z. Equal areas on the sphere are equal areas here. Rings are 30° apart, and the rim is z = 0. Good: points in \
                    all parts of both halves. An empty region is a direction in which the calibration extrapolates.";
-    framed("Orientations of the holds", &legend, &hemispheres(&points, &[]), 2, caption)
+    framed("Orientations of the holds", &legend(&signs), &hemispheres(&points, &[]), 2, caption)
 }
 
 /// Directions of poses in the sensor's frame, numbered, and those of the approximate design that bounds them.
 pub(crate) fn pose_directions(poses: &[Vector3<f64>], approximate: &[Vector3<f64>]) -> String {
     let points: Vec<Point> = poses.iter().enumerate().map(|(k, u)| (k + 1, *u, true)).collect();
-    let legend = format!(
-        "<ul class=\"legend\"><li>{}pose</li><li>{}direction of the approximate design</li></ul>",
-        key(&dot(17.0, 7.0)),
-        key(&ring(17.0, 7.0))
-    );
+    let of_bound = entry(&ring(17.0, 7.0), "direction of the approximate design");
+    let legend = legend(&[entry(&dot(17.0, 7.0), "pose"), of_bound]);
     let caption = "The direction that is up in each pose, in the sensor's axes. Both halves are seen from +z. Equal areas on the sphere are \
                    equal areas here. Rings are 30° apart, and the rim is z = 0.";
     framed("Directions of the poses", &legend, &hemispheres(&points, approximate), 2, caption)
@@ -63,15 +55,10 @@ fn hemisphere(points: &[Point], rings: &[Vector3<f64>], name: &str, upper: bool)
         .filter(|(_, d, _)| (d.z >= 0.0) == upper)
         .map(|(number, d, used)| (*number, projected(d), *used))
         .collect();
-    let mut svg = format!(
-        "<svg viewBox=\"{0} {1} {2} {3}\" role=\"img\" aria-label=\"{name}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"#1b1f24\">\
-         <text x=\"0\" y=\"{4}\" font-size=\"15\" text-anchor=\"middle\">{name}</text>",
-        -HALF,
-        -HALF - 16.0,
-        2.0 * HALF,
-        2.0 * HALF + 16.0,
-        -HALF + 2.0
-    );
+    let frame = [-HALF, -HALF - 16.0, 2.0 * HALF, 2.0 * HALF + 16.0];
+    let mut svg = opened(frame, name, "fill=\"#1b1f24\"");
+    let top = 2.0 - HALF;
+    svg.push_str(&format!("<text x=\"0\" y=\"{top}\" font-size=\"15\" text-anchor=\"middle\">{name}</text>"));
     for elevation in [0.0_f64, 30.0, 60.0] {
         let radius = RADIUS * (1.0 - elevation.to_radians().sin()).sqrt();
         let stroke = if elevation == 0.0 { "#424a53" } else { "#d0d7de" };
@@ -171,10 +158,6 @@ fn cross(x: f64, y: f64) -> String {
         y - 4.5,
         colour::VERMILLION
     )
-}
-
-fn key(drawing: &str) -> String {
-    format!("<svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>")
 }
 
 #[cfg(test)]

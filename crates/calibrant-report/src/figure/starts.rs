@@ -1,7 +1,7 @@
 //! The figure of the final values of all starts of the search.
 
-use super::panel::{Mark, Panel, Series, Shape};
-use super::{Figure, colour};
+use super::Figure;
+use super::panel::Panel;
 use crate::design::starts::{groups, name};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, StartOutcome};
@@ -24,28 +24,14 @@ pub(crate) fn start_values(starts: &[StartOutcome], criterion: &Criterion) -> Op
                 most if most < 1e-4 => (1e6, "above the best (ppm)"),
                 _ => (100.0, "above the best (%)"),
             };
-            let of = |converged: bool| {
-                let ranked = group.sorted.iter().zip(&excess).enumerate();
-                ranked
-                    .filter(|(_, (start, _))| (start.status == DesignStatus::Converged) == converged)
-                    .map(|(rank, (_, e))| ((rank + 1) as f64, e * factor))
-                    .collect::<Vec<_>>()
-            };
-            let dots = |label: &str, colour, shape, points| {
-                Series::new(label, colour, Mark::Dots { shape, radius: 3.4 }, points)
-            };
-            let mut panel = Panel::new(name(&group.axes), "rank of the start", label).with(dots(
-                "converged",
-                colour::BLUE,
-                Shape::Circle,
-                of(true),
-            ));
-            let others = of(false);
-            if !others.is_empty() {
-                panel = panel.with(dots("not converged", colour::VERMILLION, Shape::Cross, others));
-            }
-            panel.y_includes.push(0.0);
-            panel
+            let ranked = (1..)
+                .map(f64::from)
+                .zip(&group.sorted)
+                .zip(&excess)
+                .map(|((rank, start), e)| (start.status == DesignStatus::Converged, (rank, e * factor)));
+            Panel::new(name(&group.axes), "rank of the start", label)
+                .with_used(["converged", "not converged"], [3.4, 3.4], ranked)
+                .log_or_from_zero(false)
         })
         .collect();
     let caption = "One marker for each start of the search, best first. Many at zero: many starts found the best motion, so a better one is \

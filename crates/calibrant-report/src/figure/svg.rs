@@ -1,21 +1,17 @@
 //! Panels as SVG: the only file that knows the plotting library.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::drawing::{FONT, opened};
+use super::panel::{Map, Mark, Panel, Series, Shape};
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::{self, fixed};
 use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot, Theme};
-use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
+use kuva::{TickFormat, plot::BandPlot, plot::ContourPlot, render::annotations::ShadedRegion};
 use std::sync::Arc;
 
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
 const WIDTH: f64 = 400.0;
-/// Height of a panel in SVG units.
 const HEIGHT: f64 = 270.0;
-/// Height of a square panel in SVG units.
 const SQUARE_HEIGHT: f64 = 400.0;
-/// Fonts of the letters, the first available one.
-const FONT: &str = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', Arial, sans-serif";
-
 /// The panel as an SVG that takes the width of its column.
 pub(super) fn svg(panel: &Panel) -> String {
     let height = if panel.square { SQUARE_HEIGHT } else { HEIGHT };
@@ -23,7 +19,8 @@ pub(super) fn svg(panel: &Panel) -> String {
         return nothing(panel, height);
     };
     let [x, y] = axes.map(|axis| axis.range);
-    let plots: Vec<Plot> = panel.series.iter().flat_map(|series| plots(panel, series)).collect();
+    let mut plots: Vec<Plot> = panel.map.iter().map(contours).collect();
+    plots.extend(panel.series.iter().flat_map(|series| self::plots(panel, series)));
     let mut layout = Layout::new(x, y)
         .with_width(WIDTH)
         .with_height(height)
@@ -55,6 +52,7 @@ pub(super) fn svg(panel: &Panel) -> String {
     if panel.log_y {
         layout = layout.with_log_y();
     }
+    layout.show_colorbar = panel.map.is_some();
     for shade in &panel.shades {
         layout = layout.with_shaded_region(
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
@@ -78,7 +76,7 @@ fn tick(value: f64, x: (f64, f64)) -> String {
         return number_format::tick(value);
     }
     let decimals = (1.0 - span.log10()).ceil().clamp(0.0, 9.0) as usize;
-    number_format::fixed(value, decimals)
+    fixed(value, decimals)
 }
 
 fn theme() -> Theme {
@@ -90,6 +88,11 @@ fn theme() -> Theme {
         font_family: Some(FONT.into()),
         ..Theme::light()
     }
+}
+
+fn contours(map: &Map) -> Plot {
+    let grid = ContourPlot::new().with_grid(map.values.clone(), map.x.clone(), map.y.clone());
+    grid.with_levels(&map.levels).with_filled().with_line_width(0.5).with_legend(map.label).into()
 }
 
 fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {
@@ -145,7 +148,7 @@ const LEAST_KEY_WIDTH: f64 = 1.5;
 /// The series' sign in a legend.
 pub(super) fn key(series: &Series) -> String {
     let colour = series.colour;
-    let drawing = match series.mark {
+    match series.mark {
         Mark::Line { width, dashes } => format!(
             "<path d=\"M1 7H33\" stroke=\"{colour}\" stroke-width=\"{}\" stroke-dasharray=\"{dashes}\"/>",
             width.max(LEAST_KEY_WIDTH)
@@ -173,17 +176,12 @@ pub(super) fn key(series: &Series) -> String {
         Mark::Stems => {
             format!("<path d=\"M1 12H33M8 12V2M17 12V6M26 12V8\" stroke=\"{colour}\" stroke-width=\"1.5\"/>")
         }
-    };
-    swatch(&drawing)
+    }
 }
 
 /// The sign of a shaded interval in a legend.
 pub(super) fn shade_key(colour: &str) -> String {
-    swatch(&format!("<rect x=\"1\" y=\"1\" width=\"32\" height=\"12\" fill=\"{colour}\" opacity=\"0.3\"/>"))
-}
-
-fn swatch(drawing: &str) -> String {
-    format!("<svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>")
+    format!("<rect x=\"1\" y=\"1\" width=\"32\" height=\"12\" fill=\"{colour}\" opacity=\"0.3\"/>")
 }
 
 /// An SVG of fixed size made to follow its column, named for screen readers, its numbers shortened, with further attributes.
@@ -193,11 +191,8 @@ fn responsive(svg: &str, height: f64, name: &str, attributes: &str) -> String {
         (Some(start), Some(end)) if start < end => format!("{}{}", &body[..start], &body[end + 3..]),
         _ => body.to_string(),
     };
-    format!(
-        "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\" fill=\"#1b1f24\"{attributes}>{}",
-        escape(name),
-        shortened(&body)
-    )
+    let attributes = format!("fill=\"#1b1f24\"{attributes}");
+    opened([0.0, 0.0, WIDTH, height], name, &attributes) + &shortened(&body)
 }
 
 /// Drops decimals beyond the second within tags: the plotting library writes some coordinates as
@@ -223,14 +218,14 @@ fn shortened(svg: &str) -> String {
 }
 
 fn nothing(panel: &Panel, height: f64) -> String {
+    let middle = WIDTH / 2.0;
+    let opened = opened([0.0, 0.0, WIDTH, height], &panel.title, "text-anchor=\"middle\"");
     format!(
-        "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{0}\" font-family=\"{FONT}\" text-anchor=\"middle\">\
-         <rect x=\"0.5\" y=\"0.5\" width=\"{1}\" height=\"{2}\" fill=\"none\" stroke=\"#d8dee4\"/>\
-         <text x=\"{3}\" y=\"22\" font-size=\"15\">{0}</text><text x=\"{3}\" y=\"{4}\" font-size=\"13\" fill=\"#57606a\">{5}</text></svg>",
-        escape(&panel.title),
+        "{opened}<rect x=\"0.5\" y=\"0.5\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#d8dee4\"/><text x=\"{middle}\" y=\"22\" font-size=\"15\">{}</text>\
+         <text x=\"{middle}\" y=\"{}\" font-size=\"13\" fill=\"#57606a\">{}</text></svg>",
         WIDTH - 1.0,
         height - 1.0,
-        WIDTH / 2.0,
+        escape(&panel.title),
         height / 2.0,
         escape(&panel.when_empty)
     )

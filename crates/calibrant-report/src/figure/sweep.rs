@@ -1,6 +1,8 @@
 //! The figure of a sweep: the best standard deviations as one quantity of the experiment changes.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::frame::caption;
+use super::kinds::{Kind, kinds, look};
+use super::panel::{Panel, Points, Series};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_design::{Sweep, SweepPoint};
@@ -23,68 +25,57 @@ pub(crate) fn sweep_curves(sweep: &Sweep) -> Figure {
         "" => sweep.variable.name().to_string(),
         unit => format!("{} ({unit})", sweep.variable.name()),
     };
-    let kinds = [("bias.", "bias"), ("scale.", "scale factor"), ("matrix.", "cross-axis sensitivity")];
     let (mut bounded, mut place) = (false, 0);
-    let panels: Vec<Panel> = kinds
-        .into_iter()
-        .filter_map(|(prefix, kind)| {
-            let members: Vec<usize> = (0..sweep.parameters.len())
-                .filter(|&p| sweep.parameters[p].name.starts_with(prefix))
+    let ratio = |values: &mut dyn Iterator<Item = f64>| {
+        let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
+        if low > 0.0 { high / low } else { 0.0 }
+    };
+    let mut panel = |kind: Kind| {
+        let all =
+            || kind.members.iter().flat_map(|&p| sd.iter().map(move |sd| sd[p])).filter(|v| v.is_finite());
+        let unit = DisplayUnit::suited_to(kind.unit, all());
+        let mut panel = Panel::new(kind.name, x_label.as_str(), unit.label("sd with the best motion"));
+        for group in alike(&kind.members, &sd) {
+            let (colour, shape) = look(place);
+            place += 1;
+            let names: Vec<&str> = group.iter().map(|&p| kind.suffix(&sweep.parameters[p])).collect();
+            let label = format!("{} {}", kind.name, names.join(", "));
+            let values = points.iter().map(|point| point.value);
+            let curve: Points = values.zip(sd.iter().map(|sd| sd[group[0]] * unit.factor)).collect();
+            let bounds: Points = points
+                .iter()
+                .filter_map(|point| Some((point.value, bound(point, group[0])? * unit.factor)))
                 .collect();
-            let unit = sweep.parameters[*members.first()?].unit;
-            let all =
-                || members.iter().flat_map(|&p| sd.iter().map(move |sd| sd[p])).filter(|v| v.is_finite());
-            let unit = DisplayUnit::suited_to(unit, all());
-            let mut panel = Panel::new(kind, x_label.as_str(), unit.label("sd with the best motion"));
-            for group in alike(&members, &sd) {
-                let (colour, shape) = look(place);
-                place += 1;
-                let names: Vec<&str> =
-                    group.iter().map(|&p| sweep.parameters[p].name.trim_start_matches(prefix)).collect();
-                let label = format!("{kind} {}", names.join(", "));
-                let curve: Vec<(f64, f64)> = points
-                    .iter()
-                    .zip(&sd)
-                    .map(|(point, sd)| (point.value, sd[group[0]] * unit.factor))
-                    .collect();
-                let bounds: Vec<(f64, f64)> = points
-                    .iter()
-                    .filter_map(|point| Some((point.value, bound(point, group[0])? * unit.factor)))
-                    .collect();
-                if !bounds.is_empty() {
-                    bounded = true;
-                    panel = panel.with(Series::dashed("lower bound", colour::BLACK, bounds));
-                }
-                let line = Mark::Line { width: 1.6, dashes: "" };
-                let dots = Mark::Dots { shape, radius: 3.6 };
-                panel = panel
-                    .with(Series::new("", colour, line, curve.clone()))
-                    .with(Series::new(&label, colour, dots, curve));
+            if !bounds.is_empty() {
+                bounded = true;
+                panel = panel.with(Series::dashed("lower bound", colour::BLACK, bounds));
             }
-            let ratio = |values: &mut dyn Iterator<Item = f64>| {
-                let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
-                if low > 0.0 { high / low } else { 0.0 }
-            };
-            panel.log_x = ratio(&mut points.iter().map(|point| point.value)) > WIDE;
-            panel.log_y = ratio(&mut all()) > WIDE;
-            if !panel.log_y {
-                panel.y_includes.push(0.0);
-            }
-            panel.when_empty = "no motion is possible at any of the values".to_string();
-            Some(panel)
-        })
-        .collect();
-    let mut caption = "Each marker is one design. Where a curve falls, a change of the value helps. Where it is flat, another limit is \
-                       active. Curves that coincide are drawn as one."
-        .to_string();
-    if bounded {
-        caption.push_str(
-            " Dashed: the bound that no motion can beat. Where it touches the curve, the design is proved optimal.",
-        );
-    }
-    if panels.iter().any(|panel| panel.log_x || panel.log_y) {
-        caption.push_str(" Axes that span more than a factor of three are logarithmic.");
-    }
+            panel = panel.with(Series::stroke("", colour, (1.6, ""), curve.clone())).with(Series::dots(
+                &label,
+                colour,
+                (shape, 3.6),
+                curve,
+            ));
+        }
+        panel.log_x = ratio(&mut points.iter().map(|point| point.value)) > WIDE;
+        panel.when_empty = "no motion is possible at any of the values".to_string();
+        panel.log_or_from_zero(ratio(&mut all()) > WIDE)
+    };
+    let panels: Vec<Panel> = kinds(&sweep.parameters).into_iter().map(&mut panel).collect();
+    let caption = caption(
+        "Each marker is one design. Where a curve falls, a change of the value helps. Where it is flat, another limit is \
+         active. Curves that coincide are drawn as one.",
+        &[
+            (
+                bounded,
+                "Dashed: the bound that no motion can beat. Where it touches the curve, the design is proved optimal.",
+            ),
+            (
+                panels.iter().any(|panel| panel.log_x || panel.log_y),
+                "Axes that span more than a factor of three are logarithmic.",
+            ),
+        ],
+    );
     let columns = panels.len().clamp(2, 3);
     let title = format!("Standard deviations against {}", sweep.variable.name());
     Figure::new(title, panels, caption).with_columns(columns)
@@ -101,16 +92,4 @@ fn alike(members: &[usize], sd: &[Vec<f64>]) -> Vec<Vec<usize>> {
         }
     }
     groups
-}
-
-fn look(place: usize) -> (&'static str, Shape) {
-    let looks = [
-        (colour::BLUE, Shape::Circle),
-        (colour::VERMILLION, Shape::Square),
-        (colour::GREEN, Shape::Triangle),
-        (colour::ORANGE, Shape::Cross),
-        (colour::SKY, Shape::Circle),
-        (colour::GREY, Shape::Square),
-    ];
-    looks[place % looks.len()]
 }

@@ -1,5 +1,6 @@
 //! Units that keep the numbers on an axis readable.
 
+use crate::number_format::significant;
 use crate::sheet::Cell;
 
 /// A unit for display: multiply by the factor.
@@ -34,6 +35,11 @@ impl DisplayUnit {
             unit,
             values.into_iter().filter(|v| v.is_finite()).fold(0.0, |most, v| most.max(v.abs())),
         )
+    }
+
+    /// A number in the original unit, with this many significant digits: `1.2 mm/s²`.
+    pub(crate) fn text(self, value: f64, digits: usize) -> String {
+        format!("{} {}", significant(value * self.factor, digits), self.symbol).trim_end().to_owned()
     }
 
     /// The cell of the unit in a table: `unit` on terminals, this one on pages.

@@ -1,9 +1,9 @@
 //! The figure of errors on data that the calibration did not use, beside the prediction of them.
 
-use super::panel::{Mark, Panel, Series, Shape};
+use super::panel::{Panel, Series};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_core::estimate::{ErrorKind, ValidatedErrors, Validation};
+use calibrant_core::estimate::{ErrorKind, UnusedError, ValidatedErrors, Validation};
 
 /// Each component of each error over time, with twice its predicted standard deviation about zero.
 pub(crate) fn validation_errors(validation: &Validation) -> Figure {
@@ -32,26 +32,15 @@ fn panels(errors: &ValidatedErrors) -> Vec<Panel> {
         }
         ErrorKind::Rate | ErrorKind::Rotation => (1.0_f64.to_degrees(), label.to_string()),
     };
-    let middle = |start_s: f64, end_s: f64| 0.5 * (start_s + end_s);
+    let middle = |error: &UnusedError| 0.5 * (error.start_s + error.end_s);
     let panel = |(component, title): (usize, &&str)| {
-        let zeros = errors.errors.iter().map(|error| (middle(error.start_s, error.end_s), 0.0)).collect();
+        let zeros = errors.errors.iter().map(|error| (middle(error), 0.0)).collect();
         let bars = errors.errors.iter().map(|error| 2.0 * factor * error.predicted_sd[component]).collect();
-        let points = |counts: bool| -> Vec<(f64, f64)> {
-            let chosen = errors.errors.iter().filter(|error| error.counts == counts);
-            chosen
-                .map(|error| (middle(error.start_s, error.end_s), factor * error.error[component]))
-                .collect()
-        };
-        let dot = Mark::Dots { shape: Shape::Circle, radius: 3.0 };
-        let mut panel = Panel::new(*title, "time (s)", label.as_str())
-            .with(Series::new("±2 sd predicted", colour::GREY, Mark::ErrorBars, zeros).with_spread(bars))
-            .with(Series::new("error", colour::BLUE, dot, points(true)));
-        let outlying = points(false);
-        if !outlying.is_empty() {
-            let cross = Mark::Dots { shape: Shape::Cross, radius: 5.0 };
-            panel = panel.with(Series::new("outlier, not counted", colour::VERMILLION, cross, outlying));
-        }
-        panel
+        let points = errors.errors.iter();
+        let points = points.map(|of| (of.counts, (middle(of), factor * of.error[component])));
+        Panel::new(*title, "time (s)", label.as_str())
+            .with(Series::bars("±2 sd predicted", colour::GREY, zeros, bars))
+            .with_used(["error", "outlier, not counted"], [3.0, 5.0], points)
     };
     titles.iter().enumerate().map(panel).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::quantity::machine_unit;
 use crate::figure::correction_bars;
-use crate::number_format;
+use crate::number_format::significant;
 use crate::sheet::{Cell, Section, Table};
 use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
 
@@ -40,7 +40,7 @@ fn largest(calibration: &MachineCalibration, setup: &MachineSetup) -> Option<Str
     Some(format!(
         "{} corrections of the joints, the largest {} standard deviations of what is known ({}).",
         estimated.len(),
-        number_format::significant(*deviations, 2),
+        significant(*deviations, 2),
         quantity.name(&calibration.joints)
     ))
 }

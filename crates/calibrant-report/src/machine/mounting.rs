@@ -1,6 +1,6 @@
 //! What the mounting means for the parameters, in a sentence.
 
-use crate::number_format;
+use crate::number_format::significant;
 use calibrant_core::sensor::SensorKind;
 use calibrant_machine::estimate::{MachineCalibration, MachineSetup, MountingPrior, Source};
 
@@ -26,7 +26,7 @@ pub(super) fn mounting_in_words(calibration: &MachineCalibration, setup: &Machin
                 format!(
                     "The mounting is known to {}°, which limits {limited} of {} parameters. A fixture helps; \
                      or give [machine.mount] rotation = \"unknown\", and the data define the sensor's axes.",
-                    number_format::significant(sd_rad.to_degrees(), 2),
+                    significant(sd_rad.to_degrees(), 2),
                     calibration.budget.len()
                 )
             })

@@ -10,7 +10,6 @@ fn growth(factor: Option<f64>) -> Cell {
     factor.map_or_else(|| Cell::Number("none".into()), |factor| Cell::significant(factor, 2))
 }
 
-/// Noise of each axis of each sensor.
 pub(super) fn sensor_noise(calibration: &MachineCalibration) -> Table {
     let mut table = Table::new([
         Column::new("sensor"),
@@ -46,7 +45,6 @@ pub(super) fn sensor_noise(calibration: &MachineCalibration) -> Table {
     table
 }
 
-/// Noise of each part of the log.
 pub(super) fn reference_noise(calibration: &MachineCalibration) -> Table {
     let mut table = Table::new([
         Column::new("reference"),

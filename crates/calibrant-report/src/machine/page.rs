@@ -7,18 +7,23 @@ use super::parameters::{budget, is_widened, mount_table, sensor_table};
 use super::quantity::place;
 use super::validation::validation_section;
 use super::verdict::verdict;
+use crate::About;
+use crate::calibration::chi2_rows;
 use crate::figure::{
-    PLAYER_SCRIPT, Scene, correlation_map_of, drawn, player, residual_coherence, residual_densities,
+    PLAYER_SCRIPT, Scene, correlation_map, drawn, player, residual_coherence, residual_densities,
     residuals_and_speed, sensor_on_tip, three_views,
 };
 use crate::limits::limit_section;
-use crate::sheet::{Section, Sheet, Table};
-use crate::{About, number_format};
+use crate::number_format::{count, significant};
+use crate::sheet::{Section, Sheet, Shown, Table};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, SensorResidual,
 };
 use std::sync::{Arc, OnceLock};
+
+/// What a reading is, and the delay.
+const MODEL: &str = "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope. Motion time = IMU time + delay. sd is the standard deviation.";
 
 /// A calibration on a machine as a sheet: verdict, parameters, limits and validations, mount, the budget of the variances, the machine in motion, residuals
 /// over time and by frequency, noise, geometry and correlations.
@@ -44,14 +49,8 @@ pub fn machine_sheet<'a>(
     sections.push(noise(calibration));
     sections.extend(corrections(calibration, setup));
     sections.push(fit(calibration));
-    let model = "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope. Motion time = IMU time + delay. sd is the standard deviation.";
-    Sheet {
-        title: if about.title.is_empty() { "Calibration on a machine".into() } else { about.title.clone() },
-        verdict: Some(verdict(calibration, validations, about)),
-        sections,
-        inputs: about.facts.clone(),
-        footer: vec![about.made(), model.to_owned()],
-    }
+    let verdict = verdict(calibration, validations, about);
+    about.sheet("Calibration on a machine", verdict, sections, MODEL)
 }
 
 /// The machine in motion. It is followed once, by the first figure that needs it.
@@ -101,7 +100,7 @@ fn machine<'a>(calibration: &'a MachineCalibration, scene: &SceneOnce) -> Sectio
 /// How fast the machine moved, the player, and what it looks like.
 fn in_motion(scene: &Scene) -> String {
     let largest = |of: fn(&calibrant_machine::reference::Posture) -> f64| {
-        number_format::significant(scene.path.iter().map(of).fold(0.0, f64::max), 3)
+        significant(scene.path.iter().map(of).fold(0.0, f64::max), 3)
     };
     let mut table = Table::explained();
     table.explain(
@@ -176,51 +175,34 @@ fn fit(calibration: &MachineCalibration) -> Section<'_> {
         let places: Vec<usize> =
             (0..calibration.quantities.len()).filter(|k| !of_joint(&calibration.quantities[*k])).collect();
         let names = calibration.names();
-        let names: Vec<&str> = places.iter().map(|place| names[*place].as_str()).collect();
         let covariance = calibration.covariance.select_rows(&places).select_columns(&places);
-        correlation_map_of(&names, &covariance)
+        correlation_map(places.iter().map(|place| names[*place].as_str()), &covariance)
     });
     section
 }
 
 fn fit_table(calibration: &MachineCalibration) -> Table {
-    let fit = &calibration.fit;
     let mut table = Table::explained();
     table.explain("status", calibration.status.name().into(), "How the iteration ended.");
     table.explain(
         "iterations",
-        number_format::count(calibration.iterations),
+        count(calibration.iterations),
         "Gauss–Newton steps, once the noise was known.",
     );
     table.explain_on_page(
         "last step",
-        number_format::significant(calibration.gradient_norm, 2),
+        significant(calibration.gradient_norm, 2),
         "Length of the last step, in standard deviations of the parameters. Good: far below 1.",
     );
-    let weights = if fit.p_value.is_some() { "" } else { ", noise from the residuals" };
-    table.explain("χ²", number_format::significant(fit.chi2, 5) + weights, match fit.p_value {
-        Some(_) => "Sum of squared residuals over the given noise. Good: near the degrees of freedom.",
-        None => "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.",
-    });
-    table.explain(
-        "degrees of freedom",
-        number_format::count(fit.degrees_of_freedom),
-        "Number of data less number of unknowns.",
-    );
-    if let Some(p) = fit.p_value {
-        table.explain("p-value", number_format::probability(p), "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.");
-    }
+    let from_data = "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.";
+    chi2_rows(&mut table, &calibration.fit, [", noise from the residuals", from_data], Shown::Everywhere);
     let knots = calibration.motion.knots();
     table.explain(
         "knots of the motion",
-        format!(
-            "every {} ms, degree {}",
-            number_format::significant(1e3 * knots.step_s, 3),
-            knots.degree.number()
-        ),
+        format!("every {} ms, degree {}", significant(1e3 * knots.step_s, 3), knots.degree.number()),
         &format!(
             "The motion is a spline with {} intervals. It cannot follow anything much faster than two knots.",
-            number_format::count(knots.intervals)
+            count(knots.intervals)
         ),
     );
     table

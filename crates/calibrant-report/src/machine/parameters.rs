@@ -2,7 +2,7 @@
 
 use super::quantity::{expected, machine_unit, of_mount};
 use crate::figure::{budget_bars, source_in_words};
-use crate::number_format;
+use crate::number_format::{short, significant, uncertainty};
 use crate::sheet::{Cell, Column, Section, Shown, Table};
 use calibrant_core::sensor::{ImuQuantity, SensorKind};
 use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, Source};
@@ -18,7 +18,7 @@ pub(super) fn is_widened(calibration: &MachineCalibration) -> bool {
 /// By how much correlated residuals widened an sd.
 fn widened(factor: f64) -> Cell {
     match factor > WIDENED {
-        true => Cell::Number(format!("× {}", number_format::significant(factor, 2))),
+        true => Cell::Number(format!("× {}", significant(factor, 2))),
         false => Cell::Missing,
     }
 }
@@ -29,7 +29,6 @@ fn with_widened(columns: &[Column], calibration: &MachineCalibration) -> Table {
     Table::new(columns.iter().cloned().chain(further))
 }
 
-/// The parameters of one sensor.
 pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind) -> Table {
     let mut table = with_widened(&["parameter", "estimate ± sd", "unit"].map(Column::new), calibration);
     let sds = calibration.sd();
@@ -68,8 +67,8 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
         let prior = factor * setup.prior_sd(quantity, calibration.noise.len());
         let [beforehand, share] = match prior.is_finite() {
             true => {
-                let prior_sd = number_format::significant(prior, 3);
-                let known = format!("{} ± {prior_sd}", number_format::short(before));
+                let prior_sd = significant(prior, 3);
+                let known = format!("{} ± {prior_sd}", short(before));
                 [Cell::Number(known), Cell::percent(sd / prior)]
             }
             false => [Cell::Number("unknown".into()), Cell::Missing],
@@ -120,12 +119,12 @@ fn bars(calibration: &MachineCalibration) -> String {
         .iter()
         .map(|row| {
             let unit = unit_of(calibration, row.quantity);
-            let sd = number_format::uncertainty(row.variance.sqrt());
+            let sd = uncertainty(row.variance.sqrt());
             let sd = if unit == "1" { sd } else { format!("{sd} {unit}") };
             (row.quantity.name(), sd, row.parts.map(|part| part / row.variance))
         })
         .collect();
-    budget_bars(&rows)
+    budget_bars(rows)
 }
 
 fn deviations(calibration: &MachineCalibration) -> Table {

@@ -1,8 +1,9 @@
 //! Validation of a calibration on a machine, in sentences and a table.
 
 use super::quantity::machine_unit;
-use crate::number_format;
+use crate::number_format::{fixed, significant};
 use crate::sheet::{Cell, Section, Table};
+use crate::validation::between;
 use calibrant_core::estimate::CovarianceVerdict;
 use calibrant_machine::estimate::{
     LargestShift, MachineCalibration, MachineValidation, MachineValidationSource, ParameterShift,
@@ -16,7 +17,7 @@ fn heading(validation: &MachineValidation) -> String {
     match &validation.source {
         MachineValidationSource::Recording { name } => format!("On {name}"),
         MachineValidationSource::Blocks { folds, length_s, .. } => {
-            format!("{folds} blocks of {} s, each left out in turn", number_format::significant(*length_s, 3))
+            format!("{folds} blocks of {} s, each left out in turn", significant(*length_s, 3))
         }
     }
 }
@@ -29,7 +30,7 @@ fn sentences(validation: &MachineValidation) -> Vec<String> {
     }
     if let MachineValidationSource::Blocks { failed, .. } = &validation.source {
         sentences.extend(failed.iter().map(|block| {
-            let [start, end] = [block.start_s, block.end_s].map(|at| number_format::fixed(at, 1));
+            let [start, end] = [block.start_s, block.end_s].map(|at| fixed(at, 1));
             format!("Without {start} to {end} s there is no calibration: {}.", block.reason)
         }));
     }
@@ -38,7 +39,7 @@ fn sentences(validation: &MachineValidation) -> Vec<String> {
 
 fn sentence(shift: &ParameterShift) -> String {
     let what = format!("The parameters of the {}", shift.sensor);
-    let two = |value: f64| number_format::significant(value, 2);
+    let two = |value: f64| significant(value, 2);
     match shift.verdict {
         CovarianceVerdict::Believed => format!("{what} move as far as their covariance predicts."),
         CovarianceVerdict::TooSmall if shift.factor > OTHER_CAUSE => format!(
@@ -60,12 +61,6 @@ fn sentence(shift: &ParameterShift) -> String {
     }
 }
 
-fn ratio(shift: &ParameterShift) -> String {
-    let [factor, low, high] = [shift.factor, shift.factor_interval.0, shift.factor_interval.1]
-        .map(|value| number_format::significant(value, 2));
-    format!("{factor} ({low} to {high})")
-}
-
 fn largest(
     largest: &LargestShift,
     source: &MachineValidationSource,
@@ -76,12 +71,12 @@ fn largest(
     let name = largest.quantity.name(&calibration.joints);
     let moved = format!(
         "{name} by {}{unit}, {} sd",
-        number_format::significant(factor * largest.shift, 2),
-        number_format::significant(largest.in_sd.abs(), 2)
+        significant(factor * largest.shift, 2),
+        significant(largest.in_sd.abs(), 2)
     );
     match (source, largest.without_s) {
         (MachineValidationSource::Blocks { length_s, .. }, Some(start_s)) => {
-            let [start, end] = [start_s, start_s + length_s].map(|at| number_format::fixed(at, 1));
+            let [start, end] = [start_s, start_s + length_s].map(|at| fixed(at, 1));
             format!("{moved}, without {start} to {end} s")
         }
         _ => moved,
@@ -97,7 +92,9 @@ pub(super) fn doubts(validations: &[MachineValidation]) -> impl Iterator<Item = 
 /// A line for each sensor whose covariance a validation does not doubt: the others are among the [`doubts`].
 pub(super) fn validation_in_short(validations: &[MachineValidation]) -> Vec<String> {
     let agrees = |shift: &&ParameterShift| shift.verdict != CovarianceVerdict::TooSmall;
-    let line = |shift: &ParameterShift| format!("{} The ratio is {}.", sentence(shift), ratio(shift));
+    let line = |shift: &ParameterShift| {
+        format!("{} The ratio is {}.", sentence(shift), between(shift.factor, shift.factor_interval))
+    };
     validations.iter().flat_map(|of| of.shifts.iter().filter(agrees).map(line)).collect()
 }
 
@@ -122,7 +119,7 @@ pub(super) fn validation_section<'a>(
                 Cell::name(shift.sensor.to_string()),
                 Cell::significant(shift.chi2, 3),
                 Cell::Number(shift.degrees_of_freedom.to_string()),
-                Cell::Number(ratio(shift)),
+                Cell::Number(between(shift.factor, shift.factor_interval)),
                 Cell::Number(largest(&shift.largest, &validation.source, calibration)),
             ]);
         }

@@ -1,17 +1,15 @@
 //! The verdict on a calibration on a machine: can it be used?
 
 use super::validation::{doubts, validation_in_short};
-use crate::calibration::{calibration_verdict, noise_explains};
-use crate::number_format::capitalised;
+use crate::About;
+use crate::calibration::{calibration_verdict, noise_explains, worst_gain};
+use crate::number_format::{self, capitalised, counted, percent};
 use crate::sheet::SheetVerdict;
-use crate::{About, number_format};
-use calibrant_core::sensor::Invariant;
 use calibrant_machine::estimate::{MachineCalibration, MachineTrust, MachineValidation};
 
 /// Below this probability, the noise does not explain the data.
 const UNEXPLAINED: f64 = 0.001;
 
-/// The verdict with its warnings.
 pub(super) fn verdict(
     calibration: &MachineCalibration,
     validations: &[MachineValidation],
@@ -27,7 +25,7 @@ fn sentence(calibration: &MachineCalibration) -> String {
     let samples = calibration.noise.iter().map(|of| of.residuals.len()).max().unwrap_or(0);
     let reference = match calibration.joints.len() {
         0 => "the logged poses of the body".to_string(),
-        count => format!("the logged positions of {}", number_format::counted(count, "joint")),
+        count => format!("the logged positions of {}", counted(count, "joint")),
     };
     let trust = match calibration.trust {
         MachineTrust::Known => "which were trusted as exact",
@@ -37,7 +35,7 @@ fn sentence(calibration: &MachineCalibration) -> String {
         "{} against {reference}, {trust}. {} samples were used, {} of all. {}",
         capitalised(&sensors.join(" and ")),
         number_format::count(samples),
-        number_format::percent(calibration.used_share),
+        percent(calibration.used_share),
         gains(calibration)
     )
 }
@@ -46,12 +44,8 @@ fn sentence(calibration: &MachineCalibration) -> String {
 fn gains(calibration: &MachineCalibration) -> String {
     let invariants = calibration.calibrated().invariants();
     let of_sensor = |sensor| {
-        let relative = invariants
-            .iter()
-            .filter(|found| matches!(found.invariant, Invariant::Gain(of, _) if of == sensor))
-            .filter_map(|found| Some(found.sd? / found.value));
-        let worst = relative.fold(0.0, f64::max);
-        (worst > 0.0).then(|| format!("{} ({sensor})", number_format::percent(worst)))
+        let worst = worst_gain(&invariants, sensor);
+        (worst > 0.0).then(|| format!("{} ({sensor})", percent(worst)))
     };
     let known: Vec<String> = calibration.noise.iter().filter_map(|of| of_sensor(of.sensor)).collect();
     if known.is_empty() {

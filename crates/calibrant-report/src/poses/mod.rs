@@ -4,11 +4,11 @@ mod attitude;
 
 pub use attitude::pose_in_words;
 
-use super::About;
-use super::design::{criterion_in_words, gap_in_words};
+use super::design::{criterion_explained, criterion_in_words, gap_in_words};
 use super::figure::{DisplayUnit, device, pose_directions};
 use super::html::escape;
-use super::number_format::{self, counted, significant};
+use super::report_context::{About, READINGS};
+use crate::number_format::{counted, signed, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use attitude::Attitude;
 use calibrant_core::sensor::ReadingUnit;
@@ -53,16 +53,10 @@ pub fn pose_sheet<'a>(
     });
     poses.table(pose_table(&design.directions));
     poses.drawn(|| checklist(&design.directions));
-    Sheet {
-        title: about.title.clone(),
-        verdict: Some(verdict),
-        sections: vec![predicted, poses, direction_section(&design.directions, &design.bound)],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let sections = vec![predicted, poses, direction_section(&design.directions, &design.bound)];
+    about.sheet("Poses", verdict, sections, READINGS)
 }
 
-/// The efficiency of designed poses in a sentence.
 fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
     let poses = design.directions.len();
     let (have, any) = if poses == 1 {
@@ -91,13 +85,9 @@ pub fn pose_evaluation_sheet<'a>(
         _ => (Grade::Caution, "! Better poses exist."),
     };
     let predicted = predicted_section(&evaluation.sd(), problem, unit, evaluation.value, &evaluation.bound);
-    Sheet {
-        title: about.title.clone(),
-        verdict: Some(SheetVerdict::new(grade, word, evaluation_in_words(evaluation, directions.len()))),
-        sections: vec![predicted, direction_section(directions, &evaluation.bound)],
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    let verdict = SheetVerdict::new(grade, word, evaluation_in_words(evaluation, directions.len()));
+    let sections = vec![predicted, direction_section(directions, &evaluation.bound)];
+    about.sheet("Evaluation of poses", verdict, sections, READINGS)
 }
 
 /// The efficiency of holds in a sentence or two.
@@ -124,7 +114,7 @@ fn checklist(directions: &[Vector3<f64>]) -> String {
         .enumerate()
         .map(|(k, u)| {
             let attitude = Attitude::of(u);
-            let number = |value: f64| number_format::signed(value, 3);
+            let number = |value: f64| signed(value, 3);
             format!(
                 "<li><p><span class=\"box\"></span> <strong>{}</strong></p>{}<p>{}</p><p class=\"up\">up: ({}, {}, {})</p></li>",
                 k + 1,
@@ -172,12 +162,7 @@ fn predicted_section<'a>(
         significant(bound.value, 5)
     ));
     section.table(predicted(problem, sd, unit));
-    section.explanation(format!(
-        "The poses are compared by criterion {}, {} (C is the covariance of the parameters{}).",
-        criterion.letter(),
-        criterion.formula(),
-        criterion.scaling()
-    ));
+    section.explanation(format!("The poses are compared by {}.", criterion_explained(criterion)));
     section
 }
 

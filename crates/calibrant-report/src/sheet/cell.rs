@@ -4,6 +4,7 @@ use crate::number_format;
 
 /// One cell of a table.
 #[derive(Debug, Clone, PartialEq)]
+#[must_use]
 pub enum Cell {
     /// The name of the row.
     Name(String),
@@ -78,7 +79,6 @@ pub enum Digits {
 }
 
 impl Digits {
-    /// The number with these digits.
     pub(super) fn text(self, value: f64) -> String {
         match self {
             _ if !value.is_finite() => number_format::UNKNOWN.to_owned(),
@@ -110,19 +110,16 @@ impl Cell {
     }
 
     /// A number to this many significant digits.
-    #[must_use]
     pub fn significant(value: f64, digits: usize) -> Self {
         Self::Value { value, digits: Digits::Significant(digits) }
     }
 
     /// A number in SI to this many significant digits, and what pages multiply it by.
-    #[must_use]
     pub fn scaled(value: f64, digits: usize, factor: f64) -> Self {
         Self::Scaled { value, digits: Digits::Significant(digits), factor }
     }
 
     /// A standard deviation in SI, to four significant digits, and what pages multiply it by. One that is not finite is undetermined.
-    #[must_use]
     pub fn sd(value: f64, factor: f64) -> Self {
         match value.is_finite() {
             true => Self::scaled(value, 4, factor),
@@ -131,42 +128,35 @@ impl Cell {
     }
 
     /// A number with this many decimals.
-    #[must_use]
     pub fn fixed(value: f64, decimals: usize) -> Self {
         Self::Value { value, digits: Digits::Fixed(decimals) }
     }
 
     /// A given number: at most six significant digits, no trailing zeros.
-    #[must_use]
     pub fn short(value: f64) -> Self {
         Self::Value { value, digits: Digits::Short }
     }
 
     /// A fraction in per cent.
-    #[must_use]
     pub fn percent(fraction: f64) -> Self {
         Self::Value { value: fraction, digits: Digits::Percent }
     }
 
     /// A probability.
-    #[must_use]
     pub fn probability(p: f64) -> Self {
         Self::Value { value: p, digits: Digits::Probability }
     }
 
     /// A value with its standard deviation.
-    #[must_use]
     pub fn estimate(value: f64, sd: f64) -> Self {
         Self::Estimate { value, sd }
     }
 
     /// A whole number.
-    #[must_use]
     pub fn count(n: usize) -> Self {
         Self::Number(number_format::count(n))
     }
 
-    /// What the cell says on a page.
     pub(super) fn on_page(&self) -> String {
         match self {
             Self::Scaled { value, digits, factor } => digits.text(value * factor),
@@ -176,7 +166,6 @@ impl Cell {
         }
     }
 
-    /// What the cell says on a terminal.
     pub(super) fn in_words(&self) -> String {
         match self {
             Self::Scaled { value, digits, .. } => digits.text(*value),

@@ -1,7 +1,6 @@
-//! The sheet itself.
+//! The sheet itself, and what it says first: can the result be used?
 
 use super::section::Section;
-use super::verdict::SheetVerdict;
 
 /// A result for people: title, verdict, sections, and where it comes from.
 ///
@@ -29,4 +28,48 @@ pub struct Sheet<'a> {
     pub inputs: Vec<(String, String)>,
     /// The lines at the foot of the page.
     pub footer: Vec<String>,
+}
+
+/// How good a result is: the colour of its verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grade {
+    /// It can be used.
+    Good,
+    /// It must be looked at first.
+    Caution,
+    /// It must not be used.
+    Bad,
+}
+
+/// The verdict of a sheet.
+#[derive(Debug, Clone)]
+#[must_use]
+pub struct SheetVerdict {
+    pub(super) grade: Grade,
+    pub(super) word: String,
+    pub(super) sentence: String,
+    pub(super) remarks: Vec<(String, Vec<String>)>,
+    pub(super) line: Option<String>,
+}
+
+impl SheetVerdict {
+    /// A verdict in a word with its sign (`✓ Usable.`), and a sentence on what was done and found.
+    pub fn new(grade: Grade, word: impl Into<String>, sentence: impl Into<String>) -> Self {
+        let (word, sentence) = (word.into(), sentence.into());
+        Self { grade, word, sentence, remarks: Vec::new(), line: None }
+    }
+
+    /// Adds a headed list that qualifies the verdict. Pages show it; a command prints its diagnostics by itself.
+    pub fn with(mut self, heading: &str, items: Vec<String>) -> Self {
+        if !items.is_empty() {
+            self.remarks.push((heading.to_owned(), items));
+        }
+        self
+    }
+
+    /// The line that terminals show in place of the word: `verdict: ok`. An empty one hides the verdict there.
+    pub fn on_terminal(mut self, line: impl Into<String>) -> Self {
+        self.line = Some(line.into());
+        self
+    }
 }

@@ -1,12 +1,10 @@
 //! A sheet as a page.
 
 use super::cell::Cell;
-use super::document::Sheet;
+use super::document::{Grade, Sheet, SheetVerdict};
 use super::section::{Piece, Section};
-use super::shown::Shown;
-use super::table::Table;
-use super::verdict::{Grade, SheetVerdict};
-use crate::html::{Page, escape, facts, list, verdict_box};
+use super::table::{Shown, Table};
+use crate::html::{escape, facts, list, page, paragraph};
 use rayon::prelude::*;
 
 impl Sheet<'_> {
@@ -18,42 +16,42 @@ impl Sheet<'_> {
     pub fn html(&self) -> String {
         let shown: Vec<&Section<'_>> =
             self.sections.iter().filter(|section| section.shown.on_page()).collect();
-        let bodies: Vec<Vec<String>> = shown.par_iter().map(|section| body(section)).collect();
-        let verdict = self.verdict.as_ref().map_or_else(String::new, verdict);
-        let mut page = Page::opened(&self.title, verdict);
-        for (section, body) in shown.into_iter().zip(bodies) {
-            if !section.heading.is_empty() {
-                page.section(&section.heading, &section.lead);
-            }
-            body.into_iter().filter(|html| !html.is_empty()).for_each(|html| page.push(html));
+        let mut sections: Vec<(&str, String)> =
+            shown.par_iter().map(|section| (section.heading.as_str(), body(section))).collect();
+        if !self.inputs.is_empty() {
+            sections.push(("Inputs", facts(&self.inputs) + "\n"));
         }
-        page.finish(&self.title, &self.inputs, &self.footer)
+        let verdict = self.verdict.as_ref().map_or_else(String::new, verdict);
+        page(&self.title, &verdict, &sections, &self.footer)
     }
 }
 
-/// The pieces of a section.
-fn body(section: &Section<'_>) -> Vec<String> {
-    let of = |(shown, piece): &(Shown, Piece<'_>)| match shown.on_page() {
-        true => html(piece),
-        false => String::new(),
+/// The pieces of a section, after the sentence on its purpose.
+fn body(section: &Section<'_>) -> String {
+    let lead = match section.heading.is_empty() || section.lead.is_empty() {
+        true => String::new(),
+        false => paragraph(&section.lead) + "\n",
     };
-    section.pieces.par_iter().map(of).collect()
+    let shown: Vec<&Piece<'_>> =
+        section.pieces.iter().filter(|(shown, _)| shown.on_page()).map(|(_, piece)| piece).collect();
+    let pieces: Vec<String> = shown.into_par_iter().map(html).collect();
+    pieces.into_iter().filter(|html| !html.is_empty()).fold(lead, |body, html| body + &html + "\n")
 }
 
 fn html(piece: &Piece<'_>) -> String {
     match piece {
         Piece::Subheading(text) => format!("<h3>{}</h3>", escape(text)),
-        Piece::Paragraph(text) => format!("<p>{}</p>", escape(text)),
+        Piece::Paragraph(text) => paragraph(text),
         Piece::List(items) => list(items),
-        Piece::Facts(all) => facts(all.iter().map(|(label, value)| (label.as_str(), value.as_str()))),
+        Piece::Facts(all) => facts(all),
         Piece::Tables(tables) => match tables.as_slice() {
-            [one] => table(one),
+            [one] => one.html(),
             several => {
-                let each: String = several.iter().map(|one| format!("<div>{}</div>", table(one))).collect();
+                let each: String = several.iter().map(|one| format!("<div>{}</div>", one.html())).collect();
                 format!("<div class=\"pair\">{each}</div>")
             }
         },
-        Piece::Drawn(draw) => draw(),
+        Piece::Drawn(drawing) => (drawing.0)(),
         Piece::Folded(summary, pieces) => {
             let within: String = pieces.iter().map(html).collect();
             format!("<details><summary>{}</summary>{within}</details>", escape(summary))
@@ -61,47 +59,49 @@ fn html(piece: &Piece<'_>) -> String {
     }
 }
 
+/// The verdict in a prominent box: a word, a sentence, and headed lists that qualify it.
 fn verdict(verdict: &SheetVerdict) -> String {
     let class = match verdict.grade {
         Grade::Good => "good",
         Grade::Caution => "caution",
         Grade::Bad => "bad",
     };
-    let remarks: Vec<(&str, Vec<String>)> =
-        verdict.remarks.iter().map(|(heading, items)| (heading.as_str(), items.clone())).collect();
-    verdict_box(class, &verdict.word, &verdict.sentence, &remarks)
+    let remark = |(heading, items): &(String, Vec<String>)| {
+        format!("<p><strong>{}</strong></p>{}", escape(heading), list(items))
+    };
+    let lists: String = verdict.remarks.iter().map(remark).collect();
+    format!(
+        "<div class=\"verdict {class}\"><p><span class=\"word\">{}</span> {}</p>{lists}</div>",
+        escape(&verdict.word),
+        escape(&verdict.sentence)
+    )
 }
 
 impl Table {
-    /// The table alone.
+    /// A table; it scrolls sideways by itself where the page is too narrow.
     pub(crate) fn html(&self) -> String {
-        table(self)
+        let columns = self.places(Shown::on_page);
+        let class = |column: usize| if self.is_numeric(column) { " class=\"n\"" } else { "" };
+        let heading = |&column: &usize| {
+            format!("<th scope=\"col\"{}>{}</th>", class(column), escape(&self.columns[column].title()))
+        };
+        let head: String = columns.iter().map(heading).collect();
+        let rows = || self.rows.iter().filter(|row| row.shown.on_page());
+        let mut body = String::new();
+        for row in rows() {
+            body.push_str(if row.left_out { "<tr class=\"out\">" } else { "<tr>" });
+            let cells = columns.iter().filter_map(|&column| Some((column, row.cells.get(column)?)));
+            cells.for_each(|(column, found)| body.push_str(&cell(found, class(column))));
+            body.push_str("</tr>\n");
+        }
+        let explains = rows().flat_map(|row| &row.cells).any(|cell| matches!(cell, Cell::Words(_)));
+        // on a phone, the words stand below name and value; a row of several numbers has no room for that
+        let numbers = columns.iter().filter(|&&column| self.is_numeric(column)).count();
+        let explained = if explains && numbers <= 1 { " class=\"explained\"" } else { "" };
+        format!(
+            "<div class=\"scroll\"><table{explained}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
+        )
     }
-}
-
-/// A table; it scrolls sideways by itself where the page is too narrow.
-fn table(table: &Table) -> String {
-    let columns = table.places(Shown::on_page);
-    let class = |column: usize| if table.is_numeric(column) { " class=\"n\"" } else { "" };
-    let heading = |&column: &usize| {
-        format!("<th scope=\"col\"{}>{}</th>", class(column), escape(&table.columns[column].title()))
-    };
-    let head: String = columns.iter().map(heading).collect();
-    let rows = || table.rows.iter().filter(|row| row.shown.on_page());
-    let mut body = String::new();
-    for row in rows() {
-        body.push_str(if row.left_out { "<tr class=\"out\">" } else { "<tr>" });
-        let cells = columns.iter().filter_map(|&column| Some((column, row.cells.get(column)?)));
-        cells.for_each(|(column, found)| body.push_str(&cell(found, class(column))));
-        body.push_str("</tr>\n");
-    }
-    let explains = rows().flat_map(|row| &row.cells).any(|cell| matches!(cell, Cell::Words(_)));
-    // on a phone, the words stand below name and value; a row of several numbers has no room for that
-    let numbers = columns.iter().filter(|&&column| table.is_numeric(column)).count();
-    let explained = if explains && numbers <= 1 { " class=\"explained\"" } else { "" };
-    format!(
-        "<div class=\"scroll\"><table{explained}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
-    )
 }
 
 /// A cell, in a column of this class.

@@ -7,16 +7,12 @@ mod cell;
 mod document;
 mod html;
 mod section;
-mod shown;
 mod table;
 mod text;
-mod verdict;
 
 pub use cell::{Cell, Digits};
-pub use document::Sheet;
+pub use document::{Grade, Sheet, SheetVerdict};
 pub use section::Section;
-pub use shown::Shown;
 pub(crate) use table::explained;
-pub use table::{Column, Table};
+pub use table::{Column, Shown, Table};
 pub use text::{paragraph, wrapped};
-pub use verdict::{Grade, SheetVerdict};

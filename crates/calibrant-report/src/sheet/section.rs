@@ -1,15 +1,13 @@
 //! A section of a sheet: its pieces in order.
 
-use super::shown::Shown;
-use super::table::Table;
+use super::table::{Shown, Table};
 use crate::figure::Figure;
 use std::fmt;
 
 /// A piece of a section.
+#[derive(Debug)]
 pub(super) enum Piece<'a> {
-    /// A heading within the section.
     Subheading(String),
-    /// A paragraph.
     Paragraph(String),
     /// Sentences, one below the other.
     List(Vec<String>),
@@ -18,27 +16,23 @@ pub(super) enum Piece<'a> {
     /// Tables: beside each other on a page, where there are several.
     Tables(Vec<Table>),
     /// What only a page can show, as HTML, made when it is printed: a figure, a matrix.
-    Drawn(Box<dyn Fn() -> String + Send + Sync + 'a>),
+    Drawn(Drawing<'a>),
     /// Pieces that a page shows on demand, under this summary.
     Folded(String, Vec<Piece<'a>>),
 }
 
-impl fmt::Debug for Piece<'_> {
+/// HTML that is made when a page is printed.
+pub(super) struct Drawing<'a>(pub(super) Box<dyn Fn() -> String + Send + Sync + 'a>);
+
+impl fmt::Debug for Drawing<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Subheading(text) => out.debug_tuple("Subheading").field(text).finish(),
-            Self::Paragraph(text) => out.debug_tuple("Paragraph").field(text).finish(),
-            Self::List(items) => out.debug_tuple("List").field(items).finish(),
-            Self::Facts(facts) => out.debug_tuple("Facts").field(facts).finish(),
-            Self::Tables(tables) => out.debug_tuple("Tables").field(tables).finish(),
-            Self::Drawn(_) => out.write_str("Drawn"),
-            Self::Folded(summary, pieces) => out.debug_tuple("Folded").field(summary).field(pieces).finish(),
-        }
+        out.write_str("Drawing")
     }
 }
 
 /// A section: a heading, a sentence on its purpose, and its pieces.
 #[derive(Debug, Default)]
+#[must_use]
 pub struct Section<'a> {
     pub(super) heading: String,
     /// The heading on terminals, where it is another one.
@@ -60,21 +54,18 @@ impl<'a> Section<'a> {
     }
 
     /// A sentence on its purpose, for pages.
-    #[must_use]
     pub fn lead(mut self, lead: impl Into<String>) -> Self {
         self.lead = lead.into();
         self
     }
 
     /// Its heading on terminals, in place of the one of pages; nothing for none.
-    #[must_use]
     pub fn on_terminal(mut self, heading: impl Into<String>) -> Self {
         self.on_terminal = Some(heading.into());
         self
     }
 
     /// The section for pages alone.
-    #[must_use]
     pub fn for_page(self) -> Self {
         Self { shown: Shown::OnPage, ..self }
     }
@@ -144,7 +135,7 @@ impl<'a> Section<'a> {
 
     /// A figure, or other HTML of pages alone. It is made when a page is printed, all at the same time.
     pub fn drawn(&mut self, html: impl Fn() -> String + Send + Sync + 'a) {
-        self.push(Shown::OnPage, Piece::Drawn(Box::new(html)));
+        self.push(Shown::OnPage, Piece::Drawn(Drawing(Box::new(html))));
     }
 
     /// A figure, drawn when a page is printed; `None` where there is nothing to draw.

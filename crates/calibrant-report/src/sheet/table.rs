@@ -1,10 +1,35 @@
 //! Tables of typed cells. Columns and rows say where they are shown.
 
 use super::cell::Cell;
-use super::shown::Shown;
+use crate::number_format::capitalised;
+
+/// The printers that show a part of a sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Shown {
+    /// On pages and on terminals.
+    #[default]
+    Everywhere,
+    /// On pages only: details, explanations, long tables.
+    OnPage,
+    /// On terminals only.
+    OnTerminal,
+}
+
+impl Shown {
+    /// Does a page show it?
+    pub(super) fn on_page(self) -> bool {
+        self != Self::OnTerminal
+    }
+
+    /// Does a terminal show it?
+    pub(super) fn on_terminal(self) -> bool {
+        self != Self::OnPage
+    }
+}
 
 /// A column: its heading, what it means, and where it is shown.
 #[derive(Debug, Clone)]
+#[must_use]
 pub struct Column {
     heading: String,
     /// The unit of its numbers; empty where they have none or several.
@@ -20,7 +45,6 @@ impl Column {
     }
 
     /// Its numbers are in this unit, which stands in the heading.
-    #[must_use]
     pub fn in_unit(mut self, symbol: &str) -> Self {
         self.unit = symbol.to_owned();
         self
@@ -32,14 +56,12 @@ impl Column {
     }
 
     /// What the column means, for pages: a sentence without its full stop, or several.
-    #[must_use]
     pub fn noted(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
         self
     }
 
     /// The column where it is shown there.
-    #[must_use]
     pub fn shown(mut self, shown: Shown) -> Self {
         self.shown = shown;
         self
@@ -52,8 +74,7 @@ impl Column {
 
     /// The note with the name of the column before it; none without a note.
     pub(super) fn explanation(&self) -> Option<String> {
-        (!self.note.is_empty())
-            .then(|| format!("{}: {}.", crate::number_format::capitalised(&self.heading), self.note))
+        (!self.note.is_empty()).then(|| format!("{}: {}.", capitalised(&self.heading), self.note))
     }
 }
 
@@ -63,7 +84,6 @@ impl<T: Into<String>> From<T> for Column {
     }
 }
 
-/// A row.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
     pub(super) cells: Vec<Cell>,
@@ -74,6 +94,7 @@ pub(super) struct Row {
 
 /// A table: columns, and rows of as many cells.
 #[derive(Debug, Clone, Default)]
+#[must_use]
 pub struct Table {
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<Row>,
@@ -89,21 +110,18 @@ impl Table {
     }
 
     /// A list of numbers, each with its name and its meaning. Terminals leave out the meaning.
-    #[must_use]
     pub fn explained() -> Self {
         let columns = [Column::new(""), Column::new("value"), Column::on_page("meaning")];
         Self { is_list: true, ..Self::new(columns) }
     }
 
     /// The table where it is shown there.
-    #[must_use]
     pub fn shown(mut self, shown: Shown) -> Self {
         self.shown = shown;
         self
     }
 
     /// The table of pages alone.
-    #[must_use]
     pub fn on_page(self) -> Self {
         self.shown(Shown::OnPage)
     }

@@ -1,14 +1,10 @@
 //! The chapter on initial against optimal motions over many sensors: the thesis's chapter 4.
 
 use super::settings::settings;
-use crate::design::{axes, limit_table, times};
-use crate::figure::{
-    DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, states,
-    traces, velocity_and_displacement,
-};
-use crate::number_format;
+use crate::design::{axes, limit_table, motion_figures, times, uses};
+use crate::figure::{DisplayUnit, Drawn, absolute_errors, confidence_ellipses, optimal_motions, traces};
+use crate::number_format::{count, counted, percent, short, significant, with_sd};
 use crate::sheet::{Cell, Column, Section, Table};
-use calibrant_design::limit_use;
 use calibrant_study::{DesignStudy, Factor, ParameterSummary};
 
 /// Predicted and realised factors differ significantly beyond this number of standard errors.
@@ -24,7 +20,6 @@ pub(super) struct Chapter {
     errors: &'static str,
 }
 
-/// The thesis's section 4.2.
 pub(super) const OPTIMAL: Chapter = Chapter {
     heading: "Initial against optimal motion",
     lead: "Each sensor goes round the loop of the thesis's Figure 2: calibrated on a random initial motion, the best motion designed at that \
@@ -35,7 +30,6 @@ pub(super) const OPTIMAL: Chapter = Chapter {
     errors: "Figure 11 of the thesis: absolute errors of biases (a) and scale factors (b)",
 };
 
-/// The thesis's section 4.3.
 pub(super) const NOISY: Chapter = Chapter {
     heading: "Initial against optimal motion, with process noise",
     lead: "The arm follows its command only up to noise on the jerk, which is estimated along with the parameters. Motions and figures are those of the \
@@ -59,10 +53,10 @@ pub(super) fn chapter<'a>(study: &'a DesignStudy, chapter: &Chapter) -> Section<
     );
     section.line(format!(
         "{}, trust {}, initial against optimal motion, {} intervals, {} Hz, seed {}",
-        number_format::counted(study.outcomes.len(), "sensor"),
+        counted(study.outcomes.len(), "sensor"),
         study.trust.name(),
         study.intervals,
-        number_format::short(study.rate_hz),
+        short(study.rate_hz),
         study.seed
     ));
     section.table(improvement_table(study));
@@ -73,11 +67,9 @@ pub(super) fn chapter<'a>(study: &'a DesignStudy, chapter: &Chapter) -> Section<
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
     let title = chapter.motion;
-    section.figure(move || Some(jerk_and_acceleration(title, &motions, axes, &study.limits)));
-    section.figure(move || states(&motions, axes, &study.limits));
-    section.figure(move || Some(velocity_and_displacement(&motions, axes, &study.limits)));
+    section.drawn(move || motion_figures(title, &motions, axes, &study.limits));
     section.table(
-        limit_table(&limit_use(&study.limits, axes.len(), &design.optimal.motion), "optimal motion")
+        limit_table(&uses(&study.limits, &study.parameters, &design.optimal.motion), "optimal motion")
             .on_page(),
     );
     let (of_motions, of_traces, of_errors) = (chapter.motions, chapter.traces, chapter.errors);
@@ -117,12 +109,16 @@ pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     let sentence = format!(
         "{name}: the trace of the covariance is smaller than with the initial motion for {} of {} sensors.{gain} {kept_words} 95 % intervals contain \
          the truth in {} of the cases.",
-        number_format::count(better),
-        number_format::count(all),
-        number_format::percent(coverage)
+        count(better),
+        count(all),
+        percent(coverage)
     );
-    let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
-    (all > 0 && better == all && kept && (coverage - 0.95).abs() <= chance, sentence)
+    (all > 0 && better == all && kept && is_covered(coverage, all), sentence)
+}
+
+/// Do so many of the 95 % intervals contain the truth, up to chance? Estimates of one sensor are correlated, so the sensors alone count.
+pub(super) fn is_covered(coverage: f64, sensors: usize) -> bool {
+    (coverage - 0.95).abs() <= 2.0 * (0.95 * 0.05 / sensors.max(1) as f64).sqrt()
 }
 
 fn coverage(study: &DesignStudy) -> f64 {
@@ -138,9 +134,9 @@ fn agrees(entry: &calibrant_study::Improvement) -> bool {
 
 fn factor(factor: &Factor) -> String {
     match factor.standard_error {
-        Some(error) if error > 5e-4 * factor.value => number_format::with_sd(factor.value, error),
-        Some(_) => number_format::significant(factor.value, 4),
-        None => number_format::significant(factor.value, 3),
+        Some(error) if error > 5e-4 * factor.value => with_sd(factor.value, error),
+        Some(_) => significant(factor.value, 4),
+        None => significant(factor.value, 3),
     }
 }
 
@@ -190,14 +186,13 @@ fn trace_table(study: &DesignStudy) -> Table {
         let shown = |value: f64| Cell::significant(value, 4);
         table.row(vec![Cell::name(name), shown(range.least), shown(range.median), shown(range.most)]);
     }
-    let ratio = |of: fn(&calibrant_study::TraceRange) -> f64| {
-        Cell::Number(times(of(&study.trace.initial) / of(&study.trace.optimal)))
-    };
+    let (initial, optimal) = (&study.trace.initial, &study.trace.optimal);
+    let ratio = |initial: f64, optimal: f64| Cell::Number(times(initial / optimal));
     table.row(vec![
         Cell::name("initial over optimal"),
-        ratio(|range| range.least),
-        ratio(|range| range.median),
-        ratio(|range| range.most),
+        ratio(initial.least, optimal.least),
+        ratio(initial.median, optimal.median),
+        ratio(initial.most, optimal.most),
     ]);
     table
 }

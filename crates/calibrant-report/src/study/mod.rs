@@ -4,8 +4,8 @@ mod calibration;
 mod design;
 mod settings;
 
-use super::About;
 use super::figure::trace_map;
+use super::report_context::{About, READINGS};
 use crate::sheet::{Grade, Section, Sheet, SheetVerdict};
 use calibrant_study::Studies;
 
@@ -21,18 +21,12 @@ pub fn study_sheet<'a>(studies: &'a Studies, about: &'a About) -> Sheet<'a> {
     sections.extend(studies.surface.as_ref().map(|surface| {
         let mut section = Section::on_page("The criterion")
             .lead("How the trace of the covariance depends on the motion, in the simplest case.");
-        section.drawn(move || trace_map(surface));
+        section.figure(move || Some(trace_map(surface)));
         section
     }));
     sections.extend(studies.design.as_ref().map(|study| design::chapter(study, &design::OPTIMAL)));
     sections.extend(studies.noisy.as_ref().map(|study| design::chapter(study, &design::NOISY)));
-    Sheet {
-        title: if about.title.is_empty() { "Study".into() } else { about.title.clone() },
-        verdict: Some(verdict(studies, about)),
-        sections,
-        inputs: about.facts.clone(),
-        footer: about.footer(),
-    }
+    about.sheet("Study", verdict(studies, about), sections, READINGS)
 }
 
 /// Is each study as predicted, and why?

@@ -3,15 +3,14 @@
 //! The limits are `x̄ ± 2.66 MR̄`, with `MR̄` the mean of `|x_k − x_{k−1}|`: three standard deviations as neighbours show them, since
 //! `3 / 1.128 = 2.66` (`iso7870_2`). A slow drift widens the spread of all sensors, but not that of neighbours. Sensors that are bad are left out.
 
-use super::super::panel::{Mark, Panel, Series, Shape};
-use super::super::point_thinning::every;
+use super::super::panel::{Panel, Points, Series, Shape};
+use super::super::point_thinning::{drawn_in_words, every};
 use super::super::unit::DisplayUnit;
-use super::super::{Figure, colour};
+use super::super::{Figure, colour, frame};
 use super::groups::groups;
-use super::reach::{Reach, least_width, median};
-use super::steps::whole_step;
+use super::reach::{Reach, least_width, median, whole_step};
 use crate::batch::Batch;
-use crate::number_format;
+use crate::number_format::{count, significant};
 use calibrant_core::diagnostic::Usability;
 
 /// Half the width of the control limits over the mean moving range.
@@ -113,27 +112,17 @@ struct Seen {
 }
 
 fn caption(batch: &Batch, seen: &Seen) -> String {
-    let mut sentences = vec!["Good: no pattern.".to_owned()];
-    if seen.control {
-        sentences = vec![
+    let always = match seen.control {
+        false => "Good: no pattern.",
+        true => {
             "Control limits are the mean ± 2.66 times the mean difference of neighbours, of the sensors that are not bad (individuals chart, \
              ISO 7870-2). Good: no pattern, and hardly a sensor beyond them."
-                .to_owned(),
-        ];
-    }
-    if !seen.far.is_empty() {
-        sentences.push(format!("Too far away to be drawn: {}.", seen.far.join("; ")));
-    }
-    if seen.outside {
-        sentences.push("Sensors outside the axis are crosses at its edge.".to_owned());
-    }
-    if batch.sensors.len() > MOST_POINTS {
-        sentences.push(format!(
-            "Of {} sensors, {MOST_POINTS} spread evenly over the list are drawn.",
-            number_format::count(batch.sensors.len())
-        ));
-    }
-    sentences.join(" ")
+        }
+    };
+    let far = format!("Too far away to be drawn: {}.", seen.far.join("; "));
+    let outside = "Sensors outside the axis are crosses at its edge.";
+    let caption = frame::caption(always, &[(!seen.far.is_empty(), &far), (seen.outside, outside)]);
+    caption + &drawn_in_words(batch.sensors.len(), batch.sensors.len().min(MOST_POINTS))
 }
 
 fn points(batch: &Batch, place: usize) -> Vec<Point> {
@@ -162,37 +151,37 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
     seen.control |= control.is_some();
     for (kind, ends) in [("control limits", control), ("acceptance limits", limits)] {
         if let Some(ends) = ends.filter(|ends| !near(ends)) {
-            let [low, high] = ends.map(|end| number_format::significant(end * factor, 3));
+            let [low, high] = ends.map(|end| significant(end * factor, 3));
             seen.far
                 .push(format!("the {kind} of {name}, {low} to {high} {}", unit.symbol).trim_end().to_owned());
         }
     }
     let last = batch.sensors.len() as f64;
-    let level = |label: &str, colour, width, dashes, y: f64| {
-        let ends = vec![(1.0, y * factor), (last.max(2.0), y * factor)];
-        Series::new(label, colour, Mark::Line { width, dashes }, ends)
+    let level = |label: &str, colour, stroke, y: f64| {
+        Series::stroke(label, colour, stroke, vec![(1.0, y * factor), (last.max(2.0), y * factor)])
     };
 
     let mut panel = Panel::new(name, "order of the recordings", unit.label("estimate"));
     let drawn: Vec<&Point> = every(points.len(), MOST_POINTS).iter().map(|&k| &points[k]).collect();
     panel.y_shown = Some((reach.low * factor, reach.high * factor));
     let inside = || drawn.iter().filter(|of| reach.contains(of.value));
+    let at = |of: &&Point| ((of.number + 1) as f64, of.value.clamp(reach.low, reach.high) * factor);
     if has_bars {
         // those of sensors outside the axis are cut away, but their values are seen under the pointer
         let bars = drawn.iter().filter(|of| of.sd.is_finite());
         let bar = |of: &&Point| (((of.number + 1) as f64, of.value * factor), BAR_SD * of.sd * factor);
         let (centres, spread) = bars.map(bar).unzip();
-        panel = panel.with(Series::new("±2 sd", colour::SKY, Mark::ErrorBars, centres).with_spread(spread));
+        panel = panel.with(Series::bars("±2 sd", colour::SKY, centres, spread));
     }
     if let Some([low, high]) = drawn_control {
-        panel = panel.with(level("mean", colour::GREY, 1.0, "", 0.5 * (low + high)));
+        panel = panel.with(level("mean", colour::GREY, (1.0, ""), 0.5 * (low + high)));
         for (label, y) in [("control limits", low), ("", high)] {
-            panel = panel.with(level(label, colour::GREY, 1.4, "3 3", y));
+            panel = panel.with(level(label, colour::GREY, (1.4, "3 3"), y));
         }
     }
     if let Some([low, high]) = drawn_limits {
         for (label, y) in [("acceptance limits", low), ("", high)] {
-            panel = panel.with(level(label, colour::BLACK, 1.6, "7 4", y));
+            panel = panel.with(level(label, colour::BLACK, (1.6, "7 4"), y));
         }
     }
     let looks = [
@@ -201,24 +190,16 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
         (Usability::Bad, colour::VERMILLION, Shape::Square),
     ];
     for (usability, colour, shape) in looks {
-        let dots: Vec<(f64, f64)> = inside()
-            .filter(|of| of.usability == usability)
-            .map(|of| ((of.number + 1) as f64, of.value * factor))
-            .collect();
+        let dots: Points = inside().filter(|of| of.usability == usability).map(at).collect();
         if !dots.is_empty() {
-            panel =
-                panel.with(Series::new(usability.name(), colour, Mark::Dots { shape, radius: 3.0 }, dots));
+            panel = panel.with(Series::dots(usability.name(), colour, (shape, 3.0), dots));
         }
     }
-    let outside: Vec<(f64, f64)> = drawn
-        .iter()
-        .filter(|of| !reach.contains(of.value))
-        .map(|of| ((of.number + 1) as f64, of.value.clamp(reach.low, reach.high) * factor))
-        .collect();
+    let outside: Points = drawn.iter().filter(|of| !reach.contains(of.value)).map(at).collect();
     if !outside.is_empty() {
         seen.outside = true;
-        let mark = Mark::Dots { shape: Shape::Cross, radius: 4.0 };
-        panel = panel.with(Series::new("outside the axis", colour::VERMILLION, mark, outside));
+        let crosses = Series::dots("outside the axis", colour::VERMILLION, (Shape::Cross, 4.0), outside);
+        panel = panel.with(crosses);
     }
     panel.x_step = Some(whole_step(batch.sensors.len()));
     panel
@@ -244,8 +225,8 @@ fn in_words(batch: &Batch, beyond: &[(usize, usize)], checked: usize, fewest: us
             "Beyond the control limits: {}. That is {} of {} values; chance alone puts about {} there.",
             found.join("; "),
             beyond.len(),
-            number_format::count(checked),
-            number_format::significant(BEYOND_BY_CHANCE * checked as f64, 2)
+            count(checked),
+            significant(BEYOND_BY_CHANCE * checked as f64, 2)
         ),
     };
     if fewest < RELIABLE {
@@ -256,6 +237,7 @@ fn in_words(batch: &Batch, beyond: &[(usize, usize)], checked: usize, fewest: us
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::panel::Mark;
     use super::*;
     use crate::batch::{BatchParameter, BatchSensor};
     use calibrant_core::diagnostic::Verdict;

@@ -1,8 +1,8 @@
 //! The parameters of a batch by their sensor: each sensor has a figure of its own.
 
 use crate::batch::Batch;
+use crate::number_format::capitalised;
 
-/// The parameters of one sensor.
 pub(super) struct Group<'a> {
     /// Its name with a capital letter: `Accelerometer`.
     pub(super) name: String,
@@ -22,7 +22,7 @@ pub(super) fn groups(batch: &Batch) -> Vec<Group<'_>> {
         match groups.iter_mut().find(|group| group.prefix == prefix) {
             Some(group) => group.members.push(place),
             None => {
-                let name = crate::number_format::capitalised(prefix);
+                let name = capitalised(prefix);
                 groups.push(Group { name, prefix, members: vec![place] });
             }
         }

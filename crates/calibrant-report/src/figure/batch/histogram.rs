@@ -1,12 +1,11 @@
 //! Histogram of each parameter over the sensors, with its limits and the spread of the datasheet.
 
+use super::super::histogram::{Histogram, bin_count};
 use super::super::panel::{Mark, Panel, Series};
-use super::super::residuals::{Histogram, bin_count};
 use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour};
 use super::groups::groups;
-use super::reach::{Reach, least_width};
-use super::steps::whole_step;
+use super::reach::{Reach, least_width, whole_step};
 use crate::batch::{Batch, BatchParameter};
 use calibrant_core::diagnostic::Usability;
 
@@ -75,14 +74,12 @@ impl Marks {
 
 fn panel(batch: &Batch, place: usize, seen: &mut Seen) -> Option<Panel> {
     let parameter = &batch.parameters[place];
-    let found: Vec<(f64, f64, bool)> = batch
+    let found: Vec<((f64, f64), bool)> = batch
         .sensors
         .iter()
         .filter_map(|of| Some((of.estimate(place)?, of.usability() == Some(Usability::Bad))))
-        .map(|((value, sd), bad)| (value, sd, bad))
         .collect();
-    let values: Vec<f64> = found.iter().map(|of| of.0).collect();
-    let sds: Vec<f64> = found.iter().map(|of| of.1).collect();
+    let (values, sds): (Vec<f64>, Vec<f64>) = found.iter().map(|of| of.0).unzip();
     let bulk = Reach::of(&values, least_width(&values, &sds))?;
     let marks = Marks::of(parameter, bulk);
     let drawn = [marks.limits, marks.datasheet].into_iter().flatten().flat_map(|(low, high)| [low, high]);
@@ -91,14 +88,14 @@ fn panel(batch: &Batch, place: usize, seen: &mut Seen) -> Option<Panel> {
     let factor = unit.factor;
 
     let inside = |only_bad: bool| -> Vec<f64> {
-        let inside = found.iter().filter(|(value, _, bad)| reach.contains(*value) && (*bad || !only_bad));
-        inside.map(|(value, ..)| value * factor).collect()
+        let inside = found.iter().filter(|((value, _), bad)| reach.contains(*value) && (*bad || !only_bad));
+        inside.map(|((value, _), _)| value * factor).collect()
     };
     // the bars are as wide as the bulk deserves
     let bins = (bin_count(found.len()) as f64 * reach.width() / bulk.width()).round() as usize;
     let bars = |values: &[f64]| Histogram::within(values, reach.low * factor, reach.high * factor, bins);
     let all = bars(&inside(false));
-    let most = all.counts.iter().copied().max().unwrap_or(1).max(1);
+    let most = all.most().max(1);
     let top = 1.06 * most as f64;
 
     let outside = found.len() - inside(false).len();
@@ -117,19 +114,18 @@ fn panel(batch: &Batch, place: usize, seen: &mut Seen) -> Option<Panel> {
     panel.y_step = Some(whole_step(most));
     if let Some((low, high)) = marks.datasheet {
         let ends = vec![(low * factor, 0.5 * top), (high * factor, 0.5 * top)];
-        let band = Series::new("datasheet, nominal ± 1 sd", colour::GREEN, Mark::Band, ends);
-        panel = panel.with(band.with_spread(vec![0.5 * top; 2]));
+        let name = "datasheet, nominal ± 1 sd";
+        panel = panel.with(Series::band(name, colour::GREEN, ends, vec![0.5 * top; 2]));
     }
     panel = panel.with(Series::new("sensors", colour::SKY, Mark::Area, all.outline()));
     let bad = bars(&inside(true));
-    if bad.counts.iter().any(|count| *count > 0) {
+    if bad.most() > 0 {
         panel = panel.with(Series::new("of these bad", colour::VERMILLION, Mark::Area, bad.outline()));
     }
     if let Some((low, high)) = marks.limits {
-        let mark = Mark::Line { width: 1.6, dashes: "7 4" };
         for (label, x) in [("acceptance limits", low), ("", high)] {
             let ends = vec![(x * factor, 0.0), (x * factor, top)];
-            panel = panel.with(Series::new(label, colour::BLACK, mark, ends));
+            panel = panel.with(Series::stroke(label, colour::BLACK, (1.6, "7 4"), ends));
         }
     }
     Some(panel)

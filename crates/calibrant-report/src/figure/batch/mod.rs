@@ -5,7 +5,6 @@ mod groups;
 mod histogram;
 mod pareto;
 mod reach;
-mod steps;
 
 pub(crate) use drift::drifts;
 pub(crate) use histogram::parameter_histograms;

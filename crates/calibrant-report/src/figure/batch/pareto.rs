@@ -1,79 +1,45 @@
 //! The codes of a batch as bars, the most frequent first (a Pareto chart).
-//!
-//! A table rather than a plot: its letters keep their size on a phone.
 
 use super::super::colour;
+use super::super::drawing::{Part, bars, entry, filled};
 use crate::batch::Batch;
-use crate::html::escape;
 use crate::number_format::percent;
 use calibrant_core::diagnostic::Severity;
 use std::collections::BTreeMap;
 
-/// What a code means for the sensor, in the order of the legend.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    Refusal,
-    Error,
-    Warning,
-}
-
-impl Kind {
-    const ALL: [Self; 3] = [Self::Refusal, Self::Error, Self::Warning];
-
-    /// Its name, and its colour.
-    fn look(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Refusal => ("no result", colour::GREY),
-            Self::Error => ("error", colour::VERMILLION),
-            Self::Warning => ("warning", colour::ORANGE),
-        }
-    }
-}
+/// What a code means for the sensor, and its colour, in the order of the legend.
+const KINDS: [(&str, &str); 3] =
+    [("no result", colour::GREY), ("error", colour::VERMILLION), ("warning", colour::ORANGE)];
 
 /// A bar for each code: its length is the number of sensors that have it. `None` where there is none.
 pub(crate) fn code_bars(batch: &Batch) -> Option<String> {
-    let mut counts: BTreeMap<(Kind, &'static str), usize> = BTreeMap::new();
+    let mut counts: BTreeMap<(usize, &'static str), usize> = BTreeMap::new();
     for sensor in &batch.sensors {
-        if let Err(refusal) = &sensor.verdict {
-            *counts.entry((Kind::Refusal, refusal.name())).or_default() += 1;
-        }
-        for code in &sensor.codes {
-            let kind = match code.severity() {
-                Severity::Error => Kind::Error,
-                Severity::Warning => Kind::Warning,
-                Severity::Allowed | Severity::Note => continue,
-            };
-            *counts.entry((kind, code.name())).or_default() += 1;
-        }
+        let refusal = sensor.verdict.as_ref().err().map(|refusal| (0, refusal.name()));
+        let codes = sensor.codes.iter().filter_map(|code| match code.severity() {
+            Severity::Error => Some((1, code.name())),
+            Severity::Warning => Some((2, code.name())),
+            Severity::Allowed | Severity::Note => None,
+        });
+        refusal.into_iter().chain(codes).for_each(|kind| *counts.entry(kind).or_default() += 1);
     }
-    let mut sorted: Vec<(Kind, &str, usize)> =
-        counts.into_iter().map(|((kind, code), count)| (kind, code, count)).collect();
-    sorted.sort_by_key(|(kind, _, count)| (std::cmp::Reverse(*count), *kind));
-    let most = sorted.first()?.2;
-    let legend: String = Kind::ALL
-        .into_iter()
-        .filter(|kind| sorted.iter().any(|(of, ..)| of == kind))
-        .map(|kind| {
-            let (name, fill) = kind.look();
-            format!(
-                "<li><svg viewBox=\"0 0 34 14\" aria-hidden=\"true\"><rect width=\"34\" height=\"14\" fill=\"{fill}\"/></svg>{name}</li>"
-            )
-        })
-        .collect();
-    let bars: String = sorted
-        .iter()
-        .map(|(kind, code, count)| {
-            let share = percent(*count as f64 / batch.sensors.len() as f64);
-            format!(
-                "<tr><th scope=\"row\">{}</th><td class=\"n\">{count} ({share})</td><td><div class=\"stack\"><span style=\"width:{:.2}%;background:{}\"></span></div></td></tr>\n",
-                escape(code),
-                100.0 * *count as f64 / most as f64,
-                kind.look().1
-            )
-        })
-        .collect();
-    Some(format!(
-        "<figure><h3>Sensors with each code</h3><ul class=\"legend\">{legend}</ul><table class=\"budget\"><tbody>\n{bars}</tbody></table>\
-         <figcaption>The number of sensors with this code, and their share of the batch. A sensor may have several codes. <code>calibrant explain CODE</code> says what each means, and what to do.</figcaption></figure>"
+    let mut sorted: Vec<((usize, &str), usize)> = counts.into_iter().collect();
+    sorted.sort_by_key(|((kind, _), count)| (std::cmp::Reverse(*count), *kind));
+    let most = sorted.first()?.1;
+    let is_there = |kind: &usize| sorted.iter().any(|((of, _), _)| of == kind);
+    let legend: Vec<String> =
+        (0..3).filter(is_there).map(|kind| entry(&filled(KINDS[kind].1), KINDS[kind].0)).collect();
+    let bar = |((kind, code), count): &((usize, &str), usize)| {
+        let share = percent(*count as f64 / batch.sensors.len() as f64);
+        let (share_of_most, (title, colour)) = (*count as f64 / most as f64, KINDS[*kind]);
+        let part =
+            Part { share: share_of_most, colour, ink: "#fff", title: title.into(), text: String::new() };
+        ((*code).to_owned(), format!("{count} ({share})"), vec![part])
+    };
+    Some(bars(
+        "Sensors with each code",
+        &legend,
+        sorted.iter().map(bar),
+        "The number of sensors with this code, and their share of the batch. A sensor may have several codes. <code>calibrant explain CODE</code> says what each means, and what to do.",
     ))
 }

@@ -16,7 +16,6 @@ const MOST_LONGER: f64 = 6.0;
 /// Of a normal distribution, standard deviation over median absolute deviation.
 const SD_OVER_MAD: f64 = 1.4826;
 
-/// A part of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
     pub(super) low: f64,
@@ -83,7 +82,12 @@ pub(super) fn least_width(values: &[f64], sds: &[f64]) -> f64 {
     (2.0 * median(sds).unwrap_or(0.0)).max(rounding).max(f64::MIN_POSITIVE)
 }
 
-/// The median of finite values.
+/// A step of 1, 2, 5, 10, … that makes at most five of them.
+pub(super) fn whole_step(most: usize) -> f64 {
+    let steps = (0..).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));
+    steps.into_iter().find(|step| 5.0 * step >= most as f64).unwrap_or(1.0)
+}
+
 pub(super) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);

@@ -2,7 +2,7 @@
 
 use crate::figure::colour;
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::{UNKNOWN, fixed, signed, tick};
 
 /// Smallest end of the bars' scale, prior standard deviations.
 const LEAST_END: f64 = 3.0;
@@ -28,21 +28,21 @@ pub(crate) fn correction_bars(columns: &[&str], joints: &[(String, Vec<Correctio
          <tbody>\n{rows}</tbody></table></div><figcaption>Estimate ± sd, both over the prior sd. Bars run from −{0} to +{0}. Good: most between −2 and +2. \
          A larger one means that the machine is less exact than stated, or that the correction stands in for another error. An sd near 1 means that the data say \
          little about it.</figcaption></figure>",
-        number_format::tick((10.0 * end).ceil() / 10.0)
+        tick((10.0 * end).ceil() / 10.0)
     )
 }
 
 fn cell(correction: Correction, end: f64) -> String {
     let Some((value, sd)) = correction.filter(|(value, sd)| value.is_finite() && sd.is_finite()) else {
-        return format!("<td>{}</td>", number_format::UNKNOWN);
+        return format!("<td>{}</td>", UNKNOWN);
     };
     let at = |value: f64| 50.0 + 48.0 * (value / end).clamp(-1.0, 1.0);
     let (from, to) = (at(value.min(0.0)), at(value.max(0.0)));
     let fill = if value.abs() > LEAST_END { colour::VERMILLION } else { colour::SKY };
     format!(
         "<td>{} ± {}<div class=\"bar\"><i style=\"left:{from:.1}%;width:{:.1}%;background:{fill}\"></i></div></td>",
-        number_format::signed(value, 2),
-        number_format::fixed(sd, 2),
+        signed(value, 2),
+        fixed(sd, 2),
         to - from
     )
 }

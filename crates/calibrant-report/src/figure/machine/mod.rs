@@ -9,7 +9,6 @@ mod player;
 mod residuals;
 mod scene;
 mod spectrum;
-mod view;
 mod views;
 
 pub(crate) use budget::{budget_bars, source_in_words};

@@ -1,14 +1,14 @@
 //! The sensor on the tip, enlarged: its lever arm and its axes.
 
-use super::view::{View, round_step};
-use super::views::{AXIS_COLOURS, SENSOR};
+use super::views::SENSOR;
 use crate::figure::colour;
+use crate::figure::drawing::{opened, stroke};
 use crate::figure::frame::framed;
-use crate::number_format;
+use crate::figure::view::{View, round_step};
+use crate::number_format::{fixed, tick};
 use calibrant_machine::chain::SensorMount;
 use nalgebra::Vector3;
 
-/// Width and height of the drawing.
 const SIZE: (f64, f64) = (400.0, 330.0);
 
 /// The tip's axes, the lever arm along each of them and as a line, and the axes of the sensor. `tip` is what carries the sensor.
@@ -39,20 +39,17 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
         SIZE.0 / 2.0 - view.scale * (left + right) / 2.0,
         SIZE.1 / 2.0 - 8.0 - view.scale * (top + bottom) / 2.0,
     );
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"The sensor on the {tip}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"#1b1f24\" stroke-linecap=\"round\">",
-        SIZE.0, SIZE.1
-    );
+    let frame = [0.0, 0.0, SIZE.0, SIZE.1];
+    let name = format!("The sensor on the {tip}");
+    let mut svg = opened(frame, &name, "fill=\"#1b1f24\" stroke-linecap=\"round\"");
     let line = |from: &Vector3<f64>, to: &Vector3<f64>, colour: &str, width: f64, dashes: &str| {
-        format!(
-            "<path d=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-dasharray=\"{dashes}\"/>",
-            view.line([from, to])
-        )
+        let line = stroke(&view.line([from, to]), colour, width);
+        format!("<g stroke-dasharray=\"{dashes}\">{line}</g>")
     };
     for pair in corners.windows(2) {
         svg += &line(&pair[0], &pair[1], colour::GREY, 1.2, "2 4");
     }
-    for ((unit, colour), name) in units.iter().zip(AXIS_COLOURS).zip(["x", "y", "z"]) {
+    for ((unit, colour), name) in units.iter().zip(colour::AXES).zip(["x", "y", "z"]) {
         let (of_tip, of_sensor) = (unit * axis, at_sensor(unit * axis));
         svg += &line(&Vector3::zeros(), &of_tip, colour, 3.0, "");
         svg += &line(&lever, &of_sensor, colour, 1.8, "6 4");
@@ -73,18 +70,14 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
         }
     }
     svg += &line(&Vector3::zeros(), &lever, SENSOR, 3.0, "");
-    svg += &format!("<path d=\"{}\" stroke=\"{SENSOR}\" stroke-width=\"12\"/>", view.dots([&lever]));
-    svg += &format!(
-        "<path d=\"{}\" stroke=\"{}\" stroke-width=\"8\"/>",
-        view.dots([&Vector3::zeros()]),
-        colour::BLACK
-    );
+    svg += &stroke(&view.dots([&lever]), SENSOR, 12.0);
+    svg += &stroke(&view.dots([&Vector3::zeros()]), colour::BLACK, 8.0);
     svg += &scale_bar(&view, SIZE);
-    let millimetres: Vec<String> = lever.iter().map(|x| number_format::fixed(1e3 * x, 2)).collect();
+    let millimetres: Vec<String> = lever.iter().map(|x| fixed(1e3 * x, 2)).collect();
     let caption = format!(
         "The {tip}’s axes are solid, those of the sensor dashed. Lever arm in the {tip}’s axes x, y, z: {} mm, length {} mm. Dotted: its way along x, then y, then z.",
         millimetres.join(", "),
-        number_format::fixed(1e3 * lever.norm(), 2)
+        fixed(1e3 * lever.norm(), 2)
     );
     framed("Where the sensor sits", "", &(svg + "</svg>"), 1, &caption)
 }
@@ -94,8 +87,8 @@ pub(super) fn scale_bar(view: &View, (_, height): (f64, f64)) -> String {
     let length_m = round_step(50.0 / view.scale, 1.0);
     let end = 14.0 + length_m * view.scale;
     let label = match length_m {
-        length if length < 0.1 => format!("{} mm", number_format::tick(1e3 * length)),
-        length => format!("{} m", number_format::tick(length)),
+        length if length < 0.1 => format!("{} mm", tick(1e3 * length)),
+        length => format!("{} m", tick(length)),
     };
     let y = height - 12.0;
     format!(

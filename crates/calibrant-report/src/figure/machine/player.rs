@@ -1,26 +1,25 @@
 //! The machine to turn and play. Without the script it is a still picture.
 
 use super::mount::scale_bar;
-use super::scene::Scene;
-use super::view::{View, round_step};
-use super::views::{AXIS_COLOURS, SENSOR, legend};
+use super::scene::{Scene, without_gaps};
+use super::views::{SENSOR, legend};
 use crate::figure::colour;
+use crate::figure::drawing::opened;
+use crate::figure::view::{View, round_step};
 use crate::html::escape;
-use crate::number_format;
+use crate::number_format::fixed;
 use calibrant_machine::reference::Posture;
 use nalgebra::Vector3;
 
 /// The script that turns and plays the figure.
 pub(crate) const PLAYER_SCRIPT: &str = include_str!("player.js");
 
-/// Width and height of the drawing.
 const SIZE: (f64, f64) = (580.0, 420.0);
 /// The first view: azimuth and elevation, degrees.
 const VIEW: (f64, f64) = (-55.0, 22.0);
 /// Coordinates are whole numbers of this, m.
 const GRAIN_M: f64 = 1e-4;
 
-/// The figure.
 pub(crate) fn player(scene: &Scene) -> String {
     let Some(first) = scene.played.first() else { return String::new() };
     let scale = 1.04 * (SIZE.1 / 2.0) / scene.half.norm();
@@ -30,7 +29,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         scale,
         ..View::from(VIEW.0.to_radians(), VIEW.1.to_radians())
     };
-    let path = scene.played_path();
+    let path = without_gaps(&scene.played_path);
     let floor = floor(scene);
     let (links, ends) = (scene.links(first), scene.tip_and_sensor(first));
     let tip = first.tip().translation.vector;
@@ -38,12 +37,9 @@ pub(crate) fn player(scene: &Scene) -> String {
         format!("<path data-part=\"{name}\" d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
     };
     let lines = |of: &[Vec<Vector3<f64>>]| of.iter().map(|run| view.line(run)).collect::<String>();
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" tabindex=\"0\" aria-label=\"The machine at {} s\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">",
-        SIZE.0,
-        SIZE.1,
-        number_format::fixed(first.time_s, 1)
-    );
+    let name = format!("The machine at {} s", fixed(first.time_s, 1));
+    let still = "tabindex=\"0\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
+    let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], &name, still);
     svg += &part("floor", &lines(&floor), "#d0d7de", 0.8);
     svg += &part("path", &lines(&path), colour::SKY, 1.0);
     if scene.is_chain {
@@ -51,7 +47,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         svg += &part("joints", &view.dots(&links), "#424a53", 10.0);
         svg += &part("base", &view.dots(&links[..1]), colour::BLACK, 18.0);
     }
-    for (k, colour) in AXIS_COLOURS.iter().enumerate() {
+    for (k, colour) in colour::AXES.iter().enumerate() {
         svg += &part(&format!("axis{k}"), &view.line([&tip, &ends[k]]), colour, 2.6);
     }
     svg += &part("lever", &view.line([&tip, &ends[3]]), SENSOR, 3.0);
@@ -88,9 +84,7 @@ pub(crate) fn player(scene: &Scene) -> String {
         data.iter().map(|(name, value)| format!(" data-{name}=\"{}\"", escape(value))).collect();
     let path_end_s = scene.path.last().map_or(last, |posture| posture.time_s);
     let path_start_s = scene.path.first().map_or(first.time_s, |posture| posture.time_s);
-    let range = |from: f64, to: f64| {
-        format!("{} to {} s", number_format::fixed(from, 1), number_format::fixed(to, 1))
-    };
+    let range = |from: f64, to: f64| format!("{} to {} s", fixed(from, 1), fixed(to, 1));
     let which = if last - first.time_s < path_end_s - path_start_s - 0.1 {
         format!(
             "the liveliest part plays with its path: {} of {}",
@@ -107,7 +101,7 @@ pub(crate) fn player(scene: &Scene) -> String {
          <span><button type=\"button\" data-view=\"-90,0\">Front</button><button type=\"button\" data-view=\"0,0\">Side</button><button type=\"button\" data-view=\"-90,90\">Top</button></span><p>Drag to turn it, or use the arrow keys.</p></div>\
          <figcaption>In real time, {which}. Where no sample was used, it stands still. The letters x, y, z are at the ends of the base’s axes along the floor’s corner.</figcaption></figure>",
         legend(scene.is_chain),
-        number_format::fixed(first.time_s, 1)
+        fixed(first.time_s, 1)
     )
 }
 

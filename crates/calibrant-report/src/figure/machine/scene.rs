@@ -18,7 +18,6 @@ const PLAYED_PATH: usize = 600;
 /// Farther than this from any sample of the sensor, the motion was not seen; in the usual distance of samples.
 const UNSEEN: f64 = 2.0;
 
-/// A machine in motion.
 #[derive(Debug)]
 pub(crate) struct Scene {
     /// Postures over the whole time, where samples of the sensor are.
@@ -26,10 +25,8 @@ pub(crate) struct Scene {
     /// Postures of the liveliest part, evenly in time. In a gap the last one before it stays.
     pub(crate) played: Vec<Posture>,
     /// The same more densely, where samples of the sensor are.
-    played_path: Vec<Posture>,
-    /// Where the sensor is.
+    pub(super) played_path: Vec<Posture>,
     pub(crate) mount: SensorMount,
-    /// Is it a chain of joints?
     pub(crate) is_chain: bool,
     /// Middle of everything that is drawn, m.
     pub(crate) centre: Vector3<f64>,
@@ -125,16 +122,6 @@ impl Scene {
         ]
     }
 
-    /// The whole path of the tip in parts without a gap, m.
-    pub(crate) fn tip_path(&self) -> Vec<Vec<Vector3<f64>>> {
-        without_gaps(&self.path)
-    }
-
-    /// The path of the tip in the part that plays, m.
-    pub(crate) fn played_path(&self) -> Vec<Vec<Vector3<f64>>> {
-        without_gaps(&self.played_path)
-    }
-
     /// A few postures, evenly over the played part.
     pub(crate) fn few(&self) -> impl Iterator<Item = &Posture> {
         const FEW: usize = 5;
@@ -142,8 +129,8 @@ impl Scene {
     }
 }
 
-/// The places of the tip, in parts of even steps.
-fn without_gaps(postures: &[Posture]) -> Vec<Vec<Vector3<f64>>> {
+/// The path of the tip in parts without a gap, m.
+pub(super) fn without_gaps(postures: &[Posture]) -> Vec<Vec<Vector3<f64>>> {
     let steps = postures.windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
     let step_s = steps.fold(f64::INFINITY, f64::min);
     postures

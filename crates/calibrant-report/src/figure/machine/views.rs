@@ -1,15 +1,15 @@
 //! The machine from the front, from the side and from above.
 
-use super::scene::Scene;
-use super::view::{View, round_step};
+use super::scene::{Scene, without_gaps};
 use crate::figure::colour;
+use crate::figure::drawing::{self, entry, opened, stroke};
 use crate::figure::frame::framed;
-use crate::number_format;
+use crate::figure::view::{View, round_step};
+use crate::number_format::tick;
 use nalgebra::Vector3;
 
 /// Left edge, top edge and side of the plot.
 const PLOT: (f64, f64, f64) = (52.0, 28.0, 336.0);
-/// Width and height of the drawing.
 const SIZE: (f64, f64) = (400.0, 410.0);
 
 /// Three views at one scale, with the path of the tip and a few postures.
@@ -28,35 +28,25 @@ pub(crate) fn three_views(scene: &Scene) -> String {
     framed(title, &legend(scene.is_chain), &panels.concat(), 3, &caption)
 }
 
-/// Legend of the scene.
 pub(super) fn legend(is_chain: bool) -> String {
-    let entry = |drawing: &str, label: &str| {
-        format!(
-            "<li><svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>{label}</li>"
-        )
-    };
-    let line = |colour: &str, width: f64| {
-        format!("<path d=\"M2 7H32\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
-    };
+    let line = |colour: &str, width: f64| stroke("M2 7H32", colour, width);
     let dot = |colour: &str| format!("<circle cx=\"17\" cy=\"7\" r=\"4\" fill=\"{colour}\"/>");
     let tip = if is_chain { "tip" } else { "body" };
-    let mut entries = String::new();
+    let mut entries = Vec::new();
     if is_chain {
-        entries += &entry(&line(colour::GREY, 4.0), "links");
-        entries += &entry(&dot(colour::BLACK), "base");
+        entries.push(entry(&line(colour::GREY, 4.0), "links"));
+        entries.push(entry(&dot(colour::BLACK), "base"));
     }
-    entries += &entry(&line(colour::SKY, 1.2), &format!("path of the {tip}"));
-    for (axis, colour) in ["x", "y", "z"].iter().zip(AXIS_COLOURS) {
-        entries += &entry(&line(colour, 2.0), &format!("its {axis}"));
+    entries.push(entry(&line(colour::SKY, 1.2), &format!("path of the {tip}")));
+    for (axis, colour) in ["x", "y", "z"].iter().zip(colour::AXES) {
+        entries.push(entry(&line(colour, 2.0), &format!("its {axis}")));
     }
-    entries += &entry(&dot(SENSOR), "sensor");
-    format!("<ul class=\"legend\">{entries}</ul>")
+    entries.push(entry(&dot(SENSOR), "sensor"));
+    drawing::legend(&entries)
 }
 
-/// Colours of the axes of the tip.
-pub(super) const AXIS_COLOURS: [&str; 3] = [colour::VERMILLION, colour::GREEN, colour::BLUE];
 /// Colour of the sensor and its lever arm.
-pub(super) const SENSOR: &str = "#cc79a7";
+pub(super) const SENSOR: &str = colour::PURPLE;
 
 fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labels: [&str; 2]) -> String {
     let (left, top, side) = PLOT;
@@ -69,13 +59,11 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
         scale: side / (2.0 * half),
     };
     let middle = left + side / 2.0;
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{title}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"#1b1f24\">\
-         <text x=\"{middle}\" y=\"17\" font-size=\"15\" text-anchor=\"middle\">{title}</text>",
-        SIZE.0, SIZE.1
-    );
+    let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], title, "fill=\"#1b1f24\"");
+    svg += &format!("<text x=\"{middle}\" y=\"17\" font-size=\"15\" text-anchor=\"middle\">{title}</text>");
     svg += &axes(&view, half, labels);
-    for run in scene.tip_path() {
+    svg += "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">";
+    for run in without_gaps(&scene.path) {
         svg += &stroke(&view.line(&run), colour::SKY, 0.8);
     }
     for posture in scene.few() {
@@ -84,10 +72,9 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
     if scene.is_chain {
         svg += &stroke(&view.dots([&Vector3::zeros()]), colour::BLACK, 11.0);
     }
-    svg + "</svg>"
+    svg + "</g></svg>"
 }
 
-/// The strokes of one posture.
 fn posture_strokes(scene: &Scene, posture: &calibrant_machine::reference::Posture, view: &View) -> String {
     let links = scene.links(posture);
     let tip = posture.tip().translation.vector;
@@ -97,17 +84,11 @@ fn posture_strokes(scene: &Scene, posture: &calibrant_machine::reference::Postur
         svg += &format!("<g opacity=\"0.55\">{}</g>", stroke(&view.line(&links), colour::GREY, 3.2));
         svg += &stroke(&view.dots(&links[1..links.len() - 1]), "#424a53", 6.0);
     }
-    for (end, colour) in ends.iter().zip(AXIS_COLOURS) {
+    for (end, colour) in ends.iter().zip(colour::AXES) {
         svg += &stroke(&view.line([&tip, end]), colour, 1.6);
     }
     svg += &stroke(&view.line([&tip, &ends[3]]), SENSOR, 2.2);
     svg + &stroke(&view.dots([&ends[3]]), SENSOR, 5.5)
-}
-
-fn stroke(path: &str, colour: &str, width: f64) -> String {
-    format!(
-        "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>"
-    )
 }
 
 /// Frame, grid and ticks.
@@ -121,33 +102,29 @@ fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
         (first..=last).map(move |k| k as f64 * step)
     };
     let mut svg = String::new();
-    for value in ticks(view.right.dot(&view.centre)) {
-        let x = view.at(&(view.centre + view.right * (value - view.right.dot(&view.centre)))).0;
-        let text = number_format::tick(value);
+    let (across, upward) = (view.right.dot(&view.centre), view.up.dot(&view.centre));
+    for value in ticks(across) {
+        let x = view.at(&(view.centre + view.right * (value - across))).0;
         svg += &format!(
-            "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"11\" text-anchor=\"middle\">{text}</text>",
-            bottom + 16.0
+            "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"11\" text-anchor=\"middle\">{}</text>",
+            bottom + 16.0,
+            tick(value)
         );
     }
-    for value in ticks(view.up.dot(&view.centre)) {
-        let y = view.at(&(view.centre + view.up * (value - view.up.dot(&view.centre)))).1;
-        let text = number_format::tick(value);
+    for value in ticks(upward) {
+        let y = view.at(&(view.centre + view.up * (value - upward))).1;
         svg += &format!(
-            "<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"end\">{text}</text>",
+            "<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"end\">{}</text>",
             left - 5.0,
-            y + 4.0
+            y + 4.0,
+            tick(value)
         );
     }
     let [across, upward] = labels;
     let (x, y) = (left + side / 2.0, top + side / 2.0);
-    svg += &format!(
-        "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#424a53\"/>"
-    );
-    svg += &format!(
-        "<text x=\"{x}\" y=\"{}\" font-size=\"13\" text-anchor=\"middle\">{across}</text>",
-        bottom + 36.0
-    );
     svg + &format!(
-        "<text transform=\"translate(13 {y}) rotate(-90)\" font-size=\"13\" text-anchor=\"middle\">{upward}</text>"
+        "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#424a53\"/>\
+         <g font-size=\"13\" text-anchor=\"middle\"><text x=\"{x}\" y=\"{}\">{across}</text><text transform=\"translate(13 {y}) rotate(-90)\">{upward}</text></g>",
+        bottom + 36.0
     )
 }

@@ -1,8 +1,7 @@
 //! Tables with aligned columns: numbers to the right, words to the left.
 
 use super::super::cell::Cell;
-use super::super::shown::Shown;
-use super::super::table::Table;
+use super::super::table::{Shown, Table};
 use super::lines::{self, MARGIN};
 use std::ops::Range;
 

@@ -5,11 +5,9 @@ mod lines;
 
 pub use lines::{paragraph, wrapped};
 
-use super::document::Sheet;
+use super::document::{Sheet, SheetVerdict};
 use super::section::{Piece, Section};
-use super::shown::Shown;
-use super::table::Table;
-use super::verdict::SheetVerdict;
+use super::table::{Shown, Table};
 
 impl Sheet<'_> {
     /// The sheet as text whose lines have at most this many characters.

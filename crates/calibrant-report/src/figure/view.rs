@@ -38,7 +38,6 @@ impl View {
         )
     }
 
-    /// The path of a line through these points.
     pub(super) fn line<'a>(&self, points: impl IntoIterator<Item = &'a Vector3<f64>>) -> String {
         let finite = points.into_iter().map(|point| self.at(point)).filter(|(x, y)| (x + y).is_finite());
         finite
