@@ -48,6 +48,7 @@ impl crate::run::Run for Arguments {
                 .iter()
                 .flat_map(of_folder)
                 .chain(["summary.csv", "batch.html"].map(|name| self.output.join(name)))
+                .chain(self.residuals.clone())
                 .collect(),
             inputs: inputs.cloned().collect(),
         }

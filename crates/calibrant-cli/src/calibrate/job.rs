@@ -6,7 +6,9 @@ use super::sources::{check_motion, sources};
 use crate::diagnostics::{rules, tell_all};
 use calibrant::acceptance::AcceptanceLimit;
 use calibrant::diagnostic::Diagnostic;
-use calibrant::io::{Experiment, HashedFile, Plan, ResumeKey, SensorNaming, UrdfSource, read_acceptance};
+use calibrant::io::{
+    Experiment, HashedFile, Plan, ResumeKey, SensorNaming, TableFormat, UrdfSource, read_acceptance,
+};
 use calibrant::session::{MotionSource, Outcome, Readings, Session, SessionOptions, Source};
 use std::path::{Path, PathBuf};
 
@@ -28,6 +30,7 @@ pub(super) struct Job<'a> {
 impl<'a> Job<'a> {
     pub(super) fn prepare(arguments: &'a Arguments, experiment: &'a Experiment) -> calibrant::Result<Self> {
         check_motion(arguments, experiment)?;
+        arguments.residuals.as_deref().map(TableFormat::of).transpose()?;
         let options = options(arguments)?;
         let limits = options.accept.clone().unwrap_or_else(|| experiment.accept.clone());
         let naming = options.naming.clone();

@@ -13,7 +13,11 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let mut notes = Vec::new();
     let outcome = job
         .check_records(source, || hashed_readings(source))
-        .and_then(|()| job.run(source, directory, &mut notes));
+        .and_then(|()| job.run(source, directory, &mut notes))
+        .and_then(|outcome| {
+            job.arguments.residuals.as_ref().map_or(Ok(()), |path| outcome.residuals().write(path))?;
+            Ok(outcome)
+        });
     tell_all(&notes);
     match outcome {
         Ok(outcome) => {
@@ -38,5 +42,7 @@ fn show(job: &Job<'_>, outcome: &Outcome) {
         return;
     }
     console::sheet(&outcome.sheet());
-    console::print(&format!("\n{}\n", job.arguments.main_result().display()));
+    let files = std::iter::once(job.arguments.main_result()).chain(job.arguments.residuals.clone());
+    let files: String = files.map(|path| format!("{}\n", path.display())).collect();
+    console::print(&format!("\n{files}"));
 }

@@ -81,6 +81,12 @@ fn check_several(arguments: &Arguments, experiment: &Experiment) -> calibrant::R
             "give one recording with --validate or --folds",
         );
     }
+    if arguments.residuals.is_some() {
+        return refuse(
+            "--residuals is the table of one calibration, and several recordings are given",
+            "calibrate one recording at a time with its table",
+        );
+    }
     arguments.naming.check_several()?;
     if arguments.recordings.iter().filter(|path| path.as_os_str() == "-").count() > 1 {
         return refuse("standard input (-) is given twice", "give it once");

@@ -4,7 +4,7 @@ use super::panel::{Mark, Panel, Series, Shade, Shape};
 use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_core::estimate::HoldCalibration;
+use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use calibrant_core::sensor::Recording;
 
 /// Legend of a hold that was used.
@@ -54,7 +54,7 @@ pub(crate) fn hold_residuals(holds: &HoldCalibration) -> Figure {
     let expected: Vec<f64> = holds
         .holds
         .iter()
-        .map(|hold| (hold.magnitude_residual_mps2 / hold.studentised_residual).abs())
+        .map(HoldResult::magnitude_sd_mps2)
         .map(|sd| 2.0 * unit.factor * if sd.is_finite() { sd } else { holds.between_holds_sd_mps2 })
         .collect();
     let numbers = 1..=residuals.len();

@@ -13,12 +13,12 @@ pub(crate) fn residuals_and_speed(noise: &SensorResidual, unit: &'static str, sc
     let residuals = &noise.residuals;
     let unit = DisplayUnit::suited_to(unit, noise.rms.iter().map(|rms| 3.0 * rms));
     let thin = Mark::Line { width: 0.7, dashes: "" };
-    let ends = residuals.first().zip(residuals.last()).map(|(first, last)| [first.0, last.0]);
+    let ends = residuals.first().zip(residuals.last()).map(|(first, last)| [first.time_s, last.time_s]);
     let mut panels: Vec<Panel> = Axis::ALL
         .iter()
         .map(|axis| {
             let k = axis.index();
-            let points = thinned(residuals.iter().map(|(time, residual)| (*time, unit.factor * residual[k])));
+            let points = thinned(residuals.iter().map(|of| (of.time_s, unit.factor * of.value[k])));
             let mut panel = Panel::new(format!("axis {axis}"), "time (s)", unit.label("residual"))
                 .with(Series::new("residual", colour::BLUE, thin, points));
             for level in [2.0, -2.0] {
