@@ -3,7 +3,7 @@
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{
-    ImuFile, ImuReadOptions, Section, file_name, imu_from_columns, imu_pair_of, read_imu_pair,
+    HashedFile, ImuFile, ImuReadOptions, Section, file_name, imu_from_columns, imu_pair_of, read_imu_pair,
     read_imu_recording, read_imu_sensor, read_sections,
 };
 use std::path::{Path, PathBuf};
@@ -52,6 +52,22 @@ impl Readings {
     #[must_use]
     pub fn is_file(&self) -> bool {
         self.content == Content::File
+    }
+
+    /// What it is, by its content; `None` for a file that cannot be read.
+    fn hashed(&self) -> Option<HashedFile> {
+        let name = || file_name(&self.path);
+        match &self.content {
+            Content::File => HashedFile::of(&self.path),
+            Content::Columns(columns) => {
+                let columns = columns.iter().map(|(name, values)| (name.as_str(), values.clone()));
+                Some(HashedFile::of_numbers(name(), &columns.collect::<Vec<_>>()))
+            }
+            Content::Recording(recording) => {
+                let file = ImuFile::of_recording(recording.as_ref().clone());
+                Some(HashedFile { file: name(), sha256: file.sha256.concat() })
+            }
+        }
     }
 
     /// Reads it, with the options of a file.
@@ -139,7 +155,8 @@ impl Source {
     }
 
     /// The path of the recording, or its name.
-    pub(crate) fn path(&self) -> &Path {
+    #[must_use]
+    pub fn path(&self) -> &Path {
         self.recording.path()
     }
 
@@ -160,6 +177,17 @@ impl Source {
             None if self.recording.is_file() => read_imu_sensor(self.path(), sensor_kind, options),
             _ => self.read_imu(options),
         }
+    }
+
+    /// The paths of all its readings, its own first.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.paths().chain(self.further.iter().map(Readings::path))
+    }
+
+    /// Its [files](Self::files) by their content; `None` where one cannot be read.
+    pub(crate) fn hashed(&self) -> Option<Vec<HashedFile>> {
+        let readings = std::iter::once(&self.recording).chain(&self.gyroscope).chain(&self.further);
+        readings.map(Readings::hashed).collect()
     }
 
     /// The paths of its readings, in the order of the sensors.
