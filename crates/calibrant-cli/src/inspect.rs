@@ -83,11 +83,8 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let found = file.findings_in(&file_name(&arguments.file), second.as_deref());
     tell_all(found.iter().filter(|found| found.is_warning()));
     let inspection = inspect(&file);
-    if arguments.json {
-        console::print_always(&to_json(&InspectionFile { file: &file, inspection: &inspection }));
-    } else {
-        console::print(&text(&file, &inspection, arguments));
-    }
+    let found = InspectionFile { file: &file, inspection: &inspection };
+    console::json_or(arguments.json, || to_json(&found), || text(&file, &inspection, arguments));
     Ok(Exit::DONE)
 }
 

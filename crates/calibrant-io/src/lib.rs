@@ -79,7 +79,7 @@ mod true_parameter;
 mod truth;
 mod utc_time;
 
-pub use atomic_output::{remove_unfinished, write_atomically};
+pub use atomic_output::{remove_unfinished, write_atomically, write_text};
 pub use calibration::CalibrationFile;
 pub use comparison::ComparisonFile;
 pub use convention::{

@@ -42,7 +42,7 @@ pub fn evaluation_sheet<'a>(assessment: &'a Assessment, about: &'a About) -> She
         verdict: Some(verdict(assessment, about)),
         sections: vec![predicted(assessment), motion, confidence],
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 

@@ -24,7 +24,7 @@ pub fn noise_sheet<'a>(noise: &'a [SensorNoise], examined: Option<&str>, about: 
         verdict: Some(verdict(noise, about)),
         sections: noise.iter().map(|sensor| with_line(noise_section(sensor, examined), sensor)).collect(),
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 

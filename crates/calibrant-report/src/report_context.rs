@@ -41,19 +41,17 @@ pub struct About {
     pub truth: Option<SensorParameters>,
     /// The motion that really happened, where the recording was simulated.
     pub true_motion: Option<JerkControlledMotion>,
-    /// Program and version, for the footer: `calibrant 0.1.0`.
-    pub program: String,
 }
 
 impl About {
     /// The program, without its run time: equal inputs give equal pages.
-    pub(super) fn made(&self) -> String {
-        format!("{}.", if self.program.is_empty() { "calibrant" } else { &self.program })
+    pub(super) fn made() -> String {
+        format!("calibrant {}.", env!("CARGO_PKG_VERSION"))
     }
 
-    pub(super) fn footer(&self) -> Vec<String> {
+    pub(super) fn footer() -> Vec<String> {
         vec![
-            self.made(),
+            Self::made(),
             "Readings are y = S s + b + ν (true → raw); sd is the standard deviation.".to_string(),
         ]
     }

@@ -27,7 +27,7 @@ pub fn sweep_sheet<'a>(sweep: &'a Sweep, about: &'a About) -> Sheet<'a> {
         verdict: Some(verdict(sweep, about)),
         sections: vec![curves, values],
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 

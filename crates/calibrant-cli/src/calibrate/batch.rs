@@ -5,7 +5,7 @@ use crate::console;
 use crate::diagnostics::{rules, tell_in};
 use crate::exit::Exit;
 use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_name};
-use calibrant::io::{write_atomically, write_summary};
+use calibrant::io::{write_summary, write_text};
 use calibrant::progress::Progress;
 use calibrant::report::batch_sheet;
 use std::sync::PoisonError;
@@ -30,11 +30,9 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
     failed.flat_map(|sensor| &mut sensor.reasons).for_each(|reason| *reason = console::as_flags(reason));
     about.facts.extend(arguments.accept.iter().map(|file| ("Limits".to_owned(), file.display().to_string())));
     let sheet = batch_sheet(&page, &about);
-    write_atomically(&page_path, |out| out.write_all(sheet.html().as_bytes()))?;
-    if arguments.json {
-        console::print_always(&results.json());
-    } else {
-        console::sheet(&sheet);
+    write_text(&page_path, &sheet.html())?;
+    console::result(arguments.json, || results.json(), &sheet, None, &[]);
+    if !arguments.json {
         let failed = results.failed();
         console::print(&format!(
             "\n{} calibrated, {failed} failed: {}\n{}\n",

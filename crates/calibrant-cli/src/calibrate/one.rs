@@ -5,7 +5,7 @@ use crate::console;
 use crate::diagnostics::{rules, tell_all};
 use crate::exit::Exit;
 use calibrant::batch::Batch;
-use calibrant::session::{Outcome, Source};
+use calibrant::session::Source;
 
 /// Calibrates from the recording and shows the result.
 pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit {
@@ -17,7 +17,10 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit
     tell_all(&notes);
     match outcome {
         Ok(outcome) => {
-            show(arguments, &outcome);
+            tell_all(outcome.warnings());
+            let files: Vec<_> =
+                std::iter::once(arguments.main_result()).chain(arguments.residuals.clone()).collect();
+            console::result(arguments.json, || outcome.json(), &outcome.sheet(), None, &files);
             rules().exit_of(&outcome.verdict())
         }
         Err(error) => {
@@ -28,17 +31,4 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit
             Exit::of(&error)
         }
     }
-}
-
-/// Prints the diagnostics, then the tables or calibration.json.
-fn show(arguments: &Arguments, outcome: &Outcome) {
-    tell_all(outcome.warnings());
-    if arguments.json {
-        console::print_always(&outcome.json());
-        return;
-    }
-    console::sheet(&outcome.sheet());
-    let files = std::iter::once(arguments.main_result()).chain(arguments.residuals.clone());
-    let files: String = files.map(|path| format!("{}\n", path.display())).collect();
-    console::print(&format!("\n{files}"));
 }

@@ -49,15 +49,8 @@ impl Options {
         let meshes =
             if self.packages.is_empty() { Vec::new() } else { machine.missing_meshes(&self.packages) };
         meshes.iter().for_each(|mesh: &MissingMesh| tell(MeshMissing { mesh: Phrase(mesh.to_string()) }));
-        if json {
-            console::print_always(&to_json(&MachineFile {
-                machine: &machine,
-                chain: &chain,
-                meshes: &meshes,
-            }));
-        } else {
-            console::print(&text(file, &machine, &chain));
-        }
+        let found = MachineFile { machine: &machine, chain: &chain, meshes: &meshes };
+        console::json_or(json, || to_json(&found), || text(file, &machine, &chain));
         Ok(Exit::DONE)
     }
 }

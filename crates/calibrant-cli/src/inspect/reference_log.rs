@@ -25,11 +25,8 @@ pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calib
     let in_file = file.findings.iter().map(|found| found.clone().in_file(file_name(path)));
     in_file.filter(|found| found.is_warning()).for_each(tell);
     let inspection = inspect_reference_log(&file);
-    if as_json {
-        console::print_always(&to_json(&ReferenceInspectionFile { file: &file, inspection: &inspection }));
-    } else {
-        console::print(&text(path, &file, &inspection));
-    }
+    let found = ReferenceInspectionFile { file: &file, inspection: &inspection };
+    console::json_or(as_json, || to_json(&found), || text(path, &file, &inspection));
     Ok(Exit::DONE)
 }
 

@@ -43,19 +43,11 @@ impl Arguments {
                     let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(&self.records);
                     return Err(Error::experiment(error));
                 }
-                if self.json {
-                    console::print_always(&to_json(&history));
-                } else {
-                    console::print(&of_sensor(&history));
-                }
+                console::json_or(self.json, || to_json(&history), || of_sensor(&history));
             }
             None => {
                 let drifts = records.drifts()?;
-                if self.json {
-                    console::print_always(&to_json(&drifts));
-                } else {
-                    console::print(&of_all(&drifts));
-                }
+                console::json_or(self.json, || to_json(&drifts), || of_all(&drifts));
             }
         }
         Ok(Exit::DONE)

@@ -25,10 +25,6 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let fleet = Records::open_existing(&self.records)?.fleet()?;
-        if self.json {
-            console::print_always(&to_json(&fleet));
-            return Ok(Exit::DONE);
-        }
         let header = [
             "parameter",
             "sensors",
@@ -41,8 +37,8 @@ impl Arguments {
             "farthest",
             "unit",
         ];
-        console::print(&console::table(&header, &fleet.parameters.iter().map(row).collect::<Vec<_>>()));
-        console::print(&about(&fleet));
+        let rows = || fleet.parameters.iter().map(row).collect::<Vec<_>>();
+        console::json_or(self.json, || to_json(&fleet), || console::table(&header, &rows()) + &about(&fleet));
         Ok(Exit::DONE)
     }
 }

@@ -22,10 +22,6 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let records = Records::open_existing(&self.records)?.list(&self.selection.filter())?;
-        if self.json {
-            console::print_always(&to_json(&records));
-            return Ok(Exit::DONE);
-        }
         let header = [
             "id",
             "sensor",
@@ -37,7 +33,8 @@ impl Arguments {
             "experiment",
             "program",
         ];
-        console::print(&console::table(&header, &records.iter().map(row).collect::<Vec<_>>()));
+        let table = || console::table(&header, &records.iter().map(row).collect::<Vec<_>>());
+        console::json_or(self.json, || to_json(&records), table);
         Ok(Exit::DONE)
     }
 }

@@ -31,11 +31,7 @@ impl Arguments {
             let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(&self.records);
             return Err(Error::experiment(error));
         };
-        if self.json {
-            console::print_always(&to_json(&RecordFile(&kept)));
-        } else {
-            console::print(&in_words(&kept));
-        }
+        console::json_or(self.json, || to_json(&RecordFile(&kept)), || in_words(&kept));
         Ok(Exit::DONE)
     }
 }

@@ -22,7 +22,7 @@ pub fn batch_sheet<'a>(batch: &'a Batch, about: &'a About) -> Sheet<'a> {
         sections: sections.into_iter().flatten().collect(),
         inputs: about.facts.clone(),
         footer: vec![
-            about.made(),
+            About::made(),
             "Values are of the readings: true → raw. sd is the standard deviation.".to_owned(),
         ],
     }

@@ -65,8 +65,8 @@ pub fn calibration_sheet<'a>(
         sections,
         inputs: about.facts.clone(),
         footer: match calibration.recovered {
-            Recovered::Motion(_) => about.footer(),
-            Recovered::Holds(_) => vec![about.made(), directions.to_owned()],
+            Recovered::Motion(_) => About::footer(),
+            Recovered::Holds(_) => vec![About::made(), directions.to_owned()],
         },
     }
 }

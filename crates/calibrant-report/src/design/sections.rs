@@ -34,7 +34,7 @@ pub fn design_sheet<'a>(design: &'a Design, about: &'a About) -> Sheet<'a> {
         verdict: Some(verdict(design, about)),
         sections: vec![predicted(design), motion, confidence, search(design)],
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 

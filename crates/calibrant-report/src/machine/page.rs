@@ -50,7 +50,7 @@ pub fn machine_sheet<'a>(
         verdict: Some(verdict(calibration, validations, about)),
         sections,
         inputs: about.facts.clone(),
-        footer: vec![about.made(), model.to_owned()],
+        footer: vec![About::made(), model.to_owned()],
     }
 }
 

@@ -58,7 +58,7 @@ pub fn pose_sheet<'a>(
         verdict: Some(verdict),
         sections: vec![predicted, poses, direction_section(&design.directions, &design.bound)],
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 
@@ -96,7 +96,7 @@ pub fn pose_evaluation_sheet<'a>(
         verdict: Some(SheetVerdict::new(grade, word, evaluation_in_words(evaluation, directions.len()))),
         sections: vec![predicted, direction_section(directions, &evaluation.bound)],
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 

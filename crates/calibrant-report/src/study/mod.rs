@@ -31,7 +31,7 @@ pub fn study_sheet<'a>(studies: &'a Studies, about: &'a About) -> Sheet<'a> {
         verdict: Some(verdict(studies, about)),
         sections,
         inputs: about.facts.clone(),
-        footer: about.footer(),
+        footer: About::footer(),
     }
 }
 

@@ -35,12 +35,7 @@ impl Batch {
         ];
         let motion = options.motion.as_ref().map(|motion| motion.path().display().to_string());
         facts.extend(motion.map(|motion| ("Motion".to_owned(), motion)));
-        About {
-            title: format!("Batch of {count} sensors"),
-            facts,
-            program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
-            ..About::default()
-        }
+        About { title: format!("Batch of {count} sensors"), facts, ..About::default() }
     }
 
     fn sensor(&self, row: &BatchRow, named: &[SummaryParameter]) -> BatchSensor {

@@ -3,8 +3,8 @@
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{
-    HashedFile, ImuFile, ImuReadOptions, Section, file_name, imu_from_columns, imu_pair_of, read_imu_pair,
-    read_imu_recording, read_imu_sensor, read_sections,
+    HashedFile, ImuFile, ImuReadOptions, Input, Section, file_name, imu_from_columns, imu_pair_of,
+    read_imu_pair, read_imu_recording, read_imu_sensor, read_sections,
 };
 use std::path::{Path, PathBuf};
 
@@ -193,6 +193,14 @@ impl Source {
     /// The paths of its readings, in the order of the sensors.
     pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
         std::iter::once(self.path()).chain(self.gyroscope.as_ref().map(Readings::path))
+    }
+
+    /// Its files as results name them. `sha256`: of each; `of_one`: whose samples count where both sensors are in one file.
+    #[must_use]
+    pub fn inputs(&self, sha256: &[String], recording: &ImuRecording, of_one: SensorKind) -> Vec<Input> {
+        let kinds = if self.gyroscope.is_some() { SensorKind::ALL } else { [of_one; 2] };
+        let files = self.paths().zip(sha256).zip(kinds);
+        files.map(|((path, sha256), kind)| Input::of(path, sha256, recording.sensor(kind))).collect()
     }
 
     /// The path of its readings of a sensor.
