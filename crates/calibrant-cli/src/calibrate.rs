@@ -2,23 +2,17 @@
 
 mod arguments;
 mod batch;
-mod batch_page;
-mod copies;
 mod job;
 mod naming;
 mod one;
-mod parallel;
-mod quality;
-mod record_keeper;
-mod recorded;
 mod sources;
 mod unused;
 
 pub(crate) use arguments::Arguments;
 
 use crate::exit::Exit;
+use calibrant::batch::{RESULT_FILES, folder_names};
 use calibrant::io::{Experiment, ResultPlaces};
-use job::Job;
 use std::path::PathBuf;
 use std::sync::PoisonError;
 
@@ -37,17 +31,16 @@ impl crate::run::Run for Arguments {
         let folders = match self.recordings.as_slice() {
             [_] => vec![String::new()],
             _ if self.together => vec![String::new()],
-            several => batch::folders(several),
+            several => folder_names(several),
         };
-        let of_folder = |folder: &String| {
-            ["calibration.json", "report.html", "resume.json"].map(|name| self.output.join(folder).join(name))
-        };
+        let of_folder = |folder: &String| RESULT_FILES.map(|name| self.output.join(folder).join(name));
         ResultPlaces {
             directory: Some(self.output.clone()),
             results: folders
                 .iter()
                 .flat_map(of_folder)
                 .chain(["summary.csv", "batch.html"].map(|name| self.output.join(name)))
+                .chain(self.residuals.clone())
                 .collect(),
             inputs: inputs.cloned().collect(),
         }
@@ -65,9 +58,9 @@ impl crate::run::Run for Arguments {
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = Experiment::read(&arguments.experiment)?;
     unused::warn(arguments, &experiment);
-    let job = Job::prepare(arguments, &experiment)?;
-    match job.sources.as_slice() {
-        [source] => Ok(one::run(&job, source)),
-        _ => batch::run(&job),
+    let batch = job::batch(arguments, &experiment)?;
+    match batch.sources() {
+        [source] => Ok(one::run(arguments, &batch, source)),
+        _ => batch::run(arguments, &batch),
     }
 }

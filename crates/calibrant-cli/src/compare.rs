@@ -51,14 +51,11 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         ))));
     }
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
-    if arguments.json {
-        console::print_always(&to_json(&ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b }));
-        return Ok(Exit::DONE);
-    }
-    let names = [(name_a, &a), (name_b, &b)].map(|(name, imu)| format!("{name} ({})", in_words(imu)));
-    console::sheet(&comparison_sheet(&comparison, names));
-    for note in &comparison.notes {
-        console::note(note);
+    let names = [(&name_a, &a), (&name_b, &b)].map(|(name, imu)| format!("{name} ({})", in_words(imu)));
+    let file = ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b };
+    console::result(arguments.json, || to_json(&file), &comparison_sheet(&comparison, names), None, &[]);
+    if !arguments.json {
+        comparison.notes.iter().for_each(|note| console::note(note));
     }
     Ok(Exit::DONE)
 }

@@ -13,7 +13,7 @@ use calibrant::report::{Sheet, wrapped};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A text for the terminal: options are flags, and there are no control characters other than line ends and tabs, since a name of a file must not
 /// command the terminal.
@@ -26,9 +26,34 @@ pub(crate) fn harmless(text: &str) -> String {
     as_flags(text).chars().map(shown).collect()
 }
 
-/// Prints a result to stdout, as wide as the terminal is.
-pub(crate) fn sheet(sheet: &Sheet<'_>) {
-    print(&sheet.text(width::get()));
+/// Prints what `json` makes, where it is asked for, or the text.
+pub(crate) fn json_or(json: bool, as_json: impl FnOnce() -> String, text: impl FnOnce() -> String) {
+    if json {
+        print_always(&as_json());
+    } else {
+        print(&text());
+    }
+}
+
+/// Prints a sheet to stdout as wide as the terminal is, or its JSON, where that is asked for.
+pub(crate) fn sheet<'a>(json: bool, as_json: impl FnOnce() -> String, sheet: impl FnOnce() -> Sheet<'a>) {
+    json_or(json, as_json, || sheet().text(width::get()));
+}
+
+/// Prints a result to stdout as wide as the terminal is: its sheet, a sentence on it, and the files that people open. Or its JSON, where that is asked for.
+pub(crate) fn result(
+    json: bool,
+    as_json: impl FnOnce() -> String,
+    sheet: &Sheet<'_>,
+    sentence: Option<&str>,
+    files: &[PathBuf],
+) {
+    json_or(json, as_json, || {
+        let sentence = sentence.map_or_else(String::new, paragraph);
+        let files: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
+        let gap = if files.is_empty() { "" } else { "\n" };
+        sheet.text(width::get()) + &sentence + gap + &files
+    });
 }
 
 /// Prints a result to stdout as people read it, unless `--quiet` hides it. Its lines fit the terminal, and its minus signs can be copied into a

@@ -6,7 +6,7 @@ use crate::console;
 use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, PRESETS, ResultPlaces, nearest, preset, write_atomically};
+use calibrant::io::{Experiment, PRESETS, ResultPlaces, nearest, preset, write_text};
 use next_steps::NextSteps;
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     match &arguments.output {
         None => console::print_always(text),
         Some(path) => {
-            write_atomically(path, |out| out.write_all(text.as_bytes()))?;
+            write_text(path, text)?;
             let next = NextSteps::of(&Experiment::parse(text, None)?, path);
             console::note(&format!("wrote {}. {}", path.display(), next.note()));
         }

@@ -70,12 +70,9 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let found = file.findings_in(&file_name(&arguments.file), second.as_deref());
     tell_all(found.iter().filter(|found| found.is_warning()));
     let inspection = inspect(&file);
-    if arguments.json {
-        console::print_always(&to_json(&InspectionFile { file: &file, inspection: &inspection }));
-    } else {
-        let paths = std::iter::once(arguments.file.as_path()).chain(arguments.second());
-        let names: Vec<String> = paths.map(|path| path.display().to_string()).collect();
-        console::sheet(&recording_sheet(&file, &inspection, &names));
-    }
+    let paths = std::iter::once(arguments.file.as_path()).chain(arguments.second());
+    let names: Vec<String> = paths.map(|path| path.display().to_string()).collect();
+    let found = InspectionFile { file: &file, inspection: &inspection };
+    console::sheet(arguments.json, || to_json(&found), || recording_sheet(&file, &inspection, &names));
     Ok(Exit::DONE)
 }

@@ -30,7 +30,7 @@ impl crate::run::Run for Arguments {
     fn run(&self) -> calibrant::Result<Exit> {
         let pages = self.pages();
         for page in &pages {
-            let man = Man::new(page.clone()).source(format!("calibrant {}", env!("CARGO_PKG_VERSION")));
+            let man = Man::new(page.clone()).source(calibrant::io::program());
             write_atomically(&self.place(page), |out| man.render(out))?;
         }
         console::print(&format!("{} pages: {}\n", pages.len(), self.directory.join("calibrant.1").display()));

@@ -13,15 +13,12 @@ use calibrant::Error;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::noise::NoiseImpossible;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{
-    ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_atomically, write_json,
-};
-use calibrant::report::{About, noise_sheet, number_format};
+use calibrant::io::{ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_json, write_text};
+use calibrant::report::{About, noise_sheet};
 use calibrant::sensor::SensorKind;
 use calibrant::session::{Readings, Source};
 use calibrant::{NoiseAtRest, NoiseOptions, read_for_noise};
 use nalgebra::Vector3;
-use std::path::Path;
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
@@ -56,7 +53,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let file = read_for_noise(&source, &reading, &options)?;
     let NoiseAtRest { sensors: noise, examined, failed } = calibrant::noise(&file.recording, &options)
         .map_err(|error| error.in_recording(&arguments.recording))?;
-    let inputs = inputs(arguments, &file, noise[0].sensor_kind);
+    let inputs = source.inputs(&file.sha256, &file.recording, noise[0].sensor_kind);
     let result = NoiseFile { noise: &noise, inputs: &inputs };
 
     let second = arguments.gyroscope.as_deref().map(file_name);
@@ -67,35 +64,13 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     tell_all(noise.iter().flat_map(|sensor| &sensor.warnings));
     let about = about(arguments, &file, &inputs, examined.clone());
     let sheet = noise_sheet(&noise, examined.as_deref(), &about);
-    if arguments.json {
-        console::print_always(&to_json(&result));
-    } else {
-        console::sheet(&sheet);
-    }
-    if let Some(directory) = &arguments.output {
+    let page = arguments.output.as_ref().map(|directory| directory.join("report.html"));
+    if let (Some(directory), Some(page)) = (&arguments.output, &page) {
         write_json(&directory.join("noise.json"), &result)?;
-        let page = directory.join("report.html");
-        let html = sheet.html();
-        write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
-        if !arguments.json {
-            console::print(&format!("\n{}\n", page.display()));
-        }
+        write_text(page, &sheet.html())?;
     }
+    console::result(arguments.json, || to_json(&result), &sheet, None, page.as_slice());
     Ok(Exit::DONE)
-}
-
-/// The input files, for noise.json.
-fn inputs(arguments: &Arguments, file: &ImuFile, of_one: SensorKind) -> Vec<Input> {
-    let input = |path: &Path, sha256: &str, sensor_kind: SensorKind| {
-        Input::of(path, sha256, file.recording.sensor(sensor_kind))
-    };
-    match (&arguments.gyroscope, file.sha256.as_slice()) {
-        (Some(gyroscope), [first, second]) => vec![
-            input(&arguments.recording, first, SensorKind::Accelerometer),
-            input(gyroscope, second, SensorKind::Gyroscope),
-        ],
-        _ => vec![input(&arguments.recording, &file.sha256.concat(), of_one)],
-    }
 }
 
 /// The head of the report.
@@ -103,13 +78,6 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
     let of_inputs = |say: &dyn Fn(&Input) -> String| inputs.iter().map(say).collect::<Vec<_>>().join(", ");
     let paths = std::iter::once(&arguments.recording).chain(&arguments.gyroscope);
     let paths: Vec<String> = paths.map(|path| path.display().to_string()).collect();
-    let samples = |input: &Input| {
-        format!(
-            "{} at {} Hz",
-            number_format::count(input.samples),
-            number_format::significant(input.rate_hz, 5)
-        )
-    };
     let hold = match (&arguments.hold, examined) {
         (Some(_), _) => "as given".into(),
         (None, Some(examined)) => examined,
@@ -120,11 +88,10 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
         facts: vec![
             ("Recording".into(), paths.join(", ")),
             ("SHA-256".into(), of_inputs(&|input| input.sha256.clone())),
-            ("Samples".into(), of_inputs(&samples)),
+            ("Samples".into(), of_inputs(&Input::samples_in_words)),
             ("Hold".into(), hold),
         ],
         findings: file.all_findings().map(ToString::to_string).collect(),
-        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     }
 }

@@ -3,7 +3,7 @@
 use crate::budget::budget;
 use crate::exit::Exit;
 use crate::{console, interruption};
-use calibrant::io::{Experiment, ResultPlaces, StudyFile, preset, to_json, write_atomically, write_json};
+use calibrant::io::{Experiment, ResultPlaces, StudyFile, preset, to_json, write_json, write_text};
 use calibrant::report::{About, study_sheet};
 use calibrant::session::MotionSource;
 use calibrant::{StudyChoice, StudyPlan};
@@ -82,16 +82,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Some(path) => format!("Study of {}", path.display()),
             None => "Calibration and optimal experimental design: the thesis's chapters 3 and 4".into(),
         },
-        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
     let sheet = study_sheet(&studies, &about);
-    write_atomically(&report, |out| out.write_all(sheet.html().as_bytes()))?;
-    if arguments.json {
-        console::print_always(&to_json(&StudyFile { studies: &studies }));
-    } else {
-        console::sheet(&sheet);
-        console::print(&format!("\n{}\n", report.display()));
-    }
+    write_text(&report, &sheet.html())?;
+    console::result(arguments.json, || to_json(&StudyFile { studies: &studies }), &sheet, None, &[report]);
     Ok(Exit::DONE)
 }

@@ -42,6 +42,14 @@ pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Re
     write_entered(path, None, fill)
 }
 
+/// The same for a text that is there.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub fn write_text(path: &Path, text: &str) -> Result<()> {
+    write_atomically(path, |out| out.write_all(text.as_bytes()))
+}
+
 /// The same for a recording that was corrected, with the name of the calibration.
 pub(super) fn write_entered(
     path: &Path,

@@ -1,6 +1,7 @@
 //! The files that a result came from.
 
 use super::stated_rate::stated_rate_hz;
+use calibrant_core::number_format::{count, significant};
 use calibrant_core::sensor::Recording;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,12 @@ pub struct Input {
 }
 
 impl Input {
+    /// Samples and rate, in words.
+    #[must_use]
+    pub fn samples_in_words(&self) -> String {
+        format!("{} at {} Hz", count(self.samples), significant(self.rate_hz, 5))
+    }
+
     /// What was read of a file: `sha256` of its bytes, and the readings of its sensor.
     #[must_use]
     pub fn of(path: &Path, sha256: &str, readings: Option<&Recording>) -> Self {

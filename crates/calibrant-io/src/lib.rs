@@ -16,6 +16,7 @@
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`EvaluationFile`], [`SweepFile`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`NoiseFile`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`Truth`] |
+//! | residuals, exported records (CSV, Parquet) | | [`Table`] |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
 //! | `study.json`, `summary.csv` | | [`StudyFile`], [`write_summary`] |
 //!
@@ -70,13 +71,14 @@ mod stated_rate;
 mod study;
 mod summary;
 mod sweep;
+mod table;
 mod text_decoding;
 mod text_excerpt;
 mod true_parameter;
 mod truth;
 mod utc_time;
 
-pub use atomic_output::{remove_unfinished, write_atomically};
+pub use atomic_output::{remove_unfinished, write_atomically, write_text};
 pub use calibration::CalibrationFile;
 pub use comparison::ComparisonFile;
 pub use convention::{
@@ -139,6 +141,7 @@ pub use summary::{
     write_summary,
 };
 pub use sweep::write_sweep_csv;
+pub use table::{Column, ColumnValues, Table, TableFormat};
 pub use text_decoding::{Checked, open_file, read_text};
 pub use truth::Truth;
 pub use utc_time::UtcTime;

@@ -10,6 +10,12 @@ use sha2::{Digest, Sha256};
 pub struct ResumeKey(pub(super) String);
 
 impl ResumeKey {
+    /// The checksum, hexadecimal.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
     /// The key of these options, in words, and of the content of these files.
     ///
     /// The version of the program counts, too; the names of the files do not.

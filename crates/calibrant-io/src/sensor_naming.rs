@@ -3,7 +3,7 @@
 use super::name_pattern::{FoundNames, NamePattern};
 use super::recording::named_sensor::sensor_named_in;
 use super::utc_time::UtcTime;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use std::path::Path;
 
 /// How recordings name their sensor.
@@ -31,6 +31,27 @@ pub struct NamedRecording {
 }
 
 impl SensorNaming {
+    /// Checks that exactly one of its parts names the sensor, where there is a pattern.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the pattern and another part name it, or neither.
+    pub fn check(&self) -> Result<()> {
+        let (sensor, from) = (TaskOption::Sensor, TaskOption::SensorFrom);
+        let given = self.sensor.is_some() || self.key.is_some();
+        let (message, help) = match self.pattern.as_ref().map(NamePattern::names_sensor) {
+            Some(true) if given => (
+                format!("the sensor is named by an option and by {{sensor}} in {from}"),
+                "write {} in place of {sensor}, or leave the option away".to_owned(),
+            ),
+            Some(false) if !given => (
+                format!("the pattern of {from} does not name the sensor"),
+                format!("write {{sensor}} where the name has it, or name the sensor with {sensor}"),
+            ),
+            _ => return Ok(()),
+        };
+        Err(Error::experiment(InputError::new(Refusal::OptionsContradict, message, help)))
+    }
+
     /// What is named of a recording. Where nothing names its sensor, it has the name of the file without its ending, and `stdin` where it comes from standard input.
     ///
     /// # Errors

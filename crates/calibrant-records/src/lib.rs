@@ -39,7 +39,6 @@ pub use aging::{
     Aging, Dated, DatedCalibration, QuantityAging, SensorChange, SensorDrift, SensorHistory, aging_of,
 };
 pub use database::{Inserted, KeptRecord, RecordFilter, Records};
-pub use export::ExportFormat;
 pub use fleet::{Distribution, FarSensor, Fleet, FleetParameter, LeftOut};
 pub use json::RecordFile;
 pub use record::{KeptVerdict, Record};

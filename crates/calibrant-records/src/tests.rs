@@ -275,7 +275,7 @@ fn a_table_has_a_row_for_each_calibration_and_reads_back_to_the_last_bit() {
     let bare = Record { recorded: None, imu: CalibratedImu { covariance: None, ..imu(1) }, ..record("A", 1) };
     records.insert_all([bare, counts]).expect("inserted");
     let table = directory.path().join("t.csv");
-    assert_eq!(records.export(&table, ExportFormat::Csv, &RecordFilter::default()).expect("written"), 2);
+    assert_eq!(records.export(&table, &RecordFilter::default()).expect("written"), 2);
     let text = std::fs::read_to_string(&table).expect("read");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().expect("a header").clone();
@@ -307,7 +307,7 @@ fn a_table_has_a_row_for_each_calibration_and_reads_back_to_the_last_bit() {
         use parquet::file::reader::{FileReader, SerializedFileReader};
         use parquet::record::Field;
         let table = directory.path().join("t.parquet");
-        records.export(&table, ExportFormat::Parquet, &RecordFilter::default()).expect("written");
+        records.export(&table, &RecordFilter::default()).expect("written");
         let file = SerializedFileReader::new(std::fs::File::open(&table).expect("there")).expect("Parquet");
         let mut found = 0;
         for (row, read) in file.get_row_iter(None).expect("rows").enumerate() {

@@ -42,8 +42,6 @@ pub struct About {
     pub truth: Option<SensorParameters>,
     /// The motion that really happened, where the recording was simulated.
     pub true_motion: Option<JerkControlledMotion>,
-    /// Program and version, for the footer: `calibrant 0.1.0`.
-    pub program: String,
 }
 
 /// What most results mean by a reading.
@@ -59,7 +57,7 @@ impl About {
         meaning: &str,
     ) -> Sheet<'a> {
         // without the run time: equal inputs give equal pages
-        let made = format!("{}.", if self.program.is_empty() { "calibrant" } else { &self.program });
+        let made = format!("calibrant {}.", env!("CARGO_PKG_VERSION"));
         Sheet {
             title: if self.title.is_empty() { title.to_owned() } else { self.title.clone() },
             verdict: Some(verdict),

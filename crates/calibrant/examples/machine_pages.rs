@@ -56,7 +56,6 @@ fn page(title: &str, problem: &MachineProblem<'_>) -> Result<String, Failure> {
             "Samples".into(),
             problem.recording.accelerometer.as_ref().map_or(0, Recording::len).to_string(),
         )],
-        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
     Ok(machine_sheet(&calibration, problem.setup, &[], problem.recording, &about).html())

@@ -35,6 +35,7 @@
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
 //! | from a recording, in a file or in memory, to the calibration and its report | [`Session`], [`Outcome`] |
+//! | many recordings of one experiment, one row for each | [`batch::Batch`] |
 //! | a sensor on a machine: the chain of its joints, the log of the motion, the result | [`machine::chain::KinematicChain`], [`machine::log::ReferenceLog`], [`machine::estimate::MachineCalibration`] |
 //! | may a result be used; which limits does it keep | [`diagnostic::Verdict`], [`acceptance::CheckedLimit`] |
 //! | many calibrations over the years | [`records::Record`], [`records::Aging`], [`records::Distribution`] |
@@ -159,6 +160,7 @@
 //! What a command does beside that is a function: [`simulate()`], [`noise()`], [`apply`], [`DesignPlan`], [`StudyPlan`]. [`interruption`] and [`progress`]
 //! reach every task that takes long.
 
+pub mod batch;
 mod correction;
 mod design_plan;
 pub mod inspection;

@@ -54,6 +54,9 @@ pub(crate) struct Arguments {
     /// Add each result to these records, an SQLite database that is made where there is none (see `calibrant records`). A recording that they have of another sensor is refused.
     #[arg(long, value_name = "FILE")]
     pub(super) records: Option<PathBuf>,
+    /// Write the residuals to this table, .csv or .parquet: one row for each sample and axis, or for each hold and rotation. It is for one calibration.
+    #[arg(long, value_name = "FILE")]
+    pub(super) residuals: Option<PathBuf>,
     /// Write no report.html. This saves time with many sensors.
     #[arg(long)]
     pub(super) no_report: bool,

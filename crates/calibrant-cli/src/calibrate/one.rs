@@ -1,42 +1,34 @@
 //! `calibrant calibrate` with one recording: calibrates, writes the results, prints diagnostics and tables, and returns the exit status.
 
-use super::job::Job;
-use super::sources::hashed_readings;
+use super::arguments::Arguments;
 use crate::console;
 use crate::diagnostics::{rules, tell_all};
 use crate::exit::Exit;
-use calibrant::session::{Outcome, Source};
+use calibrant::batch::Batch;
+use calibrant::session::Source;
 
 /// Calibrates from the recording and shows the result.
-pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
-    let directory = &job.arguments.output;
+pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit {
     let mut notes = Vec::new();
-    let outcome = job
-        .check_records(source, || hashed_readings(source))
-        .and_then(|()| job.run(source, directory, &mut notes));
+    let outcome = batch.calibrate(source, &mut notes).and_then(|outcome| {
+        arguments.residuals.as_ref().map_or(Ok(()), |path| outcome.residuals().write(path))?;
+        Ok(outcome)
+    });
     tell_all(&notes);
     match outcome {
         Ok(outcome) => {
-            show(job, &outcome);
+            tell_all(outcome.warnings());
+            let files: Vec<_> =
+                std::iter::once(arguments.main_result()).chain(arguments.residuals.clone()).collect();
+            console::result(arguments.json, || outcome.json(), &outcome.sheet(), None, &files);
             rules().exit_of(&outcome.verdict())
         }
         Err(error) => {
-            match job.experiment.imu {
+            match batch.session().experiment().imu {
                 Some(_) => console::error(&error),
-                None => console::error_in(&error, source.recording.path()),
+                None => console::error_in(&error, source.path()),
             }
             Exit::of(&error)
         }
     }
-}
-
-/// Prints the diagnostics, then the tables or calibration.json.
-fn show(job: &Job<'_>, outcome: &Outcome) {
-    tell_all(outcome.warnings());
-    if job.arguments.json {
-        console::print_always(&outcome.json());
-        return;
-    }
-    console::sheet(&outcome.sheet());
-    console::print(&format!("\n{}\n", job.arguments.main_result().display()));
 }

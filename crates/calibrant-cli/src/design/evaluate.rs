@@ -11,7 +11,7 @@ use calibrant::DesignPlan;
 use calibrant::design::{DesignProblem, assess};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::MotionNotCompared;
-use calibrant::io::{DesignSetting, EvaluationFile, read_motion, to_json, write_atomically, write_json};
+use calibrant::io::{DesignSetting, EvaluationFile, read_motion, to_json, write_json, write_text};
 use calibrant::report::evaluation_sheet;
 use std::path::Path;
 
@@ -40,13 +40,8 @@ pub(super) fn run(
     let about = about(job, arguments, problem, format!("Assessment of {name}"));
     let sheet = evaluation_sheet(&assessment, &about);
     let page = arguments.output.join("evaluation.html");
-    write_atomically(&page, |out| out.write_all(sheet.html().as_bytes()))?;
-    if arguments.json {
-        console::print_always(&to_json(&file));
-    } else {
-        console::sheet(&sheet);
-        console::print(&format!("\n{}\n", page.display()));
-    }
+    write_text(&page, &sheet.html())?;
+    console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
     for group in &assessment.evaluation.undetermined {
         tell(undetermined(path.display().to_string(), group));
     }

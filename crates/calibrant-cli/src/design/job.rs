@@ -56,7 +56,7 @@ pub(super) fn about(
     if job.experiment.calibrate.prior == Prior::Datasheet {
         facts.push(fact("Prior", "datasheet".into()));
     }
-    About { title, facts, program: format!("calibrant {}", env!("CARGO_PKG_VERSION")), ..About::default() }
+    About { title, facts, ..About::default() }
 }
 
 /// Solves the problem, with a progress bar over its starts.

@@ -14,8 +14,7 @@ use calibrant::diagnostic::design::{
 };
 use calibrant::error::UndeterminedGroup;
 use calibrant::io::{
-    DesignFile, DesignSetting, Reached, to_json, write_atomically, write_dense_motion, write_json,
-    write_motion,
+    DesignFile, DesignSetting, Reached, to_json, write_dense_motion, write_json, write_motion, write_text,
 };
 use calibrant::report::{About, design_sheet};
 
@@ -28,20 +27,13 @@ pub(super) fn finish(
     reached: Option<(&Reached, &str)>,
 ) -> calibrant::Result<Exit> {
     write(arguments, job, problem, design, reached)?;
-    if arguments.json {
-        console::print_always(&to_json(&file(job, problem, design, reached)));
-    } else {
-        console::sheet(&design_sheet(design, &About::default()));
-        if let Some((_, sentence)) = reached {
-            console::print(&console::paragraph(sentence));
-        }
-        let output = &arguments.output;
-        console::print(&format!(
-            "\n{}\n{}\n",
-            output.join("motion.csv").display(),
-            output.join("report.html").display()
-        ));
-    }
+    console::result(
+        arguments.json,
+        || to_json(&file(job, problem, design, reached)),
+        &design_sheet(design, &About::default()),
+        reached.map(|(_, sentence)| sentence),
+        &["motion.csv", "report.html"].map(|name| arguments.output.join(name)),
+    );
     Ok(exit_of(design))
 }
 
@@ -72,8 +64,7 @@ pub(super) fn write(
     write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
     let mut about = about(job, arguments, problem, "Design of a motion".into());
     about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));
-    let html = design_sheet(design, &about).html();
-    write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
+    write_text(&output.join("report.html"), &design_sheet(design, &about).html())
 }
 
 /// A motion that leaves parameters undetermined.

@@ -1,11 +1,11 @@
 //! `calibrant design --evaluate` of recorded holds: how efficient they were.
 
 use super::Arguments;
-use super::pose_output::{about, write_page};
+use super::pose_output::about;
 use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use calibrant::io::{PoseEvaluationFile, to_json, write_json};
+use calibrant::io::{PoseEvaluationFile, to_json, write_json, write_text};
 use calibrant::report::pose_evaluation_sheet;
 use calibrant::session::{SessionOptions, Source};
 use calibrant::{DesignPlan, RecordedPoses};
@@ -31,12 +31,7 @@ pub(super) fn run(arguments: &Arguments, job: &DesignPlan, recording: &Path) -> 
     let about = about(arguments, &problem, &format!("Poses of {name}"));
     let page = output.join("evaluation.html");
     let sheet = pose_evaluation_sheet(&evaluation, &directions, &problem, unit, &about);
-    write_page(&page, &sheet.html())?;
-    if arguments.json {
-        console::print_always(&to_json(&file));
-    } else {
-        console::sheet(&sheet);
-        console::print(&format!("\n{}\n", page.display()));
-    }
+    write_text(&page, &sheet.html())?;
+    console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
     Ok(Exit::DONE)
 }

@@ -2,15 +2,8 @@
 
 use super::Arguments;
 use calibrant::design::poses::{DirectionKnowledge, PoseProblem};
-use calibrant::io::write_atomically;
 use calibrant::report::About;
 use calibrant::report::number_format::significant;
-use std::path::Path;
-
-/// Writes a page whole or not at all.
-pub(super) fn write_page(path: &Path, html: &str) -> calibrant::Result<()> {
-    write_atomically(path, |out| out.write_all(html.as_bytes()))
-}
 
 /// The head of a page.
 pub(super) fn about(arguments: &Arguments, problem: &PoseProblem, title: &str) -> About {
@@ -25,6 +18,5 @@ pub(super) fn about(arguments: &Arguments, problem: &PoseProblem, title: &str) -
         ("Directions".to_owned(), directions),
     ];
     facts.extend(arguments.from.iter().map(|path| ("Known before".to_owned(), path.display().to_string())));
-    let program = format!("calibrant {}", env!("CARGO_PKG_VERSION"));
-    About { title: title.into(), facts, program, ..About::default() }
+    About { title: title.into(), facts, ..About::default() }
 }

@@ -1,6 +1,6 @@
 //! `calibrant design` of a `[holds]` experiment: the best poses.
 
-use super::pose_output::{about, write_page};
+use super::pose_output::about;
 use super::reach_request::{asked, goals};
 use super::{Arguments, pose_evaluation};
 use crate::console;
@@ -10,7 +10,7 @@ use calibrant::DesignPlan;
 use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, fewest_poses};
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses};
+use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses, write_text};
 use calibrant::report::{pose_in_words, pose_sheet};
 
 pub(super) fn run(arguments: &Arguments, job: &DesignPlan) -> calibrant::Result<Exit> {
@@ -54,17 +54,9 @@ fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> cal
     about.facts.push(("Starts".into(), format!("{}, seed {}", design.starts, job.settings.seed)));
     about.findings.extend(sentence.clone());
     let sheet = pose_sheet(&design, problem, unit, &about);
-    write_page(&output.join("report.html"), &sheet.html())?;
-    if arguments.json {
-        console::print_always(&to_json(&file));
-    } else {
-        console::sheet(&sheet);
-        if let Some(sentence) = sentence {
-            console::print(&console::paragraph(&sentence));
-        }
-        let (poses, report) = (output.join("poses.csv"), output.join("report.html"));
-        console::print(&format!("\n{}\n{}\n", poses.display(), report.display()));
-    }
+    write_text(&output.join("report.html"), &sheet.html())?;
+    let files = ["poses.csv", "report.html"].map(|name| output.join(name));
+    console::result(arguments.json, || to_json(&file), &sheet, sentence.as_deref(), &files);
     if design.interrupted {
         tell(SearchInterrupted { are_poses: true });
         return Ok(Exit::NOT_IDENTIFIABLE);

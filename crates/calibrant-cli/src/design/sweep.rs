@@ -12,7 +12,7 @@ use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::{
     SearchNotConverged, SweepInterrupted, SweepValueFailed, SweepValueRounded,
 };
-use calibrant::io::{DesignSetting, SweepFile, to_json, write_atomically, write_json, write_sweep_csv};
+use calibrant::io::{DesignSetting, SweepFile, to_json, write_json, write_sweep_csv, write_text};
 use calibrant::report::number_format::{counted, short};
 use calibrant::report::sweep_sheet;
 
@@ -46,19 +46,10 @@ pub(super) fn run(
     let title = format!("Best motions over the {}", swept.variable.name());
     let about = about(job, arguments, problem, title);
     let sheet = sweep_sheet(&swept, &about);
-    write_atomically(&arguments.output.join("report.html"), |out| out.write_all(sheet.html().as_bytes()))?;
+    write_text(&arguments.output.join("report.html"), &sheet.html())?;
     say(&swept);
-    if arguments.json {
-        console::print_always(&to_json(&file));
-    } else {
-        console::sheet(&sheet);
-        let output = &arguments.output;
-        console::print(&format!(
-            "\n{}\n{}\n",
-            output.join("sweep.csv").display(),
-            output.join("report.html").display()
-        ));
-    }
+    let files = ["sweep.csv", "report.html"].map(|name| arguments.output.join(name));
+    console::result(arguments.json, || to_json(&file), &sheet, None, &files);
     let good = |point: &calibrant::design::SweepPoint| {
         point.outcome.as_ref().is_ok_and(|design| design.optimal.covariance.is_some())
     };

@@ -21,11 +21,9 @@ pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calib
     let in_file = file.findings.iter().map(|found| found.clone().in_file(file_name(path)));
     in_file.filter(|found| found.is_warning()).for_each(tell);
     let inspection = inspect_reference_log(&file);
-    if as_json {
-        console::print_always(&to_json(&ReferenceInspectionFile { file: &file, inspection: &inspection }));
-    } else {
-        console::sheet(&log_sheet(&file, &inspection, &path.display().to_string()));
-    }
+    let found = ReferenceInspectionFile { file: &file, inspection: &inspection };
+    let name = path.display().to_string();
+    console::sheet(as_json, || to_json(&found), || log_sheet(&file, &inspection, &name));
     Ok(Exit::DONE)
 }
 

@@ -35,19 +35,11 @@ impl Arguments {
                     let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(&self.records);
                     return Err(Error::experiment(error));
                 }
-                if self.json {
-                    console::print_always(&to_json(&history));
-                } else {
-                    console::sheet(&history_sheet(&history));
-                }
+                console::sheet(self.json, || to_json(&history), || history_sheet(&history));
             }
             None => {
                 let drifts = records.drifts()?;
-                if self.json {
-                    console::print_always(&to_json(&drifts));
-                } else {
-                    console::sheet(&drift_sheet(&drifts));
-                }
+                console::sheet(self.json, || to_json(&drifts), || drift_sheet(&drifts));
             }
         }
         Ok(Exit::DONE)

@@ -3,10 +3,8 @@
 use super::selection::Selection;
 use crate::console;
 use crate::exit::Exit;
-use calibrant::Error;
-use calibrant::error::{InputError, Refusal};
-use calibrant::io::ResultPlaces;
-use calibrant::records::{ExportFormat, Records};
+use calibrant::io::{ResultPlaces, TableFormat};
+use calibrant::records::Records;
 use calibrant::report::number_format;
 use std::path::PathBuf;
 
@@ -32,13 +30,9 @@ impl Arguments {
     }
 
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
-        let format = ExportFormat::of(&self.output).ok_or_else(|| {
-            let message = "the ending of this name is neither .csv nor .parquet";
-            let help = "give the table one of these endings";
-            Error::experiment(InputError::new(Refusal::FormatUnknown, message, help).in_file(&self.output))
-        })?;
+        TableFormat::of(&self.output)?;
         let records = Records::open_existing(&self.records)?;
-        let rows = records.export(&self.output, format, &self.selection.filter())?;
+        let rows = records.export(&self.output, &self.selection.filter())?;
         let rows = number_format::counted(rows, "calibration");
         console::print(&format!("{rows}: {}\n", self.output.display()));
         Ok(Exit::DONE)

@@ -21,11 +21,7 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let fleet = Records::open_existing(&self.records)?.fleet()?;
-        if self.json {
-            console::print_always(&to_json(&fleet));
-        } else {
-            console::sheet(&fleet_sheet(&fleet));
-        }
+        console::sheet(self.json, || to_json(&fleet), || fleet_sheet(&fleet));
         Ok(Exit::DONE)
     }
 }

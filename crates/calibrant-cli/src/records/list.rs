@@ -22,11 +22,7 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
         let records = Records::open_existing(&self.records)?.list(&self.selection.filter())?;
-        if self.json {
-            console::print_always(&to_json(&records));
-        } else {
-            console::sheet(&records_sheet(&records));
-        }
+        console::sheet(self.json, || to_json(&records), || records_sheet(&records));
         Ok(Exit::DONE)
     }
 }

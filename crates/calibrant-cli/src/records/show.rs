@@ -30,11 +30,7 @@ impl Arguments {
             let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(&self.records);
             return Err(Error::experiment(error));
         };
-        if self.json {
-            console::print_always(&to_json(&RecordFile::of(&kept)));
-        } else {
-            console::sheet(&record_sheet(&kept));
-        }
+        console::sheet(self.json, || to_json(&RecordFile::of(&kept)), || record_sheet(&kept));
         Ok(Exit::DONE)
     }
 }

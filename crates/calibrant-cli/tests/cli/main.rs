@@ -36,6 +36,7 @@ mod quiet_and_color;
 mod real_recordings;
 mod records;
 mod repaired_recordings;
+mod residuals;
 mod rest;
 mod resume;
 mod schemas;

@@ -47,12 +47,16 @@ options! {
     Noise "noise" "A file with noise densities.";
     Poses "poses" "The directions of holds.";
     RateHz "rate_hz" "The sample rate in Hz.";
+    Records "records" "The database to which results are added.";
+    Sections "sections" "The faces and turns of a session.";
     Seconds "seconds" "How long a search may take.";
     Sensor "sensor" "Which sensor a file is of.";
+    SensorFrom "sensor_from" "What the names of files say of their sensors.";
     Starts "starts" "The number of random starts of a search.";
     Temperature "temperature" "The temperature in °C.";
     TimeUnit "time_unit" "Unit of the times.";
     Times "times" "Even times, or the logged ones.";
+    Together "together" "The recordings are of one sensor, and are fitted together.";
     Topic "topic" "The topic of a bag.";
     Unit "unit" "Unit of the readings.";
     Validate "validate" "A second recording, which validates the result.";

@@ -131,6 +131,12 @@ pub struct HoldResult {
 }
 
 impl HoldResult {
+    /// Standard deviation that is expected of the magnitude residual, with the hold's own influence on the fit, m/s². Not a number where the residual is 0.
+    #[must_use]
+    pub fn magnitude_sd_mps2(&self) -> f64 {
+        (self.magnitude_residual_mps2 / self.studentised_residual).abs()
+    }
+
     /// Why it was not used. `None` if it was used.
     #[must_use]
     pub fn why_left_out(&self) -> Option<HoldReason> {

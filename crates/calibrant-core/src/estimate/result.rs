@@ -317,6 +317,12 @@ pub struct FitStatistics {
 }
 
 impl FitStatistics {
+    /// Noise of one sample per axis, in the unit of the readings: assumed, or from the residuals.
+    #[must_use]
+    pub fn sample_noise(&self) -> Option<Vector3<f64>> {
+        self.assumed_noise.or(self.noise_estimate)
+    }
+
     /// The statistics of a fit whose weights come from the data. Its χ² tests nothing.
     pub(in crate::estimate) fn of_chi2(chi2: f64, degrees_of_freedom: usize) -> Self {
         Self {

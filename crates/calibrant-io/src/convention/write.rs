@@ -3,7 +3,7 @@
 use super::file::{CalibratedImuFile, WrittenImu};
 use super::words::input_error;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
-use crate::atomic_output::write_atomically;
+use crate::atomic_output::write_text;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
@@ -24,7 +24,7 @@ pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFo
             Some(sensor_kind) if texts.len() > 1 => imu_tk::name_of(path, *sensor_kind),
             _ => path.to_path_buf(),
         };
-        write_atomically(&place, |out| out.write_all(text.as_bytes()))?;
+        write_text(&place, &text)?;
         files.push(place);
     }
     Ok(WrittenImu { files, warnings })

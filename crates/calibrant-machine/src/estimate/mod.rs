@@ -18,7 +18,9 @@ pub use problem::{
     MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
     MountingPrior, Source,
 };
-pub use result::{BudgetRow, MachineCalibration, ReferenceNoise, ResidualSpectrum, SensorResidual};
+pub use result::{
+    BudgetRow, MachineCalibration, ReferenceNoise, ResidualSpectrum, SampleResidual, SensorResidual,
+};
 pub use validation::{
     FailedBlock, LargestShift, MachineValidation, MachineValidationSource, ParameterShift, check_folds,
     compare_on_machine, cross_validate_on_machine,

@@ -1,8 +1,4 @@
 //! Records as a table for other programs.
 
-mod format;
-#[cfg(feature = "parquet")]
-mod parquet;
-mod table;
-
-pub use format::ExportFormat;
+mod columns;
+mod write;

@@ -35,7 +35,6 @@ fn main() -> std::io::Result<()> {
         ]
         .map(|(label, value)| (label.to_string(), value))
         .to_vec(),
-        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
 

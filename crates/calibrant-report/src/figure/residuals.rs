@@ -135,8 +135,7 @@ fn residuals(motion: &RecoveredMotion, axis: Axis, unit: DisplayUnit) -> impl It
 }
 
 fn noise(calibration: &Calibration, axis: Axis, unit: DisplayUnit) -> Option<f64> {
-    let noise = calibration.fit.assumed_noise.or(calibration.fit.noise_estimate)?;
-    let sd = noise[axis.index()] * unit.factor;
+    let sd = calibration.fit.sample_noise()?[axis.index()] * unit.factor;
     (sd.is_finite() && sd > 0.0).then_some(sd)
 }
 

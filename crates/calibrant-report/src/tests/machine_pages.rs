@@ -121,7 +121,7 @@ fn degenerate_results_on_a_machine_are_reported_without_panic() {
     }
     for noise in &mut case.calibration.noise {
         noise.noise.fill(0.0);
-        noise.residuals.iter_mut().for_each(|sample| sample.1 = Vector3::repeat(f64::NAN));
+        noise.residuals.iter_mut().for_each(|sample| sample.value = Vector3::repeat(f64::NAN));
     }
     assert_sound_with_script(&page(&case));
 

@@ -40,6 +40,14 @@ pub struct SessionOptions {
 }
 
 impl SessionOptions {
+    /// In words, but for what the work may take and who waits for it: results do not depend on that.
+    pub(crate) fn in_words(&self) -> String {
+        let (interruption, progress) = (Interruption::default(), Progress::default());
+        let mut options = Self { interruption, progress, ..self.clone() };
+        options.reading.budget = None;
+        format!("{options:?}")
+    }
+
     /// How a calibration on a machine is solved.
     pub(crate) fn machine_settings(&self) -> MachineSettings {
         let (interruption, progress) = (self.interruption.clone(), self.progress.clone());

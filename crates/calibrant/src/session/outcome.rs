@@ -8,8 +8,8 @@ use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{
-    CalibrationFile, DiagnosticWords, MachineCalibrationFile, Origin, Summary, to_json, write_atomically,
-    write_json,
+    CalibrationFile, DiagnosticWords, MachineCalibrationFile, Origin, Summary, to_json, write_json,
+    write_text,
 };
 use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet};
 use std::path::Path;
@@ -106,9 +106,7 @@ impl Outcome {
             rayon::join(|| self.write_json(directory), || self.with_page.then(|| self.report_html()));
         json?;
         match report {
-            Some(html) => {
-                write_atomically(&directory.join("report.html"), |out| out.write_all(html.as_bytes()))
-            }
+            Some(html) => write_text(&directory.join("report.html"), &html),
             None => Ok(()),
         }
     }

@@ -117,8 +117,6 @@ impl Recorded {
         if !self.joined.is_empty() {
             return self.joined.clone();
         }
-        let sensors = SensorKind::ALL.map(|sensor_kind| self.recording.sensor(sensor_kind));
-        let files = source.paths().zip(&self.sha256).zip(sensors);
-        files.map(|((path, sha256), readings)| Input::of(path, sha256, readings)).collect()
+        source.inputs(&self.sha256, &self.recording, SensorKind::Accelerometer)
     }
 }

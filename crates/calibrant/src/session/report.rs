@@ -5,7 +5,7 @@ use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_io::Input;
 use calibrant_report::About;
-use calibrant_report::number_format::{count, significant};
+use calibrant_report::number_format::significant;
 
 /// The head of the report of a calibration of `what`, with further facts.
 pub(crate) fn about(
@@ -20,7 +20,7 @@ pub(crate) fn about(
         ("Recording", files.clone()),
         ("Format", recorded.format.map_or_else(String::new, |format| format.name().into())),
         ("SHA-256", joined(inputs, |input| input.sha256.clone())),
-        ("Samples", joined(inputs, in_samples) + &times(recorded)),
+        ("Samples", joined(inputs, Input::samples_in_words) + &times(recorded)),
         ("Experiment", options.experiment_file.display().to_string()),
     ];
     facts.extend(further);
@@ -29,7 +29,6 @@ pub(crate) fn about(
         title: format!("Calibration of {what} from {files}"),
         facts: facts.into_iter().map(|(label, fact)| (label.to_owned(), fact)).collect(),
         findings: recorded.findings.iter().map(Diagnostic::without_file).collect(),
-        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     }
 }
@@ -45,8 +44,4 @@ fn times(recorded: &Recorded) -> String {
 
 fn joined(inputs: &[Input], say: impl Fn(&Input) -> String) -> String {
     inputs.iter().map(say).collect::<Vec<_>>().join(" and ")
-}
-
-fn in_samples(input: &Input) -> String {
-    format!("{} at {} Hz", count(input.samples), significant(input.rate_hz, 5))
 }

@@ -12,7 +12,7 @@ use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
-use calibrant_io::{Experiment, Origin, Plan};
+use calibrant_io::{Experiment, HashedFile, Origin, Plan, ResumeKey, UrdfSource};
 
 /// From recordings to calibrations, in files or in memory. It holds what all recordings share, and can calibrate several at the same time.
 pub struct Session {
@@ -39,6 +39,7 @@ impl Session {
     /// [`Error::Experiment`](crate::Error::Experiment) where the commanded motion is missing or makes no sense, where an IMU has no `[holds]`,
     /// or where the machine cannot be read. [`Error::Recording`](crate::Error::Recording) where the log of its motion cannot be read.
     pub fn with(experiment: Experiment, options: SessionOptions) -> Result<Self> {
+        options.naming.check()?;
         let mut notes = Vec::new();
         let prepared = Prepared::read(&experiment, &options, &mut notes)?;
         let origin = Origin {
@@ -53,6 +54,31 @@ impl Session {
     #[must_use]
     pub fn experiment(&self) -> &Experiment {
         &self.experiment
+    }
+
+    /// What the caller chose.
+    #[must_use]
+    pub fn options(&self) -> &SessionOptions {
+        &self.options
+    }
+
+    /// What all results depend on: program, options, experiment, commanded motion or log, and machine. With the files of a recording
+    /// ([`ResumeKey::with`]) it is the key of a result. `None` where a file cannot be read.
+    #[must_use]
+    pub fn key(&self) -> Option<ResumeKey> {
+        let (options, experiment) = (&self.options, &self.experiment);
+        let mut files = vec![experiment.source.clone()];
+        if options.motion.is_some() {
+            files.push(self.origin.motion.clone()?);
+        }
+        let machine = match &experiment.plan {
+            Plan::Machine(plan) => plan.urdf.as_ref(),
+            _ => None,
+        };
+        if let Some(UrdfSource::File(path)) = machine {
+            files.push(HashedFile::of(path)?);
+        }
+        Some(ResumeKey::of(&options.in_words(), &files))
     }
 
     /// The limits that a result must keep: those of the options, or of the experiment.

@@ -3,8 +3,8 @@
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{
-    ImuFile, ImuReadOptions, Section, file_name, imu_from_columns, imu_pair_of, read_imu_pair,
-    read_imu_recording, read_imu_sensor, read_sections,
+    HashedFile, ImuFile, ImuReadOptions, Input, Section, file_name, imu_from_columns, imu_pair_of,
+    read_imu_pair, read_imu_recording, read_imu_sensor, read_sections,
 };
 use std::path::{Path, PathBuf};
 
@@ -52,6 +52,22 @@ impl Readings {
     #[must_use]
     pub fn is_file(&self) -> bool {
         self.content == Content::File
+    }
+
+    /// What it is, by its content; `None` for a file that cannot be read.
+    fn hashed(&self) -> Option<HashedFile> {
+        let name = || file_name(&self.path);
+        match &self.content {
+            Content::File => HashedFile::of(&self.path),
+            Content::Columns(columns) => {
+                let columns = columns.iter().map(|(name, values)| (name.as_str(), values.clone()));
+                Some(HashedFile::of_numbers(name(), &columns.collect::<Vec<_>>()))
+            }
+            Content::Recording(recording) => {
+                let file = ImuFile::of_recording(recording.as_ref().clone());
+                Some(HashedFile { file: name(), sha256: file.sha256.concat() })
+            }
+        }
     }
 
     /// Reads it, with the options of a file.
@@ -139,7 +155,8 @@ impl Source {
     }
 
     /// The path of the recording, or its name.
-    pub(crate) fn path(&self) -> &Path {
+    #[must_use]
+    pub fn path(&self) -> &Path {
         self.recording.path()
     }
 
@@ -162,9 +179,28 @@ impl Source {
         }
     }
 
+    /// The paths of all its readings, its own first.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.paths().chain(self.further.iter().map(Readings::path))
+    }
+
+    /// Its [files](Self::files) by their content; `None` where one cannot be read.
+    pub(crate) fn hashed(&self) -> Option<Vec<HashedFile>> {
+        let readings = std::iter::once(&self.recording).chain(&self.gyroscope).chain(&self.further);
+        readings.map(Readings::hashed).collect()
+    }
+
     /// The paths of its readings, in the order of the sensors.
     pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
         std::iter::once(self.path()).chain(self.gyroscope.as_ref().map(Readings::path))
+    }
+
+    /// Its files as results name them. `sha256`: of each; `of_one`: whose samples count where both sensors are in one file.
+    #[must_use]
+    pub fn inputs(&self, sha256: &[String], recording: &ImuRecording, of_one: SensorKind) -> Vec<Input> {
+        let kinds = if self.gyroscope.is_some() { SensorKind::ALL } else { [of_one; 2] };
+        let files = self.paths().zip(sha256).zip(kinds);
+        files.map(|((path, sha256), kind)| Input::of(path, sha256, recording.sensor(kind))).collect()
     }
 
     /// The path of its readings of a sensor.

@@ -2,6 +2,7 @@
 
 mod accelerometer_on_faces;
 mod architecture;
+mod batch;
 mod best_poses;
 mod bias_drift;
 mod campaign;

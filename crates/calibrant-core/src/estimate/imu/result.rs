@@ -108,6 +108,12 @@ pub struct TurnResult {
 }
 
 impl RotationResult {
+    /// Standard deviation that is expected of the rotation error, with its own influence on the fit, rad. Not a number without a rotation.
+    #[must_use]
+    pub fn error_sd_rad(&self) -> f64 {
+        (self.error_rad / self.studentised).abs()
+    }
+
     /// Could the gyroscope's readings be integrated? Otherwise path, rate and errors are zero, without a meaning.
     #[must_use]
     pub fn is_integrated(&self) -> bool {

@@ -4,7 +4,9 @@ use crate::chain::JointKind;
 use crate::estimate::covariance::{budget, inflation, of_mounting};
 use crate::estimate::least_squares::{Minimum, Model, Pass, white_noise};
 use crate::estimate::noise::{Growths, Posterior};
-use crate::estimate::{MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SensorResidual};
+use crate::estimate::{
+    MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SampleResidual, SensorResidual,
+};
 use crate::log::ReferenceLog;
 use calibrant_core::estimate::FitStatistics;
 use calibrant_core::sensor::{Axis, SensorKind};
@@ -37,7 +39,14 @@ pub(crate) fn assembled(
                 white_noise: white_noise(stream.recording),
                 growth: growths.streams[s],
                 rms: (squares / (residuals.len() as f64).max(1.0)).map(f64::sqrt),
-                residuals: residuals.iter().map(|of| (of.time_s, of.value)).collect(),
+                residuals: residuals
+                    .iter()
+                    .map(|of| SampleResidual {
+                        time_s: of.time_s,
+                        value: of.value,
+                        sd: stream.sd_of(of.sample),
+                    })
+                    .collect(),
             }
         })
         .collect();

@@ -1,5 +1,6 @@
 //! The result of a calibration on a machine.
 
+use crate::estimate::least_squares::huber;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
 use crate::reference::Motion;
 use calibrant_core::diagnostic::Diagnostic;
@@ -68,8 +69,33 @@ pub struct SensorResidual {
     pub growth: Option<f64>,
     /// Root mean square of the residuals, in the unit of the readings.
     pub rms: Vector3<f64>,
-    /// Times of the motion, s, and residuals of the samples used.
-    pub residuals: Vec<(f64, Vector3<f64>)>,
+    /// Residuals of the samples used, in the order of time.
+    pub residuals: Vec<SampleResidual>,
+}
+
+/// The residual of one sample, in the unit of the readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SampleResidual {
+    /// Time of the motion, s.
+    pub time_s: f64,
+    /// Reading less what the motion says.
+    pub value: Vector3<f64>,
+    /// Standard deviation of the sample's noise, which may grow with the motion.
+    pub sd: Vector3<f64>,
+}
+
+impl SampleResidual {
+    /// The residual over its standard deviation.
+    #[must_use]
+    pub fn whitened(&self) -> Vector3<f64> {
+        self.value.component_div(&self.sd)
+    }
+
+    /// The weight that the fit gives each component, 0 to 1: Huber's (`huber1981`).
+    #[must_use]
+    pub fn weights(&self) -> Vector3<f64> {
+        self.whitened().map(|whitened| huber(whitened).0.powi(2))
+    }
 }
 
 /// The noise of a part of the log.

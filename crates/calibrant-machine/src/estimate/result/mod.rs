@@ -7,5 +7,7 @@ mod spectrum;
 pub(crate) mod undetermined;
 
 pub(crate) use assembly::assembled;
-pub use machine_calibration::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
+pub use machine_calibration::{
+    BudgetRow, MachineCalibration, ReferenceNoise, SampleResidual, SensorResidual,
+};
 pub use spectrum::ResidualSpectrum;

@@ -1,6 +1,6 @@
 //! The spectrum of a sensor's residuals, and how far they follow the reference (`welch1967`).
 
-use crate::estimate::{MachineCalibration, MachineParameters};
+use crate::estimate::{MachineCalibration, MachineParameters, SampleResidual};
 use calibrant_core::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use realfft::RealFftPlanner;
@@ -50,7 +50,7 @@ impl MachineCalibration {
 
 /// What the reference says at each residual: the reading of the sample at its time, less the residual.
 fn with_reference(
-    residuals: &[(f64, Vector3<f64>)],
+    residuals: &[SampleResidual],
     recording: &Recording,
     sensor: SensorKind,
     parameters: &MachineParameters,
@@ -60,11 +60,12 @@ fn with_reference(
     let middle_s = 0.5 * (first + last);
     let distance = |k: usize, time: f64| (parameters.motion_time(sensor, times[k], middle_s) - time).abs();
     let mut place = 0;
-    let sample = |&(time, residual): &(f64, Vector3<f64>)| {
+    let sample = |of: &SampleResidual| {
+        let time = of.time_s;
         while place + 1 < times.len() && distance(place + 1, time) <= distance(place, time) {
             place += 1;
         }
-        (time, residual, recording.readings()[place] - residual)
+        (time, of.value, recording.readings()[place] - of.value)
     };
     residuals.iter().map(sample).collect()
 }

@@ -10,7 +10,6 @@ use crate::figure::{Figure, colour};
 use calibrant_core::sensor::{Axis, SensorKind};
 use calibrant_machine::estimate::SensorResidual;
 use calibrant_machine::reference::Posture;
-use nalgebra::Vector3;
 
 /// Residuals of each axis, and the speed of the tip. `unit` is that of the readings.
 pub(crate) fn residuals_and_speed(noise: &SensorResidual, unit: &'static str, scene: &Scene) -> Figure {
@@ -21,8 +20,7 @@ pub(crate) fn residuals_and_speed(noise: &SensorResidual, unit: &'static str, sc
     };
     let mut panels = Panel::by_axis(&Axis::ALL, "time (s)", &unit.label("residual"), |axis, panel| {
         let k = axis.index();
-        let scaled = |(time, residual): &(f64, Vector3<f64>)| (*time, unit.factor * residual[k]);
-        let points = noise.residuals.iter().map(scaled).collect();
+        let points = noise.residuals.iter().map(|of| (of.time_s, unit.factor * of.value[k])).collect();
         over_time(panel, points, Some((label, unit.factor * noise.noise[k])))
     });
     let (what, label) = match noise.sensor {

@@ -38,7 +38,7 @@ impl Scene {
     /// `None` where no sample was used.
     pub(crate) fn of(calibration: &MachineCalibration) -> Option<Self> {
         let mut seen: Vec<f64> =
-            calibration.noise.iter().flat_map(|of| of.residuals.iter().map(|sample| sample.0)).collect();
+            calibration.noise.iter().flat_map(|of| of.residuals.iter().map(|sample| sample.time_s)).collect();
         seen.retain(|time| time.is_finite());
         seen.sort_by(f64::total_cmp);
         let (first, last) = (*seen.first()?, *seen.last()?);

@@ -1,9 +1,9 @@
 //! How good a calibration is, in the cells of a row: for tables of several recordings.
 
-use calibrant::estimate::Calibration;
-use calibrant::io::{Experiment, Plan};
-use calibrant::report::number_format;
-use calibrant::session::Calibrated;
+use crate::session::Calibrated;
+use calibrant_core::estimate::Calibration;
+use calibrant_io::{Experiment, Plan};
+use calibrant_report::number_format;
 
 /// The columns between the verdict and the codes that decide it.
 pub(super) fn columns(experiment: &Experiment) -> &'static [&'static str] {

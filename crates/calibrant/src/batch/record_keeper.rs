@@ -1,14 +1,14 @@
-//! The records to which the results of a call are added.
+//! The records to which the results of a batch are added.
 
-use calibrant::Result;
-use calibrant::io::HashedFile;
+use calibrant_core::error::Result;
+use calibrant_io::HashedFile;
 #[cfg(feature = "records")]
-use calibrant::records::{Record, Records};
+use calibrant_records::{Record, Records};
 use std::path::Path;
 #[cfg(feature = "records")]
 use std::sync::{Mutex, PoisonError};
 
-/// Adds each result to a database, where the user names one.
+/// Adds each result to a database, where the options name one.
 pub(super) struct RecordKeeper {
     #[cfg(feature = "records")]
     records: Option<Mutex<Records>>,
@@ -45,12 +45,12 @@ impl RecordKeeper {
 #[cfg(not(feature = "records"))]
 impl RecordKeeper {
     pub(super) fn open(file: Option<&Path>) -> Result<Self> {
-        use calibrant::Error;
-        use calibrant::error::{InputError, Refusal};
+        use calibrant_core::error::{Error, InputError, Refusal, TaskOption};
         match file {
             None => Ok(Self {}),
             Some(path) => {
-                let help = "leave --records away, or build calibrant with the feature `records`";
+                let option = TaskOption::Records;
+                let help = format!("leave {option} away, or build calibrant with the feature `records`");
                 let error = InputError::new(Refusal::FormatUnsupported, "this build keeps no records", help);
                 Err(Error::experiment(error.in_file(path)))
             }

@@ -1,22 +1,36 @@
 //! Records as columns: one entry for each calibration.
 
 use crate::database::KeptRecord;
-use calibrant_io::{HashedFile, unit_ending};
+use calibrant_io::{Column, ColumnValues, HashedFile, Table, unit_ending};
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// The columns of a table. A calibration has an entry in each.
 #[derive(Default)]
-pub(super) struct Table {
-    pub(super) ids: Vec<i64>,
+pub(super) struct Columns {
+    ids: Vec<i64>,
     /// Name and texts.
-    pub(super) texts: Vec<(&'static str, Vec<Option<String>>)>,
-    /// Name with its unit, and numbers.
-    pub(super) numbers: Vec<(String, Vec<Option<f64>>)>,
+    texts: Vec<(&'static str, Vec<Option<Cow<'static, str>>>)>,
+    /// Name with its unit, and numbers; one that is missing is not a number.
+    numbers: Vec<(String, Vec<f64>)>,
     /// The place of a parameter's column, by its name and unit. That of the standard deviation follows.
     places: HashMap<(String, &'static str), usize>,
 }
 
-impl Table {
+impl Columns {
+    /// The number of calibrations.
+    pub(super) fn rows(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// The columns in their order: the number of the record, texts, numbers.
+    pub(super) fn into_table(self) -> Table {
+        let mut columns = vec![Column { name: "id".to_owned(), values: ColumnValues::Whole(self.ids) }];
+        columns.extend(self.texts.into_iter().map(|(name, texts)| Column::texts(name, texts)));
+        columns.extend(self.numbers.into_iter().map(|(name, numbers)| Column::numbers(name, numbers)));
+        Table { name: "calibrations", columns }
+    }
+
     /// Adds a calibration as a row.
     pub(super) fn add(&mut self, kept: &KeptRecord) {
         let (record, before) = (&kept.record, self.ids.len());
@@ -45,7 +59,7 @@ impl Table {
             self.texts = texts.iter().map(|(name, _)| (*name, Vec::new())).collect();
         }
         for ((_, column), (_, text)) in self.texts.iter_mut().zip(texts) {
-            column.push(text);
+            column.push(text.map(Cow::Owned));
         }
         let imu = &record.imu;
         for (k, quantity) in imu.quantities.iter().enumerate() {
@@ -53,11 +67,11 @@ impl Table {
             let place = self.place(quantity.name(), quantity.unit(readings), before);
             let variance =
                 imu.covariance.as_ref().map(|sigma| sigma[(k, k)]).filter(|variance| *variance > 0.0);
-            self.numbers[place].1.push(Some(quantity.value(&imu.parameters)));
-            self.numbers[place + 1].1.push(variance.map(f64::sqrt));
+            self.numbers[place].1.push(quantity.value(&imu.parameters));
+            self.numbers[place + 1].1.push(variance.map_or(f64::NAN, f64::sqrt));
         }
         for (_, column) in &mut self.numbers {
-            column.resize(before + 1, None);
+            column.resize(before + 1, f64::NAN);
         }
     }
 
@@ -66,8 +80,8 @@ impl Table {
         let numbers = &mut self.numbers;
         *self.places.entry((name, unit)).or_insert_with_key(|(name, unit)| {
             let ending = unit_ending(unit);
-            numbers.push((format!("{name}{ending}"), vec![None; before]));
-            numbers.push((format!("{name}_sd{ending}"), vec![None; before]));
+            numbers.push((format!("{name}{ending}"), vec![f64::NAN; before]));
+            numbers.push((format!("{name}_sd{ending}"), vec![f64::NAN; before]));
             numbers.len() - 2
         })
     }

@@ -1,0 +1,136 @@
+//! The batch and its work.
+
+use super::checks::check;
+use super::copies::Copies;
+use super::folders::folder_names;
+use super::options::BatchOptions;
+use super::parallel::in_parallel;
+use super::quality::cells;
+use super::record_keeper::RecordKeeper;
+use super::result::{BatchResult, BatchResults, BatchRow};
+use crate::session::{Outcome, Session, Source};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::error::Result;
+use calibrant_core::progress::Progress;
+use calibrant_io::{Finished, HashedFile, ResumeKey};
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Recordings of one experiment.
+pub struct Batch {
+    session: Session,
+    sources: Vec<Source>,
+    options: BatchOptions,
+    records: RecordKeeper,
+}
+
+impl Batch {
+    /// Checks the recordings, and opens the records.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](crate::Error::Experiment) where an option is for a single recording, where a recording is the commanded motion, where records would
+    /// take several sensors for one, or where the records cannot be opened.
+    pub fn new(session: Session, sources: Vec<Source>, options: BatchOptions) -> Result<Self> {
+        check(&session, &sources, options.records.is_some())?;
+        let records = RecordKeeper::open(options.records.as_deref())?;
+        Ok(Self { session, sources, options, records })
+    }
+
+    /// What the recordings share.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The recordings.
+    #[must_use]
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// Calibrates from one of the recordings by itself, writes its results into the directory and adds them to the records. What is noticed goes to `notes`, even if it fails.
+    ///
+    /// # Errors
+    /// As [`Session::calibrate_noting`]; where the records have the recording as one of another sensor; where a file cannot be written.
+    pub fn calibrate(&self, source: &Source, notes: &mut Vec<Diagnostic>) -> Result<Outcome> {
+        self.check_records(source, || source.hashed())?;
+        self.calibrate_into(self.options.directory.as_deref(), source, notes)
+    }
+
+    /// Calibrates from all recordings, several at the same time: as many as there are threads. The progress counts recordings. After an interruption of the
+    /// session, the recordings that were not begun have the error that it gives.
+    #[must_use]
+    pub fn run(&self, progress: &Progress) -> BatchResults {
+        let count = self.sources.len();
+        let folders = folder_names(&self.sources.iter().map(Source::path).collect::<Vec<_>>());
+        let files = in_parallel(count, |number| self.sources[number].hashed());
+        let copies = Copies::among(&files);
+        let shared = self.session.key();
+        let done = AtomicU64::new(0);
+        let row = |number: usize| {
+            let (source, files, folder) = (&self.sources[number], &files[number], &folders[number]);
+            let key = shared.as_ref().zip(files.as_ref()).map(|(shared, files)| shared.with(files));
+            let mut told = Vec::new();
+            let path_of = |(number, k): (usize, usize)| self.sources[number].files().nth(k);
+            let refused = copies.refusal(number, path_of).map_or(Ok(()), Err);
+            let outcome = refused
+                .and_then(|()| self.session.options().interruption.check())
+                .and_then(|()| self.check_records(source, || files.clone()))
+                .and_then(|()| self.result(source, folder, key.as_ref(), &mut told));
+            progress.tell("recordings", done.fetch_add(1, Ordering::Relaxed) + 1, count as u64);
+            let (folder, recording) = (folder.clone(), source.path().to_path_buf());
+            BatchRow { folder, recording, files: files.clone(), key, outcome, told }
+        };
+        BatchResults { rows: in_parallel(count, row), copies: copies.groups() }
+    }
+
+    /// Calibrates from a recording into its folder, or takes over what is there, where the options ask for it. Without a `key` nothing is taken over.
+    fn result(
+        &self,
+        source: &Source,
+        folder: &str,
+        key: Option<&ResumeKey>,
+        told: &mut Vec<Diagnostic>,
+    ) -> Result<BatchResult> {
+        let directory = self.options.directory.as_ref().map(|directory| directory.join(folder));
+        let kept = directory.as_deref().zip(key);
+        let earlier = kept.filter(|_| self.options.resume);
+        let keep = |text: String| if self.options.keep_json { text } else { String::new() };
+        if let Some((finished, text)) = earlier.and_then(|(directory, key)| Finished::read(directory, key)) {
+            // the run that computed it need not have recorded it
+            self.records.add(|| text.clone())?;
+            return Ok(BatchResult { finished, json: keep(text), earlier: true });
+        }
+        let outcome = self.calibrate_into(directory.as_deref(), source, told)?;
+        told.extend(outcome.warnings().iter().cloned());
+        let finished = Finished {
+            summary: outcome.summary(),
+            cells: cells(self.session.experiment(), &outcome.calibrated),
+            told: std::mem::take(told),
+        };
+        if let Some((directory, key)) = kept {
+            finished.write(directory, key, self.session.options().report)?;
+        }
+        let json = if self.options.keep_json { outcome.json() } else { String::new() };
+        Ok(BatchResult { finished, json, earlier: false })
+    }
+
+    fn calibrate_into(
+        &self,
+        directory: Option<&Path>,
+        source: &Source,
+        notes: &mut Vec<Diagnostic>,
+    ) -> Result<Outcome> {
+        let outcome = self.session.calibrate_noting(source, notes)?;
+        directory.map_or(Ok(()), |directory| outcome.write(directory))?;
+        self.records.add(|| outcome.json())?;
+        Ok(outcome)
+    }
+
+    /// Refuses a recording that the records have as one of another sensor. `files`: its own by their content; `None` where one cannot be read.
+    fn check_records(&self, source: &Source, files: impl FnOnce() -> Option<Vec<HashedFile>>) -> Result<()> {
+        // a name that is not of the pattern is refused where the recording is calibrated
+        let sensor = || Some(self.session.options().naming.of(source.path()).ok()?.sensor);
+        self.records.check(sensor, files).map_err(|error| error.in_recording(source.path()))
+    }
+}
