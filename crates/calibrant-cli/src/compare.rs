@@ -2,6 +2,7 @@
 
 use crate::calibration_file::{Reading, in_words};
 use crate::console;
+use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
@@ -50,6 +51,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             "compare calibrations of one sensor",
         ))));
     }
+    tell_all(&comparison.notes);
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
     if arguments.json {
         console::print_always(&to_json(&ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b }));
@@ -57,8 +59,5 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     let names = [(name_a, &a), (name_b, &b)].map(|(name, imu)| format!("{name} ({})", in_words(imu)));
     console::sheet(&comparison_sheet(&comparison, names));
-    for note in &comparison.notes {
-        console::note(note);
-    }
     Ok(Exit::DONE)
 }

@@ -73,7 +73,7 @@ fn predicted(assessment: &Assessment) -> Section<'_> {
     if broken.is_empty() {
         section.line("all limits are kept, at all times");
     }
-    broken.iter().for_each(|found| section.line(broken_limit(found)));
+    broken.iter().for_each(|found| section.line(format!("BROKEN: {}", violation(found))));
     section
 }
 
@@ -95,32 +95,6 @@ fn efficiency(assessment: &Assessment) -> Option<String> {
     };
     let percent = significant(100.0 * efficiency, 3);
     Some(format!("Efficiency {percent} % of the best motion found{certain}: {meaning}."))
-}
-
-/// A broken limit, and by how much.
-fn broken_limit(found: &LimitUse) -> String {
-    let (axis, unit) = (found.axis, found.kind.unit());
-    let number = |value: f64| significant(value, 4);
-    match found.kind {
-        LimitKind::RestAtEnd => {
-            format!("BROKEN: axis {axis} still moves at the end, at {} {unit}", number(found.value))
-        }
-        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
-            "BROKEN: {} of axis {axis} is {} {unit}, prescribed is {}",
-            found.kind.name(),
-            number(found.value),
-            number(found.limit)
-        ),
-        kind => format!(
-            "BROKEN: {} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
-            kind.name(),
-            number(found.value),
-            number(found.time_s),
-            number(found.excess()),
-            number(found.limit),
-            significant(100.0 * found.violation, 3)
-        ),
-    }
 }
 
 /// The verdict of the page. Terminals show its sentences below the table.

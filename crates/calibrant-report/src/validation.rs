@@ -3,9 +3,11 @@
 use super::figure::validation_errors;
 use super::number_format;
 use crate::sheet::{Cell, Section, Table};
+use calibrant_core::diagnostic::validation::AngularUnitWrong;
+use calibrant_core::diagnostic::{Check, Diagnostic};
 use calibrant_core::estimate::{
-    BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
-    UnusedError, ValidatedErrors, Validation, ValidationSource,
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, UnusedError, ValidatedErrors,
+    Validation, ValidationSource,
 };
 use calibrant_core::sensor::SensorKind;
 
@@ -18,15 +20,14 @@ const OTHER_CAUSE: f64 = 30.0;
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     // a wrong unit explains noise and bias
-    let in_unit = validation.reasons.iter().all(|of| !matches!(of, LikelyExplanation::AngularUnit { .. }));
+    let in_unit = validation.likely_explanations.iter().all(|of| of.code() != AngularUnitWrong::CODE);
     let other = validation.noise.iter().filter(|noise| noise.differs());
     let mut sentences: Vec<String> = other
         .filter(|noise| in_unit || noise.sensor_kind == SensorKind::Accelerometer)
         .map(other_noise)
         .collect();
-    sentences.extend(validation.reasons.iter().map(likely_explanation));
-    let explained =
-        |errors: &ValidatedErrors| validation.reasons.iter().any(|reason| reason.explains(errors.kind));
+    sentences.extend(validation.likely_explanations.iter().map(Diagnostic::sentence));
+    let explained = |errors: &ValidatedErrors| validation.explains(errors.kind);
     let beyond = |errors: &ValidatedErrors| {
         errors.verdict == CovarianceVerdict::TooSmall && errors.factor > OTHER_CAUSE && !explained(errors)
     };
@@ -206,7 +207,7 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
         (CovarianceVerdict::TooFew, _) => "The data are too few for a verdict".into(),
         (CovarianceVerdict::Doubtful, _) => format!(
             "The errors are as predicted, but they confirm nothing: {}",
-            errors.caveat.as_ref().map_or_else(String::new, |caveat| why(caveat, errors))
+            errors.caveat.as_ref().map_or("", Diagnostic::message)
         ),
         (CovarianceVerdict::TooSmall, _) if cause == Cause::Reported => {
             "The cause named above is more likely than the covariance".into()
@@ -228,44 +229,8 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
             two(errors.factor)
         ),
     };
-    let end = if verdict.ends_with('?') { "" } else { "." };
+    let end = if verdict.ends_with(['?', '.']) { "" } else { "." };
     format!("{misses}. {verdict}{end}")
-}
-
-/// Why errors of the predicted size confirm nothing.
-fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
-    let what = match errors.kind {
-        ErrorKind::Magnitude | ErrorKind::Rate => "hold",
-        ErrorKind::Rotation => "rotation",
-    };
-    let from_to = |start_s: f64, end_s: f64| {
-        format!("from {} to {} s", number_format::fixed(start_s, 1), number_format::fixed(end_s, 1))
-    };
-    match caveat {
-        Caveat::Change(change) => {
-            format!("{}, and the prediction includes the scatter of this change", change.headline())
-        }
-        Caveat::Clocks(ClockRate { faster, sd }) => format!(
-            "the clocks of the sensors run at different rates, by {:.4} ± {:.4} %. The gains are wrong by this percentage in all rotations alike",
-            100.0 * faster.abs(),
-            100.0 * sd
-        ),
-        Caveat::LeftOut { count, start_s, end_s } => format!(
-            "the calibration did not use {count} in a row, {}. This is not by chance, and the calibration holds only for the others",
-            from_to(*start_s, *end_s)
-        ),
-        Caveat::InARow { count, start_s, end_s } => format!(
-            "{} in a row, {}, {} not counted. This is not by chance. Did the sensor change there?",
-            number_format::counted(*count, what),
-            from_to(*start_s, *end_s),
-            if *count == 1 { "is" } else { "are" }
-        ),
-        Caveat::Several { count } => format!(
-            "{} of {} are not counted, which is too many to be chance",
-            number_format::counted(*count, what),
-            errors.errors.len()
-        ),
-    }
 }
 
 fn other_noise(noise: &NoiseRatio) -> String {
@@ -284,67 +249,6 @@ fn other_noise(noise: &NoiseRatio) -> String {
          distrust the calibration.",
         noise.sensor_kind, ratio
     )
-}
-
-fn likely_explanation(reason: &LikelyExplanation) -> String {
-    let list = |values: &nalgebra::Vector3<f64>, scale: f64| {
-        values.iter().map(|value| number_format::significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
-    };
-    let most = |values: &nalgebra::Vector3<f64>, sd: &nalgebra::Vector3<f64>| {
-        number_format::significant(values.component_div(sd).amax(), 2)
-    };
-    match reason {
-        LikelyExplanation::Temperature { calibrated_c, here_c } => format!(
-            "This recording was made at a mean of {} °C, the calibration at {} °C and without temperature terms. This is the likely cause of the differences. Calibrate over the temperatures of \
-             use, with [temperature].",
-            number_format::fixed(*here_c, 1),
-            number_format::fixed(*calibrated_c, 1)
-        ),
-        LikelyExplanation::BeyondTemperatures { calibrated_c, here_c } => {
-            let between = |[low, high]: &[f64; 2]| match high - low < 0.1 {
-                true => number_format::fixed(*low, 1),
-                false => format!("{} to {}", number_format::fixed(*low, 1), number_format::fixed(*high, 1)),
-            };
-            format!(
-                "This recording was made at {} °C, the calibration at {} °C. The temperature terms are extrapolated, which is the likely cause of the differences. Calibrate over \
-                 the temperatures of use.",
-                between(here_c),
-                between(calibrated_c)
-            )
-        }
-        LikelyExplanation::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
-            "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations. That explains the gravity residuals. Calibrate it again.",
-            list(shift_mps2, 1e3),
-            most(shift_mps2, sd_mps2)
-        ),
-        LikelyExplanation::AccelerometerGain { change, sd } => format!(
-            "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations. That explains the gravity residuals. Calibrate it again.",
-            list(change, 100.0),
-            most(change, sd)
-        ),
-        LikelyExplanation::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => {
-            format!(
-                "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations. Its gains have changed by {} %, up to {}. Both together explain the gravity \
-             residuals. Calibrate it again.",
-                list(shift_mps2, 1e3),
-                most(shift_mps2, shift_sd_mps2),
-                list(change, 100.0),
-                most(change, change_sd)
-            )
-        }
-        LikelyExplanation::GyroscopeGain { change, sd } => format!(
-            "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations. That explains the rotation errors. Calibrate it again.",
-            list(change, 100.0),
-            most(change, sd)
-        ),
-        LikelyExplanation::AngularUnit { factor } => {
-            let (really, stated) = if *factor < 1.0 { ("deg/s", "rad/s") } else { ("rad/s", "deg/s") };
-            format!(
-                "The gyroscope's readings are 57.3 times too {}: they are likely in {really}, but stated in {stated}. In {really}, the propagated gravity is right.",
-                if *factor < 1.0 { "large" } else { "small" }
-            )
-        }
-    }
 }
 
 fn bias(shift: &BiasShift) -> String {

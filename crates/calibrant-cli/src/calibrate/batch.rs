@@ -7,8 +7,10 @@ use super::parallel::in_parallel;
 use super::recorded::Recorded;
 use super::sources::hashed_readings;
 use crate::console;
-use crate::diagnostics::{rules, tell_in};
+use crate::diagnostics::{rules, tell, tell_in};
 use crate::exit::Exit;
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::files::{FolderNameTaken, ResultsKept};
 use calibrant::io::{SummaryRow, calibrations_json, write_atomically, write_summary};
 use calibrant::report::{About, batch_sheet};
 use std::collections::HashSet;
@@ -21,7 +23,8 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     let folders = folders(&arguments.recordings);
     for (folder, path) in folders.iter().zip(&arguments.recordings) {
         if *folder != stem(path) {
-            console::note(&format!("{folder} is {}: the name is taken", path.display()));
+            let recording = Phrase(path.display().to_string());
+            tell(FolderNameTaken { folder: Phrase(folder.clone()), recording });
         }
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
@@ -106,7 +109,7 @@ fn keep_earlier(job: &Job<'_>, folders: &[String], recorded: &[Recorded]) {
     let is_earlier = |recorded: &Recorded| recorded.outcome.as_ref().is_ok_and(|result| result.earlier);
     let earlier: Vec<&String> =
         folders.iter().zip(recorded).filter(|(_, of)| is_earlier(of)).map(|(folder, _)| folder).collect();
-    console::note(&format!("{} of {} recordings were calibrated before", earlier.len(), recorded.len()));
+    tell(ResultsKept { kept: earlier.len(), recordings: recorded.len() });
     let files = |folder: &&String| {
         let directory = job.arguments.output.join(folder.as_str());
         ["calibration.json", "report.html", "resume.json"].map(|name| directory.join(name))

@@ -1,13 +1,19 @@
 //! A diagnostic's subject (`gyroscope axis x`) and its named numbers, made of the fields of its check. Each type of a field implements [`Part`].
 
+use super::comparison::UnknownUncertainty;
+use super::numbers::Numbers;
+use super::reader_fields::MissingValue;
+use super::rotation_reason::RotationReason;
+use super::turns::UnitMistake;
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
+use nalgebra::Vector3;
 use std::fmt::Display;
 
 /// Subject and numbers of a diagnostic.
 #[derive(Default)]
 pub(super) struct Parts {
     pub(super) subject: Vec<String>,
-    pub(super) numbers: Vec<(&'static str, f64)>,
+    pub(super) numbers: Numbers,
 }
 
 /// Words that whoever finds something has for it.
@@ -61,6 +67,13 @@ impl Part for Axis {
     }
 }
 
+/// A number for each axis: `x_shift_mps2`.
+impl Part for Vector3<f64> {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        parts.numbers.extend(Axis::ALL.map(|axis| (format!("{axis}_{key}"), self[axis.index()])));
+    }
+}
+
 /// Names of parameters.
 impl Part for String {
     fn add_to(&self, parts: &mut Parts, _: &'static str) {
@@ -77,6 +90,7 @@ macro_rules! neither {
 }
 
 neither!(bool, ReadingUnit, &'static str, [String; 3], Phrase);
+neither!(MissingValue, RotationReason, UnitMistake, UnknownUncertainty);
 
 /// The items in words, with this between them.
 pub(super) fn listed(items: &[impl Display], between: &str) -> String {

@@ -196,10 +196,6 @@ impl Part for TemperatureDoubt {
     }
 }
 
-impl Part for MissingValue {
-    fn add_to(&self, _: &mut Parts, _: &'static str) {}
-}
-
 impl Part for Ticks {
     fn add_to(&self, parts: &mut Parts, key: &'static str) {
         parts.numbers.push((key, self.0 as f64));

@@ -1,6 +1,5 @@
 //! Why a rotation is not used.
 
-use super::parts::{Part, Parts};
 use crate::sensor::{Axis, SensorKind};
 use std::fmt;
 
@@ -55,8 +54,4 @@ impl fmt::Display for RotationReason {
             Self::Unfit => f.write_str("it does not fit"),
         }
     }
-}
-
-impl Part for RotationReason {
-    fn add_to(&self, _: &mut Parts, _: &'static str) {}
 }

@@ -147,7 +147,3 @@ impl fmt::Display for UnitMistake {
         })
     }
 }
-
-impl Part for UnitMistake {
-    fn add_to(&self, _: &mut Parts, _: &'static str) {}
-}

@@ -10,15 +10,19 @@ pub(crate) fn criterion_in_words(criterion: &Criterion) -> String {
     format!("criterion {} ({}{})", criterion.letter(), criterion.formula(), criterion.scaling())
 }
 
-/// The values of the criterion for both motions.
+/// The values of the criterion for both motions, and its bound.
 pub(super) fn values(design: &Design) -> String {
     let above = if design.floor > 0.0 {
         format!(", above {} of the tilt, which no motion changes", significant(design.floor, 4))
     } else {
         String::new()
     };
+    let bound = design.certificate.as_ref().map_or_else(String::new, |certificate| {
+        let (least, gap) = (significant(certificate.lower_bound - design.floor, 5), certificate.gap);
+        format!("; no motion is below {least}, {} less", gap_in_words(&design.criterion, gap))
+    });
     format!(
-        "{}: {} initial, {} optimal{above}",
+        "{}: {} initial, {} optimal{above}{bound}",
         criterion_in_words(&design.criterion),
         significant(design.initial.value - design.floor, 5),
         significant(design.optimal.value - design.floor, 5)

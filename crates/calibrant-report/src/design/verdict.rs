@@ -1,6 +1,7 @@
 //! The verdict on a design: how good is the motion, and what is the evidence?
 
 use super::axes;
+use super::in_short::gap_in_words;
 use super::predicted_sd::{above, times};
 use crate::About;
 use crate::figure::DisplayUnit;
@@ -9,7 +10,7 @@ use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
-use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitUse, limit_use};
+use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitKind, LimitUse, limit_use};
 
 /// A standard deviation within this share of its lower bound counts as optimal.
 const PROVED: f64 = 0.01;
@@ -18,7 +19,7 @@ const NOTHING_TO_GAIN: f64 = 1.02;
 /// Within this distance, the bound is still informative.
 const NEAR: f64 = 0.1;
 
-/// The verdict and everything that qualifies it. Terminals show the sentence on the certificate instead.
+/// The verdict and everything that qualifies it.
 pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
     let broken = violations(&design.limits, axes(&design.parameters).len(), &design.optimal);
     let (grade, word, sentences) = judge(design, &broken);
@@ -26,7 +27,6 @@ pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
         .with("Broken limits", broken)
         .with("Undetermined", undetermined_items(&design.optimal))
         .with("Findings", about.findings.clone())
-        .on_terminal("")
 }
 
 fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
@@ -46,7 +46,8 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
                 .to_string(),
         );
     }
-    sentences.extend(design.gap_statement());
+    sentences.extend(gap_goal(design));
+    sentences.extend(tilt(design));
     sentences.extend(improvement(design));
     match nearest {
         _ if !broken.is_empty() => (Grade::Bad, "✗ Not admissible.".into(), sentences),
@@ -129,6 +130,42 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
     farthest
 }
 
+/// The gap that was asked for, and the gap that there is; `None` where none was asked for.
+fn gap_goal(design: &Design) -> Option<String> {
+    let goal = design.gap_goal?;
+    let shown = |gap: f64| gap_in_words(&design.criterion, gap);
+    let (asked, starts) =
+        (shown(goal.gap), format!("{} of {} starts", design.starts.len(), goal.most_starts));
+    Some(match (&design.certificate, design.gap_is_reached()) {
+        (None, _) => format!("The gap of {asked} that was asked for is NOT proved: there is no bound."),
+        (Some(certificate), Some(true)) => format!(
+            "The gap of {asked} that was asked for is proved: it is {}, reached after {starts}.",
+            shown(certificate.gap)
+        ),
+        (Some(certificate), _) => format!(
+            "The gap of {asked} that was asked for is NOT reached: it is {} after {starts}. Either a better motion exists, or the \
+             bound is loose.",
+            shown(certificate.gap)
+        ),
+    })
+}
+
+/// What the tilt of gravity gives to the biases.
+fn tilt(design: &Design) -> Option<String> {
+    let floor = design.parameters.iter().zip(&design.floor_sd).filter(|(_, sd)| **sd > 0.0);
+    let named: Vec<String> = floor
+        .map(|(parameter, sd)| {
+            format!("{} {} {}", parameter.name, number_format::significant(*sd, 4), parameter.unit)
+        })
+        .collect();
+    (!named.is_empty()).then(|| {
+        format!(
+            "Whatever the motion, the tilt and the magnitude of gravity alone give an sd of {}.",
+            named.join(", ")
+        )
+    })
+}
+
 fn gap(criterion: &Criterion, gap: f64) -> String {
     match criterion {
         Criterion::D(_) => format!("{} nats", number_format::significant(gap, 2)),
@@ -196,15 +233,21 @@ fn violations(limits: &Limits, axes: usize, evaluation: &Evaluation) -> Vec<Stri
     uses.iter().filter(|found| found.is_violated()).map(violation).collect()
 }
 
-/// A broken limit in words.
+/// A broken limit, and by how much.
 pub(crate) fn violation(found: &LimitUse) -> String {
-    let unit = found.kind.unit();
-    format!(
-        "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
-        found.kind.name(),
-        found.axis,
-        number_format::significant(found.value, 4),
-        number_format::short(found.time_s),
-        number_format::short(found.limit)
-    )
+    let (name, axis, unit) = (found.kind.name(), found.axis, found.kind.unit());
+    let number = |value: f64| number_format::significant(value, 4);
+    let (value, limit) = (number(found.value), number(found.limit));
+    match found.kind {
+        LimitKind::RestAtEnd => format!("axis {axis} still moves at the end, at {value} {unit}"),
+        LimitKind::StartAcceleration | LimitKind::EndAcceleration => {
+            format!("{name} of axis {axis} is {value} {unit}, prescribed is {limit}")
+        }
+        _ => format!(
+            "{name} of axis {axis} is {value} {unit} at {} s, {} beyond the limit of {limit} ({} %)",
+            number(found.time_s),
+            number(found.excess()),
+            number_format::significant(100.0 * found.violation, 3)
+        ),
+    }
 }

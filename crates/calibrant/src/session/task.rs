@@ -120,6 +120,9 @@ impl<'e> Task<'e> {
             let outcome = problem.cross_validate(calibration, &self.settings, folds);
             validations.extend(unless_too_few(outcome, notes)?);
         }
+        // warnings are told already
+        let found = validations.iter().flat_map(Validation::diagnostics);
+        notes.extend(found.filter(|found| !found.is_warning()).cloned());
         Ok(validations)
     }
 
@@ -145,7 +148,7 @@ impl<'e> Task<'e> {
         let problem = setup.problem(self.accelerometer, &other)?;
         let mut validation = problem.validate(calibration).map_err(|error| error.in_recording(path))?;
         let temperature = other_temperature(calibration, &validation, &recorded.recording, &other.recording);
-        validation.reasons.extend(temperature);
+        validation.likely_explanations.extend(temperature);
         let thermal = &calibration.imu.thermal;
         let range = Temperatures::of(&other.recording)?.and_then(|temperatures| temperatures.range_c());
         let beyond = range.and_then(|range| CalibrationExtrapolated::of(thermal, range));

@@ -1,10 +1,10 @@
 //! What a validation gives.
 
-use super::caveat::Caveat;
 use super::covariance_verdict::CovarianceVerdict;
-use super::explanation::LikelyExplanation;
 use super::noise_comparison::NoiseRatio;
 use super::unused_error::{ErrorKind, UnusedError};
+use crate::diagnostic::validation::{AccelerometerMoved, AngularUnitWrong, GyroscopeGainsMoved};
+use crate::diagnostic::{Check, Diagnostic};
 use crate::form::{As, per_axis};
 use crate::json::{if_any, if_some, named};
 use crate::json_object;
@@ -25,7 +25,7 @@ pub struct Validation {
     /// The noise of each sensor beside that of the calibration's recording; empty for folds. What is predicted goes with the noise that is found.
     pub noise: Vec<NoiseRatio>,
     /// What may be the reason of errors that are larger than predicted, other than the covariance; empty for folds.
-    pub reasons: Vec<LikelyExplanation>,
+    pub likely_explanations: Vec<Diagnostic>,
 }
 
 /// Data that were not used.
@@ -83,7 +83,7 @@ pub struct ValidatedErrors {
     /// What follows.
     pub verdict: CovarianceVerdict,
     /// Why errors as large as predicted confirm nothing; `None` where nothing speaks against them.
-    pub caveat: Option<Caveat>,
+    pub caveat: Option<Diagnostic>,
 }
 
 /// What the errors say of the parameters alone: their common part along the directions in which the parameters would move them.
@@ -130,7 +130,7 @@ json_object! {
         /// The coarsest step of the readings, in their unit, by sensor.
         coarse_step: if_any(validation.noise.iter().filter_map(|noise| Some((noise.sensor_kind.name(), noise.coarse?.step))).collect::<BTreeMap<_, _>>()),
         gyroscope_bias_shift: if_some(validation.bias_shift),
-        likely_explanations: if_any(validation.reasons.as_slice()),
+        likely_explanations: if_any(validation.likely_explanations.as_slice()),
         kinds: named(validation.kinds.iter().map(|errors| (errors.kind.name(), errors))),
     }
 }
@@ -164,7 +164,7 @@ json_object! {
         factor_interval_99: [kind.factor_interval.0, kind.factor_interval.1],
         verdict: kind.verdict,
         /// Why errors as large as predicted confirm nothing.
-        caveat: if_some(kind.caveat),
+        caveat: if_some(kind.caveat.as_ref()),
         /// What the errors say of the parameters alone.
         parameters: if_some(kind.parameters),
         table: &kind.errors,
@@ -199,6 +199,30 @@ impl Validation {
     #[must_use]
     pub fn of_kind(&self, kind: ErrorKind) -> Option<&ValidatedErrors> {
         self.kinds.iter().find(|errors| errors.kind == kind)
+    }
+
+    /// Does a likely explanation tell why errors of this kind are larger than predicted?
+    #[must_use]
+    pub fn explains(&self, kind: ErrorKind) -> bool {
+        let of_others: &[_] = match kind {
+            ErrorKind::Magnitude => &[GyroscopeGainsMoved::CODE, AngularUnitWrong::CODE],
+            ErrorKind::Rate => &[GyroscopeGainsMoved::CODE, AccelerometerMoved::CODE],
+            ErrorKind::Rotation => &[],
+        };
+        self.likely_explanations.iter().any(|found| !of_others.contains(&found.code()))
+    }
+
+    /// Its likely explanations and caveats, each once.
+    #[must_use]
+    pub fn diagnostics(&self) -> Vec<&Diagnostic> {
+        let caveats = self.kinds.iter().filter_map(|errors| errors.caveat.as_ref());
+        let mut found: Vec<&Diagnostic> = Vec::new();
+        for one in self.likely_explanations.iter().chain(caveats) {
+            if !found.contains(&one) {
+                found.push(one);
+            }
+        }
+        found
     }
 }
 
