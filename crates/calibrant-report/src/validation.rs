@@ -3,41 +3,27 @@
 use super::figure::validation_errors;
 use super::number_format;
 use crate::sheet::{Cell, Section, Table};
-use calibrant_core::diagnostic::validation::AngularUnitWrong;
-use calibrant_core::diagnostic::{Check, Diagnostic};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{
-    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, UnusedError, ValidatedErrors,
-    Validation, ValidationSource,
+    CovarianceVerdict, ErrorKind, FailedFold, UnusedError, ValidatedErrors, Validation, ValidationSource,
 };
-use calibrant_core::sensor::SensorKind;
 
 /// Largest number of errors that are named one by one. The others are counted.
 const NAMED: usize = 5;
-/// Errors beyond this factor have another cause than the covariance.
-const OTHER_CAUSE: f64 = 30.0;
 
 /// The result of a validation, with a verdict for each kind of error: is the covariance consistent with the errors?
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
-    // a wrong unit explains noise and bias
-    let in_unit = validation.likely_explanations.iter().all(|of| of.code() != AngularUnitWrong::CODE);
-    let other = validation.noise.iter().filter(|noise| noise.differs());
-    let mut sentences: Vec<String> = other
-        .filter(|noise| in_unit || noise.sensor_kind == SensorKind::Accelerometer)
-        .map(other_noise)
-        .collect();
-    sentences.extend(validation.likely_explanations.iter().map(Diagnostic::sentence));
-    let explained = |errors: &ValidatedErrors| validation.explains(errors.kind);
-    let beyond = |errors: &ValidatedErrors| {
-        errors.verdict == CovarianceVerdict::TooSmall && errors.factor > OTHER_CAUSE && !explained(errors)
-    };
-    let any_beyond = validation.kinds.iter().any(beyond);
-    // with another sensor or other axes, the bias has not moved
-    sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit && !any_beyond).map(bias));
+    let remarks = validation.likely_explanations.iter().cloned().chain(validation.differences());
+    let mut sentences: Vec<String> = remarks.map(|found| found.sentence()).collect();
+    if validation.bias_shift.is_some_and(|shift| !shift.moved) {
+        sentences.push("The gyroscope's bias agrees with the calibration, within its uncertainty.".into());
+    }
+    let any_beyond = validation.kinds.iter().any(|errors| validation.is_beyond(errors));
     for errors in &validation.kinds {
         let cause = match errors {
-            _ if explained(errors) => Cause::Reported,
-            _ if beyond(errors) => Cause::Another,
+            _ if validation.explains(errors.kind) => Cause::Reported,
+            _ if validation.is_beyond(errors) => Cause::Another,
             _ if any_beyond => Cause::Beside,
             _ => Cause::Covariance,
         };
@@ -231,39 +217,6 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     };
     let end = if verdict.ends_with(['?', '.']) { "" } else { "." };
     format!("{misses}. {verdict}{end}")
-}
-
-fn other_noise(noise: &NoiseRatio) -> String {
-    let ratio = number_format::significant(noise.overall(), 2);
-    if let Some(coarse) = noise.coarse {
-        return format!(
-            "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?). They scatter {ratio} times as much as in the calibration's recording. \
-             The prediction includes that. It is no reason to distrust the calibration.",
-            noise.sensor_kind,
-            number_format::significant(coarse.step, 2),
-            coarse.unit.symbol()
-        );
-    }
-    format!(
-        "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?). The prediction uses the noise of this recording. It is no reason to \
-         distrust the calibration.",
-        noise.sensor_kind, ratio
-    )
-}
-
-fn bias(shift: &BiasShift) -> String {
-    if !shift.moved {
-        return "The gyroscope's bias agrees with the calibration, within its uncertainty.".into();
-    }
-    let degrees = |value: f64| number_format::significant(value.to_degrees(), 2);
-    let values: Vec<String> = shift.shift_radps.iter().map(|value| degrees(*value)).collect();
-    let most = shift.shift_radps.component_div(&shift.sd_radps).amax();
-    format!(
-        "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations. Estimate it again where the gyroscope is used. Rates and rotations are judged \
-         with the new bias.",
-        values.join(", "),
-        number_format::significant(most, 2)
-    )
 }
 
 fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {

@@ -4,6 +4,7 @@ use super::check::checks;
 use super::parts::Phrase;
 use super::reader::Span;
 use crate::number_format::significant;
+use crate::sensor::{ReadingUnit, SensorKind};
 use nalgebra::Vector3;
 
 checks! {
@@ -61,11 +62,13 @@ checks! {
     decided "With another bias, other gains or both, the magnitudes of gravity are as predicted."
     remedy "Calibrate it again."
     says {
-        let bias = moved("bias", shift_mps2.zip(*shift_sd_mps2), (1e3, "mm/s²"));
-        let gains = moved("gains", change.zip(*change_sd), (100.0, "%"));
+        let bias = shift_mps2.as_ref().zip(shift_sd_mps2.as_ref()).map(|of| moved(of, (1e3, "mm/s²")));
+        let gains = change.as_ref().zip(change_sd.as_ref()).map(|of| moved(of, (100.0, "%")));
+        let changes = [("its bias", bias), ("its gains", gains)];
+        let changes = changes.into_iter().filter_map(|(what, by)| Some(format!("{what} {}", by?)));
         format!(
             "the accelerometer has changed since the calibration: {}. That explains the gravity residuals. Calibrate it again.",
-            bias.into_iter().chain(gains).collect::<Vec<_>>().join(" and ")
+            changes.collect::<Vec<_>>().join(" and ")
         )
     };
 
@@ -79,8 +82,9 @@ checks! {
     decided "With other gains, the rotations are as predicted."
     remedy "Calibrate it again."
     says format!(
-        "the gyroscope has changed since the calibration (or its clock): {}. That explains the rotation errors. Calibrate it again.",
-        moved("gains", Some((*change, *change_sd)), (100.0, "%")).unwrap_or_default()
+        "the gyroscope's gains have changed since the calibration (or its clock) {}. That explains the rotation errors. \
+         Calibrate it again.",
+        moved((change, change_sd), (100.0, "%"))
     );
 
     /// The gyroscope's readings are most likely in another unit than the stated one.
@@ -98,6 +102,50 @@ checks! {
              {really}, the propagated gravity is right."
         )
     };
+
+    /// The noise is another than in the recording that was calibrated from. It is no reason to distrust the calibration.
+    NoiseUnlike "noise-unlike" Note {
+        sensor_kind: SensorKind,
+        /// The scatter of the samples over that in the calibration's recording.
+        ratio: f64,
+        /// The step of the readings, where it is coarser than their noise.
+        step: Option<f64>,
+        /// Unit of the step.
+        step_unit: Option<ReadingUnit>,
+    }
+    decided "The ratio is below 0.8 or above 1.25."
+    says {
+        let differs = match step.zip(*step_unit) {
+            Some((step, unit)) => format!(
+                "the {sensor_kind}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or \
+                 rounded?). They scatter {} times as much as in the calibration's recording. The prediction includes that.",
+                significant(step, 2),
+                unit.symbol(),
+                significant(*ratio, 2)
+            ),
+            None => format!(
+                "the {sensor_kind}'s noise is {} times that of the calibration's recording (another range, bandwidth or \
+                 filter?). The prediction uses the noise of this recording.",
+                significant(*ratio, 2)
+            ),
+        };
+        format!("{differs} It is no reason to distrust the calibration.")
+    };
+
+    /// The gyroscope's bias has moved since the calibration. Rates and rotations are judged with the new one.
+    GyroscopeBiasMoved "gyroscope-bias-moved" Note {
+        /// By how much, rad/s.
+        shift_radps: Vector3<f64>,
+        /// Its predicted standard deviation, rad/s.
+        shift_sd_radps: Vector3<f64>,
+    }
+    decided "One so far off would be seen in fewer than one of a hundred recordings."
+    remedy "Estimate it again where the gyroscope is used."
+    says format!(
+        "the gyroscope's bias has moved {} since the calibration. Estimate it again where the gyroscope is used. Rates and \
+         rotations are judged with the new bias.",
+        moved((shift_radps, shift_sd_radps), (1_f64.to_degrees(), "°/s"))
+    );
 
     /// Errors as large as predicted confirm nothing: many are left out, and not by chance.
     ErrorsLeftOut "errors-left-out" Note {
@@ -135,14 +183,9 @@ checks! {
     );
 }
 
-/// By how much something has moved, and its standard deviation: `its bias by 1.2, −0.1, 0.3 mm/s² (up to 8 standard deviations)`.
-fn moved(
-    what: &str,
-    moved: Option<(Vector3<f64>, Vector3<f64>)>,
-    (scale, unit): (f64, &str),
-) -> Option<String> {
-    let (by, sd) = moved?;
+/// By how much something has moved, and its standard deviation: `by 1.2, −0.1, 0.3 mm/s² (up to 8 standard deviations)`.
+fn moved((by, sd): (&Vector3<f64>, &Vector3<f64>), (scale, unit): (f64, &str)) -> String {
     let amounts: Vec<String> = by.iter().map(|value| significant(scale * value, 2)).collect();
-    let most = significant(by.component_div(&sd).amax(), 2);
-    Some(format!("its {what} by {} {unit} (up to {most} standard deviations)", amounts.join(", ")))
+    let most = significant(by.component_div(sd).amax(), 2);
+    format!("by {} {unit} (up to {most} standard deviations)", amounts.join(", "))
 }

@@ -24,6 +24,7 @@ mod caveats_of_calibration;
 mod chi_square_ratio;
 mod covariance_verdict;
 mod cross_validation;
+mod differences;
 mod error_ratio;
 mod explanations;
 mod folds;

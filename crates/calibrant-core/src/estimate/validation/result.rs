@@ -3,8 +3,7 @@
 use super::covariance_verdict::CovarianceVerdict;
 use super::noise_comparison::NoiseRatio;
 use super::unused_error::{ErrorKind, UnusedError};
-use crate::diagnostic::validation::{AccelerometerMoved, AngularUnitWrong, GyroscopeGainsMoved};
-use crate::diagnostic::{Check, Diagnostic};
+use crate::diagnostic::Diagnostic;
 use crate::form::{As, per_axis};
 use crate::json::{if_any, if_some, named};
 use crate::json_object;
@@ -199,30 +198,6 @@ impl Validation {
     #[must_use]
     pub fn of_kind(&self, kind: ErrorKind) -> Option<&ValidatedErrors> {
         self.kinds.iter().find(|errors| errors.kind == kind)
-    }
-
-    /// Does a likely explanation tell why errors of this kind are larger than predicted?
-    #[must_use]
-    pub fn explains(&self, kind: ErrorKind) -> bool {
-        let of_others: &[_] = match kind {
-            ErrorKind::Magnitude => &[GyroscopeGainsMoved::CODE, AngularUnitWrong::CODE],
-            ErrorKind::Rate => &[GyroscopeGainsMoved::CODE, AccelerometerMoved::CODE],
-            ErrorKind::Rotation => &[],
-        };
-        self.likely_explanations.iter().any(|found| !of_others.contains(&found.code()))
-    }
-
-    /// Its likely explanations and caveats, each once.
-    #[must_use]
-    pub fn diagnostics(&self) -> Vec<&Diagnostic> {
-        let caveats = self.kinds.iter().filter_map(|errors| errors.caveat.as_ref());
-        let mut found: Vec<&Diagnostic> = Vec::new();
-        for one in self.likely_explanations.iter().chain(caveats) {
-            if !found.contains(&one) {
-                found.push(one);
-            }
-        }
-        found
     }
 }
 
