@@ -155,19 +155,7 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
         )
     });
     if let Some(efficiency) = assessment.efficiency() {
-        let mut sentence = format!(
-            "By criterion {}, its efficiency is {}: 100 recordings of it give as much information as {} of the best motion",
-            assessment.criterion.letter(),
-            number_format::percent(efficiency),
-            significant(100.0 * efficiency, 2)
-        );
-        if let Some(certain) = assessment.certain_efficiency() {
-            sentence.push_str(&format!(
-                ". Against the lower bound, the efficiency is {}",
-                number_format::percent(certain)
-            ));
-        }
-        sentences.push(sentence + ".");
+        sentences.extend(self::efficiency(assessment));
         if efficiency > BLIND && most > WORTH_IT {
             sentences.push(
                 "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \

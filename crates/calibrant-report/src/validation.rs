@@ -19,15 +19,8 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     if validation.bias_shift.is_some_and(|shift| !shift.moved) {
         sentences.push("The gyroscope's bias agrees with the calibration, within its uncertainty.".into());
     }
-    let any_beyond = validation.kinds.iter().any(|errors| validation.is_beyond(errors));
     for errors in &validation.kinds {
-        let cause = match errors {
-            _ if validation.explains(errors.kind) => Cause::Reported,
-            _ if validation.is_beyond(errors) => Cause::Another,
-            _ if any_beyond => Cause::Beside,
-            _ => Cause::Covariance,
-        };
-        sentences.push(sentence(errors, cause));
+        sentences.push(sentence(errors, cause(validation, errors)));
         let outlying: Vec<&UnusedError> = errors.outlying().collect();
         sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
         if outlying.len() > NAMED {
@@ -54,25 +47,13 @@ fn heading(validation: &Validation) -> String {
     }
 }
 
-/// A line for each kind of error: its ratio, and what that says of the covariance.
+/// Likely explanations, and a sentence for each kind of error: its ratio, and what that says of the covariance.
 pub(super) fn validation_in_short(validations: &[Validation]) -> Vec<String> {
-    let line = |errors: &ValidatedErrors| {
-        let says = match errors.verdict {
-            CovarianceVerdict::Believed => "the covariance is consistent with the errors",
-            CovarianceVerdict::LargerThanNeeded => "the standard deviations are too large",
-            CovarianceVerdict::TooFew => "the data are too few for a verdict",
-            CovarianceVerdict::Doubtful => "as predicted, but the errors confirm nothing",
-            CovarianceVerdict::TooSmall => "the errors are larger than predicted",
-        };
-        format!(
-            "{}: {} rms, {} predicted, ratio {}: {says}.",
-            what(errors.kind),
-            measured(errors.kind, errors.rms),
-            measured(errors.kind, errors.predicted_rms),
-            between(errors.factor, errors.factor_interval)
-        )
+    let of = |validation: &Validation| -> Vec<String> {
+        let kinds = validation.kinds.iter().map(|errors| sentence(errors, cause(validation, errors)));
+        validation.likely_explanations.iter().map(Diagnostic::sentence).chain(kinds).collect()
     };
-    validations.iter().flat_map(|validation| validation.kinds.iter().map(line)).collect()
+    validations.iter().flat_map(of).collect()
 }
 
 /// The section on all validations of a calibration. Without a validation there is no section.
@@ -164,6 +145,15 @@ enum Cause {
     /// The same cause as for errors of another kind.
     Beside,
     Covariance,
+}
+
+fn cause(validation: &Validation, errors: &ValidatedErrors) -> Cause {
+    match errors {
+        _ if validation.explains(errors.kind) => Cause::Reported,
+        _ if validation.is_beyond(errors) => Cause::Another,
+        _ if validation.kinds.iter().any(|errors| validation.is_beyond(errors)) => Cause::Beside,
+        _ => Cause::Covariance,
+    }
 }
 
 fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {

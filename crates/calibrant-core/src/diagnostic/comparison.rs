@@ -1,7 +1,7 @@
 //! Remarks on a comparison of two calibrations, A and B.
 
 use super::check::checks;
-use super::parts::Phrase;
+use super::parts::{Phrase, neither};
 use crate::sensor::{ReadingUnit, SensorKind};
 
 checks! {
@@ -99,3 +99,5 @@ pub enum UnknownUncertainty {
     /// The scatter of its holds, which are as many as the unknowns.
     Scatter,
 }
+
+neither!(UnknownUncertainty);

@@ -1,10 +1,6 @@
 //! A diagnostic's subject (`gyroscope axis x`) and its named numbers, made of the fields of its check. Each type of a field implements [`Part`].
 
-use super::comparison::UnknownUncertainty;
 use super::numbers::Numbers;
-use super::reader_fields::MissingValue;
-use super::rotation_reason::RotationReason;
-use super::turns::UnitMistake;
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
 use nalgebra::Vector3;
 use std::fmt::Display;
@@ -81,16 +77,17 @@ impl Part for String {
     }
 }
 
+/// Implements [`Part`] for types that add nothing.
 macro_rules! neither {
     ($($kind:ty),*) => {
-        $(impl Part for $kind {
-            fn add_to(&self, _: &mut Parts, _: &'static str) {}
+        $(impl $crate::diagnostic::parts::Part for $kind {
+            fn add_to(&self, _: &mut $crate::diagnostic::parts::Parts, _: &'static str) {}
         })*
     };
 }
+pub(super) use neither;
 
 neither!(bool, ReadingUnit, &'static str, [String; 3], Phrase);
-neither!(MissingValue, RotationReason, UnitMistake, UnknownUncertainty);
 
 /// The items in words, with this between them.
 pub(super) fn listed(items: &[impl Display], between: &str) -> String {

@@ -1,5 +1,6 @@
 //! Why a rotation is not used.
 
+use super::parts::neither;
 use crate::sensor::{Axis, SensorKind};
 use std::fmt;
 
@@ -55,3 +56,5 @@ impl fmt::Display for RotationReason {
         }
     }
 }
+
+neither!(RotationReason);

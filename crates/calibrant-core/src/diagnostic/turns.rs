@@ -2,7 +2,7 @@
 
 use super::check::checks;
 use super::direction::direction_in_words;
-use super::parts::{Part, Parts};
+use super::parts::{Part, Parts, neither};
 use nalgebra::Vector3;
 use std::fmt;
 
@@ -147,3 +147,5 @@ impl fmt::Display for UnitMistake {
         })
     }
 }
+
+neither!(UnitMistake);

@@ -7,6 +7,8 @@ use crate::About;
 use crate::figure::DisplayUnit;
 use crate::number_format;
 use crate::sheet::{Grade, SheetVerdict};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::design::{SearchInterrupted, SearchNotConverged};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
@@ -36,9 +38,7 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
         return (Grade::Bad, "✗ Useless for calibration.".into(), vec![what.to_string()]);
     }
     let mut sentences = Vec::new();
-    if let Some(sentence) = unfinished(design.status) {
-        sentences.push(sentence.to_string());
-    }
+    sentences.extend(unfinished(design.status).map(|found| found.sentence()));
     let nearest = design.certificate.as_ref().map(|certificate| bound(design, certificate, &mut sentences));
     if design.certificate.is_none() {
         sentences.push(
@@ -67,19 +67,11 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
     }
 }
 
-fn unfinished(status: DesignStatus) -> Option<&'static str> {
+fn unfinished(status: DesignStatus) -> Option<Diagnostic> {
     match status {
         DesignStatus::Converged => None,
-        DesignStatus::IterationLimit => Some(
-            "The search stopped at its limit of iterations. The motion keeps the limits and can be used, but a better one may be near.",
-        ),
-        DesignStatus::Stalled => Some(
-            "The search stalled because a step could not be computed. The motion keeps the limits and can be used, but a better one may be \
-             near.",
-        ),
-        DesignStatus::Interrupted => Some(
-            "The search was interrupted. The motion is the best so far. It keeps the limits and can be used, but a better one may be near.",
-        ),
+        DesignStatus::Interrupted => Some(SearchInterrupted { are_poses: false }.into()),
+        _ => Some(SearchNotConverged { at: None, status: status.name() }.into()),
     }
 }
 
