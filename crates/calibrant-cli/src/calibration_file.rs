@@ -2,8 +2,6 @@
 
 use crate::diagnostics::tell;
 use calibrant::Result;
-use calibrant::diagnostic::correction::FormatSupposed;
-use calibrant::diagnostic::{Diagnostic, Phrase};
 use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuUnit, RawUnits, read_calibrated_imu,
 };
@@ -104,8 +102,7 @@ impl Content {
         };
         let file = read_calibrated_imu(path, &options)?;
         for finding in &file.findings {
-            let found = Diagnostic::from(FormatSupposed { what: Phrase(finding.clone()) });
-            tell(found.in_file(path.display().to_string()));
+            tell(finding.clone().in_file(path.display().to_string()));
         }
         Ok(file)
     }

@@ -2,6 +2,7 @@
 
 use crate::calibration_file::{Reading, in_words};
 use crate::console;
+use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
@@ -50,12 +51,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             "compare calibrations of one sensor",
         ))));
     }
+    tell_all(&comparison.notes);
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
     let names = [(&name_a, &a), (&name_b, &b)].map(|(name, imu)| format!("{name} ({})", in_words(imu)));
     let file = ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b };
     console::result(arguments.json, || to_json(&file), &comparison_sheet(&comparison, names), None, &[]);
-    if !arguments.json {
-        comparison.notes.iter().for_each(|note| console::note(note));
-    }
     Ok(Exit::DONE)
 }

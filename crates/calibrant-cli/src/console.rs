@@ -103,35 +103,20 @@ fn say(label: Label, text: &str) {
     let _ = writeln!(std::io::stderr(), "{} {text}", shown(label));
 }
 
-/// Prints a note to stderr, unless the console is quiet.
-pub(crate) fn note(text: &str) {
-    if !manner::get().quiet {
-        let _ = writeln!(std::io::stderr(), "note: {}", harmless(text));
-    }
-}
-
-/// Prints a warning to stderr.
-fn warn(text: &str) {
-    say(WARNING, &harmless(text));
-}
-
-/// Prints a diagnostic that forbids the use of a result to stderr.
-fn fault(text: &str) {
-    say(ERROR, &harmless(text));
-}
-
 /// Prints a denied diagnostic to stderr.
 pub(crate) fn denied(code: &str, text: &str) {
     say(ERROR, &format!("denied: {code}: {}", harmless(text)));
 }
 
-/// Prints a text of this severity to stderr.
+/// Prints a text of this severity to stderr: a note unless the console is quiet.
 pub(crate) fn told(severity: Severity, text: &str) {
+    let text = harmless(text);
     match severity {
         Severity::Allowed => {}
-        Severity::Note => note(text),
-        Severity::Warning => warn(text),
-        Severity::Error => fault(text),
+        Severity::Note if manner::get().quiet => {}
+        Severity::Note => drop(writeln!(std::io::stderr(), "note: {text}")),
+        Severity::Warning => say(WARNING, &text),
+        Severity::Error => say(ERROR, &text),
     }
 }
 

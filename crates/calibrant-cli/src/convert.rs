@@ -2,11 +2,10 @@
 
 use crate::calibration_file::{Format, Reading, in_words};
 use crate::console;
-use crate::diagnostics::tell;
+use crate::diagnostics::{tell, tell_all};
 use crate::exit::Exit;
 use calibrant::Error;
-use calibrant::diagnostic::Phrase;
-use calibrant::diagnostic::correction::{FormatLoses, GSensitivityOmitted, TemperatureFixed};
+use calibrant::diagnostic::correction::{GSensitivityOmitted, TemperatureFixed};
 use calibrant::diagnostic::samples::CalibrationExtrapolated;
 use calibrant::diagnostic::settings::SettingUnused;
 use calibrant::error::{InputError, Refusal};
@@ -129,9 +128,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     let written = write_calibrated_imu(&arguments.output, &file, format)?;
     console::print(&read);
-    for warning in &written.warnings {
-        tell(FormatLoses { what: Phrase(warning.clone()) });
-    }
+    tell_all(&written.warnings);
     let files: Vec<_> = written.files.iter().map(|path| path.display().to_string()).collect();
     console::print(&format!(
         "{} ({}), true frame: {}\n",

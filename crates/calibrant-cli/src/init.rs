@@ -55,7 +55,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => {
             write_text(path, text)?;
             let next = NextSteps::of(&Experiment::parse(text, None)?, path);
-            console::note(&format!("wrote {}. {}", path.display(), next.note()));
+            console::print(&format!("wrote {}. {}\n", path.display(), next.note()));
         }
     }
     Ok(Exit::DONE)

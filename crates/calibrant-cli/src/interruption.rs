@@ -1,8 +1,9 @@
 //! What Ctrl-C and its like do: the first ends a search that keeps its best; every other ends the program.
 
-use crate::console;
+use crate::diagnostics::tell;
 use crate::exit::Exit;
 use calibrant::design::Interruption;
+use calibrant::diagnostic::settings::Interrupted;
 use calibrant::io::remove_unfinished;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,7 +28,7 @@ pub(crate) fn handle_signals() {
     let _ = ctrlc::try_set_handler(|| {
         if KEEPS.load(Ordering::Relaxed) && !INTERRUPTION.is_asked() {
             INTERRUPTION.ask();
-            console::note("interrupted: the best so far will be written; a second interruption ends at once");
+            tell(Interrupted {});
             return;
         }
         // otherwise temporary files would be left

@@ -30,6 +30,7 @@ use crate::diagnostics::{Rules, tell};
 use calibrant::budget::Budget;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::files::ResultLeftOver;
+use calibrant::diagnostic::settings::ThreadsUnset;
 use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Manner;
 use exit::Exit;
@@ -144,7 +145,7 @@ fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
     let work = Budget { bytes: STACK * f64::from(threads), seconds: 0.0 };
     budget::check(work, &format!("{threads} threads"), "take as many as there are cores")?;
     if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global() {
-        console::note(&format!("cannot set the number of threads: {error}"));
+        tell(ThreadsUnset { why: Phrase(error.to_string()) });
     }
     Ok(())
 }

@@ -14,6 +14,7 @@ use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::noise::NoiseImpossible;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{ImuFile, Input, NoiseFile, ResultPlaces, file_name, to_json, write_json, write_text};
+use calibrant::noise::SensorNoise;
 use calibrant::report::{About, noise_sheet};
 use calibrant::sensor::SensorKind;
 use calibrant::session::{Readings, Source};
@@ -61,7 +62,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some((sensor_kind, error)) = &failed {
         tell(NoiseImpossible { sensor_kind: *sensor_kind, why: Phrase(error.to_string()) });
     }
-    tell_all(noise.iter().flat_map(|sensor| &sensor.warnings));
+    tell_all(noise.iter().flat_map(SensorNoise::diagnostics));
     let about = about(arguments, &file, &inputs, examined.clone());
     let sheet = noise_sheet(&noise, examined.as_deref(), &about);
     let page = arguments.output.as_ref().map(|directory| directory.join("report.html"));

@@ -44,7 +44,6 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let simulated =
         simulate(&experiment, &options).map_err(|error| error.in_experiment(&arguments.experiment))?;
     tell_all(&simulated.notes);
-    simulated.remarks.iter().for_each(|remark| console::note(remark));
     simulated.write(&arguments.output)?;
     let which =
         if arguments.recording == 1 { String::new() } else { format!(", recording {}", arguments.recording) };

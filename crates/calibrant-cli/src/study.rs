@@ -1,6 +1,7 @@
 //! `calibrant study`: simulates many sensors, and compares estimates with the truth.
 
 use crate::budget::budget;
+use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use crate::{console, interruption};
 use calibrant::io::{Experiment, ResultPlaces, StudyFile, preset, to_json, write_json, write_text};
@@ -74,7 +75,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let outcome = plan.run(&|done| bar.inc(done));
     bar.finish_and_clear();
     let studies = outcome?;
-    studies.remarks.iter().for_each(|remark| console::note(remark));
+    tell_all(&studies.notes);
     write_json(&arguments.output.join("study.json"), &StudyFile { studies: &studies })?;
     let report = arguments.output.join("report.html");
     let about = About {

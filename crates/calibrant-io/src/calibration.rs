@@ -1,6 +1,6 @@
 //! `calibration.json` of an accelerometer or of an IMU. Every reader of calibrations takes it.
 
-use super::diagnostics::DiagnosticWords;
+use super::diagnostics::Judgement;
 use super::heading::Heading;
 use super::origin::Origin;
 use calibrant_core::diagnostic::Diagnostic;
@@ -24,8 +24,8 @@ pub struct CalibrationFile<'a> {
     pub validations: &'a [Validation],
     /// Of which sensor it is, and from which files.
     pub origin: &'a Origin,
-    /// How diagnostics are written, and the limits.
-    pub words: DiagnosticWords<'a>,
+    /// What judges it.
+    pub judgement: Judgement<'a>,
 }
 
 impl<'a> CalibrationFile<'a> {
@@ -35,9 +35,9 @@ impl<'a> CalibrationFile<'a> {
         calibration: &'a Calibration,
         validations: &'a [Validation],
         origin: &'a Origin,
-        words: &DiagnosticWords<'a>,
+        judgement: &Judgement<'a>,
     ) -> Self {
-        Self { calibration, validations, origin, words: *words }
+        Self { calibration, validations, origin, judgement: *judgement }
     }
 
     fn validation(&self) -> BTreeMap<&'static str, &'a Validation> {
@@ -45,7 +45,7 @@ impl<'a> CalibrationFile<'a> {
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
-        self.words.stated(&self.calibration.warnings)
+        self.judgement.stated(&self.calibration.warnings)
     }
 }
 
@@ -54,12 +54,12 @@ json_object! {
     CalibrationFile<'_> as file {
         heading: flat(Heading::of("calibration")),
         origin: flat(file.origin),
-        verdict: file.words.verdict(&file.calibration.warnings),
+        verdict: file.judgement.verdict(&file.calibration.warnings),
         calibration: flat(file.calibration),
         /// Errors on data that were not used, by their source: `recording`, `folds`.
         validation: if_any(file.validation()),
         /// The figures beside their limits.
-        limits: if_any(file.words.limits),
+        limits: if_any(file.judgement.limits),
         warnings: file.warnings(),
     }
 }

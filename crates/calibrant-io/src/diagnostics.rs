@@ -3,9 +3,9 @@
 use calibrant_core::acceptance::CheckedLimit;
 use calibrant_core::diagnostic::{Code, Diagnostic, Verdict};
 
-/// What is stated with a result: the codes that somebody allows, and what counts for the verdict beside the diagnostics.
+/// What judges a result beside its own diagnostics: the codes that somebody allows, and what counts for the verdict beside the diagnostics.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct DiagnosticWords<'a> {
+pub struct Judgement<'a> {
     /// Codes that are allowed; their severity is stated as `allowed`.
     pub allowed: &'a [Code],
     /// Codes of what a reader noticed in the recording. They count for the verdict.
@@ -14,7 +14,7 @@ pub struct DiagnosticWords<'a> {
     pub limits: &'a [CheckedLimit],
 }
 
-impl DiagnosticWords<'_> {
+impl Judgement<'_> {
     /// The verdict on a result with these diagnostics.
     pub(super) fn verdict(&self, diagnostics: &[Diagnostic]) -> Verdict {
         let codes = diagnostics.iter().map(Diagnostic::code).chain(self.findings.iter().copied());

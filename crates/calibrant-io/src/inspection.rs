@@ -5,7 +5,6 @@ use super::heading::Heading;
 use super::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
 use super::sampling::Sampling;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::holds::HoldsLostToFilter;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
@@ -146,7 +145,7 @@ impl HoldsInspection {
             }
             .or_else(|| {
                 holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)
-                    .map(|lost| Diagnostic::from(HoldsLostToFilter { lost }).message().to_owned())
+                    .map(|lost| Diagnostic::from(lost).message().to_owned())
             }),
             coarse: SensorKind::ALL
                 .into_iter()

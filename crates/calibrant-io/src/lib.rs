@@ -89,7 +89,7 @@ pub use convention::{
 pub use corrected_recording::{check_not_corrected, write_corrected_recording};
 pub use dense_motion::write_dense_motion;
 pub use design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
-pub use diagnostics::DiagnosticWords;
+pub use diagnostics::Judgement;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,

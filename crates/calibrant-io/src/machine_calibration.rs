@@ -1,6 +1,6 @@
 //! `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
-use super::diagnostics::DiagnosticWords;
+use super::diagnostics::Judgement;
 use super::heading::Heading;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
@@ -84,7 +84,7 @@ pub struct MachineCalibrationFile<'a> {
     /// Of which sensor it is, and from which files.
     pub origin: &'a Origin,
     /// The verdict's codes, and the limits.
-    pub words: DiagnosticWords<'a>,
+    pub judgement: Judgement<'a>,
 }
 
 json_object! {
@@ -92,7 +92,7 @@ json_object! {
     MachineCalibrationFile<'_> as file {
         heading: flat(Heading::of("calibration")),
         origin: flat(file.origin),
-        verdict: file.words.verdict(&file.result.calibration.warnings),
+        verdict: file.judgement.verdict(&file.result.calibration.warnings),
         status: file.result.calibration.status.name(),
         iterations: file.result.calibration.iterations,
         /// Length of the last step, in standard deviations.
@@ -109,8 +109,8 @@ json_object! {
         /// How far the parameters move with other data, by its source: `recording`, `folds`.
         validation: if_any(file.validation()),
         /// The figures beside their limits.
-        limits: if_any(file.words.limits),
-        warnings: file.words.stated(&file.result.calibration.warnings),
+        limits: if_any(file.judgement.limits),
+        warnings: file.judgement.stated(&file.result.calibration.warnings),
     }
 }
 

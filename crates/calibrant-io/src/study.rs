@@ -17,7 +17,7 @@ json_object! {
     /// Studies of simulated sensors: those that were run.
     StudyFile<'_> as file {
         heading: flat(Heading::of("study")),
-        remarks: &file.studies.remarks,
+        notes: &file.studies.notes,
         /// Truth and estimate of a population.
         calibration: &file.studies.calibration,
         surface: &file.studies.surface,

@@ -49,7 +49,9 @@ fn noise_section<'a>(noise: &'a SensorNoise, examined: Option<&str>) -> Section<
 /// With the line of an experiment file, which stands alone to be copied; or why there is none.
 fn with_line<'a>(mut section: Section<'a>, noise: &SensorNoise) -> Section<'a> {
     match (noise_line(noise), &noise.caveat) {
-        (_, Some(caveat)) => section.paragraph(format!("No noise for an experiment file: {caveat}.")),
+        (_, Some(caveat)) => {
+            section.paragraph(format!("No noise for an experiment file. {}", caveat.sentence()));
+        }
         (None, None) => {
             section.paragraph("No noise for an experiment file: white noise is not determined on all axes.")
         }
@@ -207,16 +209,8 @@ fn verdict(noise: &[SensorNoise], about: &About) -> SheetVerdict {
         of(PowerLaw::Flicker, "bias instability (B)"),
         of(PowerLaw::RandomWalk, "rate random walk (K)")
     );
-    let caveats = noise.iter().filter_map(|sensor_kind| {
-        Some(format!("{}: {}", sensor_kind.sensor_kind, sensor_kind.caveat.as_ref()?))
-    });
-    let warnings = caveats
-        .chain(
-            noise
-                .iter()
-                .flat_map(|sensor_kind| sensor_kind.warnings.iter().map(|found| found.message().to_owned())),
-        )
-        .collect();
+    let warnings = noise.iter().flat_map(SensorNoise::diagnostics);
+    let warnings = warnings.map(|found| found.message().to_owned()).collect();
     SheetVerdict::new(grade, word, sentence)
         .with("Warnings", warnings)
         .with("Findings", about.findings.clone())

@@ -3,44 +3,24 @@
 use super::figure::validation_errors;
 use crate::number_format::{counted, fixed, missed_angle, significant};
 use crate::sheet::{Cell, Section, Table};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{
-    BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
-    UnusedError, ValidatedErrors, Validation, ValidationSource,
+    CovarianceVerdict, ErrorKind, FailedFold, UnusedError, ValidatedErrors, Validation, ValidationSource,
 };
-use calibrant_core::sensor::SensorKind;
 
 /// Largest number of errors that are named one by one. The others are counted.
 const NAMED: usize = 5;
-/// Errors beyond this factor have another cause than the covariance.
-const OTHER_CAUSE: f64 = 30.0;
 
 /// The result of a validation, with a verdict for each kind of error: is the covariance consistent with the errors?
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
-    // a wrong unit explains noise and bias
-    let in_unit = validation.reasons.iter().all(|of| !matches!(of, LikelyExplanation::AngularUnit { .. }));
-    let other = validation.noise.iter().filter(|noise| noise.differs());
-    let mut sentences: Vec<String> = other
-        .filter(|noise| in_unit || noise.sensor_kind == SensorKind::Accelerometer)
-        .map(other_noise)
-        .collect();
-    sentences.extend(validation.reasons.iter().map(likely_explanation));
-    let explained =
-        |errors: &ValidatedErrors| validation.reasons.iter().any(|reason| reason.explains(errors.kind));
-    let beyond = |errors: &ValidatedErrors| {
-        errors.verdict == CovarianceVerdict::TooSmall && errors.factor > OTHER_CAUSE && !explained(errors)
-    };
-    let any_beyond = validation.kinds.iter().any(beyond);
-    // with another sensor or other axes, the bias has not moved
-    sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit && !any_beyond).map(bias));
+    let remarks = validation.likely_explanations.iter().cloned().chain(validation.differences());
+    let mut sentences: Vec<String> = remarks.map(|found| found.sentence()).collect();
+    if validation.bias_shift.is_some_and(|shift| !shift.moved) {
+        sentences.push("The gyroscope's bias agrees with the calibration, within its uncertainty.".into());
+    }
     for errors in &validation.kinds {
-        let cause = match errors {
-            _ if explained(errors) => Cause::Reported,
-            _ if beyond(errors) => Cause::Another,
-            _ if any_beyond => Cause::Beside,
-            _ => Cause::Covariance,
-        };
-        sentences.push(sentence(errors, cause));
+        sentences.push(sentence(errors, cause(validation, errors)));
         let outlying: Vec<&UnusedError> = errors.outlying().collect();
         sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
         if outlying.len() > NAMED {
@@ -67,25 +47,13 @@ fn heading(validation: &Validation) -> String {
     }
 }
 
-/// A line for each kind of error: its ratio, and what that says of the covariance.
+/// Likely explanations, and a sentence for each kind of error: its ratio, and what that says of the covariance.
 pub(super) fn validation_in_short(validations: &[Validation]) -> Vec<String> {
-    let line = |errors: &ValidatedErrors| {
-        let says = match errors.verdict {
-            CovarianceVerdict::Believed => "the covariance is consistent with the errors",
-            CovarianceVerdict::LargerThanNeeded => "the standard deviations are too large",
-            CovarianceVerdict::TooFew => "the data are too few for a verdict",
-            CovarianceVerdict::Doubtful => "as predicted, but the errors confirm nothing",
-            CovarianceVerdict::TooSmall => "the errors are larger than predicted",
-        };
-        format!(
-            "{}: {} rms, {} predicted, ratio {}: {says}.",
-            what(errors.kind),
-            measured(errors.kind, errors.rms),
-            measured(errors.kind, errors.predicted_rms),
-            between(errors.factor, errors.factor_interval)
-        )
+    let of = |validation: &Validation| -> Vec<String> {
+        let kinds = validation.kinds.iter().map(|errors| sentence(errors, cause(validation, errors)));
+        validation.likely_explanations.iter().map(Diagnostic::sentence).chain(kinds).collect()
     };
-    validations.iter().flat_map(|validation| validation.kinds.iter().map(line)).collect()
+    validations.iter().flat_map(of).collect()
 }
 
 /// The section on all validations of a calibration. Without a validation there is no section.
@@ -180,6 +148,15 @@ enum Cause {
     Covariance,
 }
 
+fn cause(validation: &Validation, errors: &ValidatedErrors) -> Cause {
+    match errors {
+        _ if validation.explains(errors.kind) => Cause::Reported,
+        _ if validation.is_beyond(errors) => Cause::Another,
+        _ if validation.kinds.iter().any(|errors| validation.is_beyond(errors)) => Cause::Beside,
+        _ => Cause::Covariance,
+    }
+}
+
 fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     let (kind, count) = (errors.kind, errors.counted());
     let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
@@ -207,7 +184,7 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
         (CovarianceVerdict::TooFew, _) => "The data are too few for a verdict".into(),
         (CovarianceVerdict::Doubtful, _) => format!(
             "The errors are as predicted, but they confirm nothing: {}",
-            errors.caveat.as_ref().map_or_else(String::new, |caveat| why(caveat, errors))
+            errors.caveat.as_ref().map_or("", Diagnostic::message)
         ),
         (CovarianceVerdict::TooSmall, _) if cause == Cause::Reported => {
             "The cause named above is more likely than the covariance".into()
@@ -229,136 +206,8 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
             two(errors.factor)
         ),
     };
-    let end = if verdict.ends_with('?') { "" } else { "." };
+    let end = if verdict.ends_with(['?', '.']) { "" } else { "." };
     format!("{misses}. {verdict}{end}")
-}
-
-/// Why errors of the predicted size confirm nothing.
-fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
-    let what = match errors.kind {
-        ErrorKind::Magnitude | ErrorKind::Rate => "hold",
-        ErrorKind::Rotation => "rotation",
-    };
-    let from_to = |start_s: f64, end_s: f64| format!("from {} to {} s", fixed(start_s, 1), fixed(end_s, 1));
-    match caveat {
-        Caveat::Change(change) => {
-            format!("{}, and the prediction includes the scatter of this change", change.headline())
-        }
-        Caveat::Clocks(ClockRate { faster, sd }) => format!(
-            "the clocks of the sensors run at different rates, by {:.4} ± {:.4} %. The gains are wrong by this percentage in all rotations alike",
-            100.0 * faster.abs(),
-            100.0 * sd
-        ),
-        Caveat::LeftOut { count, start_s, end_s } => format!(
-            "the calibration did not use {count} in a row, {}. This is not by chance, and the calibration holds only for the others",
-            from_to(*start_s, *end_s)
-        ),
-        Caveat::InARow { count, start_s, end_s } => format!(
-            "{} in a row, {}, {} not counted. This is not by chance. Did the sensor change there?",
-            counted(*count, what),
-            from_to(*start_s, *end_s),
-            if *count == 1 { "is" } else { "are" }
-        ),
-        Caveat::Several { count } => format!(
-            "{} of {} are not counted, which is too many to be chance",
-            counted(*count, what),
-            errors.errors.len()
-        ),
-    }
-}
-
-fn other_noise(noise: &NoiseRatio) -> String {
-    let ratio = significant(noise.overall(), 2);
-    if let Some(coarse) = noise.coarse {
-        return format!(
-            "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?). They scatter {ratio} times as much as in the calibration's recording. \
-             The prediction includes that. It is no reason to distrust the calibration.",
-            noise.sensor_kind,
-            significant(coarse.step, 2),
-            coarse.unit.symbol()
-        );
-    }
-    format!(
-        "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?). The prediction uses the noise of this recording. It is no reason to \
-         distrust the calibration.",
-        noise.sensor_kind, ratio
-    )
-}
-
-fn likely_explanation(reason: &LikelyExplanation) -> String {
-    let list = |values: &nalgebra::Vector3<f64>, scale: f64| {
-        values.iter().map(|value| significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
-    };
-    let most = |values: &nalgebra::Vector3<f64>, sd: &nalgebra::Vector3<f64>| {
-        significant(values.component_div(sd).amax(), 2)
-    };
-    match reason {
-        LikelyExplanation::Temperature { calibrated_c, here_c } => format!(
-            "This recording was made at a mean of {} °C, the calibration at {} °C and without temperature terms. This is the likely cause of the differences. Calibrate over the temperatures of \
-             use, with [temperature].",
-            fixed(*here_c, 1),
-            fixed(*calibrated_c, 1)
-        ),
-        LikelyExplanation::BeyondTemperatures { calibrated_c, here_c } => {
-            let between = |[low, high]: &[f64; 2]| match high - low < 0.1 {
-                true => fixed(*low, 1),
-                false => format!("{} to {}", fixed(*low, 1), fixed(*high, 1)),
-            };
-            format!(
-                "This recording was made at {} °C, the calibration at {} °C. The temperature terms are extrapolated, which is the likely cause of the differences. Calibrate over \
-                 the temperatures of use.",
-                between(here_c),
-                between(calibrated_c)
-            )
-        }
-        LikelyExplanation::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
-            "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations. That explains the gravity residuals. Calibrate it again.",
-            list(shift_mps2, 1e3),
-            most(shift_mps2, sd_mps2)
-        ),
-        LikelyExplanation::AccelerometerGain { change, sd } => format!(
-            "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations. That explains the gravity residuals. Calibrate it again.",
-            list(change, 100.0),
-            most(change, sd)
-        ),
-        LikelyExplanation::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => {
-            format!(
-                "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations. Its gains have changed by {} %, up to {}. Both together explain the gravity \
-             residuals. Calibrate it again.",
-                list(shift_mps2, 1e3),
-                most(shift_mps2, shift_sd_mps2),
-                list(change, 100.0),
-                most(change, change_sd)
-            )
-        }
-        LikelyExplanation::GyroscopeGain { change, sd } => format!(
-            "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations. That explains the rotation errors. Calibrate it again.",
-            list(change, 100.0),
-            most(change, sd)
-        ),
-        LikelyExplanation::AngularUnit { factor } => {
-            let (really, stated) = if *factor < 1.0 { ("deg/s", "rad/s") } else { ("rad/s", "deg/s") };
-            format!(
-                "The gyroscope's readings are 57.3 times too {}: they are likely in {really}, but stated in {stated}. In {really}, the propagated gravity is right.",
-                if *factor < 1.0 { "large" } else { "small" }
-            )
-        }
-    }
-}
-
-fn bias(shift: &BiasShift) -> String {
-    if !shift.moved {
-        return "The gyroscope's bias agrees with the calibration, within its uncertainty.".into();
-    }
-    let degrees = |value: f64| significant(value.to_degrees(), 2);
-    let values: Vec<String> = shift.shift_radps.iter().map(|value| degrees(*value)).collect();
-    let most = shift.shift_radps.component_div(&shift.sd_radps).amax();
-    format!(
-        "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations. Estimate it again where the gyroscope is used. Rates and rotations are judged \
-         with the new bias.",
-        values.join(", "),
-        significant(most, 2)
-    )
 }
 
 fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {

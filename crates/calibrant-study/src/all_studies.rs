@@ -4,6 +4,8 @@ use super::{
     DesignStudy, DesignStudyProblem, Study, StudyProblem, StudySettings, run_design_study, run_study,
 };
 use calibrant_core::budget::Budget;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::design::SeriesInterrupted;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{Sensor, SensorParameters};
 use calibrant_design::{SurfaceSettings, TraceSurface, trace_surface};
@@ -20,8 +22,8 @@ pub struct StudiesProblem<'a> {
     pub design: Option<DesignStudyProblem<'a>>,
     /// The same with process noise.
     pub noisy: Option<DesignStudyProblem<'a>>,
-    /// Studies that are not wanted although a reader might expect them, and why, in words.
-    pub remarks: Vec<String>,
+    /// What a reader should know: studies that are not wanted although one might expect them, and why.
+    pub notes: Vec<Diagnostic>,
 }
 
 impl StudiesProblem<'_> {
@@ -46,13 +48,13 @@ pub struct Studies {
     pub design: Option<DesignStudy>,
     /// The same with process noise, of `[study.noisy]` (Figures 13 and 14).
     pub noisy: Option<DesignStudy>,
-    /// Studies that were not run although a reader might expect them, and why, in words.
-    pub remarks: Vec<String>,
+    /// What a reader should know: studies that were not run although one might expect them, and why.
+    pub notes: Vec<Diagnostic>,
 }
 
 /// Runs the wanted studies, one after the other; `progress` is called with 1 after each sensor.
 ///
-/// Where it is interrupted, it has the sensors that are finished, and a remark says so.
+/// Where it is interrupted, it has the sensors that are finished, and a note says so.
 ///
 /// # Errors
 /// As [`run_study`], [`trace_surface`] and [`run_design_study`].
@@ -79,14 +81,14 @@ pub fn run_studies(
             .transpose()?,
         design: designed(&problem.design)?,
         noisy: designed(&problem.noisy)?,
-        remarks: problem.remarks.clone(),
+        notes: problem.notes.clone(),
     };
     if interruption.is_asked() {
         let designed = [&studies.design, &studies.noisy].into_iter().flatten();
         let finished = designed.map(|study| study.outcomes.len()).sum::<usize>()
             + studies.calibration.as_ref().map_or(0, |study| study.outcomes.len());
-        let all = problem.steps();
-        studies.remarks.push(format!("the study was interrupted: {finished} of {all} sensors are finished"));
+        let all = problem.steps() as usize;
+        studies.notes.push(SeriesInterrupted { series: "study", items: "sensors", finished, all }.into());
     }
     Ok(studies)
 }

@@ -37,12 +37,13 @@ pub struct DesignChoice {
 /// # Examples
 /// ```no_run
 /// use calibrant::io::{Experiment, preset};
+/// use calibrant::report::{About, design_sheet};
 /// use calibrant::{DesignChoice, DesignPlan};
 ///
 /// let stage = Experiment::parse(preset("stage").expect("built in"), None)?;
 /// let plan = DesignPlan::new(stage, Vec::new(), &DesignChoice { gap: Some(0.01), ..DesignChoice::default() })?;
 /// let best = plan.design(&plan.problem()?, &|_| {})?;
-/// println!("{}", best.statement());
+/// println!("{}", design_sheet(&best, &About::default()).text(80));
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 #[derive(Debug, Clone)]

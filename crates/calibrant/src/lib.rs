@@ -90,6 +90,7 @@
 //! use calibrant::design::{DesignProblem, DesignSettings, design};
 //! use calibrant::motion::{Limits, Rest};
 //! use calibrant::nalgebra::Vector3;
+//! use calibrant::report::{About, design_sheet};
 //! use calibrant::sensor::Sensor;
 //!
 //! let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
@@ -102,7 +103,7 @@
 //!     ..Limits::default()
 //! };
 //! let best = design(&DesignProblem::new(&sensor, &limits, 10.0)?, &DesignSettings::default(), &|_| {})?;
-//! println!("{}", best.statement());
+//! println!("{}", design_sheet(&best, &About::default()).text(80));
 //! # assert!(best.optimal.sd()[1] < 1e-4, "the scale factor to 100 ppm");
 //! # Ok::<(), calibrant::Error>(())
 //! ```

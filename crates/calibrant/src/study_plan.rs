@@ -3,6 +3,8 @@
 use crate::session::MotionSource;
 use crate::simulation::commanded_motion;
 use calibrant_core::budget::Budget;
+use calibrant_core::diagnostic::design::{GivenBreaksLimits, MotionNotDesigned};
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::CalibrationSettings;
 use calibrant_core::interruption::Interruption;
@@ -58,7 +60,7 @@ pub struct StudyPlan<'a> {
     calibration: Option<(CommandedMotion, f64, usize)>,
     /// Initial against optimal motion.
     designs: [Option<DesignStudyProblem<'a>>; 2],
-    remarks: Vec<String>,
+    notes: Vec<Diagnostic>,
 }
 
 impl<'a> StudyPlan<'a> {
@@ -114,12 +116,12 @@ impl<'a> StudyPlan<'a> {
             given: None,
             calibration: None,
             designs: [None, None],
-            remarks: Vec::new(),
+            notes: Vec::new(),
         };
         let axes = experiment.sensor.axes;
         material.given = choice.motion.as_ref().map(|motion| motion.commanded(axes)).transpose()?;
         if let Some(motion) = &material.given {
-            material.remarks.extend(beyond_limits(experiment, motion));
+            material.notes.extend(beyond_limits(experiment, motion));
         }
         let study = &experiment.study;
         let design = material.design_study(plan.trust, &experiment.limits)?;
@@ -137,21 +139,21 @@ impl<'a> StudyPlan<'a> {
         }
         match obstacle {
             None => material.designs[0] = Some(design),
-            Some(reason) => material.remarks.push(format!("no motion was designed: {reason}")),
+            Some(reason) => material.not_designed(false, reason),
         }
         if let Some(noisy) = study.noisy(plan, axes)? {
             let limits = noisy.limits.as_ref().unwrap_or(&experiment.limits);
             let design = material.design_study(Trust::Noisy(noisy.noise), limits)?;
             match design.obstacle() {
                 None => material.designs[1] = Some(design),
-                Some(reason) => {
-                    let remark =
-                        format!("no motion with process noise ([study.noisy]) was designed: {reason}");
-                    material.remarks.push(remark);
-                }
+                Some(reason) => material.not_designed(true, reason),
             }
         }
         Ok(material)
+    }
+
+    fn not_designed(&mut self, is_noisy: bool, reason: String) {
+        self.notes.push(MotionNotDesigned { is_noisy, why: Phrase(reason) }.into());
     }
 
     fn design_study(&self, trust: Trust, limits: &Limits) -> Result<DesignStudyProblem<'a>> {
@@ -187,7 +189,7 @@ impl<'a> StudyPlan<'a> {
             surface: self.surface.map(|surface| (sensor, surface)),
             design: design.map(|design| DesignStudyProblem { initial: self.given.as_ref(), ..design }),
             noisy,
-            remarks: self.remarks.clone(),
+            notes: self.notes.clone(),
         }
     }
 
@@ -210,16 +212,15 @@ impl<'a> StudyPlan<'a> {
     }
 }
 
-/// Warns if the given motion breaks limits. The best motion keeps them, which makes the comparison unfair.
-fn beyond_limits(experiment: &Experiment, motion: &JerkControlledMotion) -> Option<String> {
+/// A note if the given motion breaks limits. The best motion keeps them, which makes the comparison unfair.
+fn beyond_limits(experiment: &Experiment, motion: &JerkControlledMotion) -> Option<Diagnostic> {
     let limits = experiment.limits.within_range(experiment.sensor.range_mps2);
-    let broken: Vec<String> = limit_use(&limits, experiment.sensor.axes, motion)
+    let limits_broken: Vec<String> = limit_use(&limits, experiment.sensor.axes, motion)
         .iter()
         .filter(|found| found.is_violated())
         .map(|found| format!("{} of axis {}", found.kind.name(), found.axis))
         .collect();
-    (!broken.is_empty())
-        .then(|| format!("the given motion breaks limits that the optimal one keeps: {}", broken.join(", ")))
+    (!limits_broken.is_empty()).then(|| GivenBreaksLimits { limits: limits_broken }.into())
 }
 
 fn calibration(

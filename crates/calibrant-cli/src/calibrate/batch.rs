@@ -2,9 +2,11 @@
 
 use super::arguments::Arguments;
 use crate::console;
-use crate::diagnostics::{rules, tell_in};
+use crate::diagnostics::{rules, tell, tell_in};
 use crate::exit::Exit;
 use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_name};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::files::{FolderNameTaken, ResultsKept};
 use calibrant::io::{write_summary, write_text};
 use calibrant::progress::Progress;
 use calibrant::report::batch_sheet;
@@ -14,7 +16,8 @@ use std::sync::PoisonError;
 pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exit> {
     for (folder, path) in folder_names(&arguments.recordings).iter().zip(&arguments.recordings) {
         if *folder != own_name(path) {
-            console::note(&format!("{folder} is {}: the name is taken", path.display()));
+            let recording = Phrase(path.display().to_string());
+            tell(FolderNameTaken { folder: Phrase(folder.clone()), recording });
         }
     }
     let bar = console::progress(arguments.recordings.len() as u64, "calibrating");
@@ -66,7 +69,7 @@ fn keep_earlier(arguments: &Arguments, results: &BatchResults) {
         return;
     }
     let earlier: Vec<_> = results.rows.iter().filter(|row| row.is_earlier()).collect();
-    console::note(&format!("{} of {} recordings were calibrated before", earlier.len(), results.rows.len()));
+    tell(ResultsKept { kept: earlier.len(), recordings: results.rows.len() });
     let files =
         earlier.iter().flat_map(|row| RESULT_FILES.map(|name| arguments.output.join(&row.folder).join(name)));
     *arguments.kept.lock().unwrap_or_else(PoisonError::into_inner) = files.collect();

@@ -10,7 +10,7 @@ use calibrant::DesignPlan;
 use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep, sweep_work};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::{
-    SearchNotConverged, SweepInterrupted, SweepValueFailed, SweepValueRounded,
+    SearchNotConverged, SeriesInterrupted, SweepValueFailed, SweepValueRounded,
 };
 use calibrant::io::{DesignSetting, SweepFile, to_json, write_json, write_sweep_csv, write_text};
 use calibrant::report::number_format::{counted, short};
@@ -34,7 +34,7 @@ pub(super) fn run(
     let swept = outcome.map_err(|error| error.in_experiment(&arguments.experiment))?;
     if interruption::is_asked() {
         let (finished, all) = (swept.points.len(), request.values.len());
-        tell(SweepInterrupted { finished, all });
+        tell(SeriesInterrupted { series: "sweep", items: "values", finished, all });
         if finished == 0 {
             return Ok(Exit::INTERRUPTED);
         }

@@ -32,7 +32,7 @@ impl NextSteps {
         Self { needs: "", commands }
     }
 
-    /// The note that shows them.
+    /// The text that shows them.
     pub(super) fn note(&self) -> String {
         let lines: String = self.commands.iter().map(|command| format!("\n  {command}")).collect();
         format!("Edit it, then run{}:{lines}", self.needs)

@@ -49,7 +49,11 @@ impl Options {
             if self.packages.is_empty() { Vec::new() } else { machine.missing_meshes(&self.packages) };
         meshes.iter().for_each(|mesh: &MissingMesh| tell(MeshMissing { mesh: Phrase(mesh.to_string()) }));
         let found = MachineFile { machine: &machine, chain: &chain, meshes: &meshes };
-        console::sheet(json, || to_json(&found), || chain_sheet(&machine, &chain, &file.display().to_string()));
+        console::sheet(
+            json,
+            || to_json(&found),
+            || chain_sheet(&machine, &chain, &file.display().to_string()),
+        );
         Ok(Exit::DONE)
     }
 }

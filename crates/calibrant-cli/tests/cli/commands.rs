@@ -61,7 +61,8 @@ fn without_arguments_the_help_is_shown() {
 fn motion_presets_go_from_init_to_calibration() {
     for (preset, intervals) in [("report", 10), ("report-noisy", 10), ("report-unknown", 14)] {
         let bench = Bench::new();
-        bench.run(&format!("init {preset} -o experiment.toml")).done().says("wrote experiment.toml");
+        let written = bench.run(&format!("init {preset} -o experiment.toml")).done();
+        assert!(written.printed().contains("wrote experiment.toml"), "{}", written.stdout);
         let outcome = bench.run("simulate experiment.toml --seed 3 -o simulated").done();
         assert!(outcome.printed().contains("seed 3: simulated/recording.csv"), "{outcome:?}");
         assert_eq!(bench.path("simulated/true_motion.csv").exists(), preset == "report-noisy");
@@ -231,7 +232,7 @@ fn a_study_without_a_design_says_why() {
     let outcome = bench.run("study unknown.toml --sensors 2 -o unknown").done();
     assert_eq!(
         outcome.stderr,
-        "note: no motion was designed: nothing is known of the motion but its ends, so none can be commanded\n"
+        "note: no motion was designed: nothing is known of the motion but its ends, so none can be commanded [motion-not-designed]\n"
     );
     bench.write(
         "free.toml",
@@ -243,7 +244,7 @@ fn a_study_without_a_design_says_why() {
         let json = bench.json(&format!("{study}/study.json"));
         assert_eq!((&json["design"], &json["noisy"]), (&Value::Null, &Value::Null));
         assert_eq!(json["calibration"]["sensors"].as_array().map(Vec::len), Some(2));
-        assert_eq!(json["remarks"].as_array().map(Vec::len), Some(1));
+        assert_eq!(json["notes"].as_array().map(Vec::len), Some(1));
         assert_report(&bench, &format!("{study}/report.html"));
     }
 }

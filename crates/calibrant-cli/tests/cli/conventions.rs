@@ -44,7 +44,7 @@ fn one_file_goes_through_all_formats_and_stays_the_same_imu() {
         let difference = row["difference"].as_f64().expect("the same units");
         assert!(difference.abs() < 1e-9, "{row}");
     }
-    assert!(table["notes"][0].as_str().expect("a note").contains("neither has a covariance"));
+    assert!(table["notes"][0]["message"].as_str().expect("a note").contains("neither has a covariance"));
 }
 
 #[test]

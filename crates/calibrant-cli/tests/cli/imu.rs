@@ -32,7 +32,8 @@ fn counts_are_simulated_with_gains_alone_and_turns_do_not_overlap() {
     let bench = Bench::new();
     bench.preset("imu-counts", "counts.toml", &[]);
     let wrote = bench.run("init imu-counts -o written.toml").done();
-    wrote.says("with your recording.csv: calibrant calibrate written.toml recording.csv -o result");
+    let next = "with your recording.csv: calibrant calibrate written.toml recording.csv -o result";
+    assert!(wrote.printed().contains(next), "{}", wrote.stdout);
     bench.refuses(
         "simulate counts.toml -o sim",
         2,

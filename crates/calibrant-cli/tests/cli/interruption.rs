@@ -51,10 +51,10 @@ fn a_design_keeps_its_best_and_is_beyond_the_budget_on_demand() {
 fn a_study_keeps_the_finished_sensors() {
     let bench = Bench::new();
     let study = "study --sensors 4000 --starts 5 -o result";
-    interrupted(&bench, study, &[SOON]).ends_with(130).says("note: the study was interrupted: ");
+    interrupted(&bench, study, &[SOON]).ends_with(130).says("warning: the study was interrupted: ");
     let study = bench.json("result/study.json");
-    let remark = study["remarks"].to_string();
-    assert!(remark.contains("of 12000 sensors are finished"), "{remark}");
+    let note = study["notes"].to_string();
+    assert!(note.contains("of 12000 sensors are finished"), "{note}");
     assert!(study["calibration"]["sensors"].as_array().is_some_and(|sensors| !sensors.is_empty()));
 }
 

@@ -140,7 +140,7 @@ fn spikes_neither_divide_a_hold_nor_change_its_noise() {
         outcome.stderr
     );
     assert!(
-        outcome.printed().contains("No noise for an experiment file: there are too many spikes"),
+        outcome.printed().contains("No noise for an experiment file. There are too many spikes"),
         "{}",
         outcome.stdout
     );
@@ -164,7 +164,7 @@ fn noise_of_a_sensor_that_moves_is_not_for_use() {
         let outcome = bench.run(&format!("noise {name}.csv --hold 0 120 -o {name}")).done();
         outcome.says("warning: the sensor moves or vibrates in");
         assert!(!outcome.printed().contains("noise_mps2"), "{}", outcome.stdout);
-        let why = "No noise for an experiment file: the sensor moves in the given interval";
+        let why = "No noise for an experiment file. The sensor moves or vibrates in";
         assert!(outcome.printed().contains(why), "{}", outcome.stdout);
         assert!(
             bench

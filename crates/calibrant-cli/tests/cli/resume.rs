@@ -44,7 +44,7 @@ fn an_interrupted_batch_goes_on_and_ends_as_if_it_had_not_been() {
     assert_eq!(written_since(&bench, &before), [3, 5]);
     resumed.says("note: 4 of 6 recordings were calibrated before");
     assert_eq!(resumed.stdout, uninterrupted.stdout);
-    let told = resumed.stderr.replace("note: 4 of 6 recordings were calibrated before\n", "");
+    let told = resumed.stderr.replace("note: 4 of 6 recordings were calibrated before [results-kept]\n", "");
     let left = |line: &&str| !line.contains("is that of an earlier run");
     assert_eq!(told, uninterrupted.stderr.lines().filter(left).map(|l| format!("{l}\n")).collect::<String>());
     assert_eq!(["summary.csv", "batch.html"].map(|name| bench.read(&format!("results/{name}"))), results);

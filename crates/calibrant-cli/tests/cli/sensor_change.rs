@@ -29,9 +29,9 @@ fn an_accelerometer_that_changes_is_told_on_the_console_in_the_json_and_in_the_r
             .any(|warning| warning.contains(message));
         assert_eq!(warned, changes, "{}", json["warnings"]);
         let errors = &json["validation"]["folds"]["magnitude"];
-        let verdict = if changes { ("doubtful", "\"change\"") } else { ("believed", "null") };
+        let verdict = if changes { ("doubtful", "\"sensor-changed\"") } else { ("believed", "null") };
         assert_eq!(
-            (errors["verdict"].as_str(), &*errors["caveat"].to_string()),
+            (errors["verdict"].as_str(), &*errors["caveat"]["code"].to_string()),
             (Some(verdict.0), verdict.1)
         );
         assert_eq!(bench.read("result/report.html").contains(message), changes);

@@ -6,11 +6,11 @@
 //! checks! {
 //!     /// A hold is not used.                        the meaning, which is also the documentation of the type
 //!     HoldLeftOut "hold-left-out" Warning {          its type, its code, how much it matters
-//!         /// The hold.
-//!         hold: HoldSpan,                            what was found: subject and numbers of the diagnostic are made of it
+//!         hold: HoldSpan,                            what was found: subject and numbers of the diagnostic are made of it;
+//!                                                    documented here, or in `about!` where its name says what it is
 //!     }
 //!     decided "The accelerometer saturates in it."
-//!     remedy "Look at the hold in the report."
+//!     remedy "Look at the hold in the report."       left away where there is nothing to do
 //!     says format!("{hold} is not used");            the sentence, made of references to the fields
 //! }
 //! ```
@@ -40,17 +40,17 @@ macro_rules! checks {
     ($(
         $(#[doc = $meaning:literal])+
         $check:ident $name:literal $severity:ident {
-            $($(#[doc = $about:literal])+ $field:ident: $kind:ty,)*
+            $($(#[doc = $about:literal])* $field:ident: $kind:ty,)*
         }
         decided $decided:literal
-        remedy $remedy:literal
+        $(remedy $remedy:literal)?
         says $says:expr;
     )*) => {
         $(
             $(#[doc = $meaning])+
             #[derive(Debug, Clone, PartialEq)]
             pub struct $check {
-                $($(#[doc = $about])+ pub $field: $kind,)*
+                $(#[doc = $crate::diagnostic::check::about!($field $($about)*)] pub $field: $kind,)*
             }
 
             impl $crate::diagnostic::check::Check for $check {
@@ -60,7 +60,7 @@ macro_rules! checks {
                         severity: $crate::diagnostic::severity::Severity::$severity,
                         meaning: concat!($($meaning),+).trim_ascii_start(),
                         decided: $decided,
-                        remedy: $remedy,
+                        remedy: $crate::diagnostic::check::remedy!($($remedy)?),
                     });
 
                 #[allow(unused_mut)]
@@ -79,3 +79,27 @@ macro_rules! checks {
     };
 }
 pub(super) use checks;
+
+/// What a field is: its own documentation, or that of all fields of its name.
+macro_rules! about {
+    (sensor_kind) => { "The sensor." };
+    (axis) => { "The axis." };
+    (unit) => { "Unit of the readings." };
+    (hold) => { "The hold." };
+    (parameters) => { "The parameters." };
+    (chi2) => { "χ²." };
+    (why) => { "Why." };
+    ($field:ident $($about:literal)+) => { concat!($($about, "\n"),+) };
+}
+pub(super) use about;
+
+/// What to do, where an entry says it.
+macro_rules! remedy {
+    () => {
+        "Nothing."
+    };
+    ($remedy:literal) => {
+        $remedy
+    };
+}
+pub(super) use remedy;

@@ -1,23 +1,19 @@
-//! Checks of the correction of readings with a calibration, and of calibrations in other formats.
+//! Checks of the correction of readings with a calibration.
 
 use super::check::checks;
-use super::parts::Phrase;
 use crate::number_format::{counted, short};
 use crate::sensor::SensorKind;
 
 checks! {
     /// The recording lacks a sensor of the calibration. Only the other is corrected.
     SensorAbsent "sensor-absent" Note {
-        /// The sensor.
         sensor_kind: SensorKind,
     }
     decided "The recording has no readings of it."
-    remedy "Nothing."
     says format!("the recording has no {sensor_kind}; only the other sensor is corrected");
 
     /// The calibration lacks a sensor of the recording. Its readings are not written.
     SensorUncalibrated "sensor-uncalibrated" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
     }
     decided "The calibration has no parameters of it."
@@ -26,7 +22,6 @@ checks! {
 
     /// Readings that are corrected have spikes.
     SpikesCorrected "spikes-corrected" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
         /// Their number.
         spikes: usize,
@@ -62,26 +57,7 @@ checks! {
         temperature_c: f64,
     }
     decided "Somebody asks for the calibration at one temperature."
-    remedy "Nothing."
     says format!(
         "biases and gains are those at {temperature_c} °C. At other temperatures, the correction changes."
     );
-
-    /// A format of calibrations does not carry all of it.
-    FormatLoses "format-loses" Warning {
-        /// What it loses.
-        what: Phrase,
-    }
-    decided "The format has no place for it, or needs what the calibration does not have."
-    remedy "Keep the JSON of calibrant beside it."
-    says what.0.as_str();
-
-    /// A reader of another format supposes something, or leaves something out.
-    FormatSupposed "format-supposed" Note {
-        /// What it supposes.
-        what: Phrase,
-    }
-    decided "The file does not say it, or calibrant has no place for it."
-    remedy "Check it."
-    says what.0.as_str();
 }

@@ -1,9 +1,7 @@
 //! Checks of parameters beside what was known of them.
 
 use super::check::checks;
-use super::parts::{Part, Parts};
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
-use std::fmt;
 
 /// The gain of an accelerometer whose readings in g are taken for m/s².
 const GAIN_IN_G: f64 = 0.102;
@@ -25,13 +23,10 @@ checks! {
 
     /// A gain of readings in SI is far from 1.
     GainImplausible "gain-implausible" Error {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
         /// The gain along the axis.
         gain: f64,
-        /// Unit of the readings.
         unit: ReadingUnit,
     }
     decided "It is below 0.8 or above 1.25, and the datasheet does not allow for it."
@@ -49,7 +44,6 @@ checks! {
 
     /// A scale factor is negative.
     ScaleNegative "scale-negative" Error {
-        /// The axis.
         axis: Axis,
     }
     decided "The estimate is below zero."
@@ -58,7 +52,6 @@ checks! {
 
     /// The recording determines a parameter less well than the datasheet.
     WeakerThanDatasheet "weaker-than-datasheet" Warning {
-        /// The parameters.
         parameters: Vec<String>,
     }
     decided "Its standard deviation exceeds the datasheet's spread."
@@ -71,40 +64,32 @@ checks! {
     /// The data contradict the value of a parameter in `[known]`.
     KnownContradicted "known-contradicted" Warning {
         /// The parameter.
-        known: KnownMismatch,
+        parameter: String,
+        /// Its value in `[known]`.
+        given: f64,
+        /// What the recording alone gives.
+        found: f64,
+        /// Its standard deviation.
+        found_sd: f64,
     }
     decided "The difference exceeds 6 standard deviations of the fit without the given values."
     remedy "Correct the value or its unit, or remove it."
-    says format!("{known}. Correct the value or its unit, or remove it.");
+    says format!(
+        "{}. Correct the value or its unit, or remove it.",
+        contradiction(parameter, *given, *found, *found_sd)
+    );
 }
 
-/// A parameter whose value in `[known]` the data contradict.
-#[derive(Debug, Clone, PartialEq)]
-pub struct KnownMismatch {
-    /// Its name.
-    pub parameter: String,
-    /// Its value in `[known]`.
-    pub given: f64,
-    /// What the recording alone gives.
-    pub found: f64,
-    /// Its standard deviation.
-    pub found_sd: f64,
-}
-
-impl fmt::Display for KnownMismatch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { parameter, given, found, found_sd } = self;
-        write!(
-            f,
-            "the recording contradicts {parameter} in [known]: the given value is {given:?}, but the recording alone gives {found:.5} ± {found_sd:.1e}"
-        )
+impl KnownContradicted {
+    /// The finding alone, without what to do.
+    #[must_use]
+    pub fn finding(&self) -> String {
+        contradiction(&self.parameter, self.given, self.found, self.found_sd)
     }
 }
 
-impl Part for KnownMismatch {
-    fn add_to(&self, parts: &mut Parts, _: &'static str) {
-        parts.subject.push(self.parameter.clone());
-        let numbers = [("given", self.given), ("found", self.found), ("found_sd", self.found_sd)];
-        parts.numbers.extend(numbers);
-    }
+fn contradiction(parameter: &str, given: f64, found: f64, found_sd: f64) -> String {
+    format!(
+        "the recording contradicts {parameter} in [known]: the given value is {given:?}, but the recording alone gives {found:.5} ± {found_sd:.1e}"
+    )
 }

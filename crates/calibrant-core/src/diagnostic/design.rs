@@ -47,7 +47,6 @@ checks! {
     MotionUndetermined "motion-undetermined" Warning {
         /// The motion, or its file.
         motion: Phrase,
-        /// The parameters.
         parameters: Vec<String>,
         /// Why.
         reason: Phrase,
@@ -60,29 +59,54 @@ checks! {
 
     /// A given motion is not compared with the best one.
     MotionNotCompared "motion-not-compared" Warning {
-        /// Why.
         why: Phrase,
     }
     decided "The search for the best motion ends with an error."
     remedy "Read the error."
     says format!("the motion is not compared with the best one: {}", why.0);
 
-    /// A sweep was interrupted.
-    SweepInterrupted "sweep-interrupted" Warning {
-        /// Values that are finished.
+    /// A sweep or a study was interrupted.
+    SeriesInterrupted "series-interrupted" Warning {
+        /// What it is: `sweep`.
+        series: &'static str,
+        /// What it consists of: `values`.
+        items: &'static str,
+        /// Items that are finished.
         finished: usize,
-        /// All values.
+        /// All items.
         all: usize,
     }
     decided "Somebody interrupted the program."
     remedy "Let it run to its end."
-    says format!("the sweep was interrupted: {finished} of {all} values are finished");
+    says format!("the {series} was interrupted: {finished} of {all} {items} are finished");
+
+    /// A study compares no optimal motion.
+    MotionNotDesigned "motion-not-designed" Note {
+        /// Is it the motion with process noise, of `[study.noisy]`?
+        is_noisy: bool,
+        why: Phrase,
+    }
+    decided "Of the motion only the ends are known, or no motion is the best within the limits."
+    remedy "Choose another trust, or complete the limits."
+    says format!(
+        "no motion{} was designed: {}",
+        if *is_noisy { " with process noise ([study.noisy])" } else { "" },
+        why.0
+    );
+
+    /// A given motion breaks limits that the optimal one keeps. The comparison is unfair.
+    GivenBreaksLimits "given-breaks-limits" Note {
+        /// The limits: `velocity of axis x`.
+        limits: Vec<String>,
+    }
+    decided "The use of each limit is computed."
+    remedy "Compare with a motion that keeps the limits."
+    says format!("the given motion breaks limits that the optimal one keeps: {}", limits.join(", "));
 
     /// A value of a sweep has no design.
     SweepValueFailed "sweep-value-failed" Warning {
         /// The value.
         at: Phrase,
-        /// Why.
         why: Phrase,
     }
     decided "The search for its best motion ends with an error."
@@ -99,7 +123,6 @@ checks! {
         intervals: usize,
     }
     decided "The duration is no multiple of the interval."
-    remedy "Nothing."
     says format!(
         "{} is not a whole number of intervals: {}, {}, instead",
         asked.0,

@@ -24,7 +24,6 @@ checks! {
 
     /// A face was held for only a few samples.
     FaceBrief "face-brief" Warning {
-        /// The hold.
         hold: HoldSpan,
         /// Its samples.
         samples: usize,

@@ -13,6 +13,26 @@ checks! {
     remedy "Remove it, or choose another folder."
     says format!("{} is that of an earlier run", file.0);
 
+    /// The name of a recording is taken by another one. The folder of its results has another name.
+    FolderNameTaken "folder-name-taken" Note {
+        /// The folder.
+        folder: Phrase,
+        /// The recording.
+        recording: Phrase,
+    }
+    decided "Names of files without their endings are compared."
+    says format!("{} is {}: the name is taken", folder.0, recording.0);
+
+    /// Results of an earlier run are kept, since nothing has changed.
+    ResultsKept "results-kept" Note {
+        /// Recordings that were calibrated before.
+        kept: usize,
+        /// All recordings.
+        recordings: usize,
+    }
+    decided "Option `resume` is given, and the hashes of files and options are those of the earlier run."
+    says format!("{kept} of {recordings} recordings were calibrated before");
+
     /// A mesh of a machine is missing.
     MeshMissing "mesh-missing" Warning {
         /// The mesh.

@@ -52,7 +52,6 @@ checks! {
 
     /// The data contradict a given value. The standard deviations are too small.
     ChiSquaredLarge "chi-squared-large" Warning {
-        /// χ².
         chi2: f64,
         /// Degrees of freedom.
         degrees_of_freedom: f64,
@@ -104,7 +103,6 @@ checks! {
 
     /// The residuals of an axis are correlated. The model does not explain all of the signal.
     ResidualsNotWhite "residuals-not-white" Warning {
-        /// The axis.
         axis: Axis,
         /// p-value of the Ljung–Box test.
         p_value: f64,
@@ -133,7 +131,6 @@ checks! {
 
     /// The noise within the holds differs from the given noise.
     NoiseNotAsGiven "noise-not-as-given" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
         /// The axis with the largest difference.
         axis: Axis,
@@ -157,7 +154,6 @@ checks! {
 
     /// The noise is far larger than the given noise. The sensor, its unit or the given noise is wrong.
     NoiseImplausible "noise-implausible" Error {
-        /// The sensor.
         sensor_kind: SensorKind,
         /// The axis with the largest ratio.
         axis: Axis,
@@ -175,7 +171,6 @@ checks! {
     /// The residuals are far larger than the noise, and systematic. The sensor did not do what the model
     /// says.
     ModelContradicted "model-contradicted" Error {
-        /// The sensor.
         sensor_kind: SensorKind,
         /// The residuals over the noise, or over what holds may scatter.
         ratio: f64,

@@ -3,13 +3,12 @@
 use super::check::checks;
 use super::faces::FacePointing;
 use super::hold_span::{HoldReason, HoldSpan};
-use super::parts::{Part, Parts, listed};
+use super::parts::listed;
 use crate::sensor::ReadingUnit;
 
 checks! {
     /// A hold is not used.
     HoldLeftOut "hold-left-out" Warning {
-        /// The hold.
         hold: HoldSpan,
         /// Why.
         why: HoldReason,
@@ -84,22 +83,24 @@ checks! {
     /// Neighbouring samples are strongly correlated, as behind a slow low-pass filter. This breaks up
     /// holds.
     HoldsLostToFilter "holds-lost-to-filter" Warning {
-        /// Their number.
-        lost: LostHolds,
+        /// Holds that were found.
+        holds: usize,
+        /// Other segments that look stationary.
+        stretches: usize,
+        /// Shortest hold, s.
+        minimum_s: f64,
     }
     decided "Several segments look stationary but are too short for holds. Samples four apart differ much more than \
         neighbours."
     remedy "Give holds.intervals_s, hold longer, or record with a wider bandwidth."
     says format!(
-        "{} found. {} other segments look stationary, but not for {} s without interruption: {}. Remedy: {}.",
-        match lost.holds {
+        "{} found. {stretches} other segments look stationary, but not for {minimum_s} s without interruption: {}. Remedy: {}.",
+        match holds {
             1 => "1 hold is".to_owned(),
             count => format!("{count} holds are"),
         },
-        lost.stretches,
-        lost.minimum_s,
-        LostHolds::REASON,
-        LostHolds::HELP
+        Self::REASON,
+        Self::HELP
     );
 
     /// The directions of the holds are too similar. The data hardly separate some parameters.
@@ -170,32 +171,11 @@ checks! {
     );
 }
 
-/// Segments that look stationary but are no holds, because neighbouring samples are strongly correlated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LostHolds {
-    /// Holds that were found.
-    pub holds: usize,
-    /// Other segments that look stationary.
-    pub stretches: usize,
-    /// Shortest hold, s.
-    pub minimum_s: f64,
-}
-
-impl LostHolds {
+impl HoldsLostToFilter {
     /// Why the holds are broken up.
     pub(crate) const REASON: &'static str =
         "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate";
     /// What to do about it.
     pub(crate) const HELP: &'static str =
         "give holds.intervals_s, hold longer, or record with a wider bandwidth";
-}
-
-impl Part for LostHolds {
-    fn add_to(&self, parts: &mut Parts, _: &'static str) {
-        parts.numbers.extend([
-            ("holds", self.holds as f64),
-            ("stretches", self.stretches as f64),
-            ("minimum_s", self.minimum_s),
-        ]);
-    }
 }

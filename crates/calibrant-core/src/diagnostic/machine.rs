@@ -8,7 +8,6 @@ checks! {
     /// The residuals of a sensor on a machine are larger than its noise. The machine does not move as its
     /// model and its log say.
     MachineResiduals "machine-residuals" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
         /// The noise that the residuals show, in parts of that of neighbouring samples.
         ratio: f64,
@@ -61,7 +60,6 @@ checks! {
         samples: usize,
     }
     decided "Most poses lie on straight lines between two others, at even steps."
-    remedy "Nothing."
     says format!(
         "the poses are a linear interpolation of a stream at {} Hz. Its {} take their place",
         significant(*rate_hz, 7),

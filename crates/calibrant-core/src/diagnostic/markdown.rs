@@ -6,7 +6,7 @@ use crate::error::Refusal;
 /// The head of the page.
 const HEAD: &str = "# Diagnostics\n
 <!-- Made from diagnostic/ and error/refusal.rs of crates/calibrant-core/src: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
-calibrant prints an error where a result must not be used, a warning where it may be wrong, and a note where a reader repaired a recording. Each has a code, which never changes.
+calibrant prints an error where a result must not be used, a warning where it may be wrong, and a note where there is something to know. Each has a code, which never changes.
 The severest code is the verdict on a result: `bad` by an error, `doubtful` by a warning, otherwise `ok`.
 `calibration.json` and `noise.json` list the warnings about the result with code, severity, subject, numbers and message.
 `--deny CODE` makes the exit status of a command 1 where a code occurs. `--allow CODE` silences one, and takes it out of the verdict.

@@ -8,23 +8,51 @@ use crate::sensor::{Axis, ReadingUnit, SensorKind};
 checks! {
     /// The noise of a sensor is not found; that of the other is.
     NoiseImpossible "noise-impossible" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// Why.
         why: Phrase,
     }
     decided "The search ends with an error."
     remedy "Read the error."
     says format!("no noise of the {sensor_kind}: {}", why.0);
 
+    /// Spikes make most of the noise of an axis. It is not that of a sensor at rest.
+    NoiseOfSpikes "noise-of-spikes" Note {
+        sensor_kind: SensorKind,
+        axis: Axis,
+        /// Are there too many of them, not only a few?
+        are_many: bool,
+    }
+    decided "More than one sample in fifty is an outlier, or the fourth moment is that of a few samples."
+    remedy "Look for a loose contact, a lost bit, or knocks."
+    says match are_many {
+        true => format!("there are too many spikes on axis {axis} of the {sensor_kind}"),
+        false => format!("a few spikes make most of the noise of axis {axis} of the {sensor_kind}"),
+    };
+
+    /// A vibration makes most of the noise of an axis. It is not that of a sensor at rest.
+    NoiseOfVibration "noise-of-vibration" Note {
+        sensor_kind: SensorKind,
+        axis: Axis,
+        /// Frequency of its line, Hz; `None` where no line is seen, and no process explains the Allan deviation.
+        frequency_hz: Option<f64>,
+    }
+    decided "A line in the spectrum cannot be subtracted, or the misfit of all processes has a probability below 1e-9."
+    remedy "Record where nothing vibrates."
+    says match frequency_hz {
+        Some(hertz) => format!(
+            "axis {axis} of the {sensor_kind} has a line at {} Hz: a vibration, or the hum of the mains?",
+            plain(*hertz, 3)
+        ),
+        None => format!(
+            "no sum of the processes explains the Allan deviation of axis {axis} of the {sensor_kind}: a vibration?"
+        ),
+    };
+
     /// Outliers were removed before the noise was estimated. Or they are too many to remove, and the noise
     /// includes them.
     NoiseOutliers "noise-outliers" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
-        /// Unit of its readings.
         unit: ReadingUnit,
         /// Their number.
         outliers: usize,
@@ -129,11 +157,8 @@ checks! {
 
     /// An axis drifts. The drift is subtracted.
     NoiseDrifts "noise-drifts" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
-        /// Unit of its readings.
         unit: ReadingUnit,
         /// Drift in one second.
         drift_per_s: f64,
@@ -151,11 +176,8 @@ checks! {
 
     /// No combination of the noise processes explains the Allan deviation.
     NoiseUnexplained "noise-unexplained" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
-        /// χ².
         chi2: f64,
         /// Degrees of freedom.
         degrees_of_freedom: usize,
@@ -171,9 +193,7 @@ checks! {
     /// Neighbouring samples are correlated, as behind a filter in the sensor. The stated noise is that
     /// before the filter.
     NoiseFiltered "noise-filtered" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
         /// Samples closer in time than this are correlated, s.
         correlated_s: f64,
@@ -188,9 +208,7 @@ checks! {
 
     /// No combination of the noise processes explains short cluster times. They are not fitted.
     ShortTimesUnexplained "short-times-unexplained" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
         /// Shortest cluster time of the fit, s.
         shortest_tau_s: f64,
@@ -204,9 +222,7 @@ checks! {
 
     /// The spectrum has a line. The stated noise excludes it.
     NoiseVibration "noise-vibration" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
         /// Its frequency, Hz.
         frequency_hz: f64,
@@ -227,11 +243,8 @@ checks! {
 
     /// Part of the noise does not average out like independent samples.
     NoiseBeyondWhite "noise-beyond-white" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
-        /// Unit of its readings.
         unit: ReadingUnit,
         /// Standard deviation of the samples.
         sample_sd: f64,
@@ -250,11 +263,8 @@ checks! {
 
     /// The resolution is coarser than the noise. The stated noise is partly rounding.
     ResolutionCoarse "resolution-coarse" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
-        /// Unit of its readings.
         unit: ReadingUnit,
         /// The smallest step.
         step: f64,

@@ -1,13 +1,15 @@
 //! A diagnostic's subject (`gyroscope axis x`) and its named numbers, made of the fields of its check. Each type of a field implements [`Part`].
 
+use super::numbers::Numbers;
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
+use nalgebra::Vector3;
 use std::fmt::Display;
 
 /// Subject and numbers of a diagnostic.
 #[derive(Default)]
 pub(super) struct Parts {
     pub(super) subject: Vec<String>,
-    pub(super) numbers: Vec<(&'static str, f64)>,
+    pub(super) numbers: Numbers,
 }
 
 /// Words that whoever finds something has for it.
@@ -61,6 +63,13 @@ impl Part for Axis {
     }
 }
 
+/// A number for each axis: `x_shift_mps2`.
+impl Part for Vector3<f64> {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        parts.numbers.extend(Axis::ALL.map(|axis| (format!("{axis}_{key}"), self[axis.index()])));
+    }
+}
+
 /// Names of parameters.
 impl Part for String {
     fn add_to(&self, parts: &mut Parts, _: &'static str) {
@@ -68,13 +77,15 @@ impl Part for String {
     }
 }
 
+/// Implements [`Part`] for types that add nothing.
 macro_rules! neither {
     ($($kind:ty),*) => {
-        $(impl Part for $kind {
-            fn add_to(&self, _: &mut Parts, _: &'static str) {}
+        $(impl $crate::diagnostic::parts::Part for $kind {
+            fn add_to(&self, _: &mut $crate::diagnostic::parts::Parts, _: &'static str) {}
         })*
     };
 }
+pub(super) use neither;
 
 neither!(bool, ReadingUnit, &'static str, [String; 3], Phrase);
 

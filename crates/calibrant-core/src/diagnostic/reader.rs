@@ -100,7 +100,6 @@ checks! {
     /// The last line was cut off and was dropped.
     LineTruncated "line-truncated" Note {}
     decided "It has no line end, and too few fields or digits."
-    remedy "Nothing."
     says "truncated last line dropped";
 
     /// A bag has no end. The later part of the recording may be missing.
@@ -181,7 +180,6 @@ checks! {
 
     /// An axis never changes.
     AxisStuck "axis-stuck" Note {
-        /// The axis.
         axis: Axis,
         /// Its reading.
         value: f64,
@@ -216,7 +214,6 @@ checks! {
 
     /// Readings may be saturated.
     ReadingsClipped "readings-clipped" Note {
-        /// The axis.
         axis: Axis,
         /// Samples in a row.
         samples: usize,
@@ -255,7 +252,6 @@ checks! {
         unit: &'static str,
     }
     decided "The first is so large a number that the clock counts from an epoch of its own."
-    remedy "Nothing."
     says format!(
         "times are counted from the first sample, where `{column}` is {} {unit}",
         first.0
@@ -307,7 +303,6 @@ checks! {
         longest_s: f64,
     }
     decided "It is missing for 30 s at most."
-    remedy "Nothing."
     says temperature_missing(*missing, *rows, *longest_s);
 
     /// The temperature is missing for long, or implausible.

@@ -1,6 +1,6 @@
 //! What a reader's checks find: the types of their fields, and their words.
 
-use super::parts::{Part, Parts};
+use super::parts::{Part, Parts, neither};
 use crate::number_format::{counted, plain};
 use crate::sensor::SensorKind;
 use std::fmt;
@@ -196,9 +196,7 @@ impl Part for TemperatureDoubt {
     }
 }
 
-impl Part for MissingValue {
-    fn add_to(&self, _: &mut Parts, _: &'static str) {}
-}
+neither!(MissingValue);
 
 impl Part for Ticks {
     fn add_to(&self, parts: &mut Parts, key: &'static str) {

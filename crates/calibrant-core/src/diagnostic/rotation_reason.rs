@@ -1,6 +1,6 @@
 //! Why a rotation is not used.
 
-use super::parts::{Part, Parts};
+use super::parts::neither;
 use crate::sensor::{Axis, SensorKind};
 use std::fmt;
 
@@ -57,6 +57,4 @@ impl fmt::Display for RotationReason {
     }
 }
 
-impl Part for RotationReason {
-    fn add_to(&self, _: &mut Parts, _: &'static str) {}
-}
+neither!(RotationReason);

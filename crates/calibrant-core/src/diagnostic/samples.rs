@@ -6,9 +6,7 @@ use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
 checks! {
     /// Spikes were replaced, or invalid samples were removed.
     Spikes "spikes" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// Unit of its readings.
         unit: ReadingUnit,
         /// Number of samples that were replaced.
         replaced: usize,
@@ -53,11 +51,8 @@ checks! {
     /// The readings come in steps of more than twice their noise. The mean of a hold has an error, however
     /// long the hold is.
     CoarseSteps "coarse-steps" Warning {
-        /// The sensor.
         sensor_kind: SensorKind,
-        /// The axis.
         axis: Axis,
-        /// Unit of its readings.
         unit: ReadingUnit,
         /// The step.
         step: f64,

@@ -8,7 +8,6 @@ checks! {
     SettingUnused "setting-unused" Warning {
         /// Its name, or their names.
         settings: Vec<String>,
-        /// Why.
         why: Phrase,
     }
     decided "What the option or the key is for is not in the experiment or in the files."
@@ -19,6 +18,20 @@ checks! {
         if settings.len() == 1 { "is" } else { "are" },
         why.0
     );
+
+    /// The number of threads cannot be set.
+    ThreadsUnset "threads-unset" Note {
+        why: Phrase,
+    }
+    decided "The system refuses it."
+    remedy "Leave the option away."
+    says format!("cannot set the number of threads: {}", why.0);
+
+    /// The program was asked to end. It writes the best so far first.
+    Interrupted "interrupted" Note {}
+    decided "A signal asks it to end, and what it does can keep the best so far."
+    remedy "Wait, or interrupt it again: then it ends at once."
+    says "interrupted: the best so far will be written; a second interruption ends at once";
 }
 
 impl SettingUnused {

@@ -2,12 +2,12 @@
 
 use super::code::Code;
 use super::{
-    acceptance, change, correction, datasheet, design, faces, files, fit, gyroscope, holds, machine, motion,
-    noise, reader, samples, settings, turns, validation,
+    acceptance, change, comparison, convention, correction, datasheet, design, faces, files, fit, gyroscope,
+    holds, machine, motion, noise, reader, samples, settings, simulation, turns, validation,
 };
 
 /// The codes of all areas.
-const AREAS: [&[Code]; 18] = [
+const AREAS: [&[Code]; 21] = [
     settings::CODES,
     samples::CODES,
     holds::CODES,
@@ -24,6 +24,9 @@ const AREAS: [&[Code]; 18] = [
     noise::CODES,
     reader::CODES,
     correction::CODES,
+    convention::CODES,
+    comparison::CODES,
+    simulation::CODES,
     design::CODES,
     files::CODES,
 ];

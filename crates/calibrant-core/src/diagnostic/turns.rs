@@ -2,7 +2,7 @@
 
 use super::check::checks;
 use super::direction::direction_in_words;
-use super::parts::{Part, Parts};
+use super::parts::{Part, Parts, neither};
 use nalgebra::Vector3;
 use std::fmt;
 
@@ -148,6 +148,4 @@ impl fmt::Display for UnitMistake {
     }
 }
 
-impl Part for UnitMistake {
-    fn add_to(&self, _: &mut Parts, _: &'static str) {}
-}
+neither!(UnitMistake);

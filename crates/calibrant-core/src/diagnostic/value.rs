@@ -1,13 +1,13 @@
 //! What a user should know about a result.
 
 use super::code::Code;
+use super::numbers::Numbers;
 use super::parts::Parts;
 use super::severity::Severity;
+use crate::number_format::capitalised;
 use crate::sensor::SensorKind;
 use schemars::JsonSchema;
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// What a user should know about a result: a code, a subject, numbers, and a sentence.
@@ -49,7 +49,6 @@ pub struct Diagnostic {
 impl Diagnostic {
     pub(super) fn new(code: Code, parts: Parts, message: String) -> Self {
         let subject = (!parts.subject.is_empty()).then(|| parts.subject.join(" "));
-        let numbers = parts.numbers.into_iter().map(|(name, value)| (Cow::Borrowed(name), value)).collect();
         Self {
             code,
             severity: code.severity(),
@@ -57,7 +56,7 @@ impl Diagnostic {
             line: None,
             sensor: None,
             subject,
-            numbers: Numbers(numbers),
+            numbers: parts.numbers,
             message,
         }
     }
@@ -126,13 +125,13 @@ impl Diagnostic {
     /// Its numbers by name. Names end in the unit where there is one.
     #[must_use]
     pub fn numbers(&self) -> Vec<(&str, f64)> {
-        self.numbers.0.iter().map(|(name, value)| (name.as_ref(), *value)).collect()
+        self.numbers.iter().collect()
     }
 
     /// The number of this name.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
-        self.numbers.0.iter().find(|(of, _)| of == name).map(|(_, value)| *value)
+        self.numbers.iter().find(|(of, _)| *of == name).map(|(_, value)| value)
     }
 
     /// Its sentence: what was found, and what to do. It starts with a small letter.
@@ -141,7 +140,14 @@ impl Diagnostic {
         &self.message
     }
 
-    /// Its sentence behind the line and the sensor, without the file.
+    /// Its message as a sentence of a page.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let end = if self.message.ends_with(['.', '?', '!', ')']) { "" } else { "." };
+        capitalised(&self.message) + end
+    }
+
+    /// Its message behind the line and the sensor, without the file.
     #[must_use]
     pub fn without_file(&self) -> String {
         let line = self.line.map_or_else(String::new, |line| format!("line {line}: "));
@@ -156,40 +162,5 @@ impl fmt::Display for Diagnostic {
             write!(f, "{file}: ")?;
         }
         f.write_str(&self.without_file())
-    }
-}
-
-/// Numbers by name, in their order.
-#[derive(Debug, Clone, PartialEq)]
-struct Numbers(Vec<(Cow<'static, str>, f64)>);
-
-impl Serialize for Numbers {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        self.0.iter().try_for_each(|(name, value)| map.serialize_entry(name, value))?;
-        map.end()
-    }
-}
-
-impl<'de> Deserialize<'de> for Numbers {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct InOrder;
-        impl<'de> serde::de::Visitor<'de> for InOrder {
-            type Value = Numbers;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("numbers by name")
-            }
-
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, mut map: A) -> Result<Numbers, A::Error> {
-                let mut numbers = Vec::new();
-                // JSON has no infinity
-                while let Some((name, value)) = map.next_entry::<String, Option<f64>>()? {
-                    numbers.push((Cow::Owned(name), value.unwrap_or(f64::INFINITY)));
-                }
-                Ok(Numbers(numbers))
-            }
-        }
-        deserializer.deserialize_map(InOrder)
     }
 }

@@ -12,6 +12,12 @@
 
 use super::effective_degrees;
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
+use crate::diagnostic::comparison::{
+    ComparedAtTemperature, NotBroughtTogether, NotInBoth, RecordingsSupposed, SignificanceUncertain,
+    UnitsApart, UnknownUncertainty,
+};
+use crate::diagnostic::{Diagnostic, Phrase};
+use crate::error::Error;
 use crate::form::{As, finite};
 use crate::sensor::{
     CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
@@ -28,7 +34,7 @@ pub struct Comparison {
     /// All parameters together; `None` without a covariance (see [`notes`](Comparison::notes)).
     pub overall: Option<OverallDifference>,
     /// What could not be compared, and what the comparison assumes.
-    pub notes: Vec<String>,
+    pub notes: Vec<Diagnostic>,
 }
 
 /// One invariant in two calibrations.
@@ -138,20 +144,20 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn of(a: &CalibratedImu, b: &CalibratedImu) -> Self {
-        let mut notes = Vec::new();
+        let mut notes: Vec<Diagnostic> = Vec::new();
         for sensor_kind in SensorKind::ALL {
+            let mut lacks =
+                |lacking, has_gains| notes.push(NotInBoth { lacking, sensor_kind, has_gains }.into());
             match (a.unit(sensor_kind), b.unit(sensor_kind)) {
-                (Some(one), Some(other)) if one != other => notes.push(format!(
-                    "the readings of the {sensor_kind} are in {} in A and in {} in B: its biases and gains cannot be compared",
-                    one.symbol(),
-                    other.symbol()
-                )),
-                (Some(_), None) => notes.push(format!("only A has a {sensor_kind}")),
-                (None, Some(_)) => notes.push(format!("only B has a {sensor_kind}")),
+                (Some(unit_a), Some(unit_b)) if unit_a != unit_b => {
+                    notes.push(UnitsApart { sensor_kind, unit_a, unit_b }.into());
+                }
+                (Some(_), None) => lacks("B", false),
+                (None, Some(_)) => lacks("A", false),
                 (Some(_), Some(_)) => {
-                    for (name, _) in [("A", a), ("B", b)].iter().filter(|(_, imu)| !imu.has_bias(sensor_kind)) {
-                        notes.push(format!("{name} does not say the biases of the {sensor_kind}: they are not compared"));
-                    }
+                    let without =
+                        [("A", a), ("B", b)].into_iter().filter(|(_, imu)| !imu.has_bias(sensor_kind));
+                    without.for_each(|(name, _)| lacks(name, true));
                 }
                 (None, None) => {}
             }
@@ -164,16 +170,13 @@ impl Comparison {
             .filter_map(|in_a| Some((in_a, *of_b.iter().find(|in_b| in_b.invariant == in_a.invariant)?)))
             .map(|(in_a, in_b)| compared(a, b, in_a, in_b))
             .collect();
-        match (&a.covariance, &b.covariance) {
-            (None, None) => notes
-                .push("neither has a covariance: how significant the differences are is not known".into()),
-            (Some(_), None) => notes.push("B has no covariance: its values count as exact".into()),
-            (None, Some(_)) => notes.push("A has no covariance: its values count as exact".into()),
-            (Some(_), Some(_)) => notes.push(
-                "significance supposes different recordings; two calibrations of the same one differ by less"
-                    .into(),
-            ),
-        }
+        let without = |of| SignificanceUncertain { of, unknown: UnknownUncertainty::Covariance }.into();
+        notes.push(match (&a.covariance, &b.covariance) {
+            (None, None) => without(None),
+            (Some(_), None) => without(Some("B")),
+            (None, Some(_)) => without(Some("A")),
+            (Some(_), Some(_)) => RecordingsSupposed {}.into(),
+        });
         notes.extend([("A", a), ("B", b)].into_iter().filter_map(|(name, imu)| about_degrees(name, imu)));
         let overall = overall(a, b, &mut notes);
         Self { quantities, overall, notes }
@@ -184,14 +187,11 @@ impl Comparison {
 fn brought_together(
     a: &CalibratedImu,
     b: &CalibratedImu,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Diagnostic>,
 ) -> (CalibratedImu, CalibratedImu) {
     let reference_c = |imu: &CalibratedImu| imu.parameters.thermal.reference_c;
-    let mut only = |name: &str, imu: &CalibratedImu| {
-        notes.push(format!(
-            "only {name} follows temperature: it is compared as it is at its reference of {} °C",
-            reference_c(imu)
-        ));
+    let mut only = |name, imu: &CalibratedImu| {
+        notes.push(ComparedAtTemperature { only: Some(name), temperature_c: reference_c(imu) }.into());
         // at its own reference nothing can fail
         imu.at(reference_c(imu)).unwrap_or_else(|_| imu.clone())
     };
@@ -199,17 +199,19 @@ fn brought_together(
         (false, false) => (a.clone(), b.clone()),
         (true, false) => (only("A", a), b.clone()),
         (false, true) => (a.clone(), only("B", b)),
-        (true, true) => match b.at_reference_temperature(reference_c(a)) {
-            Ok(referred) => {
-                notes.push(format!("both are compared as they are at {} °C", reference_c(a)));
-                (a.clone(), referred)
-            }
-            Err(error) => {
-                notes.push(format!("each is compared at its own reference temperature: {error}"));
-                (a.clone(), b.clone())
-            }
-        },
+        (true, true) => {
+            let (note, b) = match b.at_reference_temperature(reference_c(a)) {
+                Ok(b) => (ComparedAtTemperature { only: None, temperature_c: reference_c(a) }.into(), b),
+                Err(error) => (apart("to one temperature", &error), b.clone()),
+            };
+            notes.push(note);
+            (a.clone(), b)
+        }
     }
+}
+
+fn apart(to: &'static str, error: &Error) -> Diagnostic {
+    NotBroughtTogether { to, why: Phrase(error.to_string()) }.into()
 }
 
 fn compared(
@@ -250,17 +252,14 @@ fn compared(
 }
 
 /// The note about standard deviations that count as known although nothing shows it.
-fn about_degrees(name: &str, imu: &CalibratedImu) -> Option<String> {
+fn about_degrees(name: &'static str, imu: &CalibratedImu) -> Option<Diagnostic> {
     imu.covariance.as_ref()?;
-    match imu.degrees_of_freedom {
-        None => {
-            Some(format!("{name} does not say the degrees of freedom behind its sd: they count as known"))
-        }
-        Some(degrees) if degrees.accelerometer == 0.0 => Some(format!(
-            "{name} has no more holds than unknowns: nothing shows whether the sd of its accelerometer are right, and they count as known"
-        )),
-        Some(_) => None,
-    }
+    let unknown = match imu.degrees_of_freedom {
+        None => UnknownUncertainty::Degrees,
+        Some(degrees) if degrees.accelerometer == 0.0 => UnknownUncertainty::Scatter,
+        Some(_) => return None,
+    };
+    Some(SignificanceUncertain { of: Some(name), unknown }.into())
 }
 
 /// Degrees of freedom behind sums of two variances of one part, by the mean share of each.
@@ -295,7 +294,7 @@ fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
 }
 
 /// All parameters together, in the lower gauge of the first sensor that both have in one unit.
-fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Option<OverallDifference> {
+fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<Diagnostic>) -> Option<OverallDifference> {
     if a.covariance.is_none() && b.covariance.is_none() {
         return None;
     }
@@ -312,7 +311,7 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     let (a, b) = match turned {
         (Ok(a), Ok(b)) => (a, b),
         (Err(error), _) | (_, Err(error)) => {
-            notes.push(format!("the two cannot be brought into one frame: {error}"));
+            notes.push(apart("into one frame", &error));
             return None;
         }
     };
@@ -463,23 +462,28 @@ mod tests {
             let names = comparison.quantities.iter().map(|row| row.invariant.name());
             assert_eq!(names.filter(|name| name.contains("bias")).count(), 3);
             let note = "does not say the biases of the gyroscope: they are not compared";
-            assert!(comparison.notes.iter().any(|stated| stated.contains(note)), "{:?}", comparison.notes);
+            assert!(
+                comparison.notes.iter().any(|stated| stated.message().contains(note)),
+                "{:?}",
+                comparison.notes
+            );
         }
     }
 
     #[test]
     fn what_cannot_be_compared_is_said() {
         let exact = CalibratedImu { covariance: None, ..imu() };
-        let stated = |a: &CalibratedImu, b: &CalibratedImu| Comparison::of(a, b).notes.join("; ");
+        let stated = |a: &CalibratedImu, b: &CalibratedImu| format!("{:?}", Comparison::of(a, b).notes);
         assert!(stated(&imu(), &exact).contains("B has no covariance"));
         assert!(stated(&exact, &exact).contains("neither has a covariance"));
         assert_eq!(Comparison::of(&exact, &exact).overall, None);
         let counts = CalibratedImu { gyroscope_unit: Some(ReadingUnit::Counts), ..imu() };
         let comparison = Comparison::of(&imu(), &counts);
-        assert!(comparison.notes[0].contains("in rad/s in A and in counts in B"), "{:?}", comparison.notes);
+        let note = comparison.notes[0].message();
+        assert!(note.contains("in rad/s in A and in counts in B"), "{note}");
         let gain = comparison.quantities.iter().find(|row| row.invariant.name() == "gyroscope.gain.x");
         assert_eq!(gain.expect("shown").difference, None);
         let alone = CalibratedImu { gyroscope_unit: None, ..imu() };
-        assert!(stated(&imu(), &alone).contains("only A has a gyroscope"));
+        assert!(stated(&imu(), &alone).contains("B has no gyroscope"));
     }
 }

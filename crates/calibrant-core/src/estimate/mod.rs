@@ -72,7 +72,7 @@ pub use statistics::{chi2_p_value, f_p_value};
 pub use uncalibrated::Uncalibrated;
 pub use unknown_latitude::UnknownLatitude;
 pub use validation::{
-    BiasShift, Caveat, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
-    ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
-    cross_validate_imu, other_temperature, validate, validate_imu,
+    BiasShift, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, ParameterPart, UnusedError,
+    ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu, other_temperature,
+    validate, validate_imu,
 };

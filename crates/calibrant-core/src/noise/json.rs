@@ -29,7 +29,7 @@ json_object! {
         /// The line of an experiment that states the white noise; none where it is not determined.
         experiment: noise_line(noise),
         /// Why the white noise is not that of a sensor at rest.
-        caveat: noise.caveat.as_deref(),
+        caveat: noise.caveat.as_ref(),
         /// What the user should know of it.
         warnings: noise.warnings.as_slice(),
     }

@@ -4,12 +4,12 @@ use super::outliers::{Outliers, Tails};
 use super::{AllanDeviation, Moments, NoiseFit, Segment, outliers};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::noise::{
-    NoiseBeyondWhite, NoiseDrifts, NoiseFiltered, NoiseInParts, NoiseOutliers, NoiseUnexplained,
-    NoiseVibration, ResolutionCoarse, SampleTimesVary, SamplesMissing, ShortTimesUnexplained,
+    NoiseBeyondWhite, NoiseDrifts, NoiseFiltered, NoiseInParts, NoiseOfSpikes, NoiseOfVibration,
+    NoiseOutliers, NoiseUnexplained, NoiseVibration, ResolutionCoarse, SampleTimesVary, SamplesMissing,
+    ShortTimesUnexplained,
 };
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::interruption::Interruption;
-use crate::number_format::plain;
 use crate::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ pub struct SensorNoise {
     /// A result for each axis.
     pub axes: Vec<AxisNoise>,
     /// Why the white noise is not that of a sensor at rest: too many outliers, no process explains it, or the caller states that the sensor moves.
-    pub caveat: Option<String>,
+    pub caveat: Option<Diagnostic>,
     /// What the user should know.
     pub warnings: Vec<Diagnostic>,
 }
@@ -148,12 +148,12 @@ impl SensorNoise {
                 sample_sd: (squares / (n - 1.0)).sqrt(),
                 outliers,
             };
-            let caveat = noise.caveat(&values);
+            let caveat = noise.caveat(sensor_kind, &values);
             Ok((noise, caveat))
         };
         let axes: Vec<Result<_>> = recording.active_axes().par_iter().map(axis).collect();
         // the error names the first axis without noise, in any order of the threads
-        let axes: Vec<(AxisNoise, Option<String>)> = axes.into_iter().collect::<Result<_>>()?;
+        let axes: Vec<(AxisNoise, Option<Diagnostic>)> = axes.into_iter().collect::<Result<_>>()?;
         let caveat = axes.iter().find_map(|(_, caveat)| caveat.clone());
         let axes: Vec<AxisNoise> = axes.into_iter().map(|(axis, _)| axis).collect();
         let unit = recording.unit;
@@ -211,6 +211,12 @@ impl SensorNoise {
     pub fn white_noise_of_readings(&self) -> Option<Vector3<f64>> {
         let sigma = self.white_noise_per_sample()?;
         Some(self.gain.map_or(sigma, |gain| sigma.component_mul(&gain)))
+    }
+
+    /// Its caveat and its warnings, each once.
+    pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
+        let caveat = self.caveat.iter().filter(|caveat| !self.warnings.contains(caveat));
+        caveat.chain(&self.warnings)
     }
 
     /// Do the processes explain the Allan deviation of every axis?
@@ -313,28 +319,16 @@ impl SensorNoise {
 
 impl AxisNoise {
     /// Why its white noise is not that of a sensor at rest, where it is not.
-    fn caveat(&self, values: &[f64]) -> Option<String> {
-        let spikes = self.outliers.as_ref().is_some_and(|outliers| !outliers.left_out);
-        if spikes {
-            return Some("there are too many spikes".into());
+    fn caveat(&self, sensor_kind: SensorKind, values: &[f64]) -> Option<Diagnostic> {
+        let (axis, fit) = (self.axis, &self.fit);
+        let are_many = self.outliers.as_ref().is_some_and(|outliers| !outliers.left_out);
+        if are_many || Tails::of(values).reach_far() {
+            return Some(NoiseOfSpikes { sensor_kind, axis, are_many }.into());
         }
-        if Tails::of(values).reach_far() {
-            return Some(format!("a few spikes make most of the noise of axis {}", self.axis));
-        }
-        if let Some(line) = self.fit.vibration.as_ref().filter(|line| !line.left_out) {
-            let hertz = plain(line.frequency_hz, 3);
-            return Some(format!(
-                "axis {} has a line at {hertz} Hz: a vibration, or the hum of the mains?",
-                self.axis
-            ));
-        }
-        let unexplained = self.fit.p_value.is_some_and(|p| p < HOPELESS);
-        unexplained.then(|| {
-            format!(
-                "no sum of the processes explains the Allan deviation of axis {}: a vibration?",
-                self.axis
-            )
-        })
+        let line = fit.vibration.as_ref().filter(|line| !line.left_out);
+        let frequency_hz = line.map(|line| line.frequency_hz);
+        let unexplained = frequency_hz.is_some() || fit.p_value.is_some_and(|p| p < HOPELESS);
+        unexplained.then(|| NoiseOfVibration { sensor_kind, axis, frequency_hz }.into())
     }
 }
 

@@ -94,8 +94,6 @@ json_object! {
     /// The best motion found, beside the initial one, and its distance from the bound.
     Design as of {
         status: of.status,
-        /// How good the motion is, and how that was found, in words.
-        statement: of.statement(),
         criterion: &of.criterion,
         /// What the motion determines: the order of all lists of parameters.
         parameters: &of.parameters,

@@ -1,6 +1,5 @@
-//! What a design gives: motions, covariances, the certificate in words, and the assessment of a motion of the user.
+//! What a design gives: motions, covariances, the certificate, and the assessment of a motion of the user.
 
-pub(crate) mod certificate_words;
 mod design;
 mod motion_assessment;
 

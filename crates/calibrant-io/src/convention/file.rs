@@ -3,6 +3,7 @@
 use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
 use crate::input::Input;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::sensor::CalibratedImu;
 use std::path::PathBuf;
 
@@ -21,14 +22,14 @@ pub struct CalibratedImuFile {
     /// The format of the file.
     pub format: ImuFormat,
     /// What the reader assumed or ignored.
-    pub findings: Vec<String>,
+    pub findings: Vec<Diagnostic>,
 }
 
 /// The result of writing a calibration.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct WrittenImu {
     /// The files.
     pub files: Vec<PathBuf>,
     /// What the format cannot carry.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Diagnostic>,
 }

@@ -2,6 +2,8 @@
 
 use super::words::invalid;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::convention::RatesDiffer;
 use calibrant_core::sensor::SensorKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -61,18 +63,14 @@ impl ImuNoise {
     }
 
     /// The warning where the single rate of a file is not that of a sensor.
-    pub(super) fn of_rates(&self) -> Option<String> {
+    pub(super) fn of_rates(&self) -> Option<Diagnostic> {
         let rate = self.update_rate_hz?;
         let is_other = |measured: &f64| (measured / rate - 1.0).abs() > SAME_RATE;
         let (sensor_kind, measured) = SensorKind::ALL
             .into_iter()
             .zip(self.measured_at_hz)
             .find_map(|(sensor_kind, measured)| Some((sensor_kind, measured.filter(is_other)?)))?;
-        Some(format!(
-            "update_rate is one number: {rate} Hz is written, but the {sensor_kind} has {measured} Hz. Kalibr takes the noise of a sample for the density times √update_rate, {:.2} times that of the \
-             {sensor_kind}: bring both sensors to one rate",
-            (rate / measured).sqrt()
-        ))
+        Some(RatesDiffer { sensor_kind, measured_hz: measured, written_hz: rate }.into())
     }
 
     pub(super) fn fields(&self) -> [(&'static str, Option<f64>); 5] {

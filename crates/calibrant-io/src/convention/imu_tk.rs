@@ -15,6 +15,8 @@ use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
 use crate::delimited_text::Lines;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Phrase;
+use calibrant_core::diagnostic::convention::FormatSupposed;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::sensor::{
     CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
@@ -72,7 +74,8 @@ pub(super) fn joined(accelerometer: CalibratedImuFile, gyroscope: CalibratedImuF
     file.imu.gyroscope_unit = gyroscope.imu.gyroscope_unit;
     file.imu.quantities = ImuQuantity::full_list(true, true, false);
     if gyroscope.imu.frame != file.imu.frame {
-        file.findings.push(format!("the files name two frames, and one is supposed: {}", file.imu.frame));
+        let supposed = Phrase(file.imu.frame.clone());
+        file.findings.push(FormatSupposed { what: "one true frame", supposed }.into());
     }
     file.findings.extend(
         gyroscope.findings.into_iter().filter(|finding| !file.findings.contains(finding)).collect::<Vec<_>>(),

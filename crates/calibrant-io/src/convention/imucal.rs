@@ -17,6 +17,8 @@ use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::json;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Phrase;
+use calibrant_core::diagnostic::convention::FormatSupposed;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::sensor::{
     CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal,
@@ -110,7 +112,8 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             ));
         }
         None => {
-            findings.push("a file of imucal before 2.0, which does not name the units of its readings".into())
+            let supposed = Phrase("it is of imucal before 2.0, and those that are given count".into());
+            findings.push(FormatSupposed { what: "the units of its readings", supposed }.into())
         }
     }
     let matrix = |rows: &Option<Vec<Vec<f64>>>, name: &str| match rows {

@@ -21,6 +21,10 @@ use super::imu_noise::ImuNoise;
 use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::text_decoding::{self, Checked};
+use calibrant_core::diagnostic::convention::{
+    FormatLoses, FormatNeeds, FormatSupposed, FrameTurned, LeverArmIgnored,
+};
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
     CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters,
@@ -203,12 +207,12 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         }
     };
     if stated_biases[0].is_none() || gyroscope_unit.is_some() && stated_biases[1].is_none() {
-        findings.push(
-            "Kalibr does not write biases (it estimates them as curves in time): they are zero here".into(),
-        );
+        let supposed = Phrase("they are zero here, Kalibr estimates them as curves in time".into());
+        findings.push(FormatSupposed { what: "biases", supposed }.into());
     }
     if accelerometers.rx_i.is_some() {
-        findings.push("the lever arms of the accelerometer's axes (rx_i, ry_i, rz_i) are left out".into());
+        let what = "the place of the accelerometer's axes (rx_i, ry_i, rz_i)";
+        findings.push(LeverArmIgnored { what }.into());
     }
     let frame = beside.and_then(|beside| beside.frame.clone()).unwrap_or_else(|| {
         if c_i_b == Matrix3::identity() {
@@ -245,14 +249,14 @@ fn unit_of(
 }
 
 /// The rotation of `T_i_b`. Its translation is a lever arm, which the correction of a reading does not need.
-fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> {
+fn pose(rows: &[Vec<f64>], findings: &mut Vec<Diagnostic>) -> Checked<Matrix3<f64>> {
     if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
         return Err(invalid("`T_i_b` is not 4 × 4", HELP));
     }
     let c_i_b = Matrix3::from_fn(|row, column| rows[row][column]);
     rotation(&c_i_b, "T_i_b")?;
     if rows[..3].iter().any(|row| row[3] != 0.0) {
-        findings.push("the translation of T_i_b, a lever arm, is left out".into());
+        findings.push(LeverArmIgnored { what: "the translation of T_i_b" }.into());
     }
     Ok(c_i_b)
 }
@@ -286,7 +290,7 @@ fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, 
     })
 }
 
-pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Checked<String> {
+pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) -> Checked<String> {
     let imu = &file.imu;
     let Some(accelerometer_unit) = imu.accelerometer_unit else {
         return Err(input_error(
@@ -326,30 +330,26 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Che
         matrix(&mut out, "M", &m_g);
         beside(&mut out, imu, Some(gyroscope_unit));
     } else {
-        warnings.push(
-            "Kalibr's own programs want a gyroscope in an imu.yaml of the scale-misalignment model".into(),
-        );
+        absent.push("a gyroscope");
         beside(&mut out, imu, None);
     }
     out.push_str("  model: scale-misalignment\n  time_offset: 0.0\n");
     if c_i_b != Matrix3::identity() {
-        warnings.push(
-            "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; option `gauge` lower makes it the identity".into(),
-        );
+        warnings.push(FrameTurned {}.into());
     }
+    let format = ImuFormat::Kalibr.title();
+    let mut loses = |what| warnings.push(FormatLoses { format, what, is_beside: true }.into());
     if imu.parameters.accelerometer.bias != Vector3::zeros()
         || imu.parameters.gyroscope.bias != Vector3::zeros()
     {
-        warnings.push("Kalibr's imu.yaml has no place for biases: they are under the key `calibrant`, which only calibrant reads".into());
+        loses("the biases");
     }
     if [Some(accelerometer_unit), imu.gyroscope_unit].contains(&Some(ReadingUnit::Counts)) {
-        warnings.push("Kalibr wants readings in m/s² and rad/s, this calibration is of counts: its unit is under the key `calibrant`".into());
+        loses("readings in counts");
     }
     if !absent.is_empty() {
-        warnings.push(format!(
-            "Kalibr needs {} as well: give an imu.yaml that has them with option `noise`",
-            absent.join(", ")
-        ));
+        let fields = absent.into_iter().map(str::to_owned).collect();
+        warnings.push(FormatNeeds { format: "Kalibr", fields }.into());
     }
     Ok(out)
 }

@@ -6,6 +6,7 @@ use super::file::LARGEST;
 use super::words::invalid;
 use crate::json::{self, SCHEMA};
 use crate::text_decoding::{self, Checked};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::{Axis, CalibratedImu, ReadingUnit, SensorKind};
 use serde::Deserialize;
@@ -32,7 +33,7 @@ struct Sensor {
     first_sample: Option<usize>,
     end_sample: Option<usize>,
     axes: Vec<AxisNoise>,
-    caveat: Option<String>,
+    caveat: Option<Diagnostic>,
 }
 
 #[derive(Deserialize)]
@@ -78,7 +79,8 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
     let sensor_kind = sensor.kind;
     let Some(unit) = imu.unit(sensor_kind) else { return Ok(()) };
     if let Some(caveat) = &sensor.caveat {
-        let message = format!("the noise of the {sensor_kind} is not that of a sensor at rest: {caveat}");
+        let message =
+            format!("the noise of the {sensor_kind} is not that of a sensor at rest: {}", caveat.message());
         return Err(invalid(
             message,
             "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",

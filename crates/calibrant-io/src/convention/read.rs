@@ -4,6 +4,7 @@ use super::file::{CalibratedImuFile, LARGEST};
 use super::options::ConventionOptions;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
 use crate::text_decoding::{self, Checked};
+use calibrant_core::diagnostic::convention::UnitGiven;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::{Path, PathBuf};
@@ -82,11 +83,7 @@ fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile
         if let (Some(stated), Some(given)) = (file.imu.unit(sensor_kind), given)
             && stated != given
         {
-            file.findings.push(format!(
-                "the readings of the {sensor_kind} are in {}, as the file says: the unit {} is given for files that do not say it",
-                stated.symbol(),
-                given.symbol()
-            ));
+            file.findings.push(UnitGiven { sensor_kind, stated, given }.into());
         }
     }
     Ok(file)

@@ -5,6 +5,7 @@ use super::words::invalid;
 use super::{CalibratedImuFile, ImuFormat};
 use crate::json;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::convention::ValuesExact;
 use calibrant_core::sensor::{
     Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
 };
@@ -109,12 +110,11 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     if imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::Thermal(..))) {
         imu.parameters.thermal.reference_c = file.reference_c.ok_or_else(|| missing("reference_c"))?;
     }
-    let seed = file.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
     Ok(CalibratedImuFile {
         imu,
         noise: None,
         inputs: Vec::new(),
         format: ImuFormat::CalibrantJson,
-        findings: vec![format!("{KIND}{seed}: its values are exact")],
+        findings: vec![ValuesExact { seed: file.seed.map(|seed| seed as usize) }.into()],
     })
 }

@@ -5,6 +5,8 @@ use super::words::input_error;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
 use crate::atomic_output::write_text;
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::convention::FormatLoses;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
@@ -41,16 +43,14 @@ pub fn calibrated_imu_texts(
     text_of(file, format).map(|(texts, _)| texts).map_err(|input_error| Error::experiment(*input_error))
 }
 
-type Texts = (Vec<(Option<SensorKind>, String)>, Vec<String>);
+type Texts = (Vec<(Option<SensorKind>, String)>, Vec<Diagnostic>);
 
 fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
     usable_calibration::usable(&file.imu)?;
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<Diagnostic> = Vec::new();
+    let loses = |what| FormatLoses { format: format.title(), what, is_beside: false }.into();
     if format != ImuFormat::CalibrantJson && file.imu.covariance.is_some() {
-        warnings.push(format!(
-            "{} has no place for the covariance: keep the calibrant JSON for the standard deviations",
-            format.title()
-        ));
+        warnings.push(loses("the covariance"));
     }
     if file.imu.follows_temperature() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
         return Err(input_error(
@@ -75,7 +75,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
     if let Some(noise) = &file.noise {
         warnings.extend(match format {
             ImuFormat::CalibrantJson | ImuFormat::Kalibr => noise.of_rates(),
-            _ => Some(format!("{} has no place for the noise densities", format.title())),
+            _ => Some(loses("the noise densities")),
         });
     }
     Ok((texts, warnings))

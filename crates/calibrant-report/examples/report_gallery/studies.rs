@@ -2,6 +2,8 @@
 //! covariance.
 
 use super::{design, designs, fakes, motion, sensor, simulate, study};
+use calibrant_core::diagnostic::Phrase;
+use calibrant_core::diagnostic::design::MotionNotDesigned;
 use design::{DesignStatus, Evaluation, SurfaceSettings, trace_surface};
 use motion::{InputNoise, Trust};
 use rand_distr::{Distribution, StandardNormal};
@@ -26,7 +28,7 @@ pub(crate) fn everything(calibrated: usize, designed: usize) -> Studies {
         surface: Some(trace_surface(&Sensor::memsic_mxd2020u(), &surface).expect("valid settings")),
         design: Some(design_study(designed, Trust::Known)),
         noisy: Some(design_study(designed, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }))),
-        remarks: vec!["an experiment that was not run, <and why>".to_string()],
+        notes: vec![MotionNotDesigned { is_noisy: false, why: Phrase("<and why>".into()) }.into()],
     }
 }
 

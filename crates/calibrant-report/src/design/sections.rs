@@ -57,7 +57,6 @@ fn predicted(design: &Design) -> Section<'_> {
     }
     starts_in_short(design).into_iter().for_each(|line| section.line(line));
     reached_limits(design).into_iter().for_each(|line| section.line(line));
-    section.line(design.statement());
     section
 }
 

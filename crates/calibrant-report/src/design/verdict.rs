@@ -1,12 +1,14 @@
 //! The verdict on a design: how good is the motion, and what is the evidence?
 
-use super::criterion::excess_in_words;
+use super::criterion::{excess_in_words, gap_in_words};
 use super::limits::uses;
 use super::predicted_sd::times;
 use crate::About;
 use crate::figure::DisplayUnit;
 use crate::number_format::{percent, significant};
 use crate::sheet::{Grade, SheetVerdict};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::design::{SearchInterrupted, SearchNotConverged};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Parameter;
 use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitKind, LimitUse};
@@ -18,7 +20,7 @@ const NOTHING_TO_GAIN: f64 = 1.02;
 /// Within this distance, the bound is still informative.
 const NEAR: f64 = 0.1;
 
-/// The verdict and everything that qualifies it. Terminals show the sentence on the certificate instead.
+/// The verdict and everything that qualifies it.
 pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
     let uses = uses(&design.limits, &design.parameters, &design.optimal.motion);
     let broken: Vec<String> = uses.iter().filter(|found| found.is_violated()).map(broken_limit).collect();
@@ -27,7 +29,6 @@ pub(super) fn verdict(design: &Design, about: &About) -> SheetVerdict {
         .with("Broken limits", broken)
         .with("Undetermined", undetermined_items(&design.optimal))
         .with("Findings", about.findings.clone())
-        .on_terminal("")
 }
 
 fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
@@ -36,7 +37,8 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
                     move the named axes.";
         return (Grade::Bad, "✗ Useless for calibration.".into(), vec![what.to_string()]);
     }
-    let mut sentences: Vec<String> = unfinished(design.status).into_iter().collect();
+    let mut sentences: Vec<String> =
+        unfinished(design.status).map(|found| found.sentence()).into_iter().collect();
     let nearest = design.certificate.as_ref().map(|certificate| bound(design, certificate, &mut sentences));
     if design.certificate.is_none() {
         sentences.push(
@@ -44,7 +46,8 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
                 .to_string(),
         );
     }
-    sentences.extend(design.gap_statement());
+    sentences.extend(gap_goal(design));
+    sentences.extend(tilt(design));
     sentences.extend(improvement(design));
     let (grade, word) = match nearest {
         _ if !broken.is_empty() => (Grade::Bad, "✗ Not admissible.".into()),
@@ -59,14 +62,12 @@ fn judge(design: &Design, broken: &[String]) -> (Grade, String, Vec<String>) {
     (grade, word, sentences)
 }
 
-fn unfinished(status: DesignStatus) -> Option<String> {
-    let what = match status {
-        DesignStatus::Converged => return None,
-        DesignStatus::IterationLimit => "stopped at its limit of iterations. The motion",
-        DesignStatus::Stalled => "stalled because a step could not be computed. The motion",
-        DesignStatus::Interrupted => "was interrupted. The motion is the best so far. It",
-    };
-    Some(format!("The search {what} keeps the limits and can be used, but a better one may be near."))
+fn unfinished(status: DesignStatus) -> Option<Diagnostic> {
+    match status {
+        DesignStatus::Converged => None,
+        DesignStatus::Interrupted => Some(SearchInterrupted { are_poses: false }.into()),
+        _ => Some(SearchNotConverged { at: None, status: status.name() }.into()),
+    }
 }
 
 /// Adds what the certificate proves. Returns the distance of the worst parameter from its bound.
@@ -113,6 +114,40 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
         );
     }
     farthest
+}
+
+/// The gap that was asked for, and the gap that there is; `None` where none was asked for.
+fn gap_goal(design: &Design) -> Option<String> {
+    let goal = design.gap_goal?;
+    let shown = |gap: f64| gap_in_words(&design.criterion, gap);
+    let (asked, starts) =
+        (shown(goal.gap), format!("{} of {} starts", design.starts.len(), goal.most_starts));
+    Some(match (&design.certificate, design.gap_is_reached()) {
+        (None, _) => format!("The gap of {asked} that was asked for is NOT proved: there is no bound."),
+        (Some(certificate), Some(true)) => format!(
+            "The gap of {asked} that was asked for is proved: it is {}, reached after {starts}.",
+            shown(certificate.gap)
+        ),
+        (Some(certificate), _) => format!(
+            "The gap of {asked} that was asked for is NOT reached: it is {} after {starts}. Either a better motion exists, or the \
+             bound is loose.",
+            shown(certificate.gap)
+        ),
+    })
+}
+
+/// What the tilt of gravity gives to the biases.
+fn tilt(design: &Design) -> Option<String> {
+    let floor = design.parameters.iter().zip(&design.floor_sd).filter(|(_, sd)| **sd > 0.0);
+    let named: Vec<String> = floor
+        .map(|(parameter, sd)| format!("{} {} {}", parameter.name, significant(*sd, 4), parameter.unit))
+        .collect();
+    (!named.is_empty()).then(|| {
+        format!(
+            "Whatever the motion, the tilt and the magnitude of gravity alone give an sd of {}.",
+            named.join(", ")
+        )
+    })
 }
 
 fn improvement(design: &Design) -> Option<String> {
@@ -171,25 +206,18 @@ pub(crate) fn undetermined_items(evaluation: &Evaluation) -> Vec<String> {
 
 /// A broken limit, and by how much.
 pub(crate) fn broken_limit(found: &LimitUse) -> String {
-    let (axis, unit) = (found.axis, found.kind.unit());
+    let (name, axis, unit) = (found.kind.name(), found.axis, found.kind.unit());
     let number = |value: f64| significant(value, 4);
+    let (value, limit) = (number(found.value), number(found.limit));
     match found.kind {
-        LimitKind::RestAtEnd => {
-            format!("axis {axis} still moves at the end, at {} {unit}", number(found.value))
+        LimitKind::RestAtEnd => format!("axis {axis} still moves at the end, at {value} {unit}"),
+        LimitKind::StartAcceleration | LimitKind::EndAcceleration => {
+            format!("{name} of axis {axis} is {value} {unit}, prescribed is {limit}")
         }
-        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
-            "{} of axis {axis} is {} {unit}, prescribed is {}",
-            found.kind.name(),
-            number(found.value),
-            number(found.limit)
-        ),
-        kind => format!(
-            "{} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
-            kind.name(),
-            number(found.value),
+        _ => format!(
+            "{name} of axis {axis} is {value} {unit} at {} s, {} beyond the limit of {limit} ({} %)",
             number(found.time_s),
             number(found.excess()),
-            number(found.limit),
             significant(100.0 * found.violation, 3)
         ),
     }

@@ -83,19 +83,12 @@ fn largest(
     }
 }
 
-/// What a validation says against the covariance.
-pub(super) fn doubts(validations: &[MachineValidation]) -> impl Iterator<Item = String> {
-    let too_small = |shift: &&ParameterShift| shift.verdict == CovarianceVerdict::TooSmall;
-    validations.iter().flat_map(move |of| of.shifts.iter().filter(too_small).map(sentence))
-}
-
-/// A line for each sensor whose covariance a validation does not doubt: the others are among the [`doubts`].
+/// A line for each sensor: what a validation says of its covariance.
 pub(super) fn validation_in_short(validations: &[MachineValidation]) -> Vec<String> {
-    let agrees = |shift: &&ParameterShift| shift.verdict != CovarianceVerdict::TooSmall;
     let line = |shift: &ParameterShift| {
         format!("{} The ratio is {}.", sentence(shift), between(shift.factor, shift.factor_interval))
     };
-    validations.iter().flat_map(|of| of.shifts.iter().filter(agrees).map(line)).collect()
+    validations.iter().flat_map(|of| of.shifts.iter().map(line)).collect()
 }
 
 /// A section with all validations; none without any.

@@ -1,6 +1,6 @@
 //! The verdict on a calibration on a machine: can it be used?
 
-use super::validation::{doubts, validation_in_short};
+use super::validation::validation_in_short;
 use crate::About;
 use crate::calibration::{calibration_verdict, noise_explains, worst_gain};
 use crate::number_format::{self, capitalised, counted, percent};
@@ -15,9 +15,14 @@ pub(super) fn verdict(
     validations: &[MachineValidation],
     about: &About,
 ) -> SheetVerdict {
-    let remarks = unexplained(calibration).into_iter().chain(doubts(validations));
     let validation = validation_in_short(validations);
-    calibration_verdict(&calibration.warnings, remarks, validation, &sentence(calibration), about)
+    calibration_verdict(
+        &calibration.warnings,
+        unexplained(calibration),
+        validation,
+        &sentence(calibration),
+        about,
+    )
 }
 
 fn sentence(calibration: &MachineCalibration) -> String {

@@ -41,6 +41,6 @@ fn verdict(studies: &Studies, about: &About) -> SheetVerdict {
     let sentences: Vec<String> = judged.into_iter().map(|(_, sentence)| sentence).collect();
     let sentence = if sentences.is_empty() { "No study was run.".to_owned() } else { sentences.join(" ") };
     SheetVerdict::new(grade, word, sentence)
-        .with("Not run", studies.remarks.clone())
+        .with("Not run", studies.notes.iter().map(|found| found.message().to_owned()).collect())
         .with("Findings", about.findings.clone())
 }

@@ -69,7 +69,7 @@ pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAt
         }
         let moving = options.hold_s.and_then(|_| holds::moves(&holds, &found.segment));
         if let Some(moving) = moving {
-            found.caveat = Some("the sensor moves in the given interval".into());
+            found.caveat = Some(moving.clone());
             found.warnings.push(moving);
         }
         Ok(found)

@@ -8,8 +8,7 @@ use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{
-    CalibrationFile, DiagnosticWords, MachineCalibrationFile, Origin, Summary, to_json, write_json,
-    write_text,
+    CalibrationFile, Judgement, MachineCalibrationFile, Origin, Summary, to_json, write_json, write_text,
 };
 use calibrant_report::{About, Sheet, calibration_sheet, machine_sheet};
 use std::path::Path;
@@ -91,7 +90,7 @@ impl Outcome {
     pub fn json(&self) -> String {
         match &self.calibrated {
             Calibrated::Sensors(calibration) => {
-                to_json(&CalibrationFile::of(calibration, &self.validations, &self.origin, &self.words()))
+                to_json(&CalibrationFile::of(calibration, &self.validations, &self.origin, &self.judgement()))
             }
             Calibrated::OnMachine(machine) => to_json(&self.machine_file(machine)),
         }
@@ -111,13 +110,13 @@ impl Outcome {
         }
     }
 
-    /// How diagnostics are written to files.
-    fn words(&self) -> DiagnosticWords<'_> {
-        DiagnosticWords { allowed: &self.allowed, findings: &self.findings, limits: &self.limits }
+    /// What judges the result.
+    fn judgement(&self) -> Judgement<'_> {
+        Judgement { allowed: &self.allowed, findings: &self.findings, limits: &self.limits }
     }
 
     fn machine_file<'a>(&'a self, machine: &'a MachineOutcome) -> MachineCalibrationFile<'a> {
-        MachineCalibrationFile { result: machine.result(), origin: &self.origin, words: self.words() }
+        MachineCalibrationFile { result: machine.result(), origin: &self.origin, judgement: self.judgement() }
     }
 
     fn write_json(&self, directory: &Path) -> Result<()> {
@@ -125,7 +124,7 @@ impl Outcome {
         match &self.calibrated {
             Calibrated::Sensors(calibration) => write_json(
                 &path,
-                &CalibrationFile::of(calibration, &self.validations, &self.origin, &self.words()),
+                &CalibrationFile::of(calibration, &self.validations, &self.origin, &self.judgement()),
             ),
             Calibrated::OnMachine(machine) => write_json(&path, &self.machine_file(machine)),
         }

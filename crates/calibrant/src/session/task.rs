@@ -12,8 +12,8 @@ use super::report::about;
 use super::setup::Setup;
 use super::source::Source;
 use super::validation::{on_recording, unless_too_few};
-use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
+use calibrant_core::diagnostic::{Diagnostic, Severity};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationSettings, Validation, other_temperature};
 use calibrant_core::noise::SensorNoise;
@@ -120,6 +120,10 @@ impl<'e> Task<'e> {
             let outcome = problem.cross_validate(calibration, &self.settings, folds);
             validations.extend(unless_too_few(outcome, notes)?);
         }
+        validations.iter_mut().for_each(|validation: &mut Validation| validation.allow(&options.allowed));
+        // warnings are told already
+        let found = validations.iter().flat_map(Validation::diagnostics);
+        notes.extend(found.filter(|found| found.severity() == Severity::Note));
         Ok(validations)
     }
 
@@ -145,7 +149,7 @@ impl<'e> Task<'e> {
         let problem = setup.problem(self.accelerometer, &other)?;
         let mut validation = problem.validate(calibration).map_err(|error| error.in_recording(path))?;
         let temperature = other_temperature(calibration, &validation, &recorded.recording, &other.recording);
-        validation.reasons.extend(temperature);
+        validation.likely_explanations.extend(temperature);
         let thermal = &calibration.imu.thermal;
         let range = Temperatures::of(&other.recording)?.and_then(|temperatures| temperatures.range_c());
         let beyond = range.and_then(|range| CalibrationExtrapolated::of(thermal, range));

@@ -8,6 +8,7 @@ use super::poses::unused_motion;
 use super::random::Random;
 use super::simulated::Simulation;
 use super::table::{check, table};
+use calibrant_core::diagnostic::simulation::ColumnsOfAnother;
 use calibrant_core::error::Result;
 use calibrant_core::motion::earth_rate;
 use calibrant_core::sensor::{
@@ -34,7 +35,7 @@ pub(super) fn simulate(
     random: Random,
 ) -> Result<Simulation> {
     let sensor = &experiment.sensor;
-    let (notes, mut remarks) = (unused_motion(options), Vec::new());
+    let mut notes = unused_motion(options);
     let [gain_a, gain_g] = gains(experiment)?;
     let mut rng = random.sensor();
     let gyroscope = GyroscopeToDraw {
@@ -52,9 +53,9 @@ pub(super) fn simulate(
         turn_s: TURN_S,
         rate_hz: holds.rate_hz,
         gravity_mps2: holds.gravity()?.magnitude_mps2,
-        accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise_a, &mut remarks),
+        accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise_a, &mut notes),
         between_holds_sd_mps2: holds.between_holds_sd_mps2,
-        gyroscope_noise: one_for_all(SensorKind::Gyroscope, &noise_g, &mut remarks),
+        gyroscope_noise: one_for_all(SensorKind::Gyroscope, &noise_g, &mut notes),
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
         face_sd_rad: holds.face_sd_rad().unwrap_or(0.0),
@@ -89,11 +90,10 @@ pub(super) fn simulate(
         None => simulate_imu(&truth, &setup, &mut rng),
     };
     if experiment.columns != ImuReadOptions::default() {
-        let words = "recording.csv says its columns and units itself: to calibrate it take a copy of the experiment without [columns] and gyroscope.unit, which are about another file";
-        remarks.push(words.into());
+        notes.push(ColumnsOfAnother {}.into());
     }
     let truth = Truth::of_imu(random.seed, &quantities, units, &truth);
-    Ok(Simulation { notes, remarks, ..Simulation::new(random.seed, recording, truth) })
+    Ok(Simulation { notes, ..Simulation::new(random.seed, recording, truth) })
 }
 
 /// Gives known quantities their value, in the true frame of the calibration. As there, a prior of a quantity

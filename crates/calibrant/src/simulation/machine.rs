@@ -44,8 +44,8 @@ pub(super) fn simulate(
         noise: log_noise(&setup, chain.as_ref())?,
         resolution: asked.resolution,
     };
-    let (mut notes, mut remarks) = (Vec::new(), Vec::new());
-    let given = (options.motion.as_ref(), &mut notes, &mut remarks);
+    let mut notes = Vec::new();
+    let given = (options.motion.as_ref(), &mut notes);
     let TrueMotion { motion, edge_s } = motion(given, plan, chain.as_ref(), &setup, random)?;
     let knots = motion.knots();
     let duration_s = knots.end_s() - knots.start_s;
@@ -73,12 +73,7 @@ pub(super) fn simulate(
     let (quantities, units) = (of_experiment.quantities(), of_experiment.units());
     let truth = Truth::of_imu(random.seed, &quantities, units, &machine.parameters.imu)
         .on_machine(TrueMachine::new(&machine, chain.as_ref(), &sensors, &log_errors));
-    Ok(Simulation {
-        log: Some((log, log_units)),
-        notes,
-        remarks,
-        ..Simulation::new(random.seed, recording, truth)
-    })
+    Ok(Simulation { log: Some((log, log_units)), notes, ..Simulation::new(random.seed, recording, truth) })
 }
 
 /// The noise of each component of the log: what the experiment states, or what is usual.

@@ -2,7 +2,8 @@
 
 use super::random::Random;
 use crate::session::MotionSource;
-use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::simulation::MotionThroughLog;
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::number_format::significant;
 use calibrant_core::simulate::{Purpose, stream};
@@ -34,14 +35,14 @@ fn least_edge_s(setup: &MachineSetup) -> f64 {
 
 /// The motion of the log that is given, or a random one for this recording.
 pub(super) fn motion(
-    (log, notes, remarks): (Option<&MotionSource>, &mut Vec<Diagnostic>, &mut Vec<String>),
+    (log, notes): (Option<&MotionSource>, &mut Vec<Diagnostic>),
     plan: &MachinePlan,
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
     random: Random,
 ) -> Result<TrueMotion> {
     if let Some(log) = log {
-        return given((log, notes, remarks), plan, chain, setup);
+        return given((log, notes), plan, chain, setup);
     }
     let recorded_s = plan.simulation.duration_s;
     // whole seconds, which most rates and distances of knots divide
@@ -62,7 +63,7 @@ pub(super) fn motion(
 }
 
 fn given(
-    (source, notes, remarks): (&MotionSource, &mut Vec<Diagnostic>, &mut Vec<String>),
+    (source, notes): (&MotionSource, &mut Vec<Diagnostic>),
     plan: &MachinePlan,
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
@@ -87,11 +88,13 @@ fn given(
         );
         return Err(refused(message, "give a longer log, or a smaller delay_sd_s in [machine.clock]"));
     }
-    remarks.push(format!(
-        "the motion is a spline through {}, with knots every {} s; the log scatters about it by at most {} rad or m",
-        file_name(path),
-        significant(knots.step_s, 2),
-        significant(sd.into_iter().fold(0.0, f64::max), 2)
-    ));
+    notes.push(
+        MotionThroughLog {
+            file: Phrase(file_name(path)),
+            knot_step_s: knots.step_s,
+            scatter: sd.into_iter().fold(0.0, f64::max),
+        }
+        .into(),
+    );
     Ok(TrueMotion { motion, edge_s })
 }

@@ -32,10 +32,10 @@ pub(super) fn simulate(
     };
     let mut rng = random.happening(rng);
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
-    let (notes, mut remarks) = (unused_motion(options), Vec::new());
+    let mut notes = unused_motion(options);
     let recording = match (&on_table, poses) {
         (Some(steps), _) => {
-            accelerometer_on_table(sensor, &truth, plan, steps, (options, &mut remarks), &mut rng)?
+            accelerometer_on_table(sensor, &truth, plan, steps, (options, &mut notes), &mut rng)?
         }
         (None, Some(poses)) => {
             simulate_holds_in(&truth, &noise, sensor.unit, poses, &by_hand(plan)?, &mut rng).0
@@ -43,7 +43,7 @@ pub(super) fn simulate(
         (None, None) => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan)?, &mut rng).0,
     };
     let truth = Truth::of_sensor(random.seed, &list, sensor.unit, &truth);
-    Ok(Simulation { notes, remarks, ..Simulation::new(random.seed, recording, truth) })
+    Ok(Simulation { notes, ..Simulation::new(random.seed, recording, truth) })
 }
 
 /// The warning about a motion that is given where there is none.

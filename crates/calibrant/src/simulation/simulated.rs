@@ -27,24 +27,13 @@ pub struct Simulation {
     pub log: Option<(ReferenceLog, Vec<&'static str>)>,
     /// What was noticed.
     pub notes: Vec<Diagnostic>,
-    /// What is good to know of the simulation.
-    pub remarks: Vec<String>,
 }
 
 impl Simulation {
     /// One of a recording without a motion or a log.
     pub(super) fn new(seed: u64, recording: impl Into<ImuRecording>, truth: Truth) -> Self {
         let recording = recording.into();
-        Self {
-            seed,
-            recording,
-            truth,
-            motion: None,
-            true_motion: None,
-            log: None,
-            notes: Vec::new(),
-            remarks: Vec::new(),
-        }
+        Self { seed, recording, truth, motion: None, true_motion: None, log: None, notes: Vec::new() }
     }
 
     /// Number of samples.

@@ -4,6 +4,7 @@ use super::length;
 use super::noise::one_for_all;
 use super::options::SimulationOptions;
 use calibrant_core::budget::Budget;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::Turn;
 use calibrant_core::sensor::{ImuParameters, Recording, Sensor, SensorKind, SensorParameters};
@@ -17,7 +18,7 @@ pub(super) fn accelerometer_on_table(
     truth: &SensorParameters,
     holds: &HoldsPlan,
     steps: &[TableStep],
-    (options, remarks): (&SimulationOptions, &mut Vec<String>),
+    (options, notes): (&SimulationOptions, &mut Vec<Diagnostic>),
     rng: &mut Rng,
 ) -> Result<Recording> {
     check(steps, holds.rate_hz, options.budget)?;
@@ -25,7 +26,7 @@ pub(super) fn accelerometer_on_table(
     let setup = ImuSimulation {
         rate_hz: holds.rate_hz,
         gravity_mps2: holds.gravity()?.magnitude_mps2,
-        accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise, remarks),
+        accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise, notes),
         between_holds_sd_mps2: holds.between_holds_sd_mps2,
         accelerometer_unit: sensor.unit,
         face_sd_rad: holds.face_sd_rad().unwrap_or(0.0),

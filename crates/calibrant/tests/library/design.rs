@@ -6,6 +6,7 @@ use calibrant::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
 use calibrant::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
+use calibrant::report::{About, design_sheet};
 use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 
@@ -208,12 +209,13 @@ fn a_search_ends_at_the_gap_that_is_asked_for() {
     assert_eq!(one.starts, three.starts);
     assert_eq!(one.gap_is_reached(), Some(true));
     assert!(one.starts.len() < 30, "{}", one.starts.len());
-    assert!(one.statement().contains("is proved: it is "), "{}", one.statement());
-    assert!(one.statement().contains(&format!("reached after {} of 90 starts", one.starts.len())));
+    let says = |design: &Design| design_sheet(design, &About::default()).text(10_000);
+    assert!(says(&one).contains("is proved: it is "), "{}", says(&one));
+    assert!(says(&one).contains(&format!("reached after {} of 90 starts", one.starts.len())));
     // the bound is looser than that
     let none = run(2, 1e-9).expect("solved");
     assert_eq!(none.gap_is_reached(), Some(false));
-    assert!(none.statement().contains("NOT reached"), "{}", none.statement());
+    assert!(says(&none).contains("NOT reached"), "{}", says(&none));
     for nonsense in [0.0, -0.1, f64::NAN, f64::INFINITY] {
         let error = run(1, nonsense).expect_err("nonsense").to_string();
         assert!(error.contains("gap"), "{error}");

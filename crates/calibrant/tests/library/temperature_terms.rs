@@ -362,7 +362,7 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     }
     assert!(comparison.quantities.iter().any(|row| row.invariant.name() == "gyroscope.bias_per_k.z"));
     assert!(
-        comparison.notes.iter().any(|note| note.contains("as they are at 32 °C")),
+        comparison.notes.iter().any(|note| note.message().contains("as they are at 32 °C")),
         "{:?}",
         comparison.notes
     );

@@ -8,7 +8,6 @@ use super::residuals::magnitude_rms;
 use super::saturated_holds::{clipped_holds, reason as clipped_reason, with_clipped};
 use super::setup::HoldsSetup;
 use super::{accelerometer_change, verdict};
-use crate::diagnostic::holds::HoldsLostToFilter;
 use crate::diagnostic::{Diagnostic, HoldReason};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::gravity_error::gravity_slope;
@@ -46,7 +45,7 @@ pub(in crate::estimate) fn calibrate(
     let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
     let lost = found
         .and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s))
-        .map(|lost| Diagnostic::from(HoldsLostToFilter { lost }));
+        .map(Diagnostic::from);
     let detected = holds.clone();
     let fitted = match problem.sensor.model {
         SensorModel::ScaleBias => drift_fit::fit::<6>(problem, setup, settings, holds, (sound, of_mean)),

@@ -6,7 +6,7 @@
 //! A steady movement has 16.
 
 use super::hold_detection::still_segments;
-use crate::diagnostic::LostHolds;
+use crate::diagnostic::holds::HoldsLostToFilter;
 use crate::error::{Error, NotIdentifiable};
 use crate::motion::Hold;
 use crate::sensor::Recording;
@@ -25,9 +25,13 @@ const PAUSES: usize = 2;
 ///
 /// The `holds` are those that [`find_holds`](super::find_holds) or [`find_imu_holds`](crate::estimate::find_imu_holds) found in the recording.
 #[must_use]
-pub fn holds_lost_to_filter(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<LostHolds> {
+pub fn holds_lost_to_filter(
+    recording: &Recording,
+    holds: &[Hold],
+    minimum_s: f64,
+) -> Option<HoldsLostToFilter> {
     let pieces = pieces(recording, holds, minimum_s)?;
-    (pieces > PAUSES).then_some(LostHolds { holds: holds.len(), stretches: pieces, minimum_s })
+    (pieces > PAUSES).then_some(HoldsLostToFilter { holds: holds.len(), stretches: pieces, minimum_s })
 }
 
 /// Adds the filter as a reason to an error about too few holds, where there is a filter.
@@ -43,8 +47,8 @@ pub(in crate::estimate) fn with_filter(
     }
     let mut groups = undetermined.groups;
     for group in &mut groups {
-        group.reason = format!("{}; {}", group.reason, LostHolds::REASON);
-        group.remedy = format!("{}; {}", LostHolds::HELP, group.remedy);
+        group.reason = format!("{}; {}", group.reason, HoldsLostToFilter::REASON);
+        group.remedy = format!("{}; {}", HoldsLostToFilter::HELP, group.remedy);
     }
     Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
 }

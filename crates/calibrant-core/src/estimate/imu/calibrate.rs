@@ -1,6 +1,6 @@
 //! Calibrates an IMU: removes outliers, and compares given values with the recording.
 
-use crate::diagnostic::datasheet::KnownContradicted;
+use crate::diagnostic::Diagnostic;
 use crate::diagnostic::holds::HoldsSpreadLittle;
 use crate::diagnostic::{Check, samples};
 use crate::error::{Error, InputError, Refusal, Result};
@@ -88,13 +88,13 @@ fn of_clean(
     let stated = contradictions.into_iter().map(|term| term.known);
     match outcome {
         Ok(mut found) if !absurd => {
-            found.warnings.splice(0..0, stated.map(|known| KnownContradicted { known }.into()));
+            found.warnings.splice(0..0, stated.map(Diagnostic::from));
             Ok(found)
         }
         Err(error) if stated.len() == 0 => Err(error),
         _ => Err(Error::experiment(InputError::new(
             Refusal::KnownContradicted,
-            stated.map(|known| known.to_string()).collect::<Vec<_>>().join("; "),
+            stated.map(|known| known.finding()).collect::<Vec<_>>().join("; "),
             "correct the value in [known], its unit too, or leave it out and let the recording tell",
         ))),
     }

@@ -3,8 +3,11 @@
 //! A change of a sensor enlarges the scatter, and the prediction includes this scatter. Clocks of different rates give a common error of all gains.
 //! Outliers are not among the errors that agree with the prediction.
 
-use super::caveat::Caveat;
 use super::unused_error::{ErrorKind, UnusedError};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::change::SensorChanged;
+use crate::diagnostic::reader::Span;
+use crate::diagnostic::validation::{ErrorsLeftOut, GainsOfClock};
 use crate::estimate::change::longest_run;
 use crate::estimate::{Calibration, Change, Changed, ClockRate};
 use crate::sensor::SensorKind;
@@ -19,8 +22,8 @@ const LEAST_UNUSED_SHARE: f64 = 0.05;
 pub(super) struct Caveats {
     changes: Vec<Change>,
     clocks: Option<ClockRate>,
-    holds: Option<Caveat>,
-    rotations: Option<Caveat>,
+    holds: Option<ErrorsLeftOut>,
+    rotations: Option<ErrorsLeftOut>,
 }
 
 impl Caveats {
@@ -40,44 +43,54 @@ impl Caveats {
         Self {
             changes: calibration.changes.clone(),
             clocks: calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.clocks),
-            holds: left_out(&holds),
-            rotations: left_out(&rotations),
+            holds: left_out("hold", &holds),
+            rotations: left_out("rotation", &rotations),
         }
     }
 
     /// The caveat about errors of one kind, which are in order of time.
-    pub(super) fn about(&self, kind: ErrorKind, errors: &[UnusedError]) -> Option<Caveat> {
+    pub(super) fn about(&self, kind: ErrorKind, errors: &[UnusedError]) -> Option<Diagnostic> {
         let concerns = |change: &&Change| match (change.sensor_kind, change.of) {
             (SensorKind::Accelerometer, _) => matches!(kind, ErrorKind::Magnitude | ErrorKind::Rotation),
             // rotations follow the bias of the holds beside them
             (SensorKind::Gyroscope, Changed::Bias) => kind == ErrorKind::Rate,
             (SensorKind::Gyroscope, _) => kind == ErrorKind::Rotation,
         };
-        let change = || self.changes.iter().find(concerns).map(|change| Caveat::Change(*change));
-        let clocks = || self.clocks.filter(|_| kind == ErrorKind::Rotation).map(Caveat::Clocks);
-        let left_out = || match kind {
-            ErrorKind::Magnitude => self.holds,
-            ErrorKind::Rate => None,
-            ErrorKind::Rotation => self.holds.or(self.rotations),
+        let change = self
+            .changes
+            .iter()
+            .find(concerns)
+            .map(|&change| Diagnostic::from(SensorChanged { change, coldest_c: None, hottest_c: None }));
+        let clocks = || {
+            let ClockRate { faster: skew, sd: skew_sd } =
+                self.clocks.filter(|_| kind == ErrorKind::Rotation)?;
+            Some(GainsOfClock { skew, skew_sd }.into())
         };
+        let left_out = || match kind {
+            ErrorKind::Magnitude => self.holds.clone(),
+            ErrorKind::Rate => None,
+            ErrorKind::Rotation => self.holds.clone().or_else(|| self.rotations.clone()),
+        };
+        let what = if kind == ErrorKind::Rotation { "rotation" } else { "hold" };
         let in_a_row = || {
-            let run = longest_run(errors.iter().map(|error| !error.counts))?;
-            let (first, last) = (errors.get(run.start)?, errors.get(run.end - 1)?);
-            Some(Caveat::InARow { count: run.len(), start_s: first.start_s, end_s: last.end_s })
+            let times: Vec<_> =
+                errors.iter().map(|error| (!error.counts, error.start_s, error.end_s)).collect();
+            Some(ErrorsLeftOut { by_calibration: false, ..self::left_out(what, &times)? })
         };
         let several = || {
             let count = errors.iter().filter(|error| !error.counts).count();
             (count >= FEWEST_UNUSED && count as f64 > LEAST_UNUSED_SHARE * errors.len() as f64)
-                .then_some(Caveat::Several { count })
+                .then_some(ErrorsLeftOut { what, count, times: None, by_calibration: false })
         };
-        change().or_else(clocks).or_else(left_out).or_else(in_a_row).or_else(several)
+        let of_errors = || left_out().or_else(in_a_row).or_else(several).map(Diagnostic::from);
+        change.or_else(clocks).or_else(of_errors)
     }
 }
 
-/// A run of unused items, from the begin of the first to the end of the last.
-fn left_out(times: &[(bool, f64, f64)]) -> Option<Caveat> {
+/// A run of items that the calibration does not use, from the begin of the first to the end of the last.
+fn left_out(what: &'static str, times: &[(bool, f64, f64)]) -> Option<ErrorsLeftOut> {
     let run = longest_run(times.iter().map(|(left_out, ..)| *left_out))?;
-    let (_, start_s, _) = times.get(run.start)?;
-    let (_, _, end_s) = times.get(run.end - 1)?;
-    Some(Caveat::LeftOut { count: run.len(), start_s: *start_s, end_s: *end_s })
+    let (count, first, last) = (run.len(), times.get(run.start)?, times.get(run.end - 1)?);
+    let times = Some(Span { start_s: first.1, end_s: last.2 });
+    Some(ErrorsLeftOut { what, count, times, by_calibration: true })
 }

@@ -7,7 +7,6 @@
 
 use super::chi_square_ratio::Ratio;
 use super::covariance_verdict::CovarianceVerdict;
-use super::explanation::LikelyExplanation;
 use super::predicted_error::Group;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
@@ -15,6 +14,11 @@ use super::result::Validation;
 use super::statistics::{Degrees, degrees_behind};
 use super::unused_error::ErrorKind;
 use super::whitened_errors::{Shift, Whitened};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::samples::CalibrationExtrapolated;
+use crate::diagnostic::validation::{
+    AccelerometerMoved, AngularUnitWrong, GyroscopeGainsMoved, TemperatureDiffers,
+};
 use crate::estimate::Calibration;
 use crate::estimate::holds::median;
 use crate::sensor::{ImuQuantity, ImuRecording, Quantity, ReadingUnit, Recording, SensorKind};
@@ -34,7 +38,7 @@ pub fn other_temperature(
     validation: &Validation,
     calibrated: &ImuRecording,
     here: &ImuRecording,
-) -> Option<LikelyExplanation> {
+) -> Option<Diagnostic> {
     if calibration.holds().is_some_and(|holds| holds.temperatures_c.is_some()) || !is_wrong(validation) {
         return None;
     }
@@ -42,9 +46,9 @@ pub fn other_temperature(
         let values = recording.temperature_c.as_deref().filter(|values| !values.is_empty())?;
         Some(values.iter().sum::<f64>() / values.len() as f64)
     };
-    let (calibrated_c, here_c) = (mean(calibrated)?, mean(here)?);
-    ((here_c - calibrated_c).abs() >= SAME_K)
-        .then_some(LikelyExplanation::Temperature { calibrated_c, here_c })
+    let (calibrated_mean_c, mean_c) = (mean(calibrated)?, mean(here)?);
+    ((mean_c - calibrated_mean_c).abs() >= SAME_K)
+        .then(|| TemperatureDiffers { calibrated_mean_c, mean_c }.into())
 }
 
 /// Is anything not as predicted?
@@ -58,11 +62,9 @@ fn beyond_temperatures(
     validation: &Validation,
     prediction: &Prediction,
     unused: &Unused<'_>,
-) -> Option<LikelyExplanation> {
+) -> Option<Diagnostic> {
     let here_c = unused.temperatures.filter(|_| is_wrong(validation))?.range_c()?;
-    let calibrated_c = prediction.imu.thermal.range_c?;
-    let beyond = here_c.iter().any(|temperature_c| prediction.imu.thermal.extrapolates_to(*temperature_c));
-    beyond.then_some(LikelyExplanation::BeyondTemperatures { calibrated_c, here_c })
+    CalibrationExtrapolated::of(&prediction.imu.thermal, here_c).map(Diagnostic::from)
 }
 
 /// What explains the errors of a recording that are larger than predicted.
@@ -70,7 +72,7 @@ pub(super) fn likely_explanations(
     validation: &Validation,
     prediction: &Prediction,
     unused: &Unused<'_>,
-) -> Vec<LikelyExplanation> {
+) -> Vec<Diagnostic> {
     let small = |kind: ErrorKind| {
         validation.of_kind(kind).is_some_and(|errors| errors.verdict == CovarianceVerdict::TooSmall)
     };
@@ -100,7 +102,7 @@ fn explaining(group: &Group, scatter: Degrees, by: &dyn Fn(usize) -> DMatrix<f64
     (verdict != CovarianceVerdict::TooSmall).then_some((rest, shift))
 }
 
-fn gyroscope_gains(errors: &Errors, prediction: &Prediction) -> Option<LikelyExplanation> {
+fn gyroscope_gains(errors: &Errors, prediction: &Prediction) -> Option<Diagnostic> {
     // what the estimates lack of the truth, for each share
     let mut lacking = DMatrix::zeros(prediction.quantities.len(), 3);
     for (k, quantity) in prediction.quantities.iter().enumerate() {
@@ -113,10 +115,10 @@ fn gyroscope_gains(errors: &Errors, prediction: &Prediction) -> Option<LikelyExp
     }
     let by = |k: usize| &errors.rotations.items[k].by_parameters * &lacking;
     let (_, shift) = explaining(&errors.rotations, prediction.rotation_degrees, &by)?;
-    Some(LikelyExplanation::GyroscopeGain { change: shift.three(0), sd: shift.sd_of_three(0) })
+    Some(GyroscopeGainsMoved { change: shift.three(0), change_sd: shift.sd_of_three(0) }.into())
 }
 
-fn accelerometer_moved(errors: &Errors, prediction: &Prediction) -> Option<LikelyExplanation> {
+fn accelerometer_moved(errors: &Errors, prediction: &Prediction) -> Option<Diagnostic> {
     let squares = |along: &Vector3<f64>| along.component_mul(along) * prediction.gravity_mps2;
     let about = |row: &dyn Fn(&Vector3<f64>) -> Vec<f64>| {
         let by = |k: usize| {
@@ -131,26 +133,25 @@ fn accelerometer_moved(errors: &Errors, prediction: &Prediction) -> Option<Likel
         (Some((of_bias, _)), Some((of_gain, _))) => of_bias <= of_gain,
         (bias, _) => bias.is_some(),
     };
-    Some(match if is_bias { bias } else { gain } {
-        Some((_, shift)) if is_bias => {
-            LikelyExplanation::AccelerometerBias { shift_mps2: shift.three(0), sd_mps2: shift.sd_of_three(0) }
-        }
-        Some((_, shift)) => {
-            LikelyExplanation::AccelerometerGain { change: shift.three(0), sd: shift.sd_of_three(0) }
-        }
+    let (shift, place_of_bias, place_of_gain) = match if is_bias { bias } else { gain } {
+        Some((_, shift)) => (shift, is_bias.then_some(0), (!is_bias).then_some(0)),
         None => {
             let (_, both) = about(&|along| [along.as_slice(), squares(along).as_slice()].concat())?;
-            LikelyExplanation::AccelerometerBiasAndGain {
-                shift_mps2: both.three(0),
-                shift_sd_mps2: both.sd_of_three(0),
-                change: both.three(3),
-                change_sd: both.sd_of_three(3),
-            }
+            (both, Some(0), Some(3))
         }
-    })
+    };
+    let three = |place: Option<usize>| place.map(|place| shift.three(place));
+    let sd_of_three = |place: Option<usize>| place.map(|place| shift.sd_of_three(place));
+    let moved = AccelerometerMoved {
+        shift_mps2: three(place_of_bias),
+        shift_sd_mps2: sd_of_three(place_of_bias),
+        change: three(place_of_gain),
+        change_sd: sd_of_three(place_of_gain),
+    };
+    Some(moved.into())
 }
 
-fn angular_unit(errors: &Errors, prediction: &Prediction, unused: &Unused<'_>) -> Option<LikelyExplanation> {
+fn angular_unit(errors: &Errors, prediction: &Prediction, unused: &Unused<'_>) -> Option<Diagnostic> {
     let gyroscope = unused.gyroscope.filter(|gyroscope| gyroscope.unit == ReadingUnit::RadianPerSecond)?;
     let missed = |errors: &Errors| {
         let items = &errors.rotations.items;
@@ -163,6 +164,6 @@ fn angular_unit(errors: &Errors, prediction: &Prediction, unused: &Unused<'_>) -
         let converted = Recording { readings, ..gyroscope.clone() };
         let unused = Unused { gyroscope: Some(&converted), ..unused.clone() };
         let missed = missed(&unused.errors(prediction)?)?;
-        (missed < FAR_SMALLER * now).then_some(LikelyExplanation::AngularUnit { factor })
+        (missed < FAR_SMALLER * now).then(|| AngularUnitWrong { factor }.into())
     })
 }

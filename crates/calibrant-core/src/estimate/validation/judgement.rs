@@ -53,6 +53,6 @@ pub(super) fn judged(
         kinds: kinds.into_iter().flatten().collect(),
         bias_shift,
         noise,
-        reasons: Vec::new(),
+        likely_explanations: Vec::new(),
     }
 }

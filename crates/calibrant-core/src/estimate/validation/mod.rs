@@ -20,13 +20,12 @@
 //! # References
 //! `viechtbauer2007`, `bengio2004`
 
-mod caveat;
 mod caveats_of_calibration;
 mod chi_square_ratio;
 mod covariance_verdict;
 mod cross_validation;
+mod differences;
 mod error_ratio;
-mod explanation;
 mod explanations;
 mod folds;
 mod hold_prediction;
@@ -43,10 +42,8 @@ mod unused_error;
 mod validate;
 mod whitened_errors;
 
-pub use caveat::Caveat;
 pub use covariance_verdict::CovarianceVerdict;
 pub use cross_validation::{cross_validate, cross_validate_imu};
-pub use explanation::LikelyExplanation;
 pub use explanations::other_temperature;
 pub use noise_comparison::{CoarseStep, NoiseRatio};
 pub use result::*;

@@ -1,10 +1,9 @@
 //! What a validation gives.
 
-use super::caveat::Caveat;
 use super::covariance_verdict::CovarianceVerdict;
-use super::explanation::LikelyExplanation;
 use super::noise_comparison::NoiseRatio;
 use super::unused_error::{ErrorKind, UnusedError};
+use crate::diagnostic::Diagnostic;
 use crate::form::{As, per_axis};
 use crate::json::{if_any, if_some, named};
 use crate::json_object;
@@ -25,7 +24,7 @@ pub struct Validation {
     /// The noise of each sensor beside that of the calibration's recording; empty for folds. What is predicted goes with the noise that is found.
     pub noise: Vec<NoiseRatio>,
     /// What may be the reason of errors that are larger than predicted, other than the covariance; empty for folds.
-    pub reasons: Vec<LikelyExplanation>,
+    pub likely_explanations: Vec<Diagnostic>,
 }
 
 /// Data that were not used.
@@ -83,7 +82,7 @@ pub struct ValidatedErrors {
     /// What follows.
     pub verdict: CovarianceVerdict,
     /// Why errors as large as predicted confirm nothing; `None` where nothing speaks against them.
-    pub caveat: Option<Caveat>,
+    pub caveat: Option<Diagnostic>,
 }
 
 /// What the errors say of the parameters alone: their common part along the directions in which the parameters would move them.
@@ -130,7 +129,7 @@ json_object! {
         /// The coarsest step of the readings, in their unit, by sensor.
         coarse_step: if_any(validation.noise.iter().filter_map(|noise| Some((noise.sensor_kind.name(), noise.coarse?.step))).collect::<BTreeMap<_, _>>()),
         gyroscope_bias_shift: if_some(validation.bias_shift),
-        likely_explanations: if_any(validation.reasons.as_slice()),
+        likely_explanations: if_any(validation.likely_explanations.as_slice()),
         kinds: named(validation.kinds.iter().map(|errors| (errors.kind.name(), errors))),
     }
 }
@@ -164,7 +163,7 @@ json_object! {
         factor_interval_99: [kind.factor_interval.0, kind.factor_interval.1],
         verdict: kind.verdict,
         /// Why errors as large as predicted confirm nothing.
-        caveat: if_some(kind.caveat),
+        caveat: if_some(kind.caveat.as_ref()),
         /// What the errors say of the parameters alone.
         parameters: if_some(kind.parameters),
         table: &kind.errors,

@@ -105,7 +105,7 @@ fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) ->
         let holds = unused.holds.iter().map(|(_, hold)| *hold);
         *noise = recording.map_or(*noise, |recording| noise.with_steps(recording, holds));
     }
-    validation.reasons = explanations::likely_explanations(&validation, prediction, &unused);
+    validation.likely_explanations = explanations::likely_explanations(&validation, prediction, &unused);
     Ok(validation)
 }
 

@@ -1,7 +1,7 @@
 //! Diagnostics in words, and how files state them.
 
 use calibrant::diagnostic::Diagnostic;
-use calibrant::io::DiagnosticWords;
+use calibrant::io::Judgement;
 
 /// The sentence of each.
 pub(crate) fn messages(diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -9,5 +9,4 @@ pub(crate) fn messages(diagnostics: &[Diagnostic]) -> Vec<String> {
 }
 
 /// As files state them, with no code allowed.
-pub(crate) const WORDS: DiagnosticWords<'static> =
-    DiagnosticWords { allowed: &[], findings: &[], limits: &[] };
+pub(crate) const WORDS: Judgement<'static> = Judgement { allowed: &[], findings: &[], limits: &[] };

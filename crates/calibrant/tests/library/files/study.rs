@@ -2,6 +2,8 @@
 
 use super::results::uniaxial;
 use calibrant::design::{SurfaceSettings, TraceSurface};
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::MotionNotDesigned;
 use calibrant::io::{StudyFile, to_json, write_json};
 use calibrant::motion::JerkControlledMotion;
 use calibrant::sensor::{ReadingUnit, Recording, Sensor, SensorParameters};
@@ -64,7 +66,7 @@ fn studies() -> Studies {
     Studies {
         calibration: Some(study),
         surface: Some(surface),
-        remarks: vec!["no motion was designed".into()],
+        notes: vec![MotionNotDesigned { is_noisy: false, why: Phrase("for a reason".into()) }.into()],
         ..Studies::default()
     }
 }
@@ -96,7 +98,7 @@ fn every_field_arrives_and_the_bytes_are_the_same_each_time() {
     });
     assert_eq!(whole["surface"], surface);
     assert_eq!((&whole["design"], &whole["noisy"]), (&Value::Null, &Value::Null));
-    assert_eq!(whole["remarks"], json!(["no motion was designed"]));
+    assert_eq!(whole["notes"][0]["message"], json!("no motion was designed: for a reason"));
 
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("study.json");

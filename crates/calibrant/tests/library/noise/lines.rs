@@ -76,11 +76,10 @@ fn beside_a_line_that_is_most_of_what_is_seen_the_noise_is_in_doubt() {
     for (hertz, share) in [(0.6, 0.05), (1.0, 0.045), (3.0, 0.2), (25.3, 1.0), (49.0, 5.0)] {
         for seed in 0..10 {
             let noise = beside_a_sine(&moments, false, hertz, share, seed);
-            let caveat = noise.caveat.unwrap_or_default();
-            assert!(
-                caveat.starts_with("axis x has a line at ") && caveat.contains(" Hz"),
-                "{hertz}: {caveat}"
-            );
+            let caveat = noise.caveat.expect("a line");
+            let says = "axis x of the accelerometer has a line at ";
+            assert!(caveat.message().starts_with(says), "{hertz}: {caveat}");
+            assert!(caveat.number("frequency_hz").is_some(), "{hertz}: {caveat}");
         }
     }
     let mut white = simulate(&[(PowerLaw::White, DENSITY)], n, 3);
@@ -90,7 +89,7 @@ fn beside_a_line_that_is_most_of_what_is_seen_the_noise_is_in_doubt() {
         phase += TAU * 33.7 * INTERVAL_S + step;
         *value += SIGMA * phase.sin();
     }
-    assert!(examine(&white, &moments).caveat.expect("it wanders").contains("a line at 33."));
+    assert!(examine(&white, &moments).caveat.expect("it wanders").message().contains("a line at 33."));
 }
 
 #[test]

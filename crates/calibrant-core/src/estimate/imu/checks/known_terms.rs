@@ -3,7 +3,7 @@
 //! A given term that is far off makes the problem strongly nonlinear. Where the fit with it ends then depends on rounding.
 //! So an absurd term is judged by the fit without it alone. It is an error, whatever the fit with it gives.
 
-use crate::diagnostic::KnownMismatch;
+use crate::diagnostic::datasheet::KnownContradicted;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::KnownTerm;
 use crate::estimate::result::Calibration;
@@ -25,7 +25,7 @@ const LEAST_SD: f64 = 1e-12;
 
 /// A term that the recording contradicts by far.
 pub(crate) struct Contradiction {
-    pub(crate) known: KnownMismatch,
+    pub(crate) known: KnownContradicted,
     /// Is it so far off that no fit with it makes sense?
     pub(crate) is_absurd: bool,
 }
@@ -59,7 +59,7 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &Calibration) -> Vec<Co
         let pull = off * sd * sd / (sd * sd + variance);
         let gravity = without.holds()?.gravity.magnitude_mps2;
         (off > CONTRADICTED * sd.hypot(known.sd.unwrap_or(0.0))).then(|| Contradiction {
-            known: KnownMismatch {
+            known: KnownContradicted {
                 parameter: known.quantity.name(),
                 given: known.value,
                 found,

@@ -1,7 +1,6 @@
 //! The accelerometer from holds of unknown directions: its static calibration.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::holds::HoldsLostToFilter;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
@@ -51,7 +50,7 @@ pub(crate) fn from_unknown_directions(
     })?;
     if detected {
         let lost = holds_lost_to_filter(as_read, &found, minimum_s);
-        first.warnings.extend(lost.map(|lost| Diagnostic::from(HoldsLostToFilter { lost })));
+        first.warnings.extend(lost.map(Diagnostic::from));
     }
     let Recovered::Holds(mut holds) = first.recovered else {
         return Err(Error::experiment(InputError::new(

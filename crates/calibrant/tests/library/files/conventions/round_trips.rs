@@ -219,7 +219,7 @@ fn kalibrs_own_file_is_read() {
     assert!((p.gyroscope.matrix[(0, 1)] + 0.3).abs() < 1e-15, "M_g C_gyro_i");
     assert!((p.gyroscope.matrix[(1, 0)] - (0.08 + 0.36)).abs() < 1e-15);
     assert!((p.g_sensitivity[(0, 0)] - (0.8 * 3e-4 + 0.6 * 1e-4)).abs() < 1e-18, "A C_gyro_i");
-    assert!(file.findings[0].contains("does not write biases"), "{:?}", file.findings);
+    assert!(file.findings[0].message().contains("does not say biases"), "{:?}", file.findings);
     let noise = file.noise.clone().expect("there");
     assert_eq!((noise.accelerometer_density, noise.update_rate_hz), (Some(0.00668), Some(200.0)));
     let after = there_and_back(&file, ImuFormat::Kalibr).remove(0);

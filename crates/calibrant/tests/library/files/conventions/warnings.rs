@@ -1,13 +1,15 @@
 //! Tests of warnings about what a format cannot carry, and refusals where the correction would be another.
 
 use super::{COUNTS, SI, alone, file, imu};
+use calibrant::diagnostic::Diagnostic;
 use calibrant::io::{ImuFormat, calibrated_imu_texts, write_calibrated_imu};
 use calibrant::sensor::{Gauge, SensorKind};
 
 fn warnings(imu: calibrant::sensor::CalibratedImu, format: ImuFormat) -> String {
     let directory = tempfile::tempdir().expect("a directory");
     let written = write_calibrated_imu(&directory.path().join("out"), &file(imu), format);
-    written.expect("written").warnings.join("\n")
+    let warnings = written.expect("written").warnings;
+    warnings.iter().map(Diagnostic::message).collect::<Vec<_>>().join("\n")
 }
 
 fn refusal(imu: calibrant::sensor::CalibratedImu, format: ImuFormat) -> String {
@@ -27,8 +29,8 @@ fn what_is_lost_is_said() {
     let message = warnings(imu(COUNTS, true), ImuFormat::Kalibr);
     for says in [
         "the true frame is not Kalibr's: T_i_b holds the rotation",
-        "no place for biases: they are under the key `calibrant`",
-        "this calibration is of counts",
+        "no place for the biases, kept under the key `calibrant`",
+        "no place for readings in counts",
         "Kalibr needs accelerometer_noise_density, accelerometer_random_walk",
     ] {
         assert!(message.contains(says), "{says}: {message}");
@@ -36,7 +38,7 @@ fn what_is_lost_is_said() {
     let lower = imu(SI, true).in_gauge(Gauge::Lower).expect("regular");
     assert!(!warnings(lower, ImuFormat::Kalibr).contains("T_i_b"));
     let message = warnings(alone(&imu(SI, false), SensorKind::Accelerometer), ImuFormat::Kalibr);
-    assert!(message.contains("want a gyroscope"), "{message}");
+    assert!(message.contains(", a gyroscope as well"), "{message}");
 }
 
 #[test]

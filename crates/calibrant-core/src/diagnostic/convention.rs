@@ -1,0 +1,108 @@
+//! Checks of calibrations in the formats of other programs.
+
+use super::check::checks;
+use super::parts::Phrase;
+use crate::sensor::{ReadingUnit, SensorKind};
+
+checks! {
+    /// A format of calibrations has no place for a part of it.
+    FormatLoses "format-loses" Warning {
+        /// The format.
+        format: &'static str,
+        /// What it has no place for: `the biases`.
+        what: &'static str,
+        /// Is it in the file nevertheless, where only calibrant reads it?
+        is_beside: bool,
+    }
+    decided "The format has no key for it."
+    remedy "Keep the JSON of calibrant beside it."
+    says match is_beside {
+        true => format!("{format} has no place for {what}, kept under the key `calibrant`, which only calibrant reads"),
+        false => format!("{format} has no place for {what}: keep the calibrant JSON"),
+    };
+
+    /// A format of calibrations needs what the calibration does not have.
+    FormatNeeds "format-needs" Warning {
+        /// The format.
+        format: &'static str,
+        /// What it needs.
+        fields: Vec<String>,
+    }
+    decided "The programs that read the format stop without it."
+    remedy "Complete the file by hand, or give an imu.yaml that has the densities with option `noise`."
+    says format!(
+        "{format} needs {} as well: give an imu.yaml with the densities with option `noise`, or complete the file by hand",
+        fields.join(", ")
+    );
+
+    /// The true frame of a calibration is not that of the format.
+    FrameTurned "frame-turned" Warning {}
+    decided "The accelerometer's matrix is not lower triangular."
+    remedy "Rotate the frame: option `gauge` lower."
+    says "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; option `gauge` lower makes \
+        it the identity";
+
+    /// The noise of two sensors was measured at different rates, and a format has one rate.
+    RatesDiffer "rates-differ" Warning {
+        /// The sensor whose rate is not written.
+        sensor_kind: SensorKind,
+        /// Its rate, Hz.
+        measured_hz: f64,
+        /// The rate that is written, Hz.
+        written_hz: f64,
+    }
+    decided "The rates of the noise are compared with the one that is written."
+    remedy "Bring both sensors to one rate."
+    says format!(
+        "update_rate is one number: {written_hz} Hz is written, but the {sensor_kind} has {measured_hz} Hz. Kalibr takes \
+         the noise of a sample for the density times √update_rate, {:.2} times that of the {sensor_kind}: bring both \
+         sensors to one rate",
+        (written_hz / measured_hz).sqrt()
+    );
+
+    /// A file does not state something, and a reader supposes it.
+    FormatSupposed "format-supposed" Note {
+        /// What the file does not state: `biases`.
+        what: &'static str,
+        /// What is supposed.
+        supposed: Phrase,
+    }
+    decided "The format has no key for it, or the file does not use it."
+    remedy "Check it."
+    says format!("the file does not say {what}: {}", supposed.0);
+
+    /// A lever arm in a calibration is left out.
+    LeverArmIgnored "lever-arm-ignored" Note {
+        /// Where it stands.
+        what: &'static str,
+    }
+    decided "The file has it, and the correction of a reading does not need it."
+    says format!("{what}, a lever arm, is left out");
+
+    /// A unit is given for a file that states another one.
+    UnitGiven "unit-given" Note {
+        sensor_kind: SensorKind,
+        /// The unit in the file, which counts.
+        stated: ReadingUnit,
+        /// The unit that is given.
+        given: ReadingUnit,
+    }
+    decided "Both are compared."
+    remedy "Leave the unit away."
+    says format!(
+        "the readings of the {sensor_kind} are in {}, as the file says: the unit {} is given for files that do not say it",
+        stated.symbol(),
+        given.symbol()
+    );
+
+    /// A calibration is the truth of a simulation.
+    ValuesExact "values-exact" Note {
+        /// The seed of the simulation.
+        seed: Option<usize>,
+    }
+    decided "The file is a truth.json."
+    says {
+        let seed = seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
+        format!("the truth of a simulation{seed}: its values are exact")
+    };
+}
