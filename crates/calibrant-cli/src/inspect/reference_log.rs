@@ -66,8 +66,8 @@ fn joints(inspection: &ReferenceInspection) -> String {
         .map(|joint| {
             let mut row = vec![
                 joint.name.clone(),
-                significant(joint.range.0, 5),
-                significant(joint.range.1, 5),
+                significant(joint.least, 5),
+                significant(joint.most, 5),
                 if joint.has_velocities { "yes" } else { "no" }.to_owned(),
             ];
             row.extend(seen(&joint.seen));

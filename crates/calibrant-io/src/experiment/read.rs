@@ -10,8 +10,9 @@ use super::refused_key::{missing, refused};
 use super::remedies::remedy;
 use super::spreads::need_spreads;
 use super::{CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions};
-use crate::experiment_presets::preset;
-use crate::{HashedFile, ImuReadOptions, file_name, text_decoding};
+use crate::experiment::presets::preset;
+use crate::text::decoding;
+use crate::{HashedFile, ImuReadOptions, file_name};
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
@@ -116,18 +117,8 @@ fn limits_of(section: Option<&AcceptSection>) -> Result<Vec<AcceptanceLimit>> {
     section.map_or(Ok(Vec::new()), acceptance_limits)
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>> {
-    text_decoding::read_bytes(path, LARGEST, "the experiment file")
-        .map_err(|input_error| Error::experiment(*input_error))
-}
-
-fn as_text<'b>(bytes: &'b [u8], path: &Path) -> Result<&'b str> {
-    text_decoding::as_text(bytes).map_err(|input_error| Error::experiment(input_error.in_file(path)))
-}
-
 fn read_text(path: &Path) -> Result<String> {
-    let bytes = read_bytes(path)?;
-    Ok(as_text(&bytes, path)?.to_owned())
+    decoding::read_text(path, LARGEST, "the experiment file").map_err(Error::Experiment)
 }
 
 impl ExperimentFile {
@@ -313,9 +304,10 @@ impl Experiment {
     /// # Errors
     /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = read_bytes(path)?;
-        let source = HashedFile::of_bytes(file_name(path), &bytes);
-        Ok(Self { source, ..Self::parse(as_text(&bytes, path)?, Some(path))? })
+        let (text, source) = decoding::parsed(path, (LARGEST, "the experiment file"), |bytes| {
+            Ok((decoding::as_text(bytes)?.to_owned(), HashedFile::of_bytes(file_name(path), bytes)))
+        })?;
+        Ok(Self { source, ..Self::parse(&text, Some(path))? })
     }
 
     /// Reads the text of an experiment file. `file` serves only for its name in errors.
