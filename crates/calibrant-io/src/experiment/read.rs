@@ -62,14 +62,8 @@ struct SectionAlone {
 /// As [`Experiment::read`], whatever section is wrong. [`Error::Experiment`] where there is no `[columns]`
 /// section, or an empty one.
 pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
-    let text = read_text(path)?;
-    let document = Document::parse(&text, Some(path))?;
-    let columns = if document.has_others(&["schema", "columns"]) {
-        Experiment::parse(&text, Some(path))?.columns
-    } else {
-        let alone: SectionAlone = document.read()?;
-        options_of(alone.columns.as_ref()).map_err(|error| document.placed(error))?
-    };
+    let alone = |alone: &SectionAlone| options_of(alone.columns.as_ref());
+    let columns = one_section(path, "columns", alone, |experiment| experiment.columns)?;
     if columns == ImuReadOptions::default() {
         return Err(nothing_there(
             path,
@@ -87,14 +81,8 @@ pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
 /// As [`Experiment::read`], whatever section is wrong. [`Error::Experiment`] where there is no `[accept]`
 /// section, or an empty one.
 pub fn read_acceptance(path: &Path) -> Result<Vec<AcceptanceLimit>> {
-    let text = read_text(path)?;
-    let document = Document::parse(&text, Some(path))?;
-    let limits = if document.has_others(&["schema", "accept"]) {
-        Experiment::parse(&text, Some(path))?.accept
-    } else {
-        let alone: SectionAlone = document.read()?;
-        limits_of(alone.accept.as_ref()).map_err(|error| document.placed(error))?
-    };
+    let alone = |alone: &SectionAlone| limits_of(alone.accept.as_ref());
+    let limits = one_section(path, "accept", alone, |experiment| experiment.accept)?;
     if limits.is_empty() {
         return Err(nothing_there(
             path,
@@ -103,6 +91,21 @@ pub fn read_acceptance(path: &Path) -> Result<Vec<AcceptanceLimit>> {
         ));
     }
     Ok(limits)
+}
+
+/// What a file says in this section: alone, or as part of an experiment.
+fn one_section<T>(
+    path: &Path,
+    section: &str,
+    alone: impl Fn(&SectionAlone) -> Result<T>,
+    whole: impl Fn(Experiment) -> T,
+) -> Result<T> {
+    let text = decoding::read_text(path, LARGEST, "the experiment file").map_err(Error::Experiment)?;
+    let document = Document::parse(&text, Some(path))?;
+    if document.has_others(&["schema", section]) {
+        return Experiment::parse(&text, Some(path)).map(whole);
+    }
+    alone(&document.read()?).map_err(|error| document.placed(error))
 }
 
 fn nothing_there(path: &Path, message: &str, help: &str) -> Error {
@@ -115,10 +118,6 @@ fn options_of(section: Option<&ColumnsSection>) -> Result<ImuReadOptions> {
 
 fn limits_of(section: Option<&AcceptSection>) -> Result<Vec<AcceptanceLimit>> {
     section.map_or(Ok(Vec::new()), acceptance_limits)
-}
-
-fn read_text(path: &Path) -> Result<String> {
-    decoding::read_text(path, LARGEST, "the experiment file").map_err(Error::Experiment)
 }
 
 impl ExperimentFile {
