@@ -138,7 +138,7 @@ impl Imu {
 /// Reads the noise densities of Kalibr's `imu.yaml`: the plain file that Kalibr reads, or one that it wrote.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file: not readable, no YAML, no noise in it, a number that is not positive.
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) with the file: not readable, no YAML, no noise in it, a number that is not positive.
 pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
     decoding::parsed(path, (LARGEST, "the imu.yaml"), |bytes| {
         let noise = parse(decoding::as_text(bytes)?)?.noise()?;

@@ -54,7 +54,7 @@ struct Coefficient {
 /// datasheet's value there.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file. It is not readable or not a `noise.json`. Its noise is not that of a
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) with the file. It is not readable or not a `noise.json`. Its noise is not that of a
 /// sensor at rest. A number is not positive. It has counts of a sensor whose calibration is of SI readings.
 pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
     decoding::parsed(path, (LARGEST, "noise.json"), |bytes| {

@@ -21,7 +21,7 @@ const HELP: &str =
 /// and `up_z` are not read.
 ///
 /// # Errors
-/// [`Error::Experiment`] with file and line. The file cannot be read or is not text. A column is missing, a
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) with file and line. The file cannot be read or is not text. A column is missing, a
 /// value is no number, a direction has no length, or there is no pose.
 pub fn read_poses(path: &Path) -> Result<Vec<Vector3<f64>>> {
     decoding::parsed(path, (LARGEST_FILE, "the poses"), parse)
@@ -30,7 +30,7 @@ pub fn read_poses(path: &Path) -> Result<Vec<Vector3<f64>>> {
 /// Writes the direction that is up in each pose, and the pose in words.
 ///
 /// # Errors
-/// [`Error::Output`] where it cannot be written.
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
 pub fn write_poses(path: &Path, directions: &[Vector3<f64>], words: &[String]) -> Result<()> {
     write_atomically(path, |out| {
         writeln!(out, "pose,up_x,up_y,up_z,words")?;
