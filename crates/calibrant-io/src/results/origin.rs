@@ -15,7 +15,7 @@ pub struct Origin {
     pub recorded: Option<UtcTime>,
     /// Where it was made.
     pub station: Option<String>,
-    /// The experiment file.
+    /// The experiment: its file, or its text where it came from none.
     pub experiment: Option<HashedFile>,
     /// The commanded motion, or the log of a machine, where it is one file for all recordings.
     pub motion: Option<HashedFile>,
