@@ -25,123 +25,83 @@
 //! nothing silently: it returns a [`Diagnostic`](calibrant_core::diagnostic::Diagnostic). Every result is written beside its place and then renamed
 //! ([`write_atomically`]), so it is whole or absent.
 
-mod atomic_output;
-mod calibration;
-mod comparison;
 mod convention;
-mod corrected_recording;
-mod delimited_text;
-mod dense_motion;
-mod design;
-mod diagnostics;
-mod earlier_calibration;
-mod exact_number;
 mod experiment;
-mod experiment_presets;
-mod ferraris_sections;
-mod finished;
-mod hashed_file;
-mod heading;
-mod input;
+mod files;
 mod inspection;
-mod json;
 mod machine;
-mod machine_calibration;
-mod machine_truth;
-mod machine_validation;
-mod manifest;
 mod motion;
-mod name_pattern;
-mod noise;
-mod origin;
-mod pose_design;
-mod poses;
-mod program;
-mod reach;
 mod recording;
-mod reference_inspection;
 mod reference_log;
-mod result_places;
-mod resume_key;
-mod sampling;
-mod sensor_naming;
-mod standard_input;
-mod stated_rate;
-#[cfg(feature = "study")]
-mod study;
-mod summary;
-mod sweep;
+mod results;
 mod table;
-mod text_decoding;
-mod text_excerpt;
-mod true_parameter;
+mod text;
 mod truth;
-mod utc_time;
 
-pub use atomic_output::{remove_unfinished, write_atomically, write_text};
-pub use calibration::CalibrationFile;
-pub use comparison::ComparisonFile;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ConvertedFile, ImuCore, ImuFormat, ImuNoise, RawUnits, WrittenImu,
     calibrated_imu_texts, imu_tk_files, parse_calibrated_imu, parse_estimates, read_calibrated_imu,
     read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
-pub use corrected_recording::{check_not_corrected, write_corrected_recording};
-pub use dense_motion::write_dense_motion;
-pub use design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
-pub use diagnostics::Judgement;
-pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
+pub use experiment::presets::{PRESETS, Preset, preset};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
     MachinePlan, MachineSimulation, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions,
     UnknownVariant, UrdfSource, experiment_keys, nearest, read_acceptance, read_columns,
     sections as experiment_sections,
 };
-pub use experiment_presets::{PRESETS, Preset, preset};
-pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
-pub use finished::Finished;
-pub use hashed_file::HashedFile;
-pub use heading::Heading;
-pub use input::{Input, file_name};
-pub use inspection::{HoldsInspection, Inspection, InspectionFile, SensorInspection, inspect};
-pub use json::{SCHEMA, to_json, write_json};
+pub use files::atomic_output::{remove_unfinished, write_atomically, write_text};
+pub use files::finished::Finished;
+pub use files::hashed_file::HashedFile;
+pub use files::name_pattern::NamePattern;
+pub use files::result_places::{ClaimedPlaces, ResultPlaces};
+pub use files::resume_key::ResumeKey;
+pub use files::sensor_naming::{NamedRecording, SensorNaming};
+pub use files::utc_time::UtcTime;
+pub use inspection::recording::{HoldsInspection, Inspection, InspectionFile, SensorInspection, inspect};
+pub use inspection::reference_log::{
+    JointInspection, Jumps, PoseInspection, ReferenceInspection, ReferenceInspectionFile, Seen,
+    inspect_reference_log,
+};
+pub use inspection::sampling::Sampling;
 pub use machine::{MACHINE_PRESETS, MachineFile, MissingMesh, Urdf, machine_preset, missing_limits};
-pub use machine_calibration::{MachineCalibrationFile, MachineLogInput, MachineResult};
-pub use machine_truth::TrueMachine;
-pub use motion::{parse_motion, read_motion, write_motion};
-pub use name_pattern::NamePattern;
-pub use noise::NoiseFile;
-pub use origin::Origin;
-pub use pose_design::{PoseDesignFile, PoseEvaluationFile};
-pub use poses::{read_poses, write_poses};
-pub use program::program;
-pub use reach::{Reached, ReachedGoal};
+pub use motion::commanded::{parse_motion, read_motion, write_motion};
+pub use motion::dense::write_dense_motion;
+pub use motion::poses::{read_poses, write_poses};
+pub use recording::corrected::{check_not_corrected, write_corrected_recording};
+pub use recording::ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, imu_from_columns,
     imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
     write_imu_recording, write_recording,
 };
-pub use reference_inspection::{
-    JointInspection, Jumps, PoseInspection, ReferenceInspection, ReferenceInspectionFile, Seen,
-    inspect_reference_log,
-};
 pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,
     read_reference_log, write_joint_log, write_pose_log,
 };
-pub use result_places::{ClaimedPlaces, ResultPlaces};
-pub use resume_key::ResumeKey;
-pub use sampling::Sampling;
-pub use sensor_naming::{NamedRecording, SensorNaming};
+pub use results::calibration::CalibrationFile;
+pub use results::comparison::ComparisonFile;
+pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
+pub use results::diagnostics::Judgement;
+pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
+pub use results::heading::Heading;
+pub use results::input::{Input, file_name};
+pub use results::json::{SCHEMA, to_json, write_json};
+pub use results::machine_calibration::{MachineCalibrationFile, MachineLogInput, MachineResult};
+pub use results::noise::NoiseFile;
+pub use results::origin::Origin;
+pub use results::pose_design::{PoseDesignFile, PoseEvaluationFile};
+pub use results::program::program;
+pub use results::reach::{Reached, ReachedGoal};
 #[cfg(feature = "study")]
-pub use study::StudyFile;
-pub use summary::{
+pub use results::study::StudyFile;
+pub use results::summary::{
     Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, spreadsheet_text, unit_ending,
     write_summary,
 };
-pub use sweep::write_sweep_csv;
+pub use results::sweep::write_sweep_csv;
 pub use table::{Column, ColumnValues, Table, TableFormat};
-pub use text_decoding::{Checked, open_file, read_text};
-pub use truth::Truth;
-pub use utc_time::UtcTime;
+pub use text::decoding::{Checked, open_file, read_text};
+pub use truth::machine::TrueMachine;
+pub use truth::sensors::Truth;

@@ -1,7 +1,7 @@
 //! Vectors and matrices in the form in which files list them.
 
 use super::words::invalid;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::sensor::Axis;
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,6 +1,6 @@
 //! Numbers in a C header: written as constants, and read back by name.
 
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use nalgebra::{Matrix3, Vector3};
 

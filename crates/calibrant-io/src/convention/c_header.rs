@@ -9,10 +9,9 @@
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, matrix, numbers, vector};
-use super::words::{input_error, invalid, written_by};
+use super::words::{invalid, singular, written_by};
 use super::{CalibratedImuFile, ImuFormat, c_temperature};
-use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
+use crate::text::decoding::Checked;
 use calibrant_core::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -146,11 +145,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         let name = format!("calibrant_{sensor_kind}_bias");
         let bias = numbers(text, &name, 3)?.ok_or_else(|| invalid(format!("`{name}` is missing"), HELP))?;
         let Some(matrix) = Matrix3::from_row_slice(&correction).try_inverse() else {
-            return Err(input_error(
-                Refusal::CalibrationUnusable,
-                format!("the matrix of the {sensor_kind} is singular"),
-                "calibrate again",
-            ));
+            return Err(singular(sensor_kind));
         };
         let sensor = SensorParameters { bias: vector3(&bias, &name)?, matrix };
         *unit = Some(unit_of(text, sensor_kind)?);
@@ -177,13 +172,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     quantities.extend(terms.into_iter().filter(|term| term.value(&parameters) != 0.0));
     let frame = text.lines().find_map(|line| line.strip_prefix(" * frame: ")).unwrap_or("not said");
     let imu = CalibratedImu::new(parameters, units, quantities, frame.trim());
-    Ok(CalibratedImuFile {
-        imu,
-        noise: None,
-        inputs: Vec::new(),
-        format: ImuFormat::CHeader,
-        findings: Vec::new(),
-    })
+    Ok(CalibratedImuFile::new(imu, ImuFormat::CHeader))
 }
 
 fn unit_of(text: &str, sensor_kind: SensorKind) -> Checked<ReadingUnit> {

@@ -3,7 +3,7 @@
 use super::arrays::vector3;
 use super::c_constants::{HELP, number, numbers, vector};
 use super::words::invalid;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use std::fmt::Write;

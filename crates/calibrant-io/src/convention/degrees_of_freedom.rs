@@ -1,7 +1,7 @@
 //! The degrees of freedom behind the covariance in our JSON files: the object `covariance_degrees_of_freedom`.
 
 use super::words::invalid;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::sensor::CovarianceDegrees;
 use serde::Deserialize;
 

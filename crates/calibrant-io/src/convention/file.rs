@@ -2,7 +2,7 @@
 
 use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
-use crate::input::Input;
+use crate::results::input::Input;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::sensor::CalibratedImu;
 use std::path::PathBuf;
@@ -23,6 +23,14 @@ pub struct CalibratedImuFile {
     pub format: ImuFormat,
     /// What the reader assumed or ignored.
     pub findings: Vec<Diagnostic>,
+}
+
+impl CalibratedImuFile {
+    /// This calibration in this format, with nothing beside it.
+    #[must_use]
+    pub fn new(imu: CalibratedImu, format: ImuFormat) -> Self {
+        Self { imu, noise: None, inputs: Vec::new(), format, findings: Vec::new() }
+    }
 }
 
 /// The result of writing a calibration.

@@ -1,7 +1,7 @@
 //! The formats of calibrations: their names, and how a file is recognised.
 
 use super::words::invalid;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Noise densities that are given beside a calibration.
 
 use super::words::invalid;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::RatesDiffer;
 use calibrant_core::sensor::SensorKind;

@@ -11,10 +11,10 @@
 //! # References
 //! `tedaldi2014`, `imu_tk`
 
-use super::words::{input_error, invalid, written_by};
+use super::words::{input_error, invalid, singular, unit_named, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
-use crate::delimited_text::Lines;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
+use crate::text::delimited::Lines;
 use calibrant_core::diagnostic::Phrase;
 use calibrant_core::diagnostic::convention::FormatSupposed;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
@@ -141,9 +141,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         let error = InputError::new(Refusal::CalibrationInvalid, message, help);
         return Err(error.answered_by(TaskOption::Sensor, ["accelerometer", "gyroscope"]).into());
     };
-    let stated = unit.as_deref().map(|stated| {
-        [sensor_kind.stimulus_unit(), ReadingUnit::Counts].into_iter().find(|unit| unit.symbol() == stated)
-    });
+    let stated = unit.as_deref().map(|stated| unit_named(stated, sensor_kind));
     let unit = match stated {
         Some(Some(unit)) => unit,
         Some(None) => {
@@ -171,11 +169,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     };
     let matrix = |first: usize| Matrix3::from_row_slice(&numbers[first..first + 9]);
     let Some(inverse) = (matrix(0) * matrix(9)).try_inverse() else {
-        return Err(input_error(
-            Refusal::CalibrationUnusable,
-            format!("the matrix of the {sensor_kind} is singular"),
-            "calibrate again",
-        ));
+        return Err(singular(sensor_kind));
     };
     let sensor = SensorParameters { bias: Vector3::from_column_slice(&numbers[18..]), matrix: inverse };
     let mut parameters = ImuParameters::identity();
@@ -191,13 +185,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         ImuQuantity::full_list(accelerometer, !accelerometer, false),
         frame.unwrap_or_else(|| "imu_tk's: that of its accelerometer, z along its z axis".into()),
     );
-    Ok(CalibratedImuFile {
-        imu,
-        noise: None,
-        inputs: Vec::new(),
-        format: ImuFormat::ImuTk,
-        findings: Vec::new(),
-    })
+    Ok(CalibratedImuFile::new(imu, ImuFormat::ImuTk))
 }
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(SensorKind, String)>> {

@@ -15,8 +15,8 @@
 use super::arrays::{matrix3, rows, vector3};
 use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
-use crate::json;
-use crate::text_decoding::Checked;
+use crate::results::json;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Phrase;
 use calibrant_core::diagnostic::convention::FormatSupposed;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
@@ -167,7 +167,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         ImuQuantity::full_list(true, true, true),
         frame.unwrap_or("imucal's: that of the faces on which the device was put"),
     );
-    Ok(CalibratedImuFile { imu, noise: None, inputs: Vec::new(), format: ImuFormat::Imucal, findings })
+    Ok(CalibratedImuFile { findings, ..CalibratedImuFile::new(imu, ImuFormat::Imucal) })
 }
 
 /// `K` and `R` of `S = K R`: the lengths of the rows, and rows of length 1.

@@ -5,12 +5,12 @@
 //! list of parameters has the quantities of the covariance. The reader refuses a file where they contradict
 //! each other.
 
-use super::super::input::Input;
 use super::arrays::{Rows, matrix3, missing, vector3};
 use super::degrees_of_freedom::DegreesCore;
 use super::temperature::TemperatureCore;
-use super::words::invalid;
-use crate::text_decoding::Checked;
+use super::words::{invalid, unit_named};
+use crate::results::input::Input;
+use crate::text::decoding::Checked;
 use calibrant_core::form::block;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
@@ -137,15 +137,12 @@ impl ImuCore {
 
 impl SensorCore {
     fn into_sensor(self, sensor_kind: SensorKind) -> Checked<(ReadingUnit, SensorParameters, Matrix3<f64>)> {
-        let unit = [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
-            .into_iter()
-            .find(|unit| unit.symbol() == self.reading_unit)
-            .ok_or_else(|| {
-                invalid(
-                    format!("`{sensor_kind}.reading_unit` is \"{}\"", self.reading_unit),
-                    &format!("write \"{}\" or \"counts\"", sensor_kind.stimulus_unit().symbol()),
-                )
-            })?;
+        let unit = unit_named(&self.reading_unit, sensor_kind).ok_or_else(|| {
+            invalid(
+                format!("`{sensor_kind}.reading_unit` is \"{}\"", self.reading_unit),
+                &format!("write \"{}\" or \"counts\"", sensor_kind.stimulus_unit().symbol()),
+            )
+        })?;
         let (bias_name, bias) = match unit {
             ReadingUnit::MetrePerSecondSquared => ("bias_mps2", self.bias_mps2),
             ReadingUnit::RadianPerSecond => ("bias_radps", self.bias_radps),

@@ -18,14 +18,14 @@
 use super::arrays::{matrix3, vector3};
 use super::file::LARGEST;
 use super::imu_noise::ImuNoise;
-use super::words::{input_error, invalid, written_by};
+use super::words::{input_error, invalid, singular, unit_named, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
-use crate::text_decoding::{self, Checked};
+use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::convention::{
     FormatLoses, FormatNeeds, FormatSupposed, FrameTurned, LeverArmIgnored,
 };
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{InputError, Refusal, Result};
 use calibrant_core::sensor::{
     CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -142,15 +142,12 @@ impl Imu {
 /// Reads the noise densities of Kalibr's `imu.yaml`: the plain file that Kalibr reads, or one that it wrote.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file: not readable, no YAML, no noise in it, a number that is not positive.
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) with the file: not readable, no YAML, no noise in it, a number that is not positive.
 pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
-    let read = || -> Checked<ImuNoise> {
-        let bytes = text_decoding::read_bytes(path, LARGEST, "the imu.yaml")?;
-        parse(text_decoding::as_text(&bytes)?)?
-            .noise()?
-            .ok_or_else(|| invalid("there are no noise densities in it", HELP))
-    };
-    read().map_err(|input_error| Error::experiment(input_error.in_file(path)))
+    decoding::parsed(path, (LARGEST, "the imu.yaml"), |bytes| {
+        let noise = parse(decoding::as_text(bytes)?)?.noise()?;
+        noise.ok_or_else(|| invalid("there are no noise densities in it", HELP))
+    })
 }
 
 pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
@@ -229,7 +226,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         _ => true,
     });
     let imu = CalibratedImu::new(parameters, [accelerometer_unit, gyroscope_unit], quantities, frame);
-    Ok(CalibratedImuFile { imu, noise, inputs: Vec::new(), format: ImuFormat::Kalibr, findings })
+    Ok(CalibratedImuFile { noise, findings, ..CalibratedImuFile::new(imu, ImuFormat::Kalibr) })
 }
 
 fn unit_of(
@@ -239,12 +236,9 @@ fn unit_of(
 ) -> Checked<ReadingUnit> {
     match stated {
         None => Ok(given.map_or(sensor_kind.stimulus_unit(), |units| units.unit(sensor_kind))),
-        Some(stated) => [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
-            .into_iter()
-            .find(|unit| unit.symbol() == stated)
-            .ok_or_else(|| {
-                invalid(format!("`calibrant.{sensor_kind}_unit` is \"{stated}\""), "m/s², rad/s or counts")
-            }),
+        Some(stated) => unit_named(stated, sensor_kind).ok_or_else(|| {
+            invalid(format!("`calibrant.{sensor_kind}_unit` is \"{stated}\""), "m/s², rad/s or counts")
+        }),
     }
 }
 
@@ -281,13 +275,7 @@ fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, 
     let l = Gauge::Lower.apply(&SensorParameters { bias: Vector3::zeros(), matrix: *s }).matrix;
     let l = Matrix3::from_fn(|row, column| if column > row { 0.0 } else { l[(row, column)] });
     let q = l.try_inverse().map(|inverse| inverse * s);
-    q.map(|q| (l, q)).ok_or_else(|| {
-        input_error(
-            Refusal::CalibrationUnusable,
-            format!("the matrix of the {sensor_kind} is singular"),
-            "calibrate again",
-        )
-    })
+    q.map(|q| (l, q)).ok_or_else(|| singular(sensor_kind))
 }
 
 pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) -> Checked<String> {

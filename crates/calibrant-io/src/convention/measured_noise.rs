@@ -4,10 +4,10 @@
 use super::ImuNoise;
 use super::file::LARGEST;
 use super::words::invalid;
-use crate::json::{self, SCHEMA};
-use crate::text_decoding::{self, Checked};
+use crate::results::json::{self, SCHEMA};
+use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::{Error, Result};
+use calibrant_core::error::Result;
 use calibrant_core::sensor::{Axis, CalibratedImu, ReadingUnit, SensorKind};
 use serde::Deserialize;
 use std::path::Path;
@@ -55,12 +55,11 @@ struct Coefficient {
 /// datasheet's value there.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file. It is not readable or not a `noise.json`. Its noise is not that of a
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) with the file. It is not readable or not a `noise.json`. Its noise is not that of a
 /// sensor at rest. A number is not positive. It has counts of a sensor whose calibration is of SI readings.
 pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
-    let read = || -> Checked<ImuNoise> {
-        let bytes = text_decoding::read_bytes(path, LARGEST, "noise.json")?;
-        let file: NoiseFile = serde_json::from_str(text_decoding::as_text(&bytes)?)
+    decoding::parsed(path, (LARGEST, "noise.json"), |bytes| {
+        let file: NoiseFile = serde_json::from_str(decoding::as_text(bytes)?)
             .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
         if let Some(schema) = file.schema.filter(|schema| *schema > SCHEMA) {
             let message = format!("it is of version {schema}, and this program knows up to {SCHEMA}");
@@ -71,8 +70,7 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
             take(&mut noise, sensor, imu)?;
         }
         noise.checked()
-    };
-    read().map_err(|input_error| Error::experiment(input_error.in_file(path)))
+    })
 }
 
 fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<()> {

@@ -3,7 +3,7 @@
 use super::file::{CalibratedImuFile, LARGEST};
 use super::options::ConventionOptions;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
-use crate::text_decoding::{self, Checked};
+use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::convention::UnitGiven;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::SensorKind;
@@ -38,9 +38,7 @@ pub fn read_calibrated_imu(path: &Path, options: &ConventionOptions) -> Result<C
 }
 
 fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFile> {
-    let bytes = text_decoding::read_bytes(path, LARGEST, "the calibration")
-        .map_err(|input_error| Error::experiment(*input_error))?;
-    parse(&bytes, options).map_err(|input_error| Error::experiment(input_error.in_file(path)))
+    decoding::parsed(path, (LARGEST, "the calibration"), |bytes| parse(bytes, options))
 }
 
 /// Reads the bytes of a calibration of an IMU.
@@ -61,11 +59,11 @@ fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFil
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_calibrated_imu(bytes: &[u8], options: &ConventionOptions) -> Result<CalibratedImuFile> {
-    parse(bytes, options).map_err(|input_error| Error::experiment(*input_error))
+    parse(bytes, options).map_err(Error::Experiment)
 }
 
 fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile> {
-    let text = text_decoding::as_text(bytes)?;
+    let text = decoding::as_text(bytes)?;
     let format = match options.format {
         Some(format) => format,
         None => ImuFormat::of_content(text)?,

@@ -4,7 +4,7 @@
 
 use super::arrays::{missing, vector3};
 use super::words::invalid;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::sensor::{ReadingUnit, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use serde::Deserialize;

@@ -3,8 +3,8 @@
 use super::json_core::{check_direction, quantity_of};
 use super::words::invalid;
 use super::{CalibratedImuFile, ImuFormat};
-use crate::json;
-use crate::text_decoding::Checked;
+use crate::results::json;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::convention::ValuesExact;
 use calibrant_core::sensor::{
     Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
@@ -110,11 +110,6 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     if imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::Thermal(..))) {
         imu.parameters.thermal.reference_c = file.reference_c.ok_or_else(|| missing("reference_c"))?;
     }
-    Ok(CalibratedImuFile {
-        imu,
-        noise: None,
-        inputs: Vec::new(),
-        format: ImuFormat::CalibrantJson,
-        findings: vec![ValuesExact { seed: file.seed.map(|seed| seed as usize) }.into()],
-    })
+    let findings = vec![ValuesExact { seed: file.seed.map(|seed| seed as usize) }.into()];
+    Ok(CalibratedImuFile { findings, ..CalibratedImuFile::new(imu, ImuFormat::CalibrantJson) })
 }

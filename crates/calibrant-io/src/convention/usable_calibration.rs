@@ -1,7 +1,7 @@
 //! The check that every calibration must pass to be usable, whatever its format.
 
 use super::words::{input_error, invalid};
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, ImuCorrection, SensorKind};
 use nalgebra::{DMatrix, Matrix3};

@@ -3,8 +3,8 @@
 use super::file::{CalibratedImuFile, WrittenImu};
 use super::words::input_error;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
-use crate::atomic_output::write_text;
-use crate::text_decoding::Checked;
+use crate::files::atomic_output::write_text;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::FormatLoses;
 use calibrant_core::error::{Error, Refusal, Result};
@@ -19,7 +19,7 @@ use std::path::Path;
 /// [`Error::Experiment`] with the reason where the format cannot carry the correction. [`Error::Output`]
 /// where a file cannot be written.
 pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFormat) -> Result<WrittenImu> {
-    let (texts, warnings) = text_of(file, format).map_err(|input_error| Error::experiment(*input_error))?;
+    let (texts, warnings) = text_of(file, format).map_err(Error::Experiment)?;
     let mut files = Vec::new();
     for (sensor_kind, text) in &texts {
         let place = match sensor_kind {
@@ -40,7 +40,7 @@ pub fn calibrated_imu_texts(
     file: &CalibratedImuFile,
     format: ImuFormat,
 ) -> Result<Vec<(Option<SensorKind>, String)>> {
-    text_of(file, format).map(|(texts, _)| texts).map_err(|input_error| Error::experiment(*input_error))
+    text_of(file, format).map(|(texts, _)| texts).map_err(Error::Experiment)
 }
 
 type Texts = (Vec<(Option<SensorKind>, String)>, Vec<Diagnostic>);

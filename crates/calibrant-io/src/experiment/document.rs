@@ -4,7 +4,7 @@ use super::fault::Fault;
 use super::known_keys::suggest;
 use super::similar_word::shorten;
 use super::toml_value::TomlValue;
-use crate::text_excerpt::error_at;
+use crate::text::excerpt::error_at;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use serde::Deserialize;
 use std::ops::Range;

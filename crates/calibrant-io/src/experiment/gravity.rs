@@ -6,42 +6,35 @@ use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 
-/// The keys of gravity in a section.
-pub(super) struct GravityKeys {
-    pub(super) section: &'static str,
-    pub(super) gravity_mps2: Option<f64>,
-    pub(super) gravity_sd_mps2: Option<Within<GravitySd>>,
-    pub(super) latitude_deg: Option<Within<Latitude>>,
-    pub(super) height_m: Option<Within<Height>>,
-}
-
-impl GravityKeys {
-    /// The magnitude of gravity. Beside a value a latitude may serve for the Earth's rate.
-    pub(super) fn magnitude(&self, with_earth_rate: bool) -> Result<Gravity> {
-        /// The remedy for missing or contradictory gravity.
-        const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
-        let key = |key: &str| format!("{}.{key}", self.section);
-        let sd = self.gravity_sd_mps2.map(f64::from);
-        let (latitude, height) = (self.latitude_deg.map(f64::from), self.height_m.map(f64::from));
-        let twice = |at: &str, more: &str| {
-            Err(refused(key(at), "gravity is given twice", format!("{HELP}, not both{more}")))
-        };
-        match (self.gravity_mps2, latitude, height) {
-            (Some(_), Some(_), _) if !with_earth_rate => twice("latitude_deg", ""),
-            (Some(_), _, Some(_)) if with_earth_rate => {
-                twice("height_m", "; latitude_deg alone may stand beside it, for the Earth's rate")
-            }
-            (Some(_), _, Some(_)) => twice("height_m", ""),
-            (Some(magnitude_mps2), _, None) => Ok(Gravity { magnitude_mps2, sd_mps2: sd.unwrap_or(0.0) }),
-            (None, Some(latitude), Some(height)) => {
-                let gravity = Gravity::from_latitude(latitude, height);
-                Ok(Gravity { sd_mps2: sd.unwrap_or(gravity.sd_mps2), ..gravity })
-            }
-            (None, Some(_), None) => Err(missing(key("height_m"), "latitude_deg and height_m go together")),
-            (None, None, Some(_)) => {
-                Err(missing(key("latitude_deg"), "latitude_deg and height_m go together"))
-            }
-            (None, None, None) => Err(missing(key("gravity_mps2"), HELP)),
+/// Gravity, from the keys of this section: a magnitude with its standard uncertainty, or latitude and height. Beside
+/// a magnitude a latitude may serve for the Earth's rate.
+pub(super) fn gravity_of(
+    section: &str,
+    (magnitude, sd): (Option<f64>, Option<Within<GravitySd>>),
+    (latitude, height): (Option<Within<Latitude>>, Option<Within<Height>>),
+    with_earth_rate: bool,
+) -> Result<Gravity> {
+    /// The remedy for missing or contradictory gravity.
+    const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
+    let key = |key: &str| format!("{section}.{key}");
+    let sd = sd.map(f64::from);
+    let (latitude, height) = (latitude.map(f64::from), height.map(f64::from));
+    let twice = |at: &str, more: &str| {
+        Err(refused(key(at), "gravity is given twice", format!("{HELP}, not both{more}")))
+    };
+    match (magnitude, latitude, height) {
+        (Some(_), Some(_), _) if !with_earth_rate => twice("latitude_deg", ""),
+        (Some(_), _, Some(_)) if with_earth_rate => {
+            twice("height_m", "; latitude_deg alone may stand beside it, for the Earth's rate")
         }
+        (Some(_), _, Some(_)) => twice("height_m", ""),
+        (Some(magnitude_mps2), _, None) => Ok(Gravity { magnitude_mps2, sd_mps2: sd.unwrap_or(0.0) }),
+        (None, Some(latitude), Some(height)) => {
+            let gravity = Gravity::from_latitude(latitude, height);
+            Ok(Gravity { sd_mps2: sd.unwrap_or(gravity.sd_mps2), ..gravity })
+        }
+        (None, Some(_), None) => Err(missing(key("height_m"), "latitude_deg and height_m go together")),
+        (None, None, Some(_)) => Err(missing(key("latitude_deg"), "latitude_deg and height_m go together")),
+        (None, None, None) => Err(missing(key("gravity_mps2"), HELP)),
     }
 }

@@ -1,7 +1,7 @@
 //! `[holds]`: static calibration in several poses.
 
 use super::direction::Direction;
-use super::gravity::GravityKeys;
+use super::gravity::gravity_of;
 use super::number::{Within, size, within};
 use super::ranges::{Duration, GravityMps2, GravitySd, Height, HoldSd, Latitude, Rate, SmallTilt, Time};
 use super::refused_key::refused;
@@ -127,7 +127,7 @@ impl HoldsPlan {
     /// [`Error::Experiment`](calibrant_core::Error::Experiment) where neither a value of it nor latitude and height are given.
     pub fn gravity(&self) -> Result<Gravity> {
         // beside a value, a latitude serves for Earth's rate: `check` says for which sensors
-        self.gravity_keys().magnitude(true)
+        self.gravity_where(true)
     }
 
     /// The unit vectors of the directions, where they are known.
@@ -142,20 +142,15 @@ impl HoldsPlan {
         self.face_sd_deg.map(|sd| sd.get().to_radians())
     }
 
-    fn gravity_keys(&self) -> GravityKeys {
-        GravityKeys {
-            section: "holds",
-            gravity_mps2: self.gravity_mps2.map(f64::from),
-            gravity_sd_mps2: self.gravity_sd_mps2,
-            latitude_deg: self.latitude_deg,
-            height_m: self.height_m,
-        }
+    fn gravity_where(&self, with_earth_rate: bool) -> Result<Gravity> {
+        let value = (self.gravity_mps2.map(f64::from), self.gravity_sd_mps2);
+        gravity_of("holds", value, (self.latitude_deg, self.height_m), with_earth_rate)
     }
 
     /// Refuses keys that contradict each other. The gyroscope of an IMU senses Earth's rate: a latitude beside
     /// a value of gravity serves for that.
     pub(super) fn check(&self, is_imu: bool) -> Result<()> {
-        self.gravity_keys().magnitude(is_imu)?;
+        self.gravity_where(is_imu)?;
         let (hold_s, rate_hz) = (self.hold_s, self.rate_hz);
         if hold_s * rate_hz < 1.0 - 1e-9 {
             let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");

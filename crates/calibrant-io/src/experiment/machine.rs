@@ -2,7 +2,7 @@
 
 use super::ImuPlan;
 use super::direction::Direction;
-use super::gravity::GravityKeys;
+use super::gravity::gravity_of;
 use super::machine_mount::MountSection;
 use super::machine_simulation::MachineSimulation;
 use super::machine_source::UrdfSource;
@@ -180,14 +180,8 @@ impl MachinePlan {
     }
 
     fn gravity(&self) -> Result<Gravity> {
-        let keys = GravityKeys {
-            section: "machine",
-            gravity_mps2: self.gravity_mps2.map(f64::from),
-            gravity_sd_mps2: self.gravity_sd_mps2,
-            latitude_deg: self.latitude_deg,
-            height_m: self.height_m,
-        };
-        keys.magnitude(false)
+        let value = (self.gravity_mps2.map(f64::from), self.gravity_sd_mps2);
+        gravity_of("machine", value, (self.latitude_deg, self.height_m), false)
     }
 
     /// The same machine, its paths in the directory of the experiment file.

@@ -33,6 +33,7 @@ mod number;
 mod plan;
 mod pose_problem;
 mod poses;
+pub(crate) mod presets;
 mod problem;
 pub mod ranges;
 mod read;

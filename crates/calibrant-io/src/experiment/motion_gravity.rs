@@ -3,7 +3,7 @@
 //! Three numbers give it in the sensor's axes; for a sensor of one axis one number may stand for them. A
 //! direction (`gravity = "z"`) takes its magnitude as `[holds]` does, from a value or from latitude and height.
 
-use super::gravity::GravityKeys;
+use super::gravity::gravity_of;
 use super::motion::MotionSection;
 use super::number::{Either, PerAxis, Range};
 use super::ranges::{GravityComponent, GravityMps2, LARGEST_GRAVITY, LEAST_GRAVITY};
@@ -36,14 +36,8 @@ impl MotionSection {
                     }
                     _ => None,
                 };
-                let keys = GravityKeys {
-                    section: "motion",
-                    gravity_mps2: magnitude,
-                    gravity_sd_mps2: self.gravity_sd_mps2,
-                    latitude_deg: self.latitude_deg,
-                    height_m: self.height_m,
-                };
-                let gravity = keys.magnitude(false)?;
+                let (value, place) = ((magnitude, self.gravity_sd_mps2), (self.latitude_deg, self.height_m));
+                let gravity = gravity_of("motion", value, place, false)?;
                 (up.unit() * gravity.magnitude_mps2, gravity.sd_mps2)
             }
             (None, Some(value)) => {

@@ -10,8 +10,9 @@ use super::refused_key::{missing, refused};
 use super::remedies::remedy;
 use super::spreads::need_spreads;
 use super::{CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions};
-use crate::experiment_presets::preset;
-use crate::{HashedFile, ImuReadOptions, file_name, text_decoding};
+use crate::experiment::presets::preset;
+use crate::text::decoding;
+use crate::{HashedFile, ImuReadOptions, file_name};
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
@@ -61,14 +62,8 @@ struct SectionAlone {
 /// As [`Experiment::read`], whatever section is wrong. [`Error::Experiment`] where there is no `[columns]`
 /// section, or an empty one.
 pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
-    let text = read_text(path)?;
-    let document = Document::parse(&text, Some(path))?;
-    let columns = if document.has_others(&["schema", "columns"]) {
-        Experiment::parse(&text, Some(path))?.columns
-    } else {
-        let alone: SectionAlone = document.read()?;
-        options_of(alone.columns.as_ref()).map_err(|error| document.placed(error))?
-    };
+    let alone = |alone: &SectionAlone| options_of(alone.columns.as_ref());
+    let columns = one_section(path, "columns", alone, |experiment| experiment.columns)?;
     if columns == ImuReadOptions::default() {
         return Err(nothing_there(
             path,
@@ -86,14 +81,8 @@ pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
 /// As [`Experiment::read`], whatever section is wrong. [`Error::Experiment`] where there is no `[accept]`
 /// section, or an empty one.
 pub fn read_acceptance(path: &Path) -> Result<Vec<AcceptanceLimit>> {
-    let text = read_text(path)?;
-    let document = Document::parse(&text, Some(path))?;
-    let limits = if document.has_others(&["schema", "accept"]) {
-        Experiment::parse(&text, Some(path))?.accept
-    } else {
-        let alone: SectionAlone = document.read()?;
-        limits_of(alone.accept.as_ref()).map_err(|error| document.placed(error))?
-    };
+    let alone = |alone: &SectionAlone| limits_of(alone.accept.as_ref());
+    let limits = one_section(path, "accept", alone, |experiment| experiment.accept)?;
     if limits.is_empty() {
         return Err(nothing_there(
             path,
@@ -102,6 +91,21 @@ pub fn read_acceptance(path: &Path) -> Result<Vec<AcceptanceLimit>> {
         ));
     }
     Ok(limits)
+}
+
+/// What a file says in this section: alone, or as part of an experiment.
+fn one_section<T>(
+    path: &Path,
+    section: &str,
+    alone: impl Fn(&SectionAlone) -> Result<T>,
+    whole: impl Fn(Experiment) -> T,
+) -> Result<T> {
+    let text = decoding::read_text(path, LARGEST, "the experiment file").map_err(Error::Experiment)?;
+    let document = Document::parse(&text, Some(path))?;
+    if document.has_others(&["schema", section]) {
+        return Experiment::parse(&text, Some(path)).map(whole);
+    }
+    alone(&document.read()?).map_err(|error| document.placed(error))
 }
 
 fn nothing_there(path: &Path, message: &str, help: &str) -> Error {
@@ -114,20 +118,6 @@ fn options_of(section: Option<&ColumnsSection>) -> Result<ImuReadOptions> {
 
 fn limits_of(section: Option<&AcceptSection>) -> Result<Vec<AcceptanceLimit>> {
     section.map_or(Ok(Vec::new()), acceptance_limits)
-}
-
-fn read_bytes(path: &Path) -> Result<Vec<u8>> {
-    text_decoding::read_bytes(path, LARGEST, "the experiment file")
-        .map_err(|input_error| Error::experiment(*input_error))
-}
-
-fn as_text<'b>(bytes: &'b [u8], path: &Path) -> Result<&'b str> {
-    text_decoding::as_text(bytes).map_err(|input_error| Error::experiment(input_error.in_file(path)))
-}
-
-fn read_text(path: &Path) -> Result<String> {
-    let bytes = read_bytes(path)?;
-    Ok(as_text(&bytes, path)?.to_owned())
 }
 
 impl ExperimentFile {
@@ -313,9 +303,10 @@ impl Experiment {
     /// # Errors
     /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = read_bytes(path)?;
-        let source = HashedFile::of_bytes(file_name(path), &bytes);
-        Ok(Self { source, ..Self::parse(as_text(&bytes, path)?, Some(path))? })
+        let (text, source) = decoding::parsed(path, (LARGEST, "the experiment file"), |bytes| {
+            Ok((decoding::as_text(bytes)?.to_owned(), HashedFile::of_bytes(file_name(path), bytes)))
+        })?;
+        Ok(Self { source, ..Self::parse(&text, Some(path))? })
     }
 
     /// Reads the text of an experiment file. `file` serves only for its name in errors.

@@ -1,8 +1,8 @@
 //! An element of an XML file, and errors that name it.
 
 use crate::experiment::shorten;
-use crate::text_decoding::Checked;
-use crate::text_excerpt::error_at;
+use crate::text::decoding::Checked;
+use crate::text::excerpt::error_at;
 use calibrant_core::error::{InputError, Refusal};
 use roxmltree::Node;
 use std::ops::Range;

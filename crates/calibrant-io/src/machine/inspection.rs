@@ -1,7 +1,7 @@
 //! What `inspect` says of a machine, as JSON.
 
 use super::{MissingMesh, Urdf};
-use crate::heading::Heading;
+use crate::results::heading::Heading;
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_machine::chain::{Joint, JointKind, KinematicChain, reach_m};

@@ -2,7 +2,7 @@
 
 use super::element::{Element, Place};
 use crate::experiment::shorten;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_machine::chain::{Joint, JointKind, JointLimits};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};

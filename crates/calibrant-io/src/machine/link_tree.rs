@@ -3,7 +3,7 @@
 use super::element::Place;
 use super::joint::UrdfJoint;
 use crate::experiment::{nearest, shorten};
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
 use std::collections::HashMap;
 

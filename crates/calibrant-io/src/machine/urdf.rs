@@ -5,8 +5,8 @@ use super::joint::{ChainJoint, UrdfJoint};
 use super::link_tree::LinkTree;
 use super::meshes::{Mesh, MissingMesh, missing};
 use crate::experiment::shorten;
-use crate::text_decoding::{Checked, as_text, read_bytes, too_large};
-use crate::text_excerpt::error_at;
+use crate::text::decoding::{Checked, as_text, parsed, too_large};
+use crate::text::excerpt::error_at;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
 use nalgebra::Isometry3;
@@ -37,9 +37,7 @@ impl Urdf {
     /// # Errors
     /// [`Error::Experiment`] with line and element: see [`Self::parse`]. The file cannot be read, or is larger than 16 MiB.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes =
-            read_bytes(path, LARGEST_BYTES, "a URDF file").map_err(|error| Error::experiment(*error))?;
-        let read = read(&bytes).map_err(|error| Error::experiment(error.in_file(path)))?;
+        let read = parsed(path, (LARGEST_BYTES, "a URDF file"), read)?;
         Ok(Self { file: Some(path.to_path_buf()), ..read })
     }
 
@@ -60,7 +58,7 @@ impl Urdf {
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn parse(bytes: &[u8]) -> Result<Self> {
-        read(bytes).map_err(|error| Error::experiment(*error))
+        read(bytes).map_err(Error::Experiment)
     }
 
     /// The joints between two links. Without a base it begins at the root. Without a tip it ends where the machine does.

@@ -3,7 +3,7 @@
 
 use super::checksum::hex;
 use super::size::LARGEST;
-use crate::text_decoding::{self, Checked};
+use crate::text::decoding::{self, Checked};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
@@ -28,7 +28,7 @@ pub(crate) struct FileBeginning {
 impl FileBeginning {
     /// Files that begin as `is_binary` says are read whole. No other file may have a NUL byte.
     pub(crate) fn read(path: &Path, is_binary: impl Fn(&[u8]) -> bool) -> Checked<Self> {
-        let file = text_decoding::open_file(path, "the recording")?;
+        let file = decoding::open_file(path, "the recording")?;
         let length = file.metadata().map_or(0, |metadata| metadata.len()).min(TRUSTED);
         let mut pieces = Pieces { file, length, hash: Sha256::new(), read: 0, ended: false, cut: Vec::new() };
         let mut bytes = Vec::new();
@@ -51,7 +51,7 @@ impl FileBeginning {
         loop {
             // a device or a disk image must not fill the memory
             if !self.is_binary && memchr::memchr(0, &self.bytes[examined..]).is_some() {
-                text_decoding::as_text(&self.bytes)?;
+                decoding::as_text(&self.bytes)?;
             }
             if pieces.ended {
                 return Ok(());
@@ -113,12 +113,12 @@ impl Pieces {
         let before = bytes.len();
         bytes.reserve(PIECE + 1);
         let read = self.file.by_ref().take(PIECE as u64).read_to_end(bytes);
-        read.map_err(|error| text_decoding::unreadable("the recording", &error))?;
+        read.map_err(|error| decoding::unreadable("the recording", &error))?;
         self.hash.update(&bytes[before..]);
         self.read += (bytes.len() - before) as u64;
         self.ended = bytes.len() - before < PIECE;
         if self.read > LARGEST {
-            return Err(text_decoding::too_large("the recording", LARGEST).into());
+            return Err(decoding::too_large("the recording", LARGEST).into());
         }
         Ok(())
     }
@@ -137,6 +137,6 @@ impl Pieces {
 impl Piece {
     /// Its text, which follows this number of lines.
     pub(crate) fn text(&self, before: usize) -> Checked<&str> {
-        text_decoding::as_text_at(&self.bytes, self.offset, before)
+        decoding::as_text_at(&self.bytes, self.offset, before)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::line_map::LineMap;
 use super::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, Ticks, TimesFromFirst};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};

@@ -1,6 +1,6 @@
 //! A check for a lost sign: negative readings that were written as positive ones, as two's complement.
 
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{Axis, ReadingUnit, Recording};
 

@@ -3,7 +3,7 @@
 use super::cdr::Unreadable;
 use super::mcap_footer::Cut;
 use super::mcap_records::chunk_lengths_add_up;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::counted;

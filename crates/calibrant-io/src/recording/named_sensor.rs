@@ -2,7 +2,7 @@
 
 use super::chunked_reader::FileBeginning;
 use super::text_header::Head;
-use crate::text_decoding::{self, Checked};
+use crate::text::decoding::{self, Checked};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use std::path::Path;
 
@@ -17,7 +17,7 @@ pub(crate) fn sensor_named_in(path: &Path, key: &str) -> Result<String> {
     };
     let named = || -> Checked<String> {
         let beginning = FileBeginning::read(path, |_| false)?;
-        let head = Head::find(text_decoding::as_text(&beginning.bytes)?)?;
+        let head = Head::find(decoding::as_text(&beginning.bytes)?)?;
         let mut names = of_lines(&head, key);
         names.extend(of_column(head, key));
         let other = names.iter().find(|name| Some(*name) != names.first());

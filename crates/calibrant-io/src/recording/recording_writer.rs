@@ -1,6 +1,6 @@
 //! Writes `recording.csv`.
 
-use crate::atomic_output::write_atomically;
+use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, ImuRecording, Recording, SensorKind};
 use std::path::Path;

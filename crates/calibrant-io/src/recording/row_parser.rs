@@ -1,8 +1,8 @@
 //! Parses one row of a recording: its fields as numbers, each in its slot, or an error that points at the
 //! field.
 
-use crate::delimited_text::{Delimiter, Line, last_number_is_cut};
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
+use crate::text::delimited::{Delimiter, Line, last_number_is_cut};
 use calibrant_core::error::{InputError, Refusal};
 use std::ops::Range;
 

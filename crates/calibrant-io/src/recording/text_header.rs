@@ -1,7 +1,7 @@
 //! The lines above the rows of a text: comments, lines of `key: value`, and the header.
 
-use crate::delimited_text::{Delimiter, Line, Lines};
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
+use crate::text::delimited::{Delimiter, Line, Lines};
 use calibrant_core::error::{InputError, Refusal};
 
 /// The beginning of a text, up to its first row.

@@ -4,8 +4,8 @@ use super::checksum::hex_sha256;
 use super::chunked_reader::{FileBeginning, Pieces};
 use super::size::estimated_rows;
 use super::text_header::Head;
-use crate::delimited_text::{Line, Lines};
-use crate::text_decoding::{self, Checked};
+use crate::text::decoding::{self, Checked};
+use crate::text::delimited::{Line, Lines};
 
 /// A text, or its first lines and its remainder.
 pub(crate) struct Source<'s> {
@@ -29,7 +29,7 @@ pub(crate) fn of_bytes<T: Send>(
     bytes: &[u8],
     read: impl Fn(Source<'_>) -> Checked<T> + Sync,
 ) -> Checked<(T, String)> {
-    let text = text_decoding::as_text(bytes)?;
+    let text = decoding::as_text(bytes)?;
     let source = || Source { text, length: text.len(), rest: None };
     let (file, sha256) = rayon::join(|| read(source()), || hex_sha256(bytes));
     Ok((file?, sha256))
@@ -43,7 +43,7 @@ pub(crate) fn of_file<T: Send>(
 ) -> Checked<(T, String)> {
     let length = beginning.length();
     if let Some(mut rest) = beginning.rest.take() {
-        let text = text_decoding::as_text(&beginning.bytes)?;
+        let text = decoding::as_text(&beginning.bytes)?;
         if Head::find(text).is_ok() {
             let file = read(Source { text, length, rest: Some(&mut rest) })?;
             return Ok((file, rest.sha256()));

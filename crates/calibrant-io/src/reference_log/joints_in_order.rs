@@ -3,7 +3,7 @@
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use crate::experiment::nearest;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
@@ -31,7 +31,7 @@ impl ReferenceLogFile {
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn joints_in_order(&self, names: &[&str]) -> Result<JointLog> {
-        let columns = self.columns_of(names).map_err(|input_error| Error::recording(*input_error))?;
+        let columns = self.columns_of(names).map_err(Error::Recording)?;
         let log = self.joints().ok_or_else(|| Error::recording(no_joints()))?;
         let width = log.names.len();
         let picked = |values: &[f64]| -> Vec<f64> {

@@ -10,7 +10,7 @@ use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
 use crate::recording::tally::Tally;
 use crate::recording::{TimeUnit, recording_quality};
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, ValuesMissing};
 use calibrant_core::error::{InputError, Refusal};

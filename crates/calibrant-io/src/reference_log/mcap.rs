@@ -12,7 +12,7 @@ use super::messages::{JointState, Message, Pose, TYPES};
 use super::rows::Rows;
 use crate::recording::TimeUnit;
 use crate::recording::mcap_container::{Bag, Topics};
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use std::collections::BTreeMap;
 
 pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFile> {

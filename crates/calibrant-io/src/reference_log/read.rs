@@ -11,7 +11,7 @@ use crate::recording::checksum::hex_sha256;
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::ColumnsIgnored;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -57,7 +57,7 @@ pub fn read_reference_log(path: &Path, options: &ReferenceLogOptions) -> Result<
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_reference_log(bytes: &[u8], options: &ReferenceLogOptions) -> Result<ReferenceLogFile> {
-    parse(bytes, options).map_err(|input_error| Error::recording(*input_error))
+    parse(bytes, options).map_err(Error::Recording)
 }
 
 fn parse(bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
@@ -106,5 +106,5 @@ fn read_mcap(bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLo
 
 #[cfg(not(feature = "mcap"))]
 fn read_mcap(_: &[u8], _: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    crate::text_decoding::without("mcap")
+    crate::text::decoding::without("mcap")
 }

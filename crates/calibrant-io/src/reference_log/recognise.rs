@@ -7,7 +7,7 @@ use super::read::{is_bag, read_reference_log};
 use super::text_columns::{TextColumns, first_row};
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::text_header::Head;
-use crate::text_decoding;
+use crate::text::decoding;
 use std::path::Path;
 
 /// Is a file a log of joints or poses, by its beginning? Its rows may still be broken.
@@ -17,7 +17,7 @@ pub fn is_reference_log(path: &Path, options: &ReferenceLogOptions) -> bool {
     if is_bag(&beginning.bytes) {
         return read_reference_log(path, options).is_ok();
     }
-    let Ok(text) = text_decoding::as_text(&beginning.bytes) else { return false };
+    let Ok(text) = decoding::as_text(&beginning.bytes) else { return false };
     let Ok(head) = Head::find(text) else { return false };
     let Ok(columns) = TextColumns::find(&head, options) else { return false };
     // eight columns without a header may be anything

@@ -1,10 +1,10 @@
 //! The values of the rows of a log.
 
-use crate::delimited_text::Line;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
 use crate::recording::text_source::RowTaker;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
+use crate::text::delimited::Line;
 
 /// The values of a log as the file gives them, row by row. NaN is a missing value.
 #[derive(Default)]

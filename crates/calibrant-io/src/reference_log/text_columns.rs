@@ -5,12 +5,12 @@ use super::format::ReferenceFormat;
 use super::joint_columns::{JointColumn, joint_column, rtde_column};
 use super::options::ReferenceLogOptions;
 use super::pose_columns::{NAMES, PoseColumn, VALUES, pose_column};
-use crate::delimited_text::Delimiter;
 use crate::recording::imu_column;
 use crate::recording::row_parser::Layout;
 use crate::recording::text_header::Head;
 use crate::recording::{ColumnMeaning, ColumnUnit, TimeUnit};
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
+use crate::text::delimited::Delimiter;
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal};
 

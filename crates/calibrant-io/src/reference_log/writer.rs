@@ -1,6 +1,6 @@
 //! Writes `joints.csv` and `poses.csv`.
 
-use crate::atomic_output::write_atomically;
+use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::Result;
 use calibrant_machine::log::{JointLog, PoseLog};
 use std::path::Path;

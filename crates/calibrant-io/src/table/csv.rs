@@ -1,7 +1,7 @@
 //! A table as CSV.
 
 use super::columns::{ColumnValues, Table};
-use crate::summary::spreadsheet_text;
+use crate::results::summary::spreadsheet_text;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 

@@ -1,7 +1,7 @@
 //! A table as a Parquet file. Only columns of whole numbers are not optional.
 
 use super::columns::{ColumnValues, Table};
-use crate::program::program;
+use crate::results::program::program;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};

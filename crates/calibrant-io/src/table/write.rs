@@ -5,7 +5,7 @@ use super::csv;
 use super::format::TableFormat;
 #[cfg(feature = "parquet")]
 use super::parquet;
-use crate::atomic_output::write_atomically;
+use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::Result;
 use std::path::Path;
 

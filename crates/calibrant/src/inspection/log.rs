@@ -41,8 +41,8 @@ fn joints(joints: &[JointInspection]) -> Table {
     for joint in joints {
         let mut row = vec![
             Cell::name(&joint.name),
-            Cell::significant(joint.range.0, 5),
-            Cell::significant(joint.range.1, 5),
+            Cell::significant(joint.least, 5),
+            Cell::significant(joint.most, 5),
             Cell::text(if joint.has_velocities { "yes" } else { "no" }),
         ];
         row.extend(seen(&joint.seen));

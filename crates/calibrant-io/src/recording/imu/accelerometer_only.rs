@@ -9,7 +9,7 @@ use super::unit::ColumnUnit;
 use super::{column_names, imu_tk};
 use crate::recording::text_header::Head;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ColumnsIgnored, UnitUnexpected};
 use calibrant_core::error::Refusal;

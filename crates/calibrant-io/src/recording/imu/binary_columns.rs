@@ -2,7 +2,7 @@
 
 use super::column_values::{READINGS, SLOTS, Samples, TIME, slots_of};
 use crate::recording::row_parser::Sense;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;

@@ -1,11 +1,11 @@
 //! The values of a file's used columns, in the units of the file, whatever its format.
 
 use super::column::ColumnMeaning;
-use crate::delimited_text::Line;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
 use crate::recording::text_source::RowTaker;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
+use crate::text::delimited::Line;
 use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 use std::ops::Range;

@@ -6,7 +6,7 @@ use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::unit::ColumnUnit;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};

@@ -1,7 +1,7 @@
 //! The formats of recordings, and how the content of a file shows its format.
 
 use crate::recording::text_header::Head;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use serde::{Deserialize, Serialize};
 

@@ -8,7 +8,7 @@ use super::unit::ColumnUnit;
 use super::{column_names, headerless_text};
 use crate::recording::text_header::Head;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 

@@ -4,7 +4,7 @@ use super::column_names;
 use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
 use crate::recording::text_header::Head;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::Refusal;
 
 pub(super) fn draft(head: &Head<'_>) -> Checked<Draft> {

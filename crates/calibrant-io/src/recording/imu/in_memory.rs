@@ -9,7 +9,7 @@ use super::options::ImuReadOptions;
 use super::read::finish;
 use super::two_files::joined;
 use crate::recording::checksum::hex_of_lists;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
@@ -34,7 +34,7 @@ use calibrant_core::sensor::{ImuRecording, SensorKind};
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn imu_from_columns(columns: &[(&str, &[f64])], options: &ImuReadOptions) -> Result<ImuFile> {
-    read(columns, options).map_err(|input_error| Error::recording(*input_error))
+    read(columns, options).map_err(Error::Recording)
 }
 
 /// Two recordings as one: the accelerometer of the first, the gyroscope of the second. Each has its own sample times, and the clock is one.

@@ -13,7 +13,7 @@ use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::mcap_container::{Bag, MessageType};
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::sensor::{Axis, SensorKind};
 

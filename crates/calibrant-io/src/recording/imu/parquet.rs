@@ -8,7 +8,7 @@ use super::format::FileFormat;
 use super::parquet_pages::Pages;
 use super::unit::ColumnUnit;
 use crate::recording::time_unit::TimeUnit;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use bytes::Bytes;
 use calibrant_core::budget::Budget;
 use calibrant_core::error::{InputError, Refusal};

@@ -20,8 +20,8 @@ use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::recording::time_unit::TimeUnit;
 #[cfg(not(all(feature = "mcap", feature = "parquet")))]
-use crate::text_decoding::without;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::without;
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
@@ -85,7 +85,7 @@ pub(super) fn with_checksum((file, sha256): (ImuFile, String)) -> ImuFile {
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
-    parse(bytes, options).map_err(|input_error| Error::recording(*input_error))
+    parse(bytes, options).map_err(Error::Recording)
 }
 
 pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {

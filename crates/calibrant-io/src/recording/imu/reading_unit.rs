@@ -5,7 +5,7 @@ use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};

@@ -13,7 +13,7 @@ use crate::recording::line_map::LineMap;
 use crate::recording::lost_sign;
 use crate::recording::recording_quality;
 use crate::recording::tally::Tally;
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{

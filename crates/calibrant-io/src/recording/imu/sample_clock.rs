@@ -6,7 +6,7 @@ use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use crate::recording::clock_column::{ClockColumn, unwrap};
-use crate::text_decoding::{Checked, refuse};
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};

@@ -6,7 +6,7 @@ use super::read::{beginning, rows, with_checksum};
 use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
-use crate::text_decoding::Checked;
+use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::reader::{
     ColumnsIgnored, FileShorter, FileTimes, FilesApart, Span, TimesFromFirst,
 };

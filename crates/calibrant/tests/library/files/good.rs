@@ -3,8 +3,8 @@
 use calibrant::design::SurfaceSettings;
 use calibrant::estimate::{Gyroscope, ImuSetup};
 use calibrant::io::{
-    CriterionLetter, Experiment, ExperimentFile, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Preset,
-    Prior, ScaleBy, experiment_keys, preset,
+    CriterionLetter, Experiment, ExperimentFile, HashedFile, HoldsPlan, MotionPlan, NoisyVariant, PRESETS,
+    Plan, Preset, Prior, ScaleBy, experiment_keys, preset,
 };
 use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
@@ -245,6 +245,17 @@ fn files_are_read_with_byte_order_mark_and_refused_when_no_text() {
     );
     let error = Experiment::read(directory.path()).expect_err("a directory").to_string();
     assert!(error.contains("this is a directory, not the experiment file"), "{error}");
+}
+
+#[test]
+fn an_experiment_has_the_hash_of_its_text_and_of_its_file() {
+    let text = preset("imu").expect("known");
+    assert_eq!(parse(text).source, HashedFile::of_bytes("experiment", text.as_bytes()));
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("imu.toml");
+    std::fs::write(&path, [b"\xef\xbb\xbf", text.as_bytes()].concat()).expect("written");
+    let read = Experiment::read(&path).expect("valid");
+    assert_eq!((read.source.file.as_str(), Some(&read.source)), ("imu.toml", HashedFile::of(&path).as_ref()));
 }
 
 #[test]

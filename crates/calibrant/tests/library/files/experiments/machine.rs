@@ -1,6 +1,8 @@
 //! Tests of `[machine]`: what is known of the machine, and what contradicts itself.
 
-use calibrant::io::{Experiment, MachinePlan, Plan, UrdfSource, preset};
+use calibrant::io::{
+    Experiment, ExperimentFile, MachinePlan, Plan, Urdf, UrdfSource, machine_preset, preset,
+};
 use calibrant::machine::estimate::{MachineSetup, MachineTrust, MountingPrior};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::path::Path;
@@ -88,6 +90,22 @@ fn the_machines_of_the_presets_are_built_in() {
     }
     let mocap = Experiment::parse(preset("mocap").expect("known"), None).expect("valid");
     assert!(!plan(&mocap).has_joints());
+}
+
+#[test]
+fn a_machine_that_is_built_in_code_stands_in_place_of_a_file() {
+    let arm = Urdf::parse(machine_preset("arm").expect("known").as_bytes()).expect("a machine");
+    let chain = arm.chain(None, None).expect("joints");
+    let mut file = ExperimentFile::preset("arm").expect("known");
+    let of_file = file.experiment().expect("valid");
+    let machine = file.machine.as_mut().expect("on a machine");
+    (machine.urdf, machine.base, machine.tip) = (None, None, None);
+    assert!(file.experiment().is_err(), "its geometry needs joints");
+    file.machine.as_mut().expect("on a machine").chain = Some(Box::new(chain.clone()));
+    let built = file.experiment().expect("valid");
+    assert_eq!(plan(&built).kinematic_chain().expect("built"), Some(chain));
+    let setup = |of: &Experiment| plan(of).setup(&of.sensor, of.imu.as_ref(), 6).expect("valid");
+    assert_eq!(setup(&built), setup(&of_file));
 }
 
 /// Lines after those of [`LEAST`], and what is said of them.

@@ -1,0 +1,51 @@
+//! The manifest of a folder: which files in it this program wrote, by their checksums. So a file that somebody
+//! edited is not taken for a result, and a CSV begins with its header.
+//!
+//! It has a line of JSON for each file that was written, and a file is ours that has the name and the checksum of a line.
+//! Lines are only ever appended, so several runs may write into one folder.
+
+use super::hashed_file::checksum;
+use crate::results::program::program;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Its name.
+const NAME: &str = ".calibrant.jsonl";
+
+/// A file that was written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct WrittenFile {
+    file: String,
+    sha256: String,
+    program: String,
+    /// The calibration with which a recording was corrected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) corrected_with: Option<String>,
+}
+
+/// Enters a file into the manifest of its folder.
+pub(crate) fn enter(path: &Path, sha256: String, corrected_with: Option<&str>) -> io::Result<()> {
+    let Some((manifest, file)) = place(path) else { return Ok(()) };
+    let entry =
+        WrittenFile { file, sha256, program: program(), corrected_with: corrected_with.map(str::to_owned) };
+    let mut line = serde_json::to_vec(&entry)?;
+    line.push(b'\n');
+    // in one piece: so lines of several runs do not mix
+    std::fs::OpenOptions::new().append(true).create(true).open(manifest)?.write_all(&line)
+}
+
+/// The entry of a file that is as it was written; `None` for a file of others, or one that was edited.
+pub(crate) fn entry(path: &Path) -> Option<WrittenFile> {
+    let (manifest, file) = place(path)?;
+    let text = std::fs::read_to_string(manifest).ok()?;
+    let entries = text.lines().rev().filter_map(|line| serde_json::from_str::<WrittenFile>(line).ok());
+    let of_name: Vec<WrittenFile> = entries.filter(|entry| entry.file == file).collect();
+    let sha256 = if of_name.is_empty() { None } else { checksum(path) }?;
+    of_name.into_iter().find(|entry| entry.sha256 == sha256)
+}
+
+/// The manifest of a file's folder, and the file's name in it.
+fn place(path: &Path) -> Option<(std::path::PathBuf, String)> {
+    Some((path.with_file_name(NAME), path.file_name()?.to_string_lossy().into_owned()))
+}

@@ -1,0 +1,47 @@
+//! The files that a result came from.
+
+use crate::recording::stated_rate::stated_rate_hz;
+use calibrant_core::number_format::{count, significant};
+use calibrant_core::sensor::Recording;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The recording from which a calibration came.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Input {
+    /// Name of the file, without its directory, so that the result does not depend on the directory.
+    pub file: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// Number of samples read.
+    pub samples: usize,
+    /// Sample rate, Hz, with the digits that the times have.
+    pub rate_hz: f64,
+}
+
+impl Input {
+    /// Samples and rate, in words.
+    #[must_use]
+    pub fn samples_in_words(&self) -> String {
+        format!("{} at {} Hz", count(self.samples), significant(self.rate_hz, 5))
+    }
+
+    /// What was read of a file: `sha256` of its bytes, and the readings of its sensor.
+    #[must_use]
+    pub fn of(path: &Path, sha256: &str, readings: Option<&Recording>) -> Self {
+        Self {
+            file: file_name(path),
+            sha256: sha256.to_owned(),
+            samples: readings.map_or(0, Recording::len),
+            rate_hz: readings
+                .map_or(0.0, |of| stated_rate_hz(of.rate_hz(), of.times_s().last().copied().unwrap_or(0.0))),
+        }
+    }
+}
+
+/// Name of a file, without its directory.
+#[must_use]
+pub fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}

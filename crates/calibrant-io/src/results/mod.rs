@@ -1,0 +1,22 @@
+//! The results of commands, as they are written and read back.
+
+pub(crate) mod calibration;
+pub(crate) mod comparison;
+pub(crate) mod design;
+pub(crate) mod diagnostics;
+pub(crate) mod earlier_calibration;
+pub(crate) mod exact_number;
+pub(crate) mod heading;
+pub(crate) mod input;
+pub(crate) mod json;
+pub(crate) mod machine_calibration;
+pub(crate) mod machine_validation;
+pub(crate) mod noise;
+pub(crate) mod origin;
+pub(crate) mod pose_design;
+pub(crate) mod program;
+pub(crate) mod reach;
+#[cfg(feature = "study")]
+pub(crate) mod study;
+pub(crate) mod summary;
+pub(crate) mod sweep;

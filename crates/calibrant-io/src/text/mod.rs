@@ -1,0 +1,5 @@
+//! Text: decoded, split into fields, quoted in errors.
+
+pub(crate) mod decoding;
+pub(crate) mod delimited;
+pub(crate) mod excerpt;
