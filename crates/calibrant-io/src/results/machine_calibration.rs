@@ -5,7 +5,7 @@ use super::heading::Heading;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
 use calibrant_core::estimate::FitInUnit;
-use calibrant_core::form::rows;
+use calibrant_core::form::{As, rows};
 use calibrant_core::json::{flat, if_any, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{ImuFields, ReadingUnit, SensorKind};
@@ -158,6 +158,7 @@ struct Quantity {
     unit: &'static str,
     value: f64,
     sd: f64,
+    #[serde(with = "As::<Option<f64>>")]
     prior_sd: f64,
     /// By how much correlation in time widens the standard deviation.
     inflation: f64,

@@ -8,24 +8,26 @@ const UNITS: [(&str, &str); 21] = [
     ("_deg", "°"),
     ("_hz", "Hz"),
     ("_radps", "rad/s"),
-    ("_radps2", "rad/s²"),
     ("_rad", "rad"),
     ("_mps", "m/s"),
     ("_mps2", "m/s²"),
     ("_mps3", "m/s³"),
+    ("_mps2_per_sqrt_hz", "m/s²/√Hz"),
+    ("_mps3_per_sqrt_hz", "m/s³/√Hz"),
+    ("_radps_per_sqrt_hz", "rad/s/√Hz"),
+    ("_radps2_per_sqrt_hz", "rad/s²/√Hz"),
     ("_m", "m"),
-    ("_m2", "m²"),
     ("_ppm", "ppm"),
-    ("_percent", "%"),
     ("_per_k", "1/K"),
+    ("_per_k2", "1/K²"),
     ("_c", "°C"),
     ("_s", "s"),
-    ("_sd", "sd"),
+    ("_in_sd", "sd"),
+    ("_robust_sd", "sd"),
     ("_share", "1"),
-    ("_kg", "kg"),
-    ("_n", "N"),
-    ("_w", "W"),
 ];
+/// An enumeration with more names is not listed.
+const MOST_NAMES: usize = 12;
 
 /// A table with a row for each key; nothing for a schema without keys. A key without a meaning of its own has that of its type.
 pub(super) fn key_table(schema: &Value, definitions: &Map<String, Value>) -> String {
@@ -34,8 +36,7 @@ pub(super) fn key_table(schema: &Value, definitions: &Map<String, Value>) -> Str
         |key: &str| schema["required"].as_array().is_some_and(|required| required.iter().any(|of| of == key));
     let row = |(key, of): (&String, &Value)| {
         let mark = if is_required(key) { "" } else { "?" };
-        let meaning = meaning(of, definitions).unwrap_or_default().replace('\n', " ");
-        let meaning = meaning.replace('|', "\\|");
+        let meaning = meaning(of, definitions).map_or_else(String::new, first_paragraph).replace('|', "\\|");
         format!("| `{key}`{mark} | {} | {} | {meaning} |\n", type_of(of), unit_of(key))
     };
     let mut rows: String = properties.iter().map(row).collect();
@@ -45,8 +46,17 @@ pub(super) fn key_table(schema: &Value, definitions: &Map<String, Value>) -> Str
     format!("\n| key | type | unit | meaning |\n|---|---|---|---|\n{rows}")
 }
 
+/// The first paragraph of a doc comment in one line; names of code are no links.
+pub(super) fn first_paragraph(text: &str) -> String {
+    let paragraph = text.split("\n\n").next().unwrap_or_default().replace('\n', " ");
+    let mut parts = paragraph.split("`](");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let after_link = |part: &str| format!("`{}", part.split_once(')').map_or(part, |(_, after)| after));
+    (first + &parts.map(after_link).collect::<String>()).replace("[`", "`").replace("`]", "`")
+}
+
 /// What a schema says of itself, or else the type within it.
-fn meaning<'s>(schema: &'s Value, definitions: &'s Map<String, Value>) -> Option<&'s str> {
+pub(super) fn meaning<'s>(schema: &'s Value, definitions: &'s Map<String, Value>) -> Option<&'s str> {
     schema["description"].as_str().or_else(|| match (name_of(schema), alternatives(schema)) {
         (Some(name), _) => definitions.get(name)?["description"].as_str(),
         (None, Some(any)) => any.iter().find_map(|one| meaning(one, definitions)),
@@ -78,6 +88,9 @@ pub(super) fn type_of(schema: &Value) -> String {
         return any.iter().map(type_of).collect::<Vec<_>>().join(" or ");
     }
     if let Some(values) = schema["enum"].as_array() {
+        if values.len() > MOST_NAMES {
+            return format!("one of {} names", values.len());
+        }
         return values.iter().map(|value| format!("`{}`", plain(value))).collect::<Vec<_>>().join(", ");
     }
     if let Some(value) = schema.get("const") {

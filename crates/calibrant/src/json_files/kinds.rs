@@ -7,6 +7,7 @@ use calibrant_io::{
 };
 #[cfg(feature = "records")]
 use calibrant_records::{Fleet, KeptRecord, RecordFile, SensorDrift, SensorHistory};
+use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 
 /// A kind of JSON file.
@@ -24,7 +25,7 @@ pub struct FileKind {
 
 impl FileKind {
     const fn of<T: JsonSchema>(name: &'static str, file: &'static str, command: &'static str) -> Self {
-        let root = || SchemaGenerator::default().into_root_schema_for::<T>();
+        let root = || generator().into_root_schema_for::<T>();
         Self { name, file, command, root, part: T::json_schema }
     }
 
@@ -93,6 +94,11 @@ impl FileKind {
     pub(super) fn part(self, generator: &mut SchemaGenerator) -> Schema {
         (self.part)(generator)
     }
+}
+
+/// Of schemas of what is written, not of what is read.
+pub(super) fn generator() -> SchemaGenerator {
+    SchemaSettings::default().for_serialize().into_generator()
 }
 
 #[cfg(test)]

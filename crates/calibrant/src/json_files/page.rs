@@ -1,9 +1,8 @@
 //! The page of the documentation on JSON files, from their schemas.
 
-use super::keys::{key_table, type_of};
-use super::kinds::FileKind;
+use super::keys::{first_paragraph, key_table, meaning, type_of};
+use super::kinds::{FileKind, generator};
 use calibrant_report::number_format::capitalised;
-use schemars::SchemaGenerator;
 use serde_json::{Map, Value};
 
 /// The head of the page.
@@ -17,23 +16,18 @@ Keys end in their unit; where the unit follows from the readings, it stands besi
 /// The text of `docs/json.md`: the kinds of files with their keys, and the types within them.
 #[must_use]
 pub fn json_page() -> String {
-    let mut generator = SchemaGenerator::default();
+    let mut generator = generator();
     let schemas: Vec<Value> = FileKind::ALL.iter().map(|kind| kind.part(&mut generator).to_value()).collect();
     let types = generator.take_definitions(true);
     let mut text = HEAD.to_owned();
-    for (kind, schema) in FileKind::ALL.iter().zip(&schemas) {
-        let file = capitalised(kind.file);
-        text.push_str(&format!(
-            "\n## {}\n\n{file}, by `calibrant {}`.{}\n",
-            kind.name,
-            kind.command,
-            about(schema)
-        ));
+    for (FileKind { name, file, command, .. }, schema) in FileKind::ALL.iter().zip(&schemas) {
+        let about = about(schema, &types);
+        text.push_str(&format!("\n## {name}\n\n{about}\n`calibrant {command}` writes it: {file}.\n"));
         text.push_str(&body(schema, &types));
     }
     text.push_str("\n## Types\n");
     for (name, schema) in &types {
-        text.push_str(&format!("\n### {name}\n\n{}\n{}", about(schema).trim(), body(schema, &types)));
+        text.push_str(&format!("\n### {name}\n\n{}\n{}", about(schema, &types), body(schema, &types)));
     }
     text
 }
@@ -46,7 +40,7 @@ fn body(schema: &Value, types: &Map<String, Value>) -> String {
     }
 }
 
-/// What a schema says of itself, in one line, after a blank; nothing where it says nothing.
-fn about(schema: &Value) -> String {
-    schema["description"].as_str().map_or_else(String::new, |about| format!(" {}", about.replace('\n', " ")))
+/// What a schema says of itself, in one line.
+fn about(schema: &Value, types: &Map<String, Value>) -> String {
+    meaning(schema, types).map_or_else(String::new, first_paragraph)
 }

@@ -23,6 +23,7 @@ mod imu;
 mod imu_recordings;
 mod interpolated_log;
 mod invariants;
+mod json_files;
 mod knocks;
 mod known_faces;
 mod large_rotation_errors;
