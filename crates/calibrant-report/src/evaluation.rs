@@ -150,14 +150,12 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
         )
     });
     sentences.extend(efficiency(assessment));
-    if let Some(efficiency) = assessment.efficiency() {
-        if efficiency > BLIND && most > WORTH_IT {
-            sentences.push(
-                "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \
-                 deviations."
-                    .to_string(),
-            );
-        }
+    if assessment.efficiency().is_some_and(|efficiency| efficiency > BLIND && most > WORTH_IT) {
+        sentences.push(
+            "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \
+             deviations."
+                .to_string(),
+        );
     }
     Some(most)
 }

@@ -10,18 +10,14 @@ use calibrant_study as study;
 use nalgebra::Vector3;
 
 mod batch_pages;
-#[path = "../examples/report_gallery/batches.rs"]
 mod batches;
 mod design_pages;
-#[path = "../examples/report_gallery/designs.rs"]
 mod designs;
-#[path = "../examples/report_gallery/fakes.rs"]
 mod fakes;
 mod imu_pages;
 mod machine_pages;
 mod noise_pages;
 #[cfg(feature = "study")]
-#[path = "../examples/report_gallery/studies.rs"]
 mod studies;
 #[cfg(feature = "study")]
 mod study_pages;

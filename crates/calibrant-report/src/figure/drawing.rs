@@ -31,7 +31,7 @@ pub(super) fn legend(entries: &[String]) -> String {
 
 /// A path that is not filled.
 pub(super) fn stroke(path: &str, colour: &str, width: f64) -> String {
-    format!("<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
+    format!("<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
 }
 
 /// A part of a bar: its share of the whole width, its colour, the colour of letters on it, a title that names it, and the text in it.

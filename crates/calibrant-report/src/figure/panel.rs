@@ -1,7 +1,7 @@
 //! One pair of axes and the series in it, as data.
 
 use super::colour::{BLACK, BLUE, VERMILLION};
-use super::ticks::{Ticked, ticked};
+use super::ticks::ticked;
 use calibrant_core::sensor::Axis;
 
 /// The look of a series.
@@ -301,7 +301,7 @@ impl Range {
     /// The axis that reaches all values.
     fn axis(&self, most: usize, step: Option<f64>, fraction: f64) -> AxisRange {
         match ticked((self.low, self.high), most, step).filter(|_| !self.log) {
-            Some(Ticked { range, step }) => AxisRange { range, step: Some(step) },
+            Some((range, step)) => AxisRange { range, step: Some(step) },
             None => AxisRange { range: self.padded(fraction), step },
         }
     }

@@ -18,7 +18,6 @@ pub(crate) fn trace_map(surface: &TraceSurface) -> Figure {
     let values = || places().filter_map(|(i, j)| known(i, j));
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     let mut panel = Panel::new("", "jerk u₁ of the first interval (m/s³)", "jerk u₂ of the second (m/s³)");
-    panel.square = true;
     if low <= high {
         let row = |j: usize| (0..jerks.len()).map(|i| known(i, j).unwrap_or(high)).collect();
         panel.map = Some(Map {

@@ -12,9 +12,15 @@ use std::sync::Arc;
 const WIDTH: f64 = 400.0;
 const HEIGHT: f64 = 270.0;
 const SQUARE_HEIGHT: f64 = 400.0;
+/// Makes a map nearly a square, beside the bar of its colours.
+const MAP_HEIGHT: f64 = 300.0;
 /// The panel as an SVG that takes the width of its column.
 pub(super) fn svg(panel: &Panel) -> String {
-    let height = if panel.square { SQUARE_HEIGHT } else { HEIGHT };
+    let height = match panel.map {
+        Some(_) => MAP_HEIGHT,
+        None if panel.square => SQUARE_HEIGHT,
+        None => HEIGHT,
+    };
     let Some(axes) = panel.axes() else {
         return nothing(panel, height);
     };
@@ -64,7 +70,7 @@ pub(super) fn svg(panel: &Panel) -> String {
         &kuva::render_to_svg(plots, layout),
         height,
         &panel.title,
-        if panel.square { "" } else { &ranges },
+        if panel.square || panel.map.is_some() { "" } else { &ranges },
     )
 }
 

@@ -75,7 +75,7 @@ fn a_motion_that_breaks_a_limit_or_determines_nothing_is_called_so() {
     broken.limits.velocity_mps = Some(Vector3::new(2.0, 10.0, 10.0));
     let html = design_sheet(&broken, &about()).html();
     assert_sound(&html);
-    assert!(html.contains("verdict bad") && html.contains("velocity of axis x: 3.14"));
+    assert!(html.contains("verdict bad") && html.contains("velocity of axis x is 3.14"));
 
     let limits = designs::arm();
     let problem = designs::problem(&sensor, &limits);
@@ -166,7 +166,9 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
     assert_sound(&html);
     assert!(
         html.contains("Breaks limits")
-            && html.contains("displacement of axis x: 20.00 m at 5 s, allowed 10 m")
+            && html.contains(
+                "displacement of axis x is 20.00 m at 5.000 s, 10.00 beyond the limit of 10.00 (100 %)"
+            )
     );
     assert!(html.contains("the limits &lt;clash&gt;"));
 

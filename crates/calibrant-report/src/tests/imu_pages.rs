@@ -8,7 +8,6 @@ use calibrant_core::estimate::{Calibration, GyroscopeCalibration, Recovered};
 use calibrant_core::noise::{Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
-#[path = "../../examples/report_gallery/imus.rs"]
 mod imus;
 
 fn gyroscope_of(calibration: &mut Calibration) -> &mut GyroscopeCalibration {

@@ -7,7 +7,6 @@ use calibrant_core::diagnostic::fit::NotConverged;
 use calibrant_core::estimate::CalibrationStatus;
 use nalgebra::Vector3;
 
-#[path = "../../examples/report_gallery/machines.rs"]
 mod machines;
 use machines::{MachineCase, machine_case};
 

@@ -62,7 +62,7 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
     let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], title, "fill=\"#1b1f24\"");
     svg += &format!("<text x=\"{middle}\" y=\"17\" font-size=\"15\" text-anchor=\"middle\">{title}</text>");
     svg += &axes(&view, half, labels);
-    svg += "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">";
+    svg += "<g stroke-linecap=\"round\" stroke-linejoin=\"round\">";
     for run in without_gaps(&scene.path) {
         svg += &stroke(&view.line(&run), colour::SKY, 0.8);
     }

@@ -1,4 +1,4 @@
-//! A whole IMU turned by hand for the gallery: simulated readings, really calibrated.
+//! A whole IMU turned by hand: simulated readings, really calibrated.
 
 use super::{estimate, motion, sensor};
 use estimate::{

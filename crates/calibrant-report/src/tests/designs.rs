@@ -1,4 +1,4 @@
-//! Made-up designs for the gallery: a swinging motion in place of the optimum, evaluated as the solver would.
+//! Made-up designs: a swinging motion in place of the optimum, evaluated as the solver would.
 
 use super::{design, information, motion, sensor, simulate};
 use design::{

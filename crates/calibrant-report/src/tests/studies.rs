@@ -1,4 +1,4 @@
-//! Made-up studies for the gallery: swings in place of the optima, errors drawn from the predicted
+//! Made-up studies: swings in place of the optima, errors drawn from the predicted
 //! covariance.
 
 use super::{design, designs, fakes, motion, sensor, simulate, study};

@@ -1,4 +1,4 @@
-//! A small arm that carries an IMU, for the gallery: simulated readings, really calibrated against joints or against poses.
+//! A small arm that carries an IMU,: simulated readings, really calibrated against joints or against poses.
 
 use super::sensor;
 use calibrant_machine::chain::{

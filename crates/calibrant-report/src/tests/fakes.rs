@@ -1,4 +1,4 @@
-//! Made-up results for the gallery: simulated readings, fitted only as far as a picture needs it.
+//! Made-up results: simulated readings, fitted only as far as a picture needs it.
 
 use super::{estimate, motion, sensor, study};
 use calibrant_core::diagnostic::holds::HoldLeftOut;
