@@ -143,7 +143,7 @@ pub use summary::{
     write_summary,
 };
 pub use sweep::write_sweep_csv;
-pub use table::{Column, ColumnValues, Table, TableFormat};
+pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text_decoding::{Checked, open_file, read_text};
 pub use truth::Truth;
 pub use utc_time::UtcTime;
