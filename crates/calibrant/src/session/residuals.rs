@@ -40,7 +40,7 @@ pub struct ResidualSeries {
     pub times_s: Vec<f64>,
     /// The residuals.
     pub residuals: Vec<f64>,
-    /// Predicted standard deviation of each: the noise of a sample, or what is expected of a hold or a rotation.
+    /// Predicted standard deviation of each: the noise of a sample; of a hold or a rotation that by which the residual is studentised, as in the figures.
     pub sd: Vec<f64>,
     /// Each in its standard deviations: the residual over `sd`; of a hold or a rotation it is studentised.
     pub whitened: Vec<f64>,
