@@ -101,7 +101,7 @@ pub use results::summary::{
     write_summary,
 };
 pub use results::sweep::write_sweep_csv;
-pub use table::{Column, ColumnValues, Table, TableFormat};
+pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text::decoding::{Checked, open_file, read_text};
 pub use truth::machine::TrueMachine;
 pub use truth::sensors::Truth;

@@ -164,10 +164,10 @@
 pub mod batch;
 mod correction;
 mod design_plan;
+mod design_remarks;
 pub mod inspection;
 mod json_files;
 mod noise_at_rest;
-mod rest_remark;
 pub mod session;
 mod simulation;
 #[cfg(feature = "study")]
@@ -187,11 +187,11 @@ pub use calibrant_report as report;
 pub use calibrant_study as study;
 pub use correction::{Applied, apply, read_for_correction};
 pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};
+pub use design_remarks::{rest_remark, sweep_remarks, undetermined_by};
 pub use json_files::{FileKind, json_page};
 /// The linear algebra in the signatures: vectors and matrices.
 pub use nalgebra;
 pub use noise_at_rest::{NoiseAtRest, NoiseOptions, noise, read_for_noise};
-pub use rest_remark::remark as rest_remark;
 pub use session::{Outcome, Readings, Session, SessionOptions, Source};
 pub use simulation::{Simulation, SimulationOptions, commanded_motion, simulate};
 #[cfg(feature = "study")]

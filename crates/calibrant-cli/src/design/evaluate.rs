@@ -2,17 +2,16 @@
 
 use super::Arguments;
 use super::job::{self, about};
-use super::output::undetermined;
 use super::output::{exit_of, write};
 use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
-use calibrant::DesignPlan;
 use calibrant::design::{DesignProblem, assess};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::MotionNotCompared;
 use calibrant::io::{DesignSetting, EvaluationFile, read_motion, to_json, write_json, write_text};
 use calibrant::report::evaluation_sheet;
+use calibrant::{DesignPlan, undetermined_by};
 use std::path::Path;
 
 pub(super) fn run(
@@ -42,12 +41,10 @@ pub(super) fn run(
     let page = arguments.output.join("evaluation.html");
     write_text(&page, &sheet.html())?;
     console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
-    for group in &assessment.evaluation.undetermined {
-        tell(undetermined(path.display().to_string(), group));
-    }
+    undetermined_by(&path.display().to_string(), &assessment.evaluation.undetermined).for_each(tell);
     let determined = assessment.evaluation.covariance.is_some();
     let optimum = match &assessment.optimum {
-        Ok(design) => exit_of(design),
+        Ok(design) => exit_of(job, design),
         Err(why) => {
             tell(MotionNotCompared { why: Phrase(why.to_string()) });
             Exit::NOT_IDENTIFIABLE

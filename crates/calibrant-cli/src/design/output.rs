@@ -2,17 +2,12 @@
 
 use super::arguments::Arguments;
 use super::job::about;
-use crate::diagnostics::tell;
+use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use crate::{budget, console, interruption};
+use crate::{budget, console};
 use calibrant::DesignPlan;
 use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
-use calibrant::diagnostic::Phrase;
-use calibrant::diagnostic::design::{
-    MotionUndetermined, SearchInterrupted, SearchNotConverged, SearchOutOfTime,
-};
-use calibrant::error::UndeterminedGroup;
 use calibrant::io::{
     DesignFile, DesignSetting, Reached, to_json, write_dense_motion, write_json, write_motion, write_text,
 };
@@ -34,7 +29,7 @@ pub(super) fn finish(
         reached.map(|(_, sentence)| sentence),
         &["motion.csv", "report.html"].map(|name| arguments.output.join(name)),
     );
-    Ok(exit_of(design))
+    Ok(exit_of(job, design))
 }
 
 fn file<'a>(
@@ -67,30 +62,10 @@ pub(super) fn write(
     write_text(&output.join("report.html"), &design_sheet(design, &about).html())
 }
 
-/// A motion that leaves parameters undetermined.
-pub(super) fn undetermined(motion: impl Into<String>, group: &UndeterminedGroup) -> MotionUndetermined {
-    MotionUndetermined {
-        motion: Phrase(motion.into()),
-        parameters: group.parameters.clone(),
-        reason: Phrase(group.reason.clone()),
-        remedy: Phrase(group.remedy.clone()),
-    }
-}
-
 /// The exit status of a design, with its warnings.
-pub(super) fn exit_of(design: &Design) -> Exit {
-    let out_of_time = design.status == DesignStatus::Interrupted && !interruption::is_asked();
-    if out_of_time {
-        tell(SearchOutOfTime {});
-    } else if design.status == DesignStatus::Interrupted {
-        tell(SearchInterrupted { are_poses: false });
-    } else if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
-        tell(SearchNotConverged { at: None, status: design.status.name() });
-    }
-    for group in &design.optimal.undetermined {
-        tell(undetermined("the motion", group));
-    }
-    let ended = design.status == DesignStatus::Converged || out_of_time;
+pub(super) fn exit_of(job: &DesignPlan, design: &Design) -> Exit {
+    tell_all(&job.remarks(design));
+    let ended = design.status == DesignStatus::Converged || job.is_out_of_time(design);
     if ended && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
 }
 

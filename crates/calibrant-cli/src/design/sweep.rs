@@ -3,18 +3,15 @@
 use super::Arguments;
 use super::job::about;
 use super::sweep_request::Request;
-use crate::diagnostics::tell;
+use crate::diagnostics::{tell, tell_all};
 use crate::exit::Exit;
 use crate::{budget, console, interruption};
-use calibrant::DesignPlan;
-use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep, sweep_work};
-use calibrant::diagnostic::Phrase;
-use calibrant::diagnostic::design::{
-    SearchNotConverged, SeriesInterrupted, SweepValueFailed, SweepValueRounded,
-};
+use calibrant::design::{DesignProblem, DesignStatus, sweep, sweep_work};
+use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::io::{DesignSetting, SweepFile, to_json, write_json, write_sweep_csv, write_text};
-use calibrant::report::number_format::{counted, short};
+use calibrant::report::number_format::counted;
 use calibrant::report::sweep_sheet;
+use calibrant::{DesignPlan, sweep_remarks};
 
 pub(super) fn run(
     arguments: &Arguments,
@@ -47,7 +44,7 @@ pub(super) fn run(
     let about = about(job, arguments, problem, title);
     let sheet = sweep_sheet(&swept, &about);
     write_text(&arguments.output.join("report.html"), &sheet.html())?;
-    say(&swept);
+    tell_all(&sweep_remarks(&swept));
     let files = ["sweep.csv", "report.html"].map(|name| arguments.output.join(name));
     console::result(arguments.json, || to_json(&file), &sheet, None, &files);
     let good = |point: &calibrant::design::SweepPoint| {
@@ -58,26 +55,4 @@ pub(super) fn run(
         .iter()
         .all(|point| point.outcome.as_ref().map_or(true, |design| design.status == DesignStatus::Converged));
     Ok(if converged && swept.points.iter().any(good) { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
-}
-
-/// Prints notes and warnings about single values.
-fn say(swept: &Sweep) {
-    let (name, unit) = (swept.variable.name(), swept.variable.unit());
-    for point in &swept.points {
-        if (point.value - point.asked).abs() > 1e-9 * point.asked {
-            tell(SweepValueRounded {
-                asked: Phrase(format!("{name} {} {unit}", short(point.asked))),
-                taken: Phrase(format!("{} {unit}", short(point.value))),
-                intervals: point.intervals,
-            });
-        }
-        let at = || Phrase(format!("{name} {} {unit}", short(point.value)));
-        match &point.outcome {
-            Err(why) => tell(SweepValueFailed { at: at(), why: Phrase(why.to_string()) }),
-            Ok(design) if design.status != DesignStatus::Converged => {
-                tell(SearchNotConverged { at: Some(at()), status: design.status.name() });
-            }
-            Ok(_) => (),
-        }
-    }
 }

@@ -26,7 +26,7 @@ pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFo
             Some(sensor_kind) if texts.len() > 1 => imu_tk::name_of(path, *sensor_kind),
             _ => path.to_path_buf(),
         };
-        write_text(&place, &text)?;
+        write_text(&place, text)?;
         files.push(place);
     }
     Ok(WrittenImu { files, warnings })

@@ -8,12 +8,12 @@ pub struct Table {
     /// What its rows are, as Parquet names them.
     pub name: &'static str,
     /// The columns, in their order.
-    pub columns: Vec<Column>,
+    pub columns: Vec<TableColumn>,
 }
 
 /// A column. The unit of its numbers ends its name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct TableColumn {
     /// Its name.
     pub name: String,
     /// An entry for each row.
@@ -31,7 +31,7 @@ pub enum ColumnValues {
     Texts(Vec<Option<Cow<'static, str>>>),
 }
 
-impl Column {
+impl TableColumn {
     /// A column of numbers.
     #[must_use]
     pub fn numbers(name: impl Into<String>, numbers: Vec<f64>) -> Self {

@@ -7,5 +7,5 @@ mod format;
 mod parquet;
 mod write;
 
-pub use columns::{Column, ColumnValues, Table};
+pub use columns::{ColumnValues, Table, TableColumn};
 pub use format::TableFormat;

@@ -1,7 +1,7 @@
 //! Records as columns: one entry for each calibration.
 
 use crate::database::KeptRecord;
-use calibrant_io::{Column, ColumnValues, HashedFile, Table, unit_ending};
+use calibrant_io::{ColumnValues, HashedFile, Table, TableColumn, unit_ending};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
@@ -25,9 +25,9 @@ impl Columns {
 
     /// The columns in their order: the number of the record, texts, numbers.
     pub(super) fn into_table(self) -> Table {
-        let mut columns = vec![Column { name: "id".to_owned(), values: ColumnValues::Whole(self.ids) }];
-        columns.extend(self.texts.into_iter().map(|(name, texts)| Column::texts(name, texts)));
-        columns.extend(self.numbers.into_iter().map(|(name, numbers)| Column::numbers(name, numbers)));
+        let mut columns = vec![TableColumn { name: "id".to_owned(), values: ColumnValues::Whole(self.ids) }];
+        columns.extend(self.texts.into_iter().map(|(name, texts)| TableColumn::texts(name, texts)));
+        columns.extend(self.numbers.into_iter().map(|(name, numbers)| TableColumn::numbers(name, numbers)));
         Table { name: "calibrations", columns }
     }
 

@@ -5,7 +5,7 @@ use super::outcome::Outcome;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, HoldResult, Recovered, RecoveredMotion, RotationResult};
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
-use calibrant_io::{Column, Table};
+use calibrant_io::{Table, TableColumn};
 use calibrant_machine::estimate::{MachineCalibration, SampleResidual, SensorResidual};
 use nalgebra::Vector3;
 use std::borrow::Cow;
@@ -40,7 +40,7 @@ pub struct ResidualSeries {
     pub times_s: Vec<f64>,
     /// The residuals.
     pub residuals: Vec<f64>,
-    /// Predicted standard deviation of each: the noise of a sample, or what is expected of a hold or a rotation.
+    /// Predicted standard deviation of each: the noise of a sample; of a hold or a rotation that by which the residual is studentised, as in the figures.
     pub sd: Vec<f64>,
     /// Each in its standard deviations: the residual over `sd`; of a hold or a rotation it is studentised.
     pub whitened: Vec<f64>,
@@ -69,10 +69,10 @@ impl Residuals {
         let texts = |name: &str, of: &dyn Fn(&ResidualSeries) -> Option<&'static str>| {
             let repeated =
                 |series: &ResidualSeries| vec![of(series).map(Cow::Borrowed); series.residuals.len()];
-            Column::texts(name, self.series.iter().flat_map(repeated).collect())
+            TableColumn::texts(name, self.series.iter().flat_map(repeated).collect())
         };
         let numbers = |name: &str, of: fn(&ResidualSeries) -> &Vec<f64>| {
-            Column::numbers(name, self.series.iter().flat_map(of).copied().collect())
+            TableColumn::numbers(name, self.series.iter().flat_map(of).copied().collect())
         };
         Table {
             name: "residuals",

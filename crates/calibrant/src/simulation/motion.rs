@@ -4,7 +4,7 @@ use super::length;
 use super::options::SimulationOptions;
 use super::random::Random;
 use super::simulated::Simulation;
-use crate::rest_remark;
+use crate::design_remarks::rest_remark;
 use crate::session::MotionSource;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
@@ -64,7 +64,7 @@ pub(super) fn simulate(
     let sensor = &experiment.sensor;
     let limits = experiment.limits.within_range(plan.range_left(sensor));
     let given = options.motion.as_ref();
-    let notes = rest_remark::remark(&limits).filter(|_| given.is_none());
+    let notes = rest_remark(&limits).filter(|_| given.is_none());
     let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
     length::check_motion(&motion, plan.rate_hz, options.budget)?;
     let mut rng = random.sensor();

@@ -12,7 +12,7 @@ use calibrant::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant::{estimate, motion, sensor};
 use serde_json::Value;
 
-#[path = "../../../../calibrant-report/examples/report_gallery/imus.rs"]
+#[path = "../../../../calibrant-report/src/tests/imu_pages/imus.rs"]
 mod imus;
 
 #[test]
