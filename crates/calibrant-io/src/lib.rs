@@ -32,7 +32,6 @@ mod corrected_recording;
 mod delimited_text;
 mod dense_motion;
 mod design;
-mod diagnostics;
 mod earlier_calibration;
 mod exact_number;
 mod experiment;
@@ -44,6 +43,7 @@ mod heading;
 mod input;
 mod inspection;
 mod json;
+mod judgement;
 mod machine;
 mod machine_calibration;
 mod machine_truth;
@@ -88,7 +88,6 @@ pub use convention::{
 pub use corrected_recording::{check_not_corrected, write_corrected_recording};
 pub use dense_motion::write_dense_motion;
 pub use design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
-pub use diagnostics::Judgement;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
@@ -104,6 +103,7 @@ pub use heading::Heading;
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, InspectionFile, SensorInspection, inspect};
 pub use json::{SCHEMA, to_json, write_json};
+pub use judgement::Judgement;
 pub use machine::{MACHINE_PRESETS, MachineFile, MissingMesh, Urdf, machine_preset, missing_limits};
 pub use machine_calibration::{MachineCalibrationFile, MachineLogInput, MachineResult};
 pub use machine_truth::TrueMachine;

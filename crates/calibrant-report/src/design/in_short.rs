@@ -10,23 +10,29 @@ pub(crate) fn criterion_in_words(criterion: &Criterion) -> String {
     format!("criterion {} ({}{})", criterion.letter(), criterion.formula(), criterion.scaling())
 }
 
-/// The values of the criterion for both motions, and its bound.
+/// The values of the criterion for both motions.
 pub(super) fn values(design: &Design) -> String {
     let above = if design.floor > 0.0 {
         format!(", above {} of the tilt, which no motion changes", significant(design.floor, 4))
     } else {
         String::new()
     };
-    let bound = design.certificate.as_ref().map_or_else(String::new, |certificate| {
-        let (least, gap) = (significant(certificate.lower_bound - design.floor, 5), certificate.gap);
-        format!("; no motion is below {least}, {} less", gap_in_words(&design.criterion, gap))
-    });
     format!(
-        "{}: {} initial, {} optimal{above}{bound}",
+        "{}: {} initial, {} optimal{above}",
         criterion_in_words(&design.criterion),
         significant(design.initial.value - design.floor, 5),
         significant(design.optimal.value - design.floor, 5)
     )
+}
+
+/// The value that no motion can beat; `None` without a certificate.
+pub(super) fn bound(design: &Design) -> Option<String> {
+    let certificate = design.certificate.as_ref()?;
+    let least = significant(certificate.lower_bound - design.floor, 4);
+    Some(format!(
+        "no admissible motion is below {least}, {} less",
+        gap_in_words(&design.criterion, certificate.gap)
+    ))
 }
 
 /// The starts of the search; `None` where none is recorded.

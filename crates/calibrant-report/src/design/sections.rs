@@ -65,6 +65,7 @@ fn predicted(design: &Design) -> Section<'_> {
     }
     in_short::starts(design).into_iter().for_each(|line| section.line(line));
     in_short::reached_limits(design).into_iter().for_each(|line| section.line(line));
+    in_short::bound(design).into_iter().for_each(|line| section.line(line));
     section
 }
 
