@@ -114,7 +114,9 @@ pub(crate) fn told(severity: Severity, text: &str) {
     match severity {
         Severity::Allowed => {}
         Severity::Note if manner::get().quiet => {}
-        Severity::Note => drop(writeln!(std::io::stderr(), "note: {text}")),
+        Severity::Note => {
+            let _ = writeln!(std::io::stderr(), "note: {text}");
+        }
         Severity::Warning => say(WARNING, &text),
         Severity::Error => say(ERROR, &text),
     }

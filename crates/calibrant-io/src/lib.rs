@@ -83,11 +83,11 @@ pub use reference_log::{
 pub use results::calibration::CalibrationFile;
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
-pub use results::diagnostics::Judgement;
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use results::heading::Heading;
 pub use results::input::{Input, file_name};
 pub use results::json::{SCHEMA, to_json, write_json};
+pub use results::judgement::Judgement;
 pub use results::machine_calibration::{MachineCalibrationFile, MachineLogInput, MachineResult};
 pub use results::noise::NoiseFile;
 pub use results::origin::Origin;

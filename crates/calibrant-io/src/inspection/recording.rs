@@ -204,7 +204,7 @@ json_object! {
         second_file: if_some(of.file.second.as_ref()),
         columns: &of.file.columns,
         /// What the reader noticed.
-        findings: of.file.all_findings().map(ToString::to_string).collect::<Vec<_>>(),
+        findings: of.file.all_findings().collect::<Vec<_>>(),
         sensors: &of.inspection.sensors,
         /// Samples that were removed.
         spikes: if_any(of.inspection.spikes.iter().map(|(sensor_kind, spikes)| SpikesOf { sensor_kind: *sensor_kind, spikes }).collect::<Vec<_>>()),

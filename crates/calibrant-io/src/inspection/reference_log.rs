@@ -206,7 +206,7 @@ json_object! {
         sha256: &of.file.sha256,
         rows: of.file.rows,
         /// What the reader noticed.
-        findings: of.file.findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        findings: &of.file.findings,
         sampling: &of.inspection.sampling,
         /// Number of samples with the time of the one before.
         repeated_times: of.inspection.repeated,

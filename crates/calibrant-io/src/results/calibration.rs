@@ -1,7 +1,7 @@
 //! `calibration.json` of an accelerometer or of an IMU. Every reader of calibrations takes it.
 
-use super::diagnostics::Judgement;
 use super::heading::Heading;
+use super::judgement::Judgement;
 use super::origin::Origin;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{Calibration, Validation};

@@ -1,7 +1,7 @@
 //! `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
-use super::diagnostics::Judgement;
 use super::heading::Heading;
+use super::judgement::Judgement;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
 use calibrant_core::estimate::FitInUnit;

@@ -3,12 +3,12 @@
 pub(crate) mod calibration;
 pub(crate) mod comparison;
 pub(crate) mod design;
-pub(crate) mod diagnostics;
 pub(crate) mod earlier_calibration;
 pub(crate) mod exact_number;
 pub(crate) mod heading;
 pub(crate) mod input;
 pub(crate) mod json;
+pub(crate) mod judgement;
 pub(crate) mod machine_calibration;
 pub(crate) mod machine_validation;
 pub(crate) mod noise;

@@ -1,6 +1,6 @@
 //! The sections of a design, in their order.
 
-use super::criterion::{criterion_explained, criterion_in_words};
+use super::criterion::{criterion_explained, criterion_in_words, gap_in_words};
 use super::limits::{axes, uses};
 use super::motions::{confidence_section, motion_section};
 use super::predicted_sd::{criterion_table, promised_table};
@@ -57,6 +57,7 @@ fn predicted(design: &Design) -> Section<'_> {
     }
     starts_in_short(design).into_iter().for_each(|line| section.line(line));
     reached_limits(design).into_iter().for_each(|line| section.line(line));
+    bound_in_short(design).into_iter().for_each(|line| section.line(line));
     section
 }
 
@@ -88,6 +89,14 @@ fn values(design: &Design) -> String {
         significant(design.initial.value - design.floor, 5),
         significant(design.optimal.value - design.floor, 5)
     )
+}
+
+/// The value that no motion can beat; `None` without a certificate.
+fn bound_in_short(design: &Design) -> Option<String> {
+    let certificate = design.certificate.as_ref()?;
+    let least = significant(certificate.lower_bound - design.floor, 4);
+    let gap = gap_in_words(&design.criterion, certificate.gap);
+    Some(format!("no admissible motion is below {least}, {gap} less"))
 }
 
 /// The starts of the search; `None` where none is recorded.

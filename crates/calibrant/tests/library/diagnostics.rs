@@ -3,8 +3,10 @@
 use crate::common::messages;
 use calibrant::diagnostic::Check;
 use calibrant::diagnostic::fit::ResidualsNotWhite;
+use calibrant::diagnostic::validation::AccelerometerMoved;
 use calibrant::diagnostic::{Code, Diagnostic, table_as_markdown};
 use calibrant::sensor::Axis;
+use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -74,4 +76,23 @@ fn a_diagnostic_knows_its_subject_and_numbers() {
     assert_eq!(found.numbers(), [("p_value", 1e-5)]);
     let text = &messages(&[found])[0];
     assert!(text.starts_with("the residuals of axis y are not white (Ljung–Box p-value 1.0e-5)"), "{text}");
+}
+
+#[test]
+fn a_vector_has_a_number_for_each_axis() {
+    let (shift, sd) = (Vector3::new(0.052, 0.011, -0.033), Vector3::new(0.001, 0.001, 0.003));
+    let moved = AccelerometerMoved {
+        shift_mps2: Some(shift),
+        shift_sd_mps2: Some(sd),
+        change: None,
+        change_sd: None,
+    };
+    let found = Diagnostic::from(moved);
+    assert_eq!((found.number("x_shift_mps2"), found.number("z_shift_sd_mps2")), (Some(0.052), Some(0.003)));
+    assert_eq!(found.number("x_change"), None);
+    assert_eq!(
+        found.sentence(),
+        "The accelerometer has changed since the calibration: its bias by 52, 11, −33 mm/s² (up to 52 standard deviations). \
+         That explains the gravity residuals. Calibrate it again."
+    );
 }
