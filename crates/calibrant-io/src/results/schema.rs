@@ -7,7 +7,7 @@ use super::machine_calibration::MachineCalibrationFile;
 use super::noise::NoiseFile;
 use super::pose_design::{PoseDesignFile, PoseEvaluationFile};
 use crate::truth::sensors::Truth;
-use schemars::{Schema, schema_for};
+use schemars::{JsonSchema, Schema, schema_for};
 
 /// A kind of JSON file.
 #[derive(Debug, Clone, Copy)]
@@ -22,39 +22,23 @@ pub struct FileKind {
 impl FileKind {
     /// All kinds.
     pub const ALL: &[Self] = &[
-        Self {
-            name: "calibration",
-            file: "calibration.json of an accelerometer or of an IMU",
-            schema: || schema_for!(CalibrationFile<'static>),
-        },
-        Self {
-            name: "machine",
-            file: "calibration.json of a sensor on a machine",
-            schema: || schema_for!(MachineCalibrationFile<'static>),
-        },
-        Self { name: "noise", file: "noise.json", schema: || schema_for!(NoiseFile<'static>) },
-        Self {
-            name: "comparison",
-            file: "what compare prints as JSON",
-            schema: || schema_for!(ComparisonFile<'static>),
-        },
-        Self { name: "design", file: "design.json of a motion", schema: || schema_for!(DesignFile<'static>) },
-        Self {
-            name: "evaluation",
-            file: "evaluation.json of a motion",
-            schema: || schema_for!(EvaluationFile<'static>),
-        },
-        Self { name: "sweep", file: "sweep.json", schema: || schema_for!(SweepFile<'static>) },
-        Self { name: "poses", file: "design.json of poses", schema: || schema_for!(PoseDesignFile<'static>) },
-        Self {
-            name: "poses-evaluation",
-            file: "evaluation.json of holds",
-            schema: || schema_for!(PoseEvaluationFile<'static>),
-        },
+        Self::of::<CalibrationFile<'_>>("calibration", "calibration.json of an accelerometer or of an IMU"),
+        Self::of::<MachineCalibrationFile<'_>>("machine", "calibration.json of a sensor on a machine"),
+        Self::of::<NoiseFile<'_>>("noise", "noise.json"),
+        Self::of::<ComparisonFile<'_>>("comparison", "what compare prints as JSON"),
+        Self::of::<DesignFile<'_>>("design", "design.json of a motion"),
+        Self::of::<EvaluationFile<'_>>("evaluation", "evaluation.json of a motion"),
+        Self::of::<SweepFile<'_>>("sweep", "sweep.json"),
+        Self::of::<PoseDesignFile<'_>>("poses", "design.json of poses"),
+        Self::of::<PoseEvaluationFile<'_>>("poses-evaluation", "evaluation.json of holds"),
         #[cfg(feature = "study")]
-        Self { name: "study", file: "study.json", schema: || schema_for!(super::study::StudyFile<'static>) },
-        Self { name: "truth", file: "truth.json of a simulation", schema: || schema_for!(Truth) },
+        Self::of::<super::study::StudyFile<'_>>("study", "study.json"),
+        Self::of::<Truth>("truth", "truth.json of a simulation"),
     ];
+
+    const fn of<T: JsonSchema>(name: &'static str, file: &'static str) -> Self {
+        Self { name, file, schema: || schema_for!(T) }
+    }
 
     /// The kind of this name.
     #[must_use]
