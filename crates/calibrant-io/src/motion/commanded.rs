@@ -1,12 +1,13 @@
 //! Reads and writes `motion.csv`: the nodes of a commanded motion.
 
-use crate::files::atomic_output::write_atomically;
 use crate::text::decoding::{self, Checked, refuse};
 use crate::text::delimited::{Delimiter, Line, Lines};
+use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
+use std::iter::once;
 use std::path::Path;
 
 /// Largest motion file, bytes.
@@ -49,17 +50,9 @@ pub fn parse_motion(bytes: &[u8], axes: usize) -> Result<JerkControlledMotion> {
 /// [`Error::Output`] where it cannot be written.
 pub fn write_motion(path: &Path, motion: &JerkControlledMotion, axes: usize) -> Result<()> {
     let axes = axes.clamp(1, 3);
-    write_atomically(path, |out| {
-        writeln!(out, "{}", NAMES[..=axes].join(","))?;
-        for (t, node) in motion.times_s().iter().zip(motion.acceleration_mps2()) {
-            write!(out, "{t:?}")?;
-            for value in &node.as_slice()[..axes] {
-                write!(out, ",{value:?}")?;
-            }
-            writeln!(out)?;
-        }
-        Ok(())
-    })
+    let nodes = motion.times_s().iter().zip(motion.acceleration_mps2());
+    let rows = nodes.map(|(t, node)| once(*t).chain(node.iter().take(axes).copied()));
+    write_numbers(path, &NAMES[..=axes].join(","), rows)
 }
 
 fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {

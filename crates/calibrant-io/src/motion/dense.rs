@@ -1,9 +1,9 @@
 //! Writes `motion_dense.csv`: a motion at a constant rate, for the arm's controller.
 
-use crate::files::atomic_output::write_atomically;
+use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::{JerkControlledMotion, sample_times};
-use nalgebra::Vector3;
+use std::iter::once;
 use std::path::Path;
 
 /// Number of rows that are computed at once.
@@ -29,24 +29,17 @@ pub fn write_dense_motion(
     }
     let letters = &["x", "y", "z"][..axes.clamp(1, 3)];
     let times = sample_times(motion, rate_hz);
-    write_atomically(path, |out| {
-        write!(out, "t_s")?;
-        for letter in letters {
-            write!(out, ",p{letter}_m,v{letter}_mps,a{letter}_mps2,j{letter}_mps3")?;
-        }
-        writeln!(out)?;
-        for batch in times.chunks(BATCH) {
-            for (t, state) in batch.iter().zip(motion.states_at(batch)) {
-                write!(out, "{t:?}")?;
-                for axis in 0..letters.len() {
-                    let of = |v: &Vector3<f64>| v[axis];
-                    let (p, v) = (of(&state.displacement_m), of(&state.velocity_mps));
-                    let (a, u) = (of(&state.acceleration_mps2), of(&state.jerk_mps3));
-                    write!(out, ",{p:?},{v:?},{a:?},{u:?}")?;
-                }
-                writeln!(out)?;
-            }
-        }
-        Ok(())
-    })
+    let header: String = letters
+        .iter()
+        .map(|letter| format!(",p{letter}_m,v{letter}_mps,a{letter}_mps2,j{letter}_mps3"))
+        .collect();
+    let states = times.chunks(BATCH).flat_map(|batch| batch.iter().zip(motion.states_at(batch)));
+    let rows = states.map(|(t, state)| {
+        let of_axis = move |axis: usize| {
+            let (p, v) = (state.displacement_m[axis], state.velocity_mps[axis]);
+            [p, v, state.acceleration_mps2[axis], state.jerk_mps3[axis]]
+        };
+        once(*t).chain((0..letters.len()).flat_map(of_axis))
+    });
+    write_numbers(path, &format!("t_s{header}"), rows)
 }

@@ -1,8 +1,9 @@
 //! Writes `recording.csv`.
 
-use crate::files::atomic_output::write_atomically;
+use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{Axis, ImuRecording, Recording, SensorKind};
+use calibrant_core::sensor::{Axis, ImuRecording, ReadingUnit, Recording};
+use std::iter::once;
 use std::path::Path;
 
 /// Writes a recording as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2` (or `_counts`; only `ax` for one axis).
@@ -12,21 +13,15 @@ use std::path::Path;
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
 pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
-    write_atomically(path, |out| {
-        write!(out, "t_s")?;
-        for axis in recording.active_axes() {
-            write!(out, ",a{axis}_{}", recording.unit().suffix())?;
-        }
-        writeln!(out)?;
-        for (t, reading) in recording.times_s().iter().zip(recording.readings()) {
-            write!(out, "{t:?}")?;
-            for value in &reading.as_slice()[..recording.axes()] {
-                write!(out, ",{value:?}")?;
-            }
-            writeln!(out)?;
-        }
-        Ok(())
-    })
+    let samples = recording.times_s().iter().zip(recording.readings());
+    let rows = samples.map(|(t, y)| once(*t).chain(y.iter().take(recording.axes()).copied()));
+    let columns = names('a', recording.active_axes(), recording.unit());
+    write_numbers(path, &format!("t_s{columns}"), rows)
+}
+
+/// The names of a sensor's columns, each with a comma before it.
+fn names(letter: char, axes: &[Axis], unit: ReadingUnit) -> String {
+    axes.iter().map(|axis| format!(",{letter}{axis}_{}", unit.suffix())).collect()
 }
 
 /// Writes a recording of an IMU as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps` (or `_counts`), and
@@ -54,24 +49,17 @@ pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> 
         );
         return Err(Error::recording(input_error));
     }
-    write_atomically(path, |out| {
-        write!(out, "t_s")?;
-        for (sensor_kind, readings) in
-            [(SensorKind::Accelerometer, accelerometer), (SensorKind::Gyroscope, gyroscope)]
-        {
-            for axis in Axis::ALL {
-                write!(out, ",{}{axis}_{}", &sensor_kind.name()[..1], readings.unit().suffix())?;
-            }
-        }
-        let temperature = recording.temperature_c.as_deref();
-        writeln!(out, "{}", if temperature.is_some() { ",temp_c" } else { "" })?;
-        let readings = accelerometer.readings().iter().zip(gyroscope.readings());
-        for (k, (t, (a, g))) in accelerometer.times_s().iter().zip(readings).enumerate() {
-            write!(out, "{t:?}")?;
-            let celsius = temperature.and_then(|values| values.get(k));
-            a.iter().chain(g).chain(celsius).try_for_each(|value| write!(out, ",{value:?}"))?;
-            writeln!(out)?;
-        }
-        Ok(())
-    })
+    let temperature = recording.temperature_c.as_deref();
+    let header = [
+        "t_s",
+        &names('a', &Axis::ALL, accelerometer.unit()),
+        &names('g', &Axis::ALL, gyroscope.unit()),
+        if temperature.is_some() { ",temp_c" } else { "" },
+    ];
+    let readings = accelerometer.readings().iter().zip(gyroscope.readings());
+    let rows = accelerometer.times_s().iter().zip(readings).enumerate().map(|(k, (t, (a, g)))| {
+        let celsius = temperature.and_then(|values| values.get(k));
+        once(t).chain(a).chain(g).chain(celsius).copied()
+    });
+    write_numbers(path, &header.concat(), rows)
 }

@@ -1,8 +1,9 @@
 //! Writes `joints.csv` and `poses.csv`.
 
-use crate::files::atomic_output::write_atomically;
+use crate::text::numbers::write_numbers;
 use calibrant_core::error::Result;
 use calibrant_machine::log::{JointLog, PoseLog};
+use std::iter::once;
 use std::path::Path;
 
 /// Writes a log of joints as CSV with the header `t_s,NAME_rad,…` (or `_m`), with this unit for each joint.
@@ -26,17 +27,9 @@ use std::path::Path;
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn write_joint_log(path: &Path, log: &JointLog, units: &[&str]) -> Result<()> {
-    write_atomically(path, |out| {
-        write!(out, "t_s")?;
-        log.names.iter().zip(units).try_for_each(|(name, unit)| write!(out, ",{name}_{unit}"))?;
-        writeln!(out)?;
-        for (k, time_s) in log.times_s.iter().enumerate() {
-            write!(out, "{time_s:?}")?;
-            log.row(k).iter().try_for_each(|position| write!(out, ",{}", digits(*position)))?;
-            writeln!(out)?;
-        }
-        Ok(())
-    })
+    let columns: String = log.names.iter().zip(units).map(|(name, unit)| format!(",{name}_{unit}")).collect();
+    let rows = log.times_s.iter().enumerate().map(|(k, t)| once(t).chain(log.row(k)).copied());
+    write_numbers(path, &format!("t_s{columns}"), rows)
 }
 
 /// Writes a log of poses as CSV with the header `t_s,px_m,py_m,pz_m,qw,qx,qy,qz`. What was not seen is `nan`.
@@ -44,20 +37,10 @@ pub fn write_joint_log(path: &Path, log: &JointLog, units: &[&str]) -> Result<()
 /// # Errors
 /// As [`write_joint_log`].
 pub fn write_pose_log(path: &Path, log: &PoseLog) -> Result<()> {
-    write_atomically(path, |out| {
-        writeln!(out, "t_s,px_m,py_m,pz_m,qw,qx,qy,qz")?;
-        for (k, time_s) in log.times_s.iter().enumerate() {
-            let position = log.positions_m[k].map_or([f64::NAN; 3], |p| [p.x, p.y, p.z]);
-            let orientation = log.world_from_body[k].map_or([f64::NAN; 4], |q| [q.w, q.i, q.j, q.k]);
-            write!(out, "{time_s:?}")?;
-            position.iter().chain(&orientation).try_for_each(|value| write!(out, ",{}", digits(*value)))?;
-            writeln!(out)?;
-        }
-        Ok(())
-    })
-}
-
-/// The shortest digits of a number.
-fn digits(value: f64) -> String {
-    if value.is_nan() { "nan".into() } else { format!("{value:?}") }
+    let rows = log.times_s.iter().enumerate().map(|(k, t)| {
+        let position = log.positions_m[k].map_or([f64::NAN; 3], |p| [p.x, p.y, p.z]);
+        let orientation = log.world_from_body[k].map_or([f64::NAN; 4], |q| [q.w, q.i, q.j, q.k]);
+        once(*t).chain(position).chain(orientation)
+    });
+    write_numbers(path, "t_s,px_m,py_m,pz_m,qw,qx,qy,qz", rows)
 }

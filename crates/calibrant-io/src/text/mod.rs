@@ -3,3 +3,4 @@
 pub(crate) mod decoding;
 pub(crate) mod delimited;
 pub(crate) mod excerpt;
+pub(crate) mod numbers;
