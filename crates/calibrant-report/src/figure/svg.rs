@@ -59,6 +59,7 @@ pub(super) fn svg(panel: &Panel) -> String {
         layout = layout.with_log_y();
     }
     layout.show_colorbar = panel.map.is_some();
+    layout.colorbar_tick_format = TickFormat::Custom(Arc::new(crate::number_format::tick));
     for shade in &panel.shades {
         layout = layout.with_shaded_region(
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
