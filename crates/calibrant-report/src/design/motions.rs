@@ -39,7 +39,7 @@ pub(crate) fn motion_figures(title: &str, motions: &[Drawn<'_>], axes: &[Axis], 
         &|| Some(velocity_and_displacement(motions, axes, limits)),
         &|| states(motions, axes, limits),
     ])
-    .join("\n")
+    .concat()
 }
 
 /// The ellipses of both motions, and the correlations of one.

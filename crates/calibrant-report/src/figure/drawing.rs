@@ -5,10 +5,10 @@ use crate::html::escape;
 /// Fonts of the letters, the first available one.
 pub(super) const FONT: &str = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', Arial, sans-serif";
 
-/// The beginning of a drawing with this view box, named for screen readers, with further attributes.
+/// The beginning of a drawing with this view box, named for screen readers, with further attributes, each after a space.
 pub(super) fn opened([left, top, width, height]: [f64; 4], name: &str, attributes: &str) -> String {
     format!(
-        "<svg viewBox=\"{left} {top} {width} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\" {attributes}>",
+        "<svg viewBox=\"{left} {top} {width} {height}\" role=\"img\" aria-label=\"{}\" font-family=\"{FONT}\"{attributes}>",
         escape(name)
     )
 }

@@ -56,7 +56,7 @@ fn hemisphere(points: &[Point], rings: &[Vector3<f64>], name: &str, upper: bool)
         .map(|(number, d, used)| (*number, projected(d), *used))
         .collect();
     let frame = [-HALF, -HALF - 16.0, 2.0 * HALF, 2.0 * HALF + 16.0];
-    let mut svg = opened(frame, name, "fill=\"#1b1f24\"");
+    let mut svg = opened(frame, name, " fill=\"#1b1f24\"");
     let top = 2.0 - HALF;
     svg.push_str(&format!("<text x=\"0\" y=\"{top}\" font-size=\"15\" text-anchor=\"middle\">{name}</text>"));
     for elevation in [0.0_f64, 30.0, 60.0] {

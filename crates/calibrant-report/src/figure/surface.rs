@@ -5,8 +5,8 @@ use super::{Figure, colour};
 use crate::number_format::short;
 use calibrant_design::TraceSurface;
 
-/// Largest number of bands.
-const MOST_BANDS: f64 = 18.0;
+/// Largest number of bands: each makes the page longer.
+const MOST_BANDS: f64 = 12.0;
 
 /// The map; dark is good.
 pub(crate) fn trace_map(surface: &TraceSurface) -> Figure {
@@ -66,7 +66,7 @@ mod tests {
     fn bands_hold_all_values_between_round_numbers() {
         for (low, high) in [(-9.43, -6.21), (-9.4, -9.39), (-3.0, -3.0), (-12.0, 55.0)] {
             let levels = levels(low, high);
-            assert!(levels.len() <= 20 && levels[0] <= low + 1e-12, "{low} {high}: {levels:?}");
+            assert!(levels.len() <= 14 && levels[0] <= low + 1e-12, "{low} {high}: {levels:?}");
             assert!(levels[levels.len() - 1] >= high - 1e-12, "{low} {high}: {levels:?}");
             let step = levels.windows(2).map(|pair| pair[1] - pair[0]);
             assert!(step.clone().all(|step| (step - (levels[1] - levels[0])).abs() < 1e-9), "{levels:?}");

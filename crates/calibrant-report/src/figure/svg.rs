@@ -59,6 +59,7 @@ pub(super) fn svg(panel: &Panel) -> String {
         layout = layout.with_log_y();
     }
     layout.show_colorbar = panel.map.is_some();
+    layout.colorbar_tick_format = TickFormat::Custom(Arc::new(crate::number_format::tick));
     for shade in &panel.shades {
         layout = layout.with_shaded_region(
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
@@ -197,7 +198,7 @@ fn responsive(svg: &str, height: f64, name: &str, attributes: &str) -> String {
         (Some(start), Some(end)) if start < end => format!("{}{}", &body[..start], &body[end + 3..]),
         _ => body.to_string(),
     };
-    let attributes = format!("fill=\"#1b1f24\"{attributes}");
+    let attributes = format!(" fill=\"#1b1f24\"{attributes}");
     opened([0.0, 0.0, WIDTH, height], name, &attributes) + &shortened(&body)
 }
 
@@ -225,7 +226,7 @@ fn shortened(svg: &str) -> String {
 
 fn nothing(panel: &Panel, height: f64) -> String {
     let middle = WIDTH / 2.0;
-    let opened = opened([0.0, 0.0, WIDTH, height], &panel.title, "text-anchor=\"middle\"");
+    let opened = opened([0.0, 0.0, WIDTH, height], &panel.title, " text-anchor=\"middle\"");
     format!(
         "{opened}<rect x=\"0.5\" y=\"0.5\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#d8dee4\"/><text x=\"{middle}\" y=\"22\" font-size=\"15\">{}</text>\
          <text x=\"{middle}\" y=\"{}\" font-size=\"13\" fill=\"#57606a\">{}</text></svg>",

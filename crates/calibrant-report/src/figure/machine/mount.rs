@@ -41,7 +41,7 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
     );
     let frame = [0.0, 0.0, SIZE.0, SIZE.1];
     let name = format!("The sensor on the {tip}");
-    let mut svg = opened(frame, &name, "fill=\"#1b1f24\" stroke-linecap=\"round\"");
+    let mut svg = opened(frame, &name, " fill=\"#1b1f24\" stroke-linecap=\"round\"");
     let line = |from: &Vector3<f64>, to: &Vector3<f64>, colour: &str, width: f64, dashes: &str| {
         let line = stroke(&view.line([from, to]), colour, width);
         format!("<g stroke-dasharray=\"{dashes}\">{line}</g>")

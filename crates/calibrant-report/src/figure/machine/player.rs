@@ -38,7 +38,7 @@ pub(crate) fn player(scene: &Scene) -> String {
     };
     let lines = |of: &[Vec<Vector3<f64>>]| of.iter().map(|run| view.line(run)).collect::<String>();
     let name = format!("The machine at {} s", fixed(first.time_s, 1));
-    let still = "tabindex=\"0\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
+    let still = " tabindex=\"0\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
     let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], &name, still);
     svg += &part("floor", &lines(&floor), "#d0d7de", 0.8);
     svg += &part("path", &lines(&path), colour::SKY, 1.0);

@@ -59,7 +59,7 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
         scale: side / (2.0 * half),
     };
     let middle = left + side / 2.0;
-    let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], title, "fill=\"#1b1f24\"");
+    let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], title, " fill=\"#1b1f24\"");
     svg += &format!("<text x=\"{middle}\" y=\"17\" font-size=\"15\" text-anchor=\"middle\">{title}</text>");
     svg += &axes(&view, half, labels);
     svg += "<g stroke-linecap=\"round\" stroke-linejoin=\"round\">";
