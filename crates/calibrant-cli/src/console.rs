@@ -15,21 +15,30 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A text for the terminal: options are flags, and there are no control characters other than line ends and tabs, since a name of a file must not
-/// command the terminal.
+/// A text for the terminal, without control characters other than line ends and tabs, since a name of a file must not command the terminal.
 pub(crate) fn harmless(text: &str) -> String {
     let shown = |sign: char| match sign {
         '\n' | '\t' => sign.to_string(),
         sign if sign.is_control() => sign.escape_default().to_string(),
         sign => sign.to_string(),
     };
-    as_flags(text).chars().map(shown).collect()
+    text.chars().map(shown).collect()
+}
+
+/// Prints JSON to stdout, also with `--quiet`. It is that of the file; control characters that JSON leaves as they are (DEL, U+0085) are escaped.
+pub(crate) fn print_json(text: &str) {
+    let shown = |sign: char| match sign {
+        '\n' => sign.to_string(),
+        sign if sign.is_control() => format!("\\u{:04x}", u32::from(sign)),
+        sign => sign.to_string(),
+    };
+    put(&text.chars().map(shown).collect::<String>());
 }
 
 /// Prints what `json` makes, where it is asked for, or the text.
 pub(crate) fn json_or(json: bool, as_json: impl FnOnce() -> String, text: impl FnOnce() -> String) {
     if json {
-        print_always(&as_json());
+        print_json(&as_json());
     } else {
         print(&text());
     }
@@ -62,7 +71,7 @@ pub(crate) fn print(text: &str) {
     if manner::get().no_tables {
         return;
     }
-    let text = as_flags(text).replace('−', "-");
+    let text = text.replace('−', "-");
     print_always(&match width::of_terminal() {
         Some(width) => wrapped(&text, width),
         None => text,
@@ -76,8 +85,12 @@ pub(crate) fn paragraph(text: &str) -> String {
 
 /// Prints what was asked for to stdout as it is, also with `--quiet`. A closed reader (`| head`) is not an error.
 pub(crate) fn print_always(text: &str) {
+    put(&harmless(text));
+}
+
+fn put(text: &str) {
     let mut out = std::io::stdout();
-    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             say(ERROR, &format!("cannot write to standard output: {error}"));
             std::process::exit(2);

@@ -84,6 +84,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    calibrant::error::word_options_as(console::as_flags);
     let color =
         console::color_among(std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into()));
     let matches = Cli::command().color(color).get_matches();

@@ -8,7 +8,7 @@
 mod answer;
 mod refusal;
 
-pub use answer::{Answer, TaskOption};
+pub use answer::{Answer, TaskOption, with_options_worded, word_options_as};
 pub use refusal::Refusal;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -81,8 +81,8 @@ impl InputError {
             line: None,
             column: None,
             key: None,
-            message: message.into(),
-            help: help.into(),
+            message: with_options_worded(message.into()),
+            help: with_options_worded(help.into()),
             answers: Vec::new(),
             excerpt: None,
         }

@@ -28,9 +28,7 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
     let exit = show(&results);
     let [summary, page_path] = ["summary.csv", "batch.html"].map(|name| arguments.output.join(name));
     write_summary(&summary, &results.summary())?;
-    let (mut page, mut about) = (batch.page(&results), batch.about());
-    let failed = page.sensors.iter_mut().filter(|sensor| sensor.verdict.is_err());
-    failed.flat_map(|sensor| &mut sensor.reasons).for_each(|reason| *reason = console::as_flags(reason));
+    let (page, mut about) = (batch.page(&results), batch.about());
     about.facts.extend(arguments.accept.iter().map(|file| ("Limits".to_owned(), file.display().to_string())));
     let sheet = batch_sheet(&page, &about);
     write_text(&page_path, &sheet.html())?;

@@ -10,18 +10,23 @@ use calibrant::session::Source;
 /// Calibrates from the recording and shows the result.
 pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit {
     let mut notes = Vec::new();
-    let outcome = batch.calibrate(source, &mut notes).and_then(|outcome| {
-        arguments.residuals.as_ref().map_or(Ok(()), |path| outcome.residuals().write(path))?;
-        Ok(outcome)
-    });
+    let outcome = batch.calibrate(source, &mut notes);
     tell_all(&notes);
     match outcome {
         Ok(outcome) => {
             tell_all(outcome.warnings());
-            let files: Vec<_> =
-                std::iter::once(arguments.main_result()).chain(arguments.residuals.clone()).collect();
+            // where they cannot be written, the result is shown all the same
+            let written = arguments.residuals.as_ref().map(|path| outcome.residuals().write(path));
+            let residuals = arguments.residuals.iter().filter(|_| matches!(written, Some(Ok(()))));
+            let files: Vec<_> = std::iter::once(arguments.main_result()).chain(residuals.cloned()).collect();
             console::result(arguments.json, || outcome.json(), &outcome.sheet(), None, &files);
-            rules().exit_of(&outcome.verdict())
+            match written {
+                Some(Err(error)) => {
+                    console::error(&error);
+                    Exit::of(&error)
+                }
+                _ => rules().exit_of(&outcome.verdict()),
+            }
         }
         Err(error) => {
             match batch.session().experiment().imu {

@@ -92,18 +92,30 @@ fn of_holds_each_hold_has_a_row() {
     bench.run("calibrate poses.toml made/recording.csv -o out --residuals holds.csv").done();
     let (rows, calibration) = (rows(&bench, "holds.csv"), bench.json("out/calibration.json"));
     of_table(&rows, &calibration["holds"]["table"]);
+    let stated = calibration["holds"]["table"].as_array().expect("a table").iter();
+    for (whitened, hold) in column(&rows, "hold accelerometer  m/s²", 3).iter().zip(stated) {
+        let studentised = hold["studentised_residual"].as_f64().expect("a number");
+        assert!((whitened - studentised).abs() < 1e-9, "{whitened} {studentised}");
+    }
     assert_eq!(rows.len(), calibration["holds"]["table"].as_array().expect("a table").len());
 }
 
 /// The rows of holds are those of the table of calibration.json, and so is the root mean square of the used ones.
 fn of_table(rows: &[Row], table: &Value) {
     let of = "hold accelerometer  m/s²";
-    for (k, name) in [(0, "start_s"), (1, "magnitude_residual_mps2"), (3, "studentised_residual")] {
+    for (k, name) in [(0, "start_s"), (1, "magnitude_residual_mps2")] {
         let stated = table.as_array().expect("a table").iter().map(|hold| hold[name].as_f64());
         let found =
             column(rows, of, k).into_iter().map(|value| Some(value).filter(|value| value.is_finite()));
         assert_eq!(found.collect::<Vec<_>>(), stated.collect::<Vec<_>>(), "{name}");
     }
+    let [residuals, sd, whitened] = [1, 2, 3].map(|k| column(rows, of, k));
+    for ((residual, sd), whitened) in residuals.iter().zip(&sd).zip(&whitened) {
+        assert!(*sd > 0.0 && *whitened == residual / sd, "{residual} {sd} {whitened}");
+    }
+    // the precision of holds of equal length hardly depends on their direction
+    let (least, most) = (sd.iter().copied().fold(f64::MAX, f64::min), sd.iter().copied().fold(0.0, f64::max));
+    assert!(most < 2.0 * least, "{sd:?}");
 }
 
 /// The residuals with a weight.

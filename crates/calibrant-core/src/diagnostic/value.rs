@@ -4,6 +4,7 @@ use super::code::Code;
 use super::numbers::Numbers;
 use super::parts::Parts;
 use super::severity::Severity;
+use crate::error::with_options_worded;
 use crate::number_format::capitalised;
 use crate::sensor::SensorKind;
 use schemars::JsonSchema;
@@ -57,7 +58,7 @@ impl Diagnostic {
             sensor: None,
             subject,
             numbers: parts.numbers,
-            message,
+            message: with_options_worded(message),
         }
     }
 

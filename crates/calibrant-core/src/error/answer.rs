@@ -1,6 +1,7 @@
 //! What a user may say where an error asks: an option and its values, as data. Each surface words it as its own.
 
 use std::fmt;
+use std::sync::OnceLock;
 
 macro_rules! options {
     ($($option:ident $name:literal $meaning:literal;)*) => {
@@ -62,6 +63,23 @@ options! {
     Validate "validate" "A second recording, which validates the result.";
     ValidateGyroscope "validate_gyroscope" "The file of the gyroscope of the second recording.";
     ValidateMotion "validate_motion" "The log of the machine during the second recording.";
+}
+
+static WORDING: OnceLock<fn(&str) -> String> = OnceLock::new();
+
+/// Says once, before the first task, how a surface words the options in a text: the command line makes ``option `rate_hz` `` to `--rate-hz`. Errors and
+/// diagnostics are made in these words, so that terminal, page and JSON agree. Without it they keep the names that all surfaces share.
+pub fn word_options_as(wording: fn(&str) -> String) {
+    let _ = WORDING.set(wording); // a second call changes nothing
+}
+
+/// The text with options as the surface words them.
+#[must_use]
+pub fn with_options_worded(text: String) -> String {
+    match WORDING.get() {
+        Some(wording) if text.contains("option `") => wording(&text),
+        _ => text,
+    }
 }
 
 impl fmt::Display for TaskOption {

@@ -122,7 +122,10 @@ pub struct HoldResult {
     pub force_mps2: Vector3<f64>,
     /// Magnitude of the mean reading less gravity, corrected with the parameters of the result, m/s².
     pub magnitude_residual_mps2: f64,
-    /// The magnitude residual in its expected standard deviations, without the hold's own influence (studentised).
+    /// Standard deviation that the static fit of the holds expects of its magnitude residual, with the hold's own influence, m/s². Not a number where it is
+    /// not known.
+    pub magnitude_sd_mps2: f64,
+    /// The magnitude residual of the static fit in its expected standard deviations, without the hold's own influence (studentised).
     pub studentised_residual: f64,
     /// Was it used? An outlier is reported and not used.
     pub used: bool,
@@ -131,12 +134,6 @@ pub struct HoldResult {
 }
 
 impl HoldResult {
-    /// Standard deviation that is expected of the magnitude residual, with the hold's own influence on the fit, m/s². Not a number where the residual is 0.
-    #[must_use]
-    pub fn magnitude_sd_mps2(&self) -> f64 {
-        (self.magnitude_residual_mps2 / self.studentised_residual).abs()
-    }
-
     /// Why it was not used. `None` if it was used.
     #[must_use]
     pub fn why_left_out(&self) -> Option<HoldReason> {

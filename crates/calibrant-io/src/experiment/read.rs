@@ -23,8 +23,10 @@ use std::path::Path;
 /// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
-    /// The text from which it was read, by its content; results state it. Without a file its name is `experiment`.
+    /// The text from which it was read, by its content. Without a file its name is `experiment`.
     pub source: HashedFile,
+    /// What was read, to notice what is changed in code.
+    read: String,
     /// `[sensor]`: the datasheet.
     pub sensor: Sensor,
     /// `[motion]`, `[holds]` or `[machine]`.
@@ -208,8 +210,9 @@ impl ExperimentFile {
         design.check(&sensor, &list)?;
         let study = self.study.clone().unwrap_or_default();
         study.check(&plan, sensor.axes)?;
-        Ok(Experiment {
+        let mut experiment = Experiment {
             source,
+            read: String::new(),
             limits: limits.flatten().unwrap_or_default(),
             columns: options_of(self.columns.as_ref())?,
             calibrate,
@@ -219,7 +222,9 @@ impl ExperimentFile {
             sensor,
             plan,
             imu,
-        })
+        };
+        experiment.read = experiment.content().sha256;
+        Ok(experiment)
     }
 
     fn plan(&self, sensor: &Sensor, directory: Option<&Path>) -> Result<Plan> {
@@ -298,6 +303,19 @@ impl ExperimentFile {
 }
 
 impl Experiment {
+    /// What results state of it: the text from which it was read, or, where it was changed in code since then, its content.
+    #[must_use]
+    pub fn origin(&self) -> HashedFile {
+        let content = self.content();
+        if content.sha256 == self.read { self.source.clone() } else { content }
+    }
+
+    fn content(&self) -> HashedFile {
+        let source = HashedFile::of_bytes("", b"");
+        let bare = Self { source, read: String::new(), ..self.clone() };
+        HashedFile::of_bytes("experiment", format!("{bare:?}").as_bytes())
+    }
+
     /// Reads an experiment file.
     ///
     /// # Errors

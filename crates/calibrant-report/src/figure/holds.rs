@@ -40,7 +40,7 @@ pub(crate) fn hold_residuals(holds: &HoldCalibration) -> Figure {
     let expected: Vec<f64> = holds
         .holds
         .iter()
-        .map(HoldResult::magnitude_sd_mps2)
+        .map(|of| of.magnitude_sd_mps2)
         .map(|sd| 2.0 * unit.factor * if sd.is_finite() { sd } else { holds.between_holds_sd_mps2 })
         .collect();
     let numbered = || (1..).map(f64::from).zip(&holds.holds);

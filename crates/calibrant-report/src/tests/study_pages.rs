@@ -35,7 +35,7 @@ fn a_study_of_everything_shows_the_figures_of_chapters_three_and_four() {
     ] {
         assert!(html.contains(text), "{text}");
     }
-    assert!(html.contains("an experiment that was not run, &lt;and why&gt;"));
+    assert!(html.contains("no motion was designed: &lt;and why&gt;"));
     assert!(html.len() < 2_000_000, "{} bytes", html.len());
 }
 

@@ -2,7 +2,7 @@
 
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::noise::NoiseHoldMoves;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result, with_options_worded};
 use calibrant_core::estimate::{find_holds, find_imu_holds};
 use calibrant_core::motion::Hold;
 use calibrant_core::noise::Segment;
@@ -47,9 +47,9 @@ pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording)
             1 => "the only hold".to_owned(),
             n => format!("the longest of {n} holds"),
         };
-        format!(
+        with_options_worded(format!(
             "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}. Elsewhere the sensor moves, vibrates, or has no samples (option `hold` START END chooses another interval)"
-        )
+        ))
     })
 }
 

@@ -40,9 +40,9 @@ pub struct ResidualSeries {
     pub times_s: Vec<f64>,
     /// The residuals.
     pub residuals: Vec<f64>,
-    /// Predicted standard deviation of each: the noise of a sample; of a hold or a rotation that by which the residual is studentised, as in the figures.
+    /// Predicted standard deviation of each: the noise of a sample; of a hold or a rotation that by which its residual is studentised, as in the figures.
     pub sd: Vec<f64>,
-    /// Each in its standard deviations: the residual over `sd`; of a hold or a rotation it is studentised.
+    /// Each in its standard deviations: the residual over `sd`; of a rotation it is studentised.
     pub whitened: Vec<f64>,
     /// The weight in the fit, 0 to 1. With 0, a hold or rotation was not used.
     pub weights: Vec<f64>,
@@ -140,8 +140,8 @@ fn of_motion<'a>(
 
 fn of_holds(holds: &[HoldResult]) -> ResidualSeries {
     let row = |of: &HoldResult| {
-        let (value, whitened) = (of.magnitude_residual_mps2, of.studentised_residual);
-        [of.hold.start_s, value, of.magnitude_sd_mps2(), whitened, f64::from(u8::from(of.used))]
+        let (value, sd) = (of.magnitude_residual_mps2, of.magnitude_sd_mps2);
+        [of.hold.start_s, value, sd, value / sd, f64::from(u8::from(of.used))]
     };
     ResidualSeries::of(("hold", SensorKind::Accelerometer, None, "m/s²"), holds.iter().map(row))
 }

@@ -43,7 +43,7 @@ impl Session {
         let mut notes = Vec::new();
         let prepared = Prepared::read(&experiment, &options, &mut notes)?;
         let origin = Origin {
-            experiment: Some(experiment.source.clone()),
+            experiment: Some(experiment.origin()),
             motion: options.motion.as_ref().and_then(MotionSource::hashed),
             ..Origin::default()
         };
@@ -67,7 +67,7 @@ impl Session {
     #[must_use]
     pub fn key(&self) -> Option<ResumeKey> {
         let (options, experiment) = (&self.options, &self.experiment);
-        let mut files = vec![experiment.source.clone()];
+        let mut files = vec![experiment.origin()];
         if options.motion.is_some() {
             files.push(self.origin.motion.clone()?);
         }

@@ -87,6 +87,7 @@ fn assemble(
         .map(|(j, (hold, reason))| HoldResult {
             force_mps2: robust.forces[j],
             magnitude_residual_mps2: robust.magnitudes[j].error,
+            magnitude_sd_mps2: (robust.magnitudes[j].error / robust.studentised[j]).abs(),
             studentised_residual: robust.studentised[j],
             used: robust.used[j],
             reason,

@@ -217,6 +217,7 @@ pub(super) fn holds_in_counts() -> Calibration {
         hold,
         force_mps2: Vector3::new(0.0, 0.0, 9.81),
         magnitude_residual_mps2: 0.001,
+        magnitude_sd_mps2: 0.0,
         studentised_residual: f64::INFINITY,
         used: false,
         reason: None,

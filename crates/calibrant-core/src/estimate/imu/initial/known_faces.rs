@@ -91,11 +91,13 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
             let off = (correction * (hold.mean - sensor.bias)).norm() - setup.gravity.magnitude_mps2;
             let along = sensor.matrix * force.normalize();
             let weight = linear.weight(hold, force, &sensor.matrix, &alignment.scatter);
+            let precision = along.dot(&(weight * along)).sqrt();
             HoldResult {
                 hold: hold.clone(),
                 force_mps2: *force,
                 magnitude_residual_mps2: off,
-                studentised_residual: off * along.dot(&(weight * along)).sqrt(),
+                magnitude_sd_mps2: precision.recip(),
+                studentised_residual: off * precision,
                 used: clipped.is_none(),
                 reason: clipped.map(|end| clipped_reason(&end, as_read)),
             }

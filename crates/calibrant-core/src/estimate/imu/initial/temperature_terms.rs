@@ -96,6 +96,7 @@ fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
     let limit = critical(holds.holds.len(), degrees);
     for result in &mut holds.holds {
         result.studentised_residual *= shrink;
+        result.magnitude_sd_mps2 /= shrink;
         result.used |= result.reason.is_none() && result.studentised_residual.abs() <= limit;
     }
     holds.magnitude_residual_rms_mps2 = magnitude_rms(&holds.holds);
