@@ -80,7 +80,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             console::print(&summary(sensor_kind, found));
         }
     }
-    console::print(&format!("{}\n", arguments.output.display()));
+    console::print_lines(&format!("{}\n", arguments.output.display()));
     Ok(Exit::DONE)
 }
 

@@ -57,25 +57,29 @@ pub(crate) fn result(
     sentence: Option<&str>,
     files: &[PathBuf],
 ) {
-    json_or(json, as_json, || {
-        let sentence = sentence.map_or_else(String::new, paragraph);
-        let files: String = files.iter().map(|file| format!("{}\n", file.display())).collect();
-        let gap = if files.is_empty() { "" } else { "\n" };
-        sheet.text(width::get()) + &sentence + gap + &files
-    });
+    json_or(json, as_json, || sheet.text(width::get()) + &sentence.map_or_else(String::new, paragraph));
+    if !json && !files.is_empty() {
+        let files: String = files.iter().map(|file| format!("\n{}", file.display())).collect();
+        print_lines(&(files + "\n"));
+    }
 }
 
-/// Prints a result to stdout as people read it, unless `--quiet` hides it. Its lines fit the terminal, and its minus signs can be copied into a
+/// Does it print sheets?
+pub(crate) fn prints_sheets() -> bool {
+    !manner::get().no_tables
+}
+
+/// Prints a result to stdout as people read it, unless `--quiet` hides it. Its lines fit the width of the terminal, and its minus signs can be copied into a
 /// program.
 pub(crate) fn print(text: &str) {
-    if manner::get().no_tables {
-        return;
+    print_lines(&wrapped(&text.replace('−', "-"), width::get()));
+}
+
+/// The same, with lines as long as they are: names of files, and commands to be copied.
+pub(crate) fn print_lines(text: &str) {
+    if prints_sheets() {
+        print_always(text);
     }
-    let text = text.replace('−', "-");
-    print_always(&match width::of_terminal() {
-        Some(width) => wrapped(&text, width),
-        None => text,
-    });
 }
 
 /// A paragraph, two characters from the margin.

@@ -66,6 +66,17 @@ pub(crate) fn tell_all<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
     found.into_iter().for_each(|found| tell_in(found, None));
 }
 
+/// Marks those that are allowed. Prints those that are denied, and warnings where no sheet lists them.
+pub(crate) fn judge(findings: &mut [Diagnostic], json: bool) {
+    let is_listed = console::prints_sheets() && !json;
+    for found in findings {
+        *found = found.clone().allowed_by(rules().allowed());
+        if rules().denies(found.code()) || found.is_warning() && !is_listed {
+            tell_in(found, None);
+        }
+    }
+}
+
 impl Rules {
     /// Makes these the rules of this run.
     pub(crate) fn set(self) {

@@ -4,7 +4,7 @@ mod machine;
 mod reference_log;
 
 use crate::console;
-use crate::diagnostics::tell_all;
+use crate::diagnostics::judge;
 use crate::exit::Exit;
 use crate::recording_options::RecordingOptions;
 use calibrant::inspection::recording_sheet;
@@ -67,9 +67,11 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         },
     };
     let second = arguments.second().map(file_name);
-    let found = file.findings_in(&file_name(&arguments.file), second.as_deref());
-    tell_all(found.iter().filter(|found| found.is_warning()));
-    let inspection = inspect(&file);
+    let of_reader = file.findings_in(&file_name(&arguments.file), second.as_deref());
+    let mut inspection = inspect(&file);
+    // the same, with the names of their files
+    inspection.findings.splice(..of_reader.len(), of_reader);
+    judge(&mut inspection.findings, arguments.json);
     let paths = std::iter::once(arguments.file.as_path()).chain(arguments.second());
     let names: Vec<String> = paths.map(|path| path.display().to_string()).collect();
     let found = InspectionFile { file: &file, inspection: &inspection };

@@ -7,7 +7,7 @@ use std::path::Path;
 /// What to do with a new experiment file.
 pub(super) struct NextSteps {
     /// The files that the commands need beside it, in words; empty where `simulate` makes them.
-    needs: &'static str,
+    pub(super) needs: &'static str,
     commands: Vec<String>,
 }
 
@@ -17,12 +17,15 @@ impl NextSteps {
         let file = quoted(&file.display().to_string());
         if experiment.columns.format == Some(FileFormat::Imucal) {
             let needs = ", with your session.csv and its sections.json";
-            return Self { needs, commands: vec![calibrate(&file, "session.csv --sections sections.json")] };
+            return Self {
+                needs,
+                commands: vec![calibrate(&file, "session.csv", "--sections sections.json")],
+            };
         }
         // counts of unknown gain can be calibrated, but not simulated
         if experiment.sensor.gain.is_none() {
             let needs = ", with your recording.csv";
-            return Self { needs, commands: vec![calibrate(&file, "recording.csv")] };
+            return Self { needs, commands: vec![calibrate(&file, "recording.csv", "")] };
         }
         let commands = match &experiment.plan {
             Plan::Motion(plan) => of_motion(plan, &file),
@@ -32,10 +35,9 @@ impl NextSteps {
         Self { needs: "", commands }
     }
 
-    /// The text that shows them.
-    pub(super) fn note(&self) -> String {
-        let lines: String = self.commands.iter().map(|command| format!("\n  {command}")).collect();
-        format!("Edit it, then run{}:{lines}", self.needs)
+    /// Their lines.
+    pub(super) fn lines(&self) -> String {
+        self.commands.iter().map(|command| format!("  {command}\n")).collect()
     }
 }
 
@@ -48,21 +50,27 @@ fn of_motion(plan: &MotionPlan, file: &str) -> Vec<String> {
     vec![
         format!("calibrant design {file} -o best"),
         format!("calibrant simulate {file} {motion} -o simulated"),
-        calibrate(file, &format!("simulated/recording.csv {motion}")),
+        calibrate(file, "simulated/recording.csv", motion),
     ]
 }
 
 /// Simulates a recording, and calibrates it with this log of its motion.
 fn rehearsal(file: &str, log: Option<&str>) -> Vec<String> {
-    let motion = log.map_or_else(String::new, |log| format!(" --motion simulated/{log}"));
+    let motion = log.map_or_else(String::new, |log| format!("--motion simulated/{log}"));
     vec![
         format!("calibrant simulate {file} -o simulated"),
-        calibrate(file, &format!("simulated/recording.csv{motion}")),
+        calibrate(file, "simulated/recording.csv", &motion),
     ]
 }
 
-fn calibrate(file: &str, inputs: &str) -> String {
-    format!("calibrant calibrate {file} {inputs} -o result")
+/// A line that would be long ends with a backslash, as a shell takes it, and its options stand below.
+fn calibrate(file: &str, recording: &str, option: &str) -> String {
+    let gap = match option {
+        "" => "",
+        option if file.len() + recording.len() + option.len() > 46 => " \\\n    ",
+        _ => " ",
+    };
+    format!("calibrant calibrate {file} {recording}{gap}{option} -o result")
 }
 
 /// The log that `simulate` writes.

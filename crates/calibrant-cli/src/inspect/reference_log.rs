@@ -1,7 +1,7 @@
 //! What a log of a machine's motion contains.
 
 use crate::console;
-use crate::diagnostics::tell;
+use crate::diagnostics::judge;
 use crate::exit::Exit;
 use calibrant::inspection::log_sheet;
 use calibrant::io::{
@@ -17,9 +17,9 @@ pub(super) fn is_one(path: &Path, options: &ImuReadOptions) -> bool {
 
 /// Prints what a log contains.
 pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calibrant::Result<Exit> {
-    let file = read_reference_log(path, &of_log(options))?;
-    let in_file = file.findings.iter().map(|found| found.clone().in_file(file_name(path)));
-    in_file.filter(|found| found.is_warning()).for_each(tell);
+    let mut file = read_reference_log(path, &of_log(options))?;
+    file.findings = file.findings.into_iter().map(|found| found.in_file(file_name(path))).collect();
+    judge(&mut file.findings, as_json);
     let inspection = inspect_reference_log(&file);
     let found = ReferenceInspectionFile { file: &file, inspection: &inspection };
     let name = path.display().to_string();

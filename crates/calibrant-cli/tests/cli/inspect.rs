@@ -74,7 +74,7 @@ fn seconds_since_1970_are_told_as_they_stand_and_durations_beside_them() {
         _ => format!("{row}\n"),
     };
     bench.write("imu.csv", text.lines().map(later).collect::<String>());
-    let message = bench.run("inspect imu.csv").done().stdout;
+    let message = bench.run("inspect imu.csv").done().printed();
     // 2100 rows at 50 Hz and the second: 41.98 s + 1 s
     let sampling = "2100 samples from 1700000000.25 s on, over 42.98 s, 50.000 Hz; steps 20.00 to 20.00 ms, jitter none; 1 gap of 1 s";
     assert!(message.contains(sampling), "{message}");
@@ -122,8 +122,12 @@ fn holds_in_which_the_accelerometer_saturates_are_named() {
     bench.write("imu.csv", text.lines().map(cut).collect::<String>());
     let printed = bench.run("inspect imu.csv").done().printed();
     // sin(0.7 k) cos(1.9 k) is above 0.3 for k = 3, 5, 8 and 10
-    let message = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and not used in a calibration";
-    assert!(printed.contains(message), "{printed}");
+    for hold in [4, 6, 9, 11] {
+        let told = printed.split("warning: ").find(|told| told.starts_with(&format!("hold {hold} (")));
+        let told = told.unwrap_or_else(|| panic!("{hold}: {printed}"));
+        let says = "is not used: axis x of the accelerometer saturates at";
+        assert!(told.contains(says) && told.contains("[hold-left-out]"), "{told}");
+    }
     bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
     let table = &bench.json("inspection.json")["holds"]["table"];
     assert_eq!((table[3]["saturated_axis"].as_str(), table[4]["saturated_axis"].as_str()), (Some("x"), None));
@@ -214,4 +218,66 @@ fn times_in_another_unit_and_a_format_that_it_is_not_are_asked_about() {
         3,
         &["this file has no column acc_x or gyr_x", "leave --format away"],
     );
+}
+
+/// A spike, lost samples and coarse readings: each is listed once with its code, in the JSON too, and can be denied and allowed.
+#[test]
+fn what_is_noticed_has_a_code_and_can_be_denied_and_allowed() {
+    let bench = Bench::new();
+    let text = poses("t_ms,ax_g,ay_g,az_g,gx_radps,gy_radps,gz_radps", 1.0);
+    let header_and = |row: &dyn Fn(usize, Vec<String>) -> Option<Vec<String>>| {
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+        let rows = text.lines().enumerate().filter_map(|(k, line)| match k {
+            0 => Some(line.to_owned()),
+            _ => Some(row(k, cells(line))?.join(",")),
+        });
+        rows.collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let spike = |k: usize, mut cells: Vec<String>| {
+        if k == 700 {
+            cells[2] = "9".to_owned();
+        }
+        Some(cells)
+    };
+    let coarse = |_: usize, mut cells: Vec<String>| {
+        let fine: f64 = cells[3].parse().expect("a number");
+        cells[3] = format!("{}", (fine / 0.05).round() * 0.05);
+        Some(cells)
+    };
+    bench.write("spikes.csv", header_and(&spike));
+    bench.write("coarse-steps.csv", header_and(&coarse));
+    bench.write("sampling-gap.csv", header_and(&|k, cells| (k / 40 != 20).then_some(cells)));
+    for (code, severity) in [("spikes", "warning"), ("coarse-steps", "warning"), ("sampling-gap", "note")] {
+        let inspect = format!("inspect {code}.csv");
+        let plain = bench.run(&inspect).done();
+        let times = |outcome: &crate::bench::Outcome| outcome.printed().matches(&format!("[{code}]")).count();
+        assert!(times(&plain) == 1 && plain.stderr.is_empty(), "{plain:?}");
+        assert!(plain.printed().contains(&format!("{severity}: ")), "{plain:?}");
+        let denied = bench.run(&format!("{inspect} --deny {code}")).ends_with(1);
+        denied.says(&format!("error: denied: {code}: "));
+        assert_eq!(denied.stdout, plain.stdout, "the result is the same");
+        let status = if severity == "warning" { 1 } else { 0 };
+        bench.run(&format!("{inspect} --deny warnings")).ends_with(status);
+        let allowed = bench.run(&format!("{inspect} --deny warnings --deny {code} --allow {code}")).done();
+        assert!(times(&allowed) == 0 && allowed.stderr.is_empty(), "{allowed:?}");
+        for (option, severity) in [("", severity), (&*format!("--allow {code}"), "allowed")] {
+            let json = bench.run(&format!("{inspect} --json {option}")).done().json();
+            let findings = json["findings"].as_array().expect("a list");
+            let found: Vec<_> = findings.iter().filter(|found| found["code"] == code).collect();
+            assert!(found.len() == 1 && found[0]["severity"] == severity, "{findings:?}");
+        }
+    }
+}
+
+#[test]
+fn holds_that_determine_nothing_are_a_note() {
+    let bench = Bench::new();
+    let text = poses("t_ms,ax_g,ay_g,az_g,gx_radps,gy_radps,gz_radps", 1.0);
+    let one_pose: Vec<&str> = text.lines().take(150).collect();
+    bench.write("rest.csv", one_pose.join("\n") + "\n");
+    let outcome = bench.run("inspect rest.csv --deny warnings").done();
+    let says = "note: the holds do not determine the accelerometer: ";
+    assert!(outcome.printed().contains(says), "{outcome:?}");
+    assert!(outcome.printed().contains("[holds-undetermined]"), "{outcome:?}");
+    bench.run("inspect rest.csv --deny holds-undetermined").ends_with(1);
 }

@@ -70,10 +70,18 @@ fn joints_are_shown_with_their_ranges_gaps_and_jumps() {
         "elbow",
         "yes 100.0 %",
         "75.01 % 1.00 s",
-        "gap of 0.052 s after t = 1.6 s",
+        "note: line 802: gap of 0.052 s after t = 1.6 s",
+        "[sampling-gap]",
     ] {
         assert!(printed.contains(words), "{words}\n{printed}");
     }
+    bench.run("inspect joints.csv --deny warnings").done();
+    bench
+        .run("inspect joints.csv --deny sampling-gap")
+        .ends_with(1)
+        .says("denied: sampling-gap: joints.csv: ");
+    let allowed = bench.run("inspect joints.csv --allow sampling-gap").done().printed();
+    assert!(!allowed.contains("[sampling-gap]"), "{allowed}");
     bench.write("inspection.json", bench.run("inspect joints.csv --json").done().stdout);
     let json = bench.json("inspection.json");
     assert_eq!(json["repeated_times"], 1);

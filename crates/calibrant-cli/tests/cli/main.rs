@@ -31,6 +31,7 @@ mod machine;
 mod manners;
 mod noise;
 mod on_machine;
+mod printed_width;
 mod production_line;
 mod quiet_and_color;
 mod real_recordings;

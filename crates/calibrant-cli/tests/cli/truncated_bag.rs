@@ -68,8 +68,8 @@ fn every_command_warns_of_a_bag_that_was_cut_off() {
         (calibrate("whole.mcap"), false),
         (calibrate("cut.mcap"), true),
         ("apply out/calibration.json cut.mcap -o corrected.csv".to_owned(), true),
-        ("inspect cut.mcap".to_owned(), true),
         ("inspect cut.mcap --json".to_owned(), true),
+        ("inspect cut.mcap --quiet".to_owned(), true),
         ("noise cut.mcap --sensor gyroscope -o noise".to_owned(), true),
         ("noise whole.mcap --sensor gyroscope -o noise".to_owned(), false),
         ("inspect whole.mcap".to_owned(), false),
@@ -82,5 +82,12 @@ fn every_command_warns_of_a_bag_that_was_cut_off() {
             assert!(!outcome.stderr.contains("cut off"), "{outcome:?}");
         }
     }
+    let inspected = bench.run("inspect cut.mcap").done();
+    let listed = inspected.printed();
+    assert!(
+        listed.contains("warning: the bag was cut off") && listed.contains("[file-unfinished]"),
+        "{listed}"
+    );
+    assert_eq!(inspected.stderr, "", "it is said once");
     assert!(bench.read("noise/report.html").contains("svg"));
 }

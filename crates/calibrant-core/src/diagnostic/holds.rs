@@ -3,7 +3,7 @@
 use super::check::checks;
 use super::faces::FacePointing;
 use super::hold_span::{HoldReason, HoldSpan};
-use super::parts::listed;
+use super::parts::{Phrase, listed};
 use crate::sensor::ReadingUnit;
 
 checks! {
@@ -102,6 +102,22 @@ checks! {
         Self::REASON,
         Self::HELP
     );
+
+    /// Accelerometer and gyroscope may stand in each other's place.
+    SensorsSwapped "sensors-swapped" Warning {}
+    decided "The gyroscope rests at several values, as an accelerometer does in several orientations. The \
+        accelerometer does not."
+    remedy "Give each file, or the columns, to the sensor that they are of."
+    says "the gyroscope rests at values that differ, as an accelerometer does, and the accelerometer does not: are their \
+        files or columns exchanged?";
+
+    /// The holds of a recording do not determine the accelerometer.
+    HoldsUndetermined "holds-undetermined" Note {
+        why: Phrase,
+    }
+    decided "A calibration is foretold from the holds that were found, and is not possible."
+    remedy "Hold the sensor still in more orientations, where the accelerometer is to be calibrated."
+    says format!("the holds do not determine the accelerometer: {}", why.0);
 
     /// The directions of the holds are too similar. The data hardly separate some parameters.
     HoldsSpreadLittle "holds-spread-little" Warning {

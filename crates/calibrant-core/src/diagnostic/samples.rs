@@ -64,12 +64,18 @@ checks! {
     decided "Rounding moves the mean of a hold by more than a quarter of the standard deviation that noise gives it."
     remedy "Choose a smaller range, or write more digits to the file."
     says format!(
-        "{}{} Choose a smaller range, or write more digits to the file.",
-        steps_in_words((*sensor_kind, *axis, *unit), *step, *noise, *mean_sd),
+        "the readings of axis {axis} of the {sensor_kind} come in steps of {step:.3e} {unit}, more than twice {}. The mean \
+         of a hold has an error of about {mean_sd:.1e} {unit}, however long the hold is.{} Choose a smaller range, or \
+         write more digits to the file.",
+        match *noise > 0.0 {
+            true => format!("the noise of about {noise:.1e} {}", unit.symbol()),
+            false => "the noise, which hardly shows".to_owned(),
+        },
         match sensor_kind {
             SensorKind::Accelerometer => "",
-            SensorKind::Gyroscope => " The standard deviations include this error.",
-        }
+            SensorKind::Gyroscope => " The standard deviations of a calibration include this error.",
+        },
+        unit = unit.symbol()
     );
 
     /// Samples are lost, and the times do not show it. The rotations look too small.
@@ -170,31 +176,6 @@ impl CalibrationExtrapolated {
         let is_beyond = thermal.extrapolates_to(coldest_c) || thermal.extrapolates_to(hottest_c);
         is_beyond.then_some(Self { low_c, high_c, coldest_c, hottest_c })
     }
-}
-
-impl CoarseSteps {
-    /// The finding alone, without what it means for a calibration.
-    #[must_use]
-    pub fn finding(&self) -> String {
-        steps_in_words((self.sensor_kind, self.axis, self.unit), self.step, self.noise, self.mean_sd)
-    }
-}
-
-fn steps_in_words(
-    (sensor_kind, axis, unit): (SensorKind, Axis, ReadingUnit),
-    step: f64,
-    noise: f64,
-    mean_sd: f64,
-) -> String {
-    let unit = unit.symbol();
-    let noise = match noise > 0.0 {
-        true => format!("the noise of about {noise:.1e} {unit}"),
-        false => "the noise, which hardly shows".to_owned(),
-    };
-    format!(
-        "the readings of axis {axis} of the {sensor_kind} come in steps of {step:.3e} {unit}, more than twice {noise}. The mean \
-         of a hold has an error of about {mean_sd:.1e} {unit}, however long the hold is."
-    )
 }
 
 /// The number that a reading was written with: the largest integer of 32 bits has ten digits.

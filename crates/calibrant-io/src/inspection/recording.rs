@@ -4,8 +4,10 @@
 use super::sampling::Sampling;
 use crate::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
 use crate::results::heading::Heading;
-use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::Result;
+use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldsUndetermined};
+use calibrant_core::diagnostic::samples::Spikes as SpikesFound;
+use calibrant_core::diagnostic::{Diagnostic, HoldReason, HoldSpan, Phrase};
+use calibrant_core::error::{Error, Result};
 use calibrant_core::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
     find_clean_imu_holds, holds_lost_to_filter, swapped_sensors,
@@ -29,13 +31,14 @@ const MINIMUM_HOLD_S: f64 = 1.0;
 /// The content of a recording.
 #[derive(Debug, Clone)]
 pub struct Inspection {
+    /// What was noticed: first by the reader, as in the file, then in the samples and the holds.
+    pub findings: Vec<Diagnostic>,
     /// Each sensor that is there.
     pub sensors: Vec<SensorInspection>,
     /// Spikes and invalid samples of a sensor. The search for holds does not use them.
     pub spikes: Vec<(SensorKind, Spikes)>,
-    /// The holds of the accelerometer. `None` without an accelerometer; the reason where the search was
-    /// impossible.
-    pub holds: Option<std::result::Result<HoldsInspection, String>>,
+    /// The holds of the accelerometer. `None` without an accelerometer, or where the search was impossible.
+    pub holds: Option<HoldsInspection>,
 }
 
 /// Sampling and values of one sensor.
@@ -71,12 +74,8 @@ pub struct HoldsInspection {
     /// The coverage of the sphere by their directions. `None` where there is no hold, or no direction is
     /// known without the sensor's offset.
     pub coverage: Option<Coverage>,
-    /// The parameters of the accelerometer that they will determine, or the reason why they do not determine
-    /// all of them.
-    pub expected: std::result::Result<ExpectedCalibration, String>,
-    /// The reason, in words, why there may be fewer holds than there should be: a filter that breaks them up,
-    /// or swapped sensors.
-    pub lost: Option<String>,
+    /// The parameters of the accelerometer that they will determine. `None` where they do not determine all.
+    pub expected: Option<ExpectedCalibration>,
     /// Axes with a quantisation step coarser than their noise.
     pub coarse: Vec<(SensorKind, CoarseAxis)>,
     /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
@@ -102,11 +101,17 @@ pub fn inspect(file: &ImuFile) -> Inspection {
         .filter_map(|sensor_kind| Some(SensorInspection::of(sensor_kind, recording.sensor(sensor_kind)?)))
         .collect();
     let (clean, spikes) = recording.without_spikes();
-    let holds = clean
-        .accelerometer
-        .as_ref()
-        .map(|accelerometer| HoldsInspection::of(&clean, accelerometer).map_err(|error| error.to_string()));
-    Inspection { sensors, spikes, holds }
+    let mut findings: Vec<Diagnostic> = file.all_findings().cloned().collect();
+    findings.extend(spikes.iter().filter_map(|(sensor_kind, spikes)| {
+        let unit = recording.sensor(*sensor_kind)?.unit();
+        Some(SpikesFound::of(spikes, *sensor_kind, unit).into())
+    }));
+    let holds = clean.accelerometer.as_ref().and_then(|accelerometer| {
+        HoldsInspection::of(&clean, accelerometer, &mut findings)
+            .map_err(|why| findings.push(undetermined(&why)))
+            .ok()
+    });
+    Inspection { findings, sensors, spikes, holds }
 }
 
 impl SensorInspection {
@@ -124,8 +129,17 @@ impl SensorInspection {
     }
 }
 
+fn undetermined(why: &Error) -> Diagnostic {
+    HoldsUndetermined { why: Phrase(why.to_string()) }.into()
+}
+
 impl HoldsInspection {
-    fn of(recording: &ImuRecording, accelerometer: &Recording) -> Result<Self> {
+    /// The holds; what is noticed in them is added to the findings.
+    fn of(
+        recording: &ImuRecording,
+        accelerometer: &Recording,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
         let holds = find_clean_imu_holds(recording, MINIMUM_HOLD_S)?;
         let clipped = clipped_holds(accelerometer, &holds);
         let sound: Vec<Hold> = holds
@@ -134,30 +148,37 @@ impl HoldsInspection {
             .filter(|(_, end)| end.is_none())
             .map(|(hold, _)| hold.clone())
             .collect();
-        let expected = expected_calibration(&sound, accelerometer.unit(), GRAVITY_MPS2, Gauge::Upper)
-            .map_err(|error| error.to_string());
+        let unit = accelerometer.unit();
+        findings.extend((0..).zip(&holds).zip(&clipped).filter_map(|((number, hold), end)| {
+            let why = end.map(|end| HoldReason::Saturated { axis: end.axis, reading: end.value, unit })?;
+            Some(HoldLeftOut { hold: HoldSpan::of(number, hold), why }.into())
+        }));
+        let coarse: Vec<(SensorKind, CoarseAxis)> = SensorKind::ALL
+            .into_iter()
+            .flat_map(|sensor_kind| coarse(recording, sensor_kind, &sound))
+            .collect();
+        findings.extend(coarse.iter().filter_map(|(sensor_kind, axis)| {
+            Some(axis.check(*sensor_kind, recording.sensor(*sensor_kind)?.unit()).into())
+        }));
+        let expected = expected_calibration(&sound, unit, GRAVITY_MPS2, Gauge::Upper);
+        let swapped = expected.is_err().then(|| swapped_sensors(recording, MINIMUM_HOLD_S)).flatten();
+        findings.extend(expected.as_ref().err().map(undetermined));
+        findings.extend(
+            swapped.map(Diagnostic::from).or_else(|| {
+                holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S).map(Diagnostic::from)
+            }),
+        );
         let offset = match &expected {
             Ok(expected) => Some(expected.like.bias),
             // readings in counts have an offset that is unknown without the calibration
-            Err(_) => (accelerometer.unit() != ReadingUnit::Counts).then(Vector3::zeros),
+            Err(_) => (unit != ReadingUnit::Counts).then(Vector3::zeros),
         };
         let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
-            lost: match &expected {
-                Err(_) => swapped_sensors(recording, MINIMUM_HOLD_S).map(str::to_owned),
-                Ok(_) => None,
-            }
-            .or_else(|| {
-                holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)
-                    .map(|lost| Diagnostic::from(lost).message().to_owned())
-            }),
-            coarse: SensorKind::ALL
-                .into_iter()
-                .flat_map(|sensor_kind| coarse(recording, sensor_kind, &sound))
-                .collect(),
-            expected,
+            coarse,
+            expected: expected.ok(),
             clipped,
             holds,
         })
@@ -203,21 +224,14 @@ json_object! {
         /// The gyroscope's file of a pair. Its columns come last.
         second_file: if_some(of.file.second.as_ref()),
         columns: &of.file.columns,
-        /// What the reader noticed.
-        findings: of.file.all_findings().collect::<Vec<_>>(),
+        /// What was noticed by the reader, in the samples and in the holds.
+        findings: &of.inspection.findings,
         sensors: &of.inspection.sensors,
         /// Samples that were removed.
         spikes: if_any(of.inspection.spikes.iter().map(|(sensor_kind, spikes)| SpikesOf { sensor_kind: *sensor_kind, spikes }).collect::<Vec<_>>()),
         /// Least and greatest temperature.
         temperature_c: of.file.recording.temperature_c.as_deref().map(range),
-        holds: of.holds().and_then(|holds| holds.as_ref().ok()),
-        no_holds_because: of.holds().and_then(|holds| holds.as_ref().err()),
-    }
-}
-
-impl<'a> InspectionFile<'a> {
-    fn holds(&self) -> Option<&'a std::result::Result<HoldsInspection, String>> {
-        self.inspection.holds.as_ref()
+        holds: of.inspection.holds.as_ref(),
     }
 }
 
@@ -276,10 +290,7 @@ json_object! {
         gyroscope_noise: of.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
         coarse_axes: of.coarse.iter().map(|(sensor_kind, axis)| CoarseOf { sensor_kind: *sensor_kind, axis }).collect::<Vec<_>>(),
         /// The parameters that they will determine.
-        expected: of.expected.as_ref().ok().map(ExpectedOf),
-        not_determined_because: of.expected.as_ref().err(),
-        /// Why there may be fewer holds than there should be.
-        lost: if_some(of.lost.as_deref()),
+        expected: of.expected.as_ref().map(ExpectedOf),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use calibrant_core::estimate::{Coverage, ExpectedCalibration};
 use calibrant_core::motion::Hold;
-use calibrant_core::sensor::{Axis, ReadingUnit, Saturation, SensorKind};
-use calibrant_io::{HoldsInspection, Inspection, SensorInspection};
+use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind};
+use calibrant_io::{HoldsInspection, Inspection};
 use calibrant_report::number_format::{short, significant};
 use calibrant_report::{Cell, Section, Table};
 use nalgebra::Vector3;
@@ -12,19 +12,9 @@ use nalgebra::Vector3;
 pub(super) fn hold_sections(found: &HoldsInspection, inspection: &Inspection) -> [Section<'static>; 2] {
     let mut section = Section::new("Holds");
     section.paragraph(number_and_duration(&found.holds));
-    section.list(found.lost.iter().cloned().collect());
-    section.list(Axis::ALL.into_iter().filter_map(|axis| saturated(found, axis)).collect());
-    let sensor = |sensor_kind: SensorKind| {
-        inspection.sensors.iter().find(move |sensor: &&SensorInspection| sensor.sensor_kind == sensor_kind)
-    };
-    for (sensor_kind, coarse) in &found.coarse {
-        if let Some(sensor) = sensor(*sensor_kind) {
-            section.paragraph(coarse.check(*sensor_kind, sensor.unit).finding().to_string());
-        }
-    }
     section.list(found.coverage.iter().map(directions).collect());
-    if let (Some((mean, noise)), Some(gyroscope)) = (&found.gyroscope_at_rest, sensor(SensorKind::Gyroscope))
-    {
+    let gyroscope = inspection.sensors.iter().find(|sensor| sensor.sensor_kind == SensorKind::Gyroscope);
+    if let (Some((mean, noise)), Some(gyroscope)) = (&found.gyroscope_at_rest, gyroscope) {
         section.paragraph(format!(
             "gyroscope in the holds: mean {}, noise of one sample {} {}",
             list(mean, 5),
@@ -32,13 +22,7 @@ pub(super) fn hold_sections(found: &HoldsInspection, inspection: &Inspection) ->
             gyroscope.unit.symbol()
         ));
     }
-    match &found.expected {
-        Ok(expected) => [section, expected_sd(expected)],
-        Err(why) => {
-            section.paragraph(format!("The holds do not determine the accelerometer: {why}"));
-            [section, Section::default()]
-        }
-    }
+    [section, found.expected.as_ref().map_or_else(Section::default, expected_sd)]
 }
 
 fn number_and_duration(holds: &[Hold]) -> String {
@@ -54,20 +38,6 @@ fn number_and_duration(holds: &[Hold]) -> String {
             tenths(longest)
         ),
     }
-}
-
-/// The holds in which the accelerometer is at the end of its range in this axis.
-fn saturated(found: &HoldsInspection, axis: Axis) -> Option<String> {
-    let cut = |end: &Option<Saturation>| end.is_some_and(|end| end.axis == axis);
-    let cut = (1..).zip(&found.clipped).filter(|(_, end)| cut(end));
-    let numbers: Vec<String> = cut.map(|(number, _)| number.to_string()).collect();
-    (!numbers.is_empty()).then(|| {
-        format!(
-            "the accelerometer's axis {axis} saturates in hold{} {}: not counted here, and not used in a calibration",
-            if numbers.len() == 1 { "" } else { "s" },
-            numbers.join(", ")
-        )
-    })
 }
 
 /// How the directions of the holds cover the sphere.

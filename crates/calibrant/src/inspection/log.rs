@@ -1,5 +1,6 @@
 //! What a log of a machine's motion contains.
 
+use super::noticed::noticed;
 use super::sampling::sampling_line;
 use calibrant_core::sensor::Axis;
 use calibrant_io::{JointInspection, Jumps, PoseInspection, ReferenceInspection, ReferenceLogFile, Seen};
@@ -23,9 +24,8 @@ pub fn log_sheet(file: &ReferenceLogFile, inspection: &ReferenceInspection, name
         Some(found) => poses(&mut section, found),
         None => section.table(joints(&inspection.joints)),
     }
-    let mut noticed = Section::new("Noticed");
-    noticed.list(file.findings.iter().map(ToString::to_string).collect());
-    Sheet { title: name.to_owned(), sections: vec![section, noticed], ..Sheet::default() }
+    let sections = vec![section, noticed(&file.findings, false)];
+    Sheet { title: name.to_owned(), sections, ..Sheet::default() }
 }
 
 fn joints(joints: &[JointInspection]) -> Table {

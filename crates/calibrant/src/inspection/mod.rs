@@ -4,6 +4,7 @@ mod columns;
 mod holds;
 mod log;
 mod machine;
+mod noticed;
 mod recording;
 mod sampling;
 

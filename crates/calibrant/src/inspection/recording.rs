@@ -2,8 +2,8 @@
 
 use super::columns;
 use super::holds::hold_sections;
+use super::noticed::noticed;
 use super::sampling::sampling_line;
-use calibrant_core::diagnostic::{Diagnostic, samples};
 use calibrant_core::sensor::Axis;
 use calibrant_io::{FileFormat, ImuColumn, ImuFile, Inspection, SensorInspection};
 use calibrant_report::number_format::{count, short};
@@ -15,13 +15,15 @@ use calibrant_report::{Cell, Section, Sheet, Table};
 pub fn recording_sheet(file: &ImuFile, inspection: &Inspection, names: &[String]) -> Sheet<'static> {
     let mut sections = files(file, names);
     sections.push(readings(file, inspection));
-    let mut noticed = Section::new("Noticed");
-    noticed.list(noticed_in(file, inspection));
-    sections.push(noticed);
+    sections.push(noticed(&inspection.findings, file.second.is_some()));
     match &inspection.holds {
-        Some(Ok(found)) => sections.extend(hold_sections(found, inspection)),
-        Some(Err(why)) => sections.push(sentence(format!("No search for holds: {why}"))),
-        None => sections.push(sentence("Without an accelerometer there are no holds.".into())),
+        Some(found) => sections.extend(hold_sections(found, inspection)),
+        None if file.recording.accelerometer.is_some() => {}
+        None => {
+            let mut section = Section::default();
+            section.paragraph("Without an accelerometer there are no holds.");
+            sections.push(section);
+        }
     }
     Sheet { title: names.join(", "), sections, ..Sheet::default() }
 }
@@ -63,19 +65,4 @@ fn range(sensor: &SensorInspection, axis: Axis) -> Vec<Cell> {
     row.extend(values.map(|of| Cell::significant(of[axis.index()], 5)));
     row.push(Cell::unit(sensor.unit.symbol()));
     row
-}
-
-/// What the reader noticed, and the spikes.
-fn noticed_in(file: &ImuFile, inspection: &Inspection) -> Vec<String> {
-    let spikes = inspection.spikes.iter().filter_map(|(sensor_kind, spikes)| {
-        let unit = file.recording.sensor(*sensor_kind)?.unit();
-        Some(Diagnostic::from(samples::Spikes::of(spikes, *sensor_kind, unit)).to_string())
-    });
-    file.all_findings().map(ToString::to_string).chain(spikes).collect()
-}
-
-fn sentence(text: String) -> Section<'static> {
-    let mut section = Section::default();
-    section.paragraph(text);
-    section
 }

@@ -1,5 +1,7 @@
 //! Swapped sensors, taken for each other: files or columns exchanged.
 
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::holds::SensorsSwapped;
 use crate::error::{Error, NotIdentifiable};
 use crate::estimate::holds::{find_clean_holds, median};
 use crate::sensor::{ImuRecording, Recording};
@@ -13,19 +15,21 @@ const DIFFER_SD: f64 = 10.0;
 
 /// Says that the gyroscope rests at different values, as an accelerometer does, and the accelerometer at one value at most.
 #[must_use]
-pub fn swapped_sensors(recording: &ImuRecording, minimum_s: f64) -> Option<&'static str> {
+pub fn swapped_sensors(recording: &ImuRecording, minimum_s: f64) -> Option<SensorsSwapped> {
     let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
-    (rests_at_several(gyroscope, minimum_s) && !rests_at_several(accelerometer, minimum_s)).then_some(
-        "the gyroscope rests at values that differ, as an accelerometer does, and the accelerometer does not: are their files or columns exchanged?",
-    )
+    (rests_at_several(gyroscope, minimum_s) && !rests_at_several(accelerometer, minimum_s))
+        .then_some(SensorsSwapped {})
 }
 
 /// The same error, which came of the holds, with this question.
 pub(crate) fn with_swapped_sensors(error: Error, recording: &ImuRecording, minimum_s: f64) -> Error {
     match (error, swapped_sensors(recording, minimum_s)) {
         (Error::NotIdentifiable(undetermined), Some(stated)) => {
+            let stated = Diagnostic::from(stated);
             let mut groups = undetermined.groups;
-            groups.iter_mut().for_each(|group| group.reason = format!("{}; {stated}", group.reason));
+            groups
+                .iter_mut()
+                .for_each(|group| group.reason = format!("{}; {}", group.reason, stated.message()));
             Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
         }
         (error, _) => error,
