@@ -3,7 +3,7 @@
 
 use super::sampling::Sampling;
 use crate::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
-use crate::results::heading::Heading;
+use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{
@@ -195,7 +195,7 @@ pub struct InspectionFile<'a> {
 json_object! {
     /// What a recording contains, and what to expect of its calibration.
     InspectionFile<'_> as of {
-        heading: flat(Heading::of("recording")),
+        heading: flat(Heading::<Self>::of()),
         format: of.file.format.name(),
         /// The hash of each file, with spaces between.
         sha256: of.file.sha256.join(" "),
@@ -213,6 +213,10 @@ json_object! {
         holds: of.holds().and_then(|holds| holds.as_ref().ok()),
         no_holds_because: of.holds().and_then(|holds| holds.as_ref().err()),
     }
+}
+
+impl JsonFile for InspectionFile<'_> {
+    const KIND: &'static str = "recording";
 }
 
 impl<'a> InspectionFile<'a> {

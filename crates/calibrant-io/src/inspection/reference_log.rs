@@ -2,7 +2,7 @@
 
 use super::sampling::Sampling;
 use crate::reference_log::ReferenceLogFile;
-use crate::results::heading::Heading;
+use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_machine::log::{JointLog, PoseLog, RecoveredStream, ReferenceLog, recover_interpolated};
@@ -201,7 +201,7 @@ pub struct ReferenceInspectionFile<'a> {
 json_object! {
     /// What a log of a motion contains.
     ReferenceInspectionFile<'_> as of {
-        heading: flat(Heading::of("log")),
+        heading: flat(Heading::<Self>::of()),
         format: of.file.format.name(),
         sha256: &of.file.sha256,
         rows: of.file.rows,
@@ -213,6 +213,10 @@ json_object! {
         joints: &of.inspection.joints,
         poses: of.inspection.poses.as_ref(),
     }
+}
+
+impl JsonFile for ReferenceInspectionFile<'_> {
+    const KIND: &'static str = "log";
 }
 
 json_object! {

@@ -1,7 +1,7 @@
 //! What `inspect` says of a machine, as JSON.
 
 use super::{MissingMesh, Urdf};
-use crate::results::heading::Heading;
+use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_machine::chain::{Joint, JointKind, KinematicChain, reach_m};
@@ -43,7 +43,7 @@ pub struct MachineFile<'a> {
 json_object! {
     /// A machine and a chain of it.
     MachineFile<'_> as of {
-        heading: flat(Heading::of("chain")),
+        heading: flat(Heading::<Self>::of()),
         machine: &of.machine.name,
         links: of.machine.links().collect::<Vec<_>>(),
         base: &of.chain.base,
@@ -52,6 +52,10 @@ json_object! {
         joints: of.chain.joints.iter().map(JointOf).collect::<Vec<_>>(),
         missing_meshes: of.meshes.iter().map(MeshOf).collect::<Vec<_>>(),
     }
+}
+
+impl JsonFile for MachineFile<'_> {
+    const KIND: &'static str = "chain";
 }
 
 struct JointOf<'a>(&'a Joint);

@@ -1,6 +1,6 @@
 //! The files of a design: `design.json`, `evaluation.json` and `sweep.json`. Each has what was found, and what is needed to repeat it.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::reach::Reached;
 use calibrant_core::form::{per_axis, rows};
 use calibrant_core::json::{flat, if_some, with_ending};
@@ -50,29 +50,41 @@ pub struct DesignSetting<'a> {
 json_object! {
     /// The best motion for a calibration, with everything that is needed to repeat it, to judge it and to drive the arm.
     DesignFile<'_> as file {
-        heading: flat(Heading::of("design")),
+        heading: flat(Heading::<Self>::of()),
         design: flat(file.design),
         reach: if_some(file.reached),
         setting: file.setting,
     }
 }
 
+impl JsonFile for DesignFile<'_> {
+    const KIND: &'static str = "design";
+}
+
 json_object! {
     /// A motion of the user's own, beside the best one and the limits.
     EvaluationFile<'_> as file {
-        heading: flat(Heading::of("evaluation")),
+        heading: flat(Heading::<Self>::of()),
         assessment: flat(file.assessment),
         setting: file.setting,
     }
 }
 
+impl JsonFile for EvaluationFile<'_> {
+    const KIND: &'static str = "evaluation";
+}
+
 json_object! {
     /// The best motions over the values of one variable.
     SweepFile<'_> as file {
-        heading: flat(Heading::of("sweep")),
+        heading: flat(Heading::<Self>::of()),
         sweep: flat(file.sweep),
         setting: file.setting,
     }
+}
+
+impl JsonFile for SweepFile<'_> {
+    const KIND: &'static str = "sweep";
 }
 
 json_object! {

@@ -1,6 +1,6 @@
 //! `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::judgement::Judgement;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
@@ -90,7 +90,7 @@ pub struct MachineCalibrationFile<'a> {
 json_object! {
     /// A calibration of a sensor on a machine, where it comes from, and what judges it.
     MachineCalibrationFile<'_> as file {
-        heading: flat(Heading::of("calibration")),
+        heading: flat(Heading::<Self>::of()),
         origin: flat(file.origin),
         verdict: file.judgement.verdict(&file.result.calibration.warnings),
         status: file.result.calibration.status.name(),
@@ -112,6 +112,10 @@ json_object! {
         limits: if_any(file.judgement.limits),
         warnings: file.judgement.stated(&file.result.calibration.warnings),
     }
+}
+
+impl JsonFile for MachineCalibrationFile<'_> {
+    const KIND: &'static str = "machine";
 }
 
 json_object! {
