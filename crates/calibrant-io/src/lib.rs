@@ -98,8 +98,7 @@ pub use results::reach::{Reached, ReachedGoal};
 #[cfg(feature = "study")]
 pub use results::study::StudyFile;
 pub use results::summary::{
-    Failure, Summary, SummaryParameter, SummaryRow, spreadsheet_text, unit_ending,
-    write_summary,
+    Failure, Summary, SummaryParameter, SummaryRow, spreadsheet_text, unit_ending, write_summary,
 };
 pub use results::sweep::write_sweep_csv;
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};

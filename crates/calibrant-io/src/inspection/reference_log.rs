@@ -202,8 +202,11 @@ json_object! {
     /// What a log of a motion contains.
     ReferenceInspectionFile<'_> as of {
         heading: flat(Heading::<Self>::of()),
+        /// The format of the file.
         format: of.file.format.name(),
+        /// The hash of the file.
         sha256: &of.file.sha256,
+        /// Number of rows.
         rows: of.file.rows,
         /// What the reader noticed.
         findings: &of.file.findings,
@@ -243,6 +246,7 @@ struct StreamOf<'a>(&'a RecoveredStream);
 
 json_object! {
     StreamOf<'_> as stream {
+        /// Number of samples.
         samples: stream.0.log.positions_m.iter().flatten().count(),
         rate_hz: stream.0.rate_hz(),
         period_s: stream.0.period_s,

@@ -20,7 +20,9 @@ json_object! {
     /// Two calibrations side by side. Angles are in rad.
     ComparisonFile<'_> as file {
         heading: flat(Heading::<Self>::of()),
+        /// The first calibration, by its name.
         a: file.a,
+        /// The second calibration, by its name.
         b: file.b,
         comparison: flat(file.comparison),
     }

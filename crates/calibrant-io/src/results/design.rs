@@ -90,11 +90,14 @@ impl JsonFile for SweepFile<'_> {
 json_object! {
     /// The conditions of the experiment that was designed for, and how the search was done.
     DesignSetting<'_> as of {
+        /// Number of axes of the sensor.
         axes: of.problem.sensor.axes,
         model: of.problem.sensor.model,
+        /// Unit of its readings.
         reading_unit: of.problem.sensor.unit.symbol(),
         /// Of one sample.
         noise: with_ending(of.problem.sensor.unit.suffix(), of.noise()),
+        /// Number of intervals of the motion.
         intervals: of.problem.intervals,
         interval_s: of.problem.interval_s,
         rate_hz: of.problem.rate_hz,
@@ -107,9 +110,13 @@ json_object! {
         guess: of.guess(),
         /// What was known before, in the order of the parameters.
         prior_information: of.problem.prior.as_ref().map(rows),
+        /// Largest number of starts for each axis.
         starts: of.settings.starts,
+        /// Seed of the random starts and of the initial motion.
         seed: of.settings.seed,
+        /// Was a bound asked for?
         certificate: of.settings.certificate,
+        /// Limit of the iterations of one start.
         max_iterations: of.settings.max_iterations,
     }
 }

@@ -41,12 +41,14 @@ json_object! {
     /// The best poses for a static calibration, with everything that is needed to take and to judge them.
     PoseDesignFile<'_> as file {
         heading: flat(Heading::<Self>::of()),
+        /// How the search ended.
         status: if file.design.interrupted { "interrupted" } else { "converged" },
         poses: flat(file.poses()),
         /// What the poses give.
         optimal: file.poses().value(),
         /// From 0 to 1: at least this share of the best possible.
         efficiency: file.design.efficiency(&file.problem.criterion),
+        /// Number of starts of the search.
         starts: file.design.starts,
         /// Starts that ended within 0.1 % of the best.
         starts_at_best: file.design.starts_at_best,
@@ -133,8 +135,11 @@ json_object! {
 /// A parameter, and the value at which the information is taken.
 #[derive(Serialize, JsonSchema)]
 struct PoseParameter {
+    /// Which parameter it is.
     name: String,
+    /// Its unit.
     unit: &'static str,
+    /// The value at which the information is taken.
     nominal: f64,
 }
 

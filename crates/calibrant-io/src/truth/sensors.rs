@@ -38,7 +38,9 @@ json_object! {
     /// What a simulated recording was made of.
     Truth as of {
         heading: flat(Heading::<Self>::of()),
+        /// The seed of the noise.
         seed: of.seed,
+        /// What matrices and biases mean.
         convention: of.convention,
         /// The form of the accelerometer's matrix, where it has one.
         gauge: if_some(of.gauge),

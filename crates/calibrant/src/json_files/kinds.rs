@@ -1,8 +1,8 @@
 //! The kinds of JSON files, each with its JSON Schema, from the types that are written.
 
 use calibrant_io::{
-    BatchEntry, CalibrationFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile, JsonFile,
-    MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
+    BatchEntry, CalibrationFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile,
+    JsonFile, MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
     ReferenceInspectionFile, SweepFile, Truth,
 };
 #[cfg(feature = "records")]
@@ -38,9 +38,16 @@ impl FileKind {
 
     /// All kinds.
     pub const ALL: &[Self] = &[
-        Self::of::<CalibrationFile<'static>>("calibration.json of an accelerometer or of an IMU", "calibrate"),
+        Self::of::<CalibrationFile<'static>>(
+            "calibration.json of an accelerometer or of an IMU",
+            "calibrate",
+        ),
         Self::of::<MachineCalibrationFile<'static>>("calibration.json of a sensor on a machine", "calibrate"),
-        Self::list::<Vec<BatchEntry>>("batch", "the calibrations of several recordings", "calibrate A B --json"),
+        Self::list::<Vec<BatchEntry>>(
+            "batch",
+            "the calibrations of several recordings",
+            "calibrate A B --json",
+        ),
         Self::of::<ConvertedFile<'static>>("a calibration as calibrant JSON", "convert"),
         Self::of::<NoiseFile<'static>>("noise.json", "noise"),
         Self::of::<ComparisonFile<'static>>("what compare prints as JSON", "compare"),
