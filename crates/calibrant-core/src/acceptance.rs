@@ -140,13 +140,17 @@ fn of_limit(limit: &AcceptanceLimit, figures: &[Figure]) -> Vec<CheckedLimit> {
 crate::json_object! {
     /// A figure beside its limit.
     CheckedLimit as limit {
+        /// The figure, by its name.
         name: &limit.figure.name,
         /// None where the result does not have it.
         value: finite(limit.figure.value),
+        /// Standard deviation of the figure.
         sd: limit.figure.sd.and_then(finite),
         /// The least and the largest accepted value.
         range: if_some(limit.range.map(|(least, most)| [least, most])),
+        /// Limit of the standard deviation.
         largest_sd: if_some(limit.largest_sd),
+        /// Is the limit kept, with the guard band?
         decision: limit.decision,
     }
 }

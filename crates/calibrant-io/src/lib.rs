@@ -80,11 +80,12 @@ pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,
     read_reference_log, write_joint_log, write_pose_log,
 };
+pub use results::batch::{BatchEntry, calibrations_json};
 pub use results::calibration::CalibrationFile;
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
-pub use results::heading::Heading;
+pub use results::heading::{Heading, JsonFile, Kind, RECORD_KIND};
 pub use results::input::{Input, file_name};
 pub use results::json::{SCHEMA, to_json, write_json};
 pub use results::judgement::Judgement;
@@ -97,8 +98,7 @@ pub use results::reach::{Reached, ReachedGoal};
 #[cfg(feature = "study")]
 pub use results::study::StudyFile;
 pub use results::summary::{
-    Failure, Summary, SummaryParameter, SummaryRow, calibrations_json, spreadsheet_text, unit_ending,
-    write_summary,
+    Failure, Summary, SummaryParameter, SummaryRow, spreadsheet_text, unit_ending, write_summary,
 };
 pub use results::sweep::write_sweep_csv;
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};

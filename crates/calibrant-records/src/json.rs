@@ -6,7 +6,7 @@ use super::fleet::Fleet;
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_core::sensor::{Gauge, ImuFields};
-use calibrant_io::{Heading, SCHEMA};
+use calibrant_io::{Heading, JsonFile, Kind, RECORD_KIND, SCHEMA};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -16,11 +16,15 @@ pub struct RecordFile<'a> {
     /// The version of all JSON files.
     schema: u32,
     /// What the file is.
-    kind: &'static str,
+    kind: Kind<Self>,
     #[serde(flatten)]
     record: &'a KeptRecord,
     #[serde(flatten)]
     imu: ImuFields,
+}
+
+impl JsonFile for RecordFile<'_> {
+    const KIND: &'static str = RECORD_KIND;
 }
 
 impl<'a> RecordFile<'a> {
@@ -28,14 +32,14 @@ impl<'a> RecordFile<'a> {
     #[must_use]
     pub fn of(record: &'a KeptRecord) -> Self {
         let imu = ImuFields::of(record.record.imu.clone());
-        Self { schema: SCHEMA, kind: "calibration", record, imu }
+        Self { schema: SCHEMA, kind: Kind::of(), record, imu }
     }
 }
 
 json_object! {
     /// The history of a sensor. Angles are in rad.
     SensorHistory as history {
-        heading: flat(Heading::of("history")),
+        heading: flat(Heading::<Self>::of()),
         sensor: &history.sensor,
         /// In the order of their dates, one for each recording.
         calibrations: &history.calibrations,
@@ -47,10 +51,14 @@ json_object! {
     }
 }
 
+impl JsonFile for SensorHistory {
+    const KIND: &'static str = "history";
+}
+
 json_object! {
     /// The parameters over all sensors.
     Fleet as fleet {
-        heading: flat(Heading::of("fleet")),
+        heading: flat(Heading::<Self>::of()),
         /// The gauge of all; none where all have one frame of another kind.
         gauge: fleet.gauge.map(Gauge::name),
         /// The reference temperature of those that follow temperature, °C.
@@ -61,4 +69,8 @@ json_object! {
         /// Sensors that could not be brought into this frame or to this temperature.
         left_out: &fleet.left_out,
     }
+}
+
+impl JsonFile for Fleet {
+    const KIND: &'static str = "fleet";
 }

@@ -261,7 +261,7 @@ fn json_on_stdout_is_the_file_and_nothing_else() {
     let outcome = bench.run("study --sensors 2 --starts 1 --json -o study").done();
     assert_eq!(outcome.stdout, bench.read("study/study.json"));
     let outcome = bench.run(&format!("{calibrate} a/recording.csv b/recording.csv -o two")).ends_with(5);
-    let list = outcome.json();
+    let list = outcome.list("batch");
     assert_eq!(list.as_array().map(Vec::len), Some(2));
     for (k, (file, folder)) in [("a", "recording"), ("b", "recording-2")].into_iter().enumerate() {
         assert_eq!(list[k]["file"], format!("{file}/recording.csv"));

@@ -22,17 +22,10 @@ pub(crate) fn check_kind(kind: &str, name: &str, value: &Value) {
     assert!(faults.is_empty(), "{name} is not of the kind {kind}:\n{}", faults.join("\n"));
 }
 
-/// The name of the kind of a file; `None` for one of another program.
+/// The kind that a file says; `None` for one of another program.
 fn kind_of(value: &Value) -> Option<&str> {
     let is_ours = value["program"].as_str()?.starts_with("calibrant ") && value["schema"] == 2;
-    let has = |key: &str| value.get(key).is_some();
-    match value["kind"].as_str().filter(|_| is_ours)? {
-        "calibration" if has("id") => Some("record"),
-        "calibration" if has("machine") => Some("machine"),
-        "calibration" if !has("verdict") => Some("converted"),
-        "evaluation of poses" => Some("poses-evaluation"),
-        kind => Some(kind),
-    }
+    value["kind"].as_str().filter(|_| is_ours)
 }
 
 /// The part of JSON Schema that our schemas use.
@@ -54,6 +47,9 @@ impl Form<'_> {
         let fault = |what: &str| vec![format!("{place}: {what}")];
         if schema["enum"].as_array().is_some_and(|values| !values.contains(value)) {
             return fault(&format!("{value} is none of {}", schema["enum"]));
+        }
+        if let Some(only) = schema.get("const").filter(|only| *only != value) {
+            return fault(&format!("{value} is not {only}"));
         }
         let types = match &schema["type"] {
             Value::Array(types) => types.iter().filter_map(Value::as_str).collect(),
@@ -108,11 +104,13 @@ fn what_does_not_have_the_form_is_found() {
         "properties": {
             "a": { "type": ["number", "null"] },
             "b": { "type": "array", "items": { "anyOf": [{ "$ref": "#/$defs/Name" }, { "type": "null" }] }, "maxItems": 2 },
+            "kind": { "type": "string", "const": "z" },
         },
     });
     let faults = |value: Value| Form { definitions: &schema["$defs"] }.faults(&schema, &value, "").join("; ");
     assert_eq!(faults(serde_json::json!({ "a": null, "b": ["x", null] })), "");
     assert_eq!(faults(serde_json::json!({ "c": 1 })), ": a is missing; : c is not in the schema");
+    assert_eq!(faults(serde_json::json!({ "a": 1, "kind": "y" })), ".kind: \"y\" is not \"z\"");
     assert_eq!(faults(serde_json::json!({ "a": "1" })), ".a: \"1\" is no number or null");
     assert_eq!(faults(serde_json::json!({ "a": 1, "b": ["z"] })), ".b[0]: \"z\" is none of [\"x\",\"y\"]");
     assert_eq!(faults(serde_json::json!({ "a": 1, "b": ["x", "x", "y"] })), ".b: 3 entries");

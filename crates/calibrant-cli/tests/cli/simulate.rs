@@ -247,6 +247,9 @@ fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
         2,
         &["known/truth.json: this is the truth of a simulation, not a calibration: it has no covariance"],
     );
+    let says =
+        ["this is the truth of a simulation", "give a calibration.json that `calibrant calibrate` wrote"];
+    bench.refuses("records add r.db known/truth.json", 2, &says);
     bench.write("part.json", bench.read("one/truth.json").replace("parameters", "parametres"));
     bench.refuses("compare part.json one/truth.json", 2, &["the field `parameters` is missing"]);
     bench.write("part.json", bench.read("one/truth.json").replace("scale.x\"", "scale.u\""));

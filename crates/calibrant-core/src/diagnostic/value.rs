@@ -26,7 +26,9 @@ use std::fmt;
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Diagnostic {
+    /// What was found, by its code.
     code: Code,
+    /// How much it matters.
     severity: Severity,
     /// The file that it is about.
     #[serde(default, skip_serializing_if = "Option::is_none")]

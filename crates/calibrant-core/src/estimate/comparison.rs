@@ -77,19 +77,26 @@ crate::json_object! {
 crate::json_object! {
     /// One invariant in two calibrations.
     ComparedQuantity as row {
+        /// What is compared.
         name: row.invariant,
         /// Its unit; where they differ, that of A, a bar, and that of B.
         unit: row.unit(),
+        /// The value in the first calibration.
         a: row.a.value,
+        /// Its standard deviation; unknown without a covariance.
         a_sd: row.a.sd,
+        /// The value in the second calibration.
         b: row.b.value,
+        /// Its standard deviation; unknown without a covariance.
         b_sd: row.b.sd,
         /// Second minus first; none where the units differ.
         difference: row.difference,
+        /// Joint standard deviation of both.
         difference_sd: row.sd,
         difference_in_sd: row.in_sd,
         /// None where the sd is known.
         degrees_of_freedom: finite(row.degrees_of_freedom),
+        /// Probability of a larger difference if both are of one sensor.
         p_value: row.p_value,
     }
 }

@@ -13,9 +13,11 @@ use serde::Serialize;
 json_object! {
     /// The noise of one sensor at rest.
     SensorNoise as noise {
+        /// Which sensor it is.
         sensor: noise.sensor_kind,
         /// Unit of the readings, and of all coefficients but for seconds and hertz.
         reading_unit: noise.unit,
+        /// The first sample of the segment, from 0.
         first_sample: noise.segment.first,
         /// One past the last sample.
         end_sample: noise.segment.end,
@@ -52,8 +54,11 @@ impl<'a> AxisOf<'a> {
 json_object! {
     /// The noise of one axis.
     AxisOf<'_> as of {
+        /// Which axis it is.
         axis: of.axis.axis,
+        /// Standard deviation of the white noise of one sample.
         white_noise_per_sample: of.axis.fit.model.white_noise_per_sample(of.noise.segment.rate_hz()),
+        /// Standard deviation of the samples about their mean.
         sample_sd: of.axis.sample_sd,
         random_walk: of.coefficient(PowerLaw::White),
         bias_instability: of.coefficient(PowerLaw::Flicker),
@@ -61,6 +66,7 @@ json_object! {
         quantisation: of.coefficient(PowerLaw::Quantisation),
         /// Where flicker noise has its largest share of the Allan variance.
         bias_instability_tau_s: of.axis.fit.flat_tau_s,
+        /// The slope of the readings.
         drift: of.axis.fit.drift,
         fit: FitOf(of),
         /// Lines in the spectrum.
@@ -76,23 +82,34 @@ struct CoefficientOf<'a> {
 
 #[derive(Serialize, JsonSchema)]
 struct InCustomaryUnit {
+    /// The unit of a datasheet.
     unit: &'static str,
+    /// The estimate.
     value: f64,
+    /// Its standard deviation.
     sd: f64,
 }
 
 json_object! {
     /// A coefficient with its 95 % interval, or what keeps it from being determined.
     CoefficientOf<'_> as of {
+        /// Does the recording determine it?
         determined: of.coefficient.estimate().is_some(),
+        /// Its unit, by that of the readings.
         unit: of.units[0].symbol,
+        /// The estimate.
         value: of.coefficient.value(),
+        /// Its standard deviation.
         sd: of.coefficient.estimate().map(|found| found.sd),
+        /// Lower end of its 95 % interval.
         low: of.coefficient.estimate().map(|found| found.low),
+        /// Upper end of its 95 % interval.
         high: of.coefficient.estimate().map(|found| found.high),
         /// The same in the units of datasheets.
         customary: of.customary(),
+        /// The upper limit, where it is not determined.
         upper_limit: of.coefficient.limit(),
+        /// Why it is not determined.
         reason: of.coefficient.reason(),
     }
 }
@@ -117,16 +134,22 @@ json_object! {
         filtered: of.0.axis.fit.filtered,
         shortest_tau_s: of.0.axis.fit.shortest_tau_s,
         longest_tau_s: of.0.axis.fit.longest_tau_s,
+        /// χ² of the Allan deviation about the model.
         chi2: of.0.axis.fit.chi2,
+        /// Its degrees of freedom.
         degrees_of_freedom: of.0.axis.fit.degrees_of_freedom,
+        /// Probability of a χ² at least this large if the model is right.
         p_value: of.0.axis.fit.p_value,
     }
 }
 
 json_object! {
     super::Drift as drift {
+        /// Slope, in the unit of the readings per second.
         per_s: drift.per_s,
+        /// Its standard deviation if the noise is as estimated.
         sd: drift.sd,
+        /// Is it larger than the noise explains?
         significant: drift.is_significant(),
     }
 }
@@ -134,11 +157,16 @@ json_object! {
 json_object! {
     /// The overlapping Allan deviation with its 95 % bounds, in the unit of the readings.
     AllanDeviation as allan {
+        /// Samples in a cluster.
         cluster_samples: allan.points.iter().map(|point| point.cluster).collect::<Vec<_>>(),
         tau_s: column(allan, |point| point.tau_s),
+        /// The deviation at each cluster time.
         deviation: column(allan, |point| point.deviation),
+        /// Its lower 95 % bound.
         low: column(allan, |point| point.low),
+        /// Its upper 95 % bound.
         high: column(allan, |point| point.high),
+        /// Equivalent degrees of freedom of its square.
         degrees_of_freedom: column(allan, |point| point.degrees_of_freedom),
     }
 }

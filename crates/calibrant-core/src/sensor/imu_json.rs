@@ -52,7 +52,9 @@ json_object! {
         gyroscope: of.sensor(SensorKind::Gyroscope),
         temperature: if_some(of.imu.follows_temperature().then_some(ThermalOf(&of.imu))),
         parameters: (0..of.imu.quantities.len()).map(|place| ParameterOf { of, place }).collect::<Vec<_>>(),
+        /// What the rows of the covariance stand for, and its units.
         covariance_of: COVARIANCE_OF,
+        /// Covariance of the parameters; none where it is not known.
         covariance: Form::<Option<Vec<Vec<f64>>>>::form(&of.imu.covariance),
         covariance_degrees_of_freedom: if_some(of.imu.degrees_of_freedom),
     }
@@ -79,6 +81,7 @@ struct SensorOf<'a> {
 json_object! {
     /// One sensor. Each quantity has the key in its unit.
     SensorOf<'_> as of {
+        /// Unit of its readings.
         reading_unit: of.unit,
         bias: with_ending(of.unit.suffix(), per_axis(&of.of.imu.parameters.sensor(of.sensor_kind).bias, of.of.axes)),
         /// `matrix`, or `matrix_counts_per_mps2`, `matrix_counts_per_radps` for readings in counts; and `g_sensitivity_radps_per_mps2` or
@@ -117,6 +120,7 @@ struct CorrectionOf<'a> {
 json_object! {
     /// Raw to true, for readers of the file.
     CorrectionOf<'_> as correction {
+        /// How true values follow from readings.
         direction: match correction.of.sensor_kind {
             SensorKind::Accelerometer => "raw to true: f = C (y_a - b_a); matrix is C, the inverse of S",
             SensorKind::Gyroscope => "raw to true: w = C (y_g - b_g - G f); matrix is C, the inverse of S",
@@ -163,9 +167,13 @@ impl ParameterOf<'_> {
 json_object! {
     /// A quantity, its value and standard deviation, and what was known of it beforehand.
     ParameterOf<'_> as parameter {
+        /// The quantity: `accelerometer.bias.x`.
         name: parameter.quantity().name(),
+        /// Unit of its value and of its standard deviation.
         unit: parameter.of.imu.unit_of(parameter.quantity()),
+        /// The estimate.
         value: parameter.quantity().value(&parameter.of.imu.parameters),
+        /// Its standard deviation, the root of the covariance's diagonal.
         sd: parameter.sd(),
         /// The datasheet's value.
         nominal: if_some(parameter.known().nominal),
@@ -179,8 +187,11 @@ json_object! {
 json_object! {
     /// Those behind each part of the covariance; none where its size is known.
     CovarianceDegrees as degrees {
+        /// Behind the parameters of the accelerometer: the scatter between holds.
         accelerometer: finite(degrees.accelerometer),
+        /// Behind the bias and the g-sensitivity of the gyroscope: its scatter between holds.
         gyroscope_at_rest: finite(degrees.gyroscope_at_rest),
+        /// Behind the matrix of the gyroscope: the scatter between rotations.
         gyroscope_matrix: finite(degrees.gyroscope_matrix),
     }
 }
@@ -213,6 +224,7 @@ pub(super) struct ThermalOf<'a>(pub(super) &'a CalibratedImu);
 json_object! {
     /// How biases and gains follow temperature.
     ThermalOf<'_> as of {
+        /// How bias and scale factors follow the temperature.
         formula: FORMULA,
         reference_c: of.0.parameters.thermal.reference_c,
         /// The temperatures of the recording.

@@ -104,12 +104,17 @@ pub struct LimitUse {
 json_object! {
     /// How far a motion goes towards one limit of one axis, and beyond it. Numbers are in `unit`.
     LimitUse as of {
+        /// The axis, by its letter.
         axis: of.axis.letter(),
+        /// Which limit it is.
         limit: of.kind.key(),
+        /// Unit of both numbers.
         unit: of.kind.unit(),
         /// When the motion is worst.
         time_s: of.time_s,
+        /// The motion's value where it is worst, with its sign.
         value: of.value,
+        /// The limit: zero for rest, and what is prescribed for an acceleration.
         allowed: of.limit,
         /// How far beyond the limit, relative to it.
         violation: of.violation,

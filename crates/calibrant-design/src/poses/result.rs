@@ -46,7 +46,9 @@ pub struct PoseBound {
 json_object! {
     /// A lower bound of the criterion, and the approximate design that gives it.
     PoseBound as of {
+        /// No set of as many allowed poses has a lower value.
         lower_bound: of.value,
+        /// Directions of the approximate design.
         directions: of.directions.iter().map(|up| <[f64; 3]>::from(*up)).collect::<Vec<_>>(),
         /// Share of the poses at each direction.
         shares: &of.shares,

@@ -93,6 +93,7 @@ impl Design {
 json_object! {
     /// The best motion found, beside the initial one, and its distance from the bound.
     Design as of {
+        /// How the search ended.
         status: of.status,
         criterion: &of.criterion,
         /// What the motion determines: the order of all lists of parameters.
@@ -109,8 +110,11 @@ json_object! {
         /// How far the motion goes towards each limit.
         limit_use: limit_use(&of.limits, of.optimal.motion.axes(), &of.optimal.motion),
         gap_goal: if_some(of.gap_goal),
+        /// Is the gap that was asked for reached?
         gap_is_reached: if_some(of.gap_is_reached()),
+        /// Number of starts that converged.
         starts_converged: of.starts_converged(),
+        /// Number of iterations of all starts.
         iterations: of.iterations,
         starts: &of.starts,
     }
@@ -206,12 +210,17 @@ pub struct StartOutcome {
 json_object! {
     /// One start of the search.
     StartOutcome as of {
+        /// The axes that were designed together.
         axes: of.axes.iter().map(|axis| axis.letter()).collect::<Vec<_>>(),
         /// Among those of these axes; 0 is the initial motion.
         number: of.number,
+        /// Value of the criterion where it began.
         initial_value: of.initial_value,
+        /// Value of the criterion where it ended.
         value: of.value,
+        /// Number of iterations.
         iterations: of.iterations,
+        /// How it ended.
         status: of.status,
     }
 }

@@ -104,8 +104,11 @@ pub struct Sweep {
 json_object! {
     /// One value of a sweep.
     SweepPoint as of {
+        /// The value that was used: a duration is a whole number of intervals.
         value: of.value,
+        /// The value that was asked for.
         asked: of.asked,
+        /// Number of intervals of the motion.
         intervals: of.intervals,
         /// The best design there.
         design: of.outcome.as_ref().ok(),
@@ -117,7 +120,9 @@ json_object! {
 json_object! {
     /// The best designs over the values of one variable.
     Sweep as of {
+        /// What is varied.
         variable: of.variable.key(),
+        /// Unit of its values.
         unit: of.variable.unit(),
         points: &of.points,
     }

@@ -12,8 +12,10 @@ use super::json_core::ImuCore;
 use super::usable_calibration::usable;
 use super::words::{input_error, invalid};
 use super::{CalibratedImuFile, ImuFormat, truth};
-use crate::results::heading::Heading;
+use crate::results::calibration::CalibrationFile;
+use crate::results::heading::{Heading, JsonFile, RECORD_KIND};
 use crate::results::json;
+use crate::results::machine_calibration::MachineCalibrationFile;
 use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::json::{flat, if_some};
@@ -21,10 +23,11 @@ use calibrant_core::json_object;
 use calibrant_core::sensor::{CalibratedImu, ImuFields};
 use serde::Deserialize;
 
-/// The kind of file that the field `kind` names.
-const KIND: &str = "calibration";
-/// The remedy for a broken file.
-const HELP: &str = "give a file that calibrant wrote";
+/// The kinds of files with a calibration. All said `calibration` once.
+const KINDS: [&str; 4] =
+    [CalibrationFile::KIND, MachineCalibrationFile::KIND, ConvertedFile::KIND, RECORD_KIND];
+/// The remedy for a broken file, or one of another kind.
+const HELP: &str = "give a calibration.json that `calibrant calibrate` wrote";
 
 /// A calibrated IMU as calibrant JSON.
 #[derive(Debug, Clone, Copy)]
@@ -33,11 +36,15 @@ pub struct ConvertedFile<'a>(pub(super) &'a CalibratedImuFile);
 json_object! {
     /// A calibrated IMU.
     ConvertedFile<'_> as file {
-        heading: flat(Heading::of(KIND)),
+        heading: flat(Heading::<Self>::of()),
         imu: flat(ImuFields::of(file.0.imu.clone())),
         inputs: &file.0.inputs,
         noise: if_some(file.0.noise.as_ref()),
     }
+}
+
+impl JsonFile for ConvertedFile<'_> {
+    const KIND: &'static str = "converted";
 }
 
 /// The fields beside the core. A file of the estimator has more, which this reader ignores.
@@ -78,10 +85,6 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
 /// their prior.
 pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
     let header = Header::of(text)?;
-    if header.is_truth() {
-        let message = "this is the truth of a simulation, not a calibration: it has no covariance";
-        return Err(invalid(message, "give a calibration.json that `calibrant calibrate` wrote"));
-    }
     let (imu, _) = header.core(text)?.into_imu()?;
     usable(&imu)?;
     Ok((imu, header.prior.as_deref() == Some("datasheet")))
@@ -108,6 +111,10 @@ impl Header {
 
     /// The core of a file of this schema, of a calibration that converged.
     fn core(&self, text: &str) -> Checked<ImuCore> {
+        if self.is_truth() {
+            let message = "this is the truth of a simulation, not a calibration: it has no covariance";
+            return Err(invalid(message, HELP));
+        }
         match &self.schema {
             Some(schema) if *schema == json::SCHEMA => (),
             Some(schema) if *schema == 1 => return Err(obsolete()),
@@ -117,8 +124,8 @@ impl Header {
             }
             None => return Err(missing("schema")),
         }
-        if let Some(kind) = self.kind.as_ref().filter(|kind| *kind != KIND) {
-            let message = format!("the kind of this file is {kind:?}, not \"{KIND}\"");
+        if let Some(kind) = self.kind.as_ref().filter(|kind| !KINDS.contains(&kind.as_str())) {
+            let message = format!("the kind of this file is {kind:?}, and that is no calibration");
             return Err(invalid(message, HELP));
         }
         if let Some(status) = self.status.as_ref().filter(|status| *status != "converged") {

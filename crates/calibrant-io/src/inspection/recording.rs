@@ -3,7 +3,7 @@
 
 use super::sampling::Sampling;
 use crate::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
-use crate::results::heading::Heading;
+use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldsUndetermined};
 use calibrant_core::diagnostic::samples::Spikes as SpikesFound;
 use calibrant_core::diagnostic::{Diagnostic, HoldReason, HoldSpan, Phrase};
@@ -216,13 +216,16 @@ pub struct InspectionFile<'a> {
 json_object! {
     /// What a recording contains, and what to expect of its calibration.
     InspectionFile<'_> as of {
-        heading: flat(Heading::of("recording")),
+        heading: flat(Heading::<Self>::of()),
+        /// The format of the file.
         format: of.file.format.name(),
         /// The hash of each file, with spaces between.
         sha256: of.file.sha256.join(" "),
+        /// Number of rows.
         rows: of.file.rows,
         /// The gyroscope's file of a pair. Its columns come last.
         second_file: if_some(of.file.second.as_ref()),
+        /// What each column was read as.
         columns: &of.file.columns,
         /// What was noticed by the reader, in the samples and in the holds.
         findings: &of.inspection.findings,
@@ -235,6 +238,10 @@ json_object! {
     }
 }
 
+impl JsonFile for InspectionFile<'_> {
+    const KIND: &'static str = "recording";
+}
+
 fn range(values: &[f64]) -> [f64; 2] {
     let wider = |[least, most]: [f64; 2], value: &f64| [least.min(*value), most.max(*value)];
     values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wider)
@@ -242,7 +249,9 @@ fn range(values: &[f64]) -> [f64; 2] {
 
 json_object! {
     SecondFile as second {
+        /// The format of the file.
         format: second.format.name(),
+        /// Number of rows.
         rows: second.rows,
         /// Number of its columns.
         columns: second.columns,
@@ -251,10 +260,15 @@ json_object! {
 
 json_object! {
     ImuColumn as column {
+        /// The name in the file.
         name: &column.name,
+        /// What it was read as.
         meaning: column.meaning.to_string(),
+        /// Its unit, where it is known.
         unit: column.unit.map(ColumnUnit::symbol),
+        /// Is it read?
         used: column.is_used(),
+        /// Why it is not read.
         not_used_because: column.unused.as_deref(),
     }
 }
@@ -267,7 +281,9 @@ struct SpikesOf<'a> {
 json_object! {
     /// Samples of a sensor that were removed, and the one that is farthest off.
     SpikesOf<'_> as of {
+        /// Which sensor it is.
         sensor: of.sensor_kind,
+        /// Number of samples.
         samples: of.spikes.samples.len(),
         /// Samples that were removed and not replaced.
         cut_samples: of.spikes.cut.len(),
@@ -280,13 +296,18 @@ json_object! {
 json_object! {
     /// The holds of a recording and their use for a calibration.
     HoldsInspection as of {
+        /// Number of holds.
         count: of.holds.len(),
         minimum_hold_s: MINIMUM_HOLD_S,
+        /// The holds, in the order of time.
         table: of.holds.iter().zip(&of.clipped).map(|(hold, clipped)| HoldOf { hold, clipped: *clipped }).collect::<Vec<_>>(),
         /// The widest part of the sphere without a direction, and its middle.
         largest_gap_deg: of.coverage.map(|coverage| coverage.gap_rad.to_degrees()),
+        /// The direction farthest from all holds.
         emptiest_direction: of.coverage.map(|coverage| list(&coverage.emptiest)),
+        /// Mean reading of the gyroscope in the holds.
         gyroscope_mean: of.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),
+        /// Noise of one sample of the gyroscope in the holds.
         gyroscope_noise: of.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
         coarse_axes: of.coarse.iter().map(|(sensor_kind, axis)| CoarseOf { sensor_kind: *sensor_kind, axis }).collect::<Vec<_>>(),
         /// The parameters that they will determine.
@@ -303,9 +324,13 @@ json_object! {
     HoldOf<'_> as of {
         start_s: of.hold.start_s,
         end_s: of.hold.end_s,
+        /// Number of samples.
         samples: of.hold.samples(),
+        /// Mean reading of each axis.
         mean: list(&of.hold.mean),
+        /// Standard deviation of one sample of each axis.
         sd: list(&of.hold.sd),
+        /// The axis that is at the end of its range.
         saturated_axis: of.clipped.map(|end| end.axis),
     }
 }
@@ -318,7 +343,9 @@ struct CoarseOf<'a> {
 json_object! {
     /// An axis whose quantisation step is coarser than its noise, in the unit of the readings.
     CoarseOf<'_> as of {
+        /// Which sensor it is.
         sensor: of.sensor_kind,
+        /// Which axis it is.
         axis: of.axis.axis,
         step: of.axis.step,
         noise: of.axis.noise,
@@ -331,18 +358,25 @@ struct ExpectedOf<'a>(&'a ExpectedCalibration);
 json_object! {
     /// The parameters of the accelerometer that the holds will determine.
     ExpectedOf<'_> as of {
+        /// The form of the matrix for which this holds.
         gauge: Gauge::Upper.name(),
         gravity_mps2: GRAVITY_MPS2,
+        /// Standard deviation of one sample within the holds.
         noise: list(&of.0.noise),
+        /// Largest over smallest eigenvalue of the scaled information: 1 is best.
         condition_number: of.0.condition_number,
+        /// The standard deviation that each parameter would have.
         parameters: of.parameters(),
     }
 }
 
 #[derive(Serialize, JsonSchema)]
 struct ExpectedParameter {
+    /// Which parameter it is.
     name: String,
+    /// Its unit.
     unit: &'static str,
+    /// Its standard deviation.
     sd: f64,
     /// Standard deviation of biases in m/s², of others relative to the gain.
     sd_in_si: f64,

@@ -2,7 +2,7 @@
 
 use super::sampling::Sampling;
 use crate::reference_log::ReferenceLogFile;
-use crate::results::heading::Heading;
+use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_machine::log::{JointLog, PoseLog, RecoveredStream, ReferenceLog, recover_interpolated};
@@ -201,9 +201,12 @@ pub struct ReferenceInspectionFile<'a> {
 json_object! {
     /// What a log of a motion contains.
     ReferenceInspectionFile<'_> as of {
-        heading: flat(Heading::of("log")),
+        heading: flat(Heading::<Self>::of()),
+        /// The format of the file.
         format: of.file.format.name(),
+        /// The hash of the file.
         sha256: &of.file.sha256,
+        /// Number of rows.
         rows: of.file.rows,
         /// What the reader noticed.
         findings: &of.file.findings,
@@ -213,6 +216,10 @@ json_object! {
         joints: &of.inspection.joints,
         poses: of.inspection.poses.as_ref(),
     }
+}
+
+impl JsonFile for ReferenceInspectionFile<'_> {
+    const KIND: &'static str = "log";
 }
 
 json_object! {
@@ -239,6 +246,7 @@ struct StreamOf<'a>(&'a RecoveredStream);
 
 json_object! {
     StreamOf<'_> as stream {
+        /// Number of samples.
         samples: stream.0.log.positions_m.iter().flatten().count(),
         rate_hz: stream.0.rate_hz(),
         period_s: stream.0.period_s,

@@ -64,6 +64,7 @@ impl Sampling {
 json_object! {
     /// The times of samples.
     Sampling as of {
+        /// Number of samples.
         samples: of.samples,
         start_s: of.span_s.0,
         end_s: of.span_s.1,

@@ -1,6 +1,6 @@
 //! `calibration.json` of an accelerometer or of an IMU. Every reader of calibrations takes it.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::judgement::Judgement;
 use super::origin::Origin;
 use calibrant_core::diagnostic::Diagnostic;
@@ -52,7 +52,7 @@ impl<'a> CalibrationFile<'a> {
 json_object! {
     /// A calibration of an accelerometer or of an IMU, where it comes from, and what judges it.
     CalibrationFile<'_> as file {
-        heading: flat(Heading::of("calibration")),
+        heading: flat(Heading::<Self>::of()),
         origin: flat(file.origin),
         verdict: file.judgement.verdict(&file.calibration.warnings),
         calibration: flat(file.calibration),
@@ -62,4 +62,8 @@ json_object! {
         limits: if_any(file.judgement.limits),
         warnings: file.warnings(),
     }
+}
+
+impl JsonFile for CalibrationFile<'_> {
+    const KIND: &'static str = "calibration";
 }

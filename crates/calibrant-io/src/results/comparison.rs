@@ -1,6 +1,6 @@
 //! Two calibrations side by side, as JSON.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use calibrant_core::estimate::Comparison;
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
@@ -19,9 +19,15 @@ pub struct ComparisonFile<'a> {
 json_object! {
     /// Two calibrations side by side. Angles are in rad.
     ComparisonFile<'_> as file {
-        heading: flat(Heading::of("comparison")),
+        heading: flat(Heading::<Self>::of()),
+        /// The first calibration, by its name.
         a: file.a,
+        /// The second calibration, by its name.
         b: file.b,
         comparison: flat(file.comparison),
     }
+}
+
+impl JsonFile for ComparisonFile<'_> {
+    const KIND: &'static str = "comparison";
 }

@@ -1,6 +1,6 @@
 //! The files of a design: `design.json`, `evaluation.json` and `sweep.json`. Each has what was found, and what is needed to repeat it.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::reach::Reached;
 use calibrant_core::form::{per_axis, rows};
 use calibrant_core::json::{flat, if_some, with_ending};
@@ -50,39 +50,54 @@ pub struct DesignSetting<'a> {
 json_object! {
     /// The best motion for a calibration, with everything that is needed to repeat it, to judge it and to drive the arm.
     DesignFile<'_> as file {
-        heading: flat(Heading::of("design")),
+        heading: flat(Heading::<Self>::of()),
         design: flat(file.design),
         reach: if_some(file.reached),
         setting: file.setting,
     }
 }
 
+impl JsonFile for DesignFile<'_> {
+    const KIND: &'static str = "design";
+}
+
 json_object! {
     /// A motion of the user's own, beside the best one and the limits.
     EvaluationFile<'_> as file {
-        heading: flat(Heading::of("evaluation")),
+        heading: flat(Heading::<Self>::of()),
         assessment: flat(file.assessment),
         setting: file.setting,
     }
 }
 
+impl JsonFile for EvaluationFile<'_> {
+    const KIND: &'static str = "evaluation";
+}
+
 json_object! {
     /// The best motions over the values of one variable.
     SweepFile<'_> as file {
-        heading: flat(Heading::of("sweep")),
+        heading: flat(Heading::<Self>::of()),
         sweep: flat(file.sweep),
         setting: file.setting,
     }
 }
 
+impl JsonFile for SweepFile<'_> {
+    const KIND: &'static str = "sweep";
+}
+
 json_object! {
     /// The conditions of the experiment that was designed for, and how the search was done.
     DesignSetting<'_> as of {
+        /// Number of axes of the sensor.
         axes: of.problem.sensor.axes,
         model: of.problem.sensor.model,
+        /// Unit of its readings.
         reading_unit: of.problem.sensor.unit.symbol(),
         /// Of one sample.
         noise: with_ending(of.problem.sensor.unit.suffix(), of.noise()),
+        /// Number of intervals of the motion.
         intervals: of.problem.intervals,
         interval_s: of.problem.interval_s,
         rate_hz: of.problem.rate_hz,
@@ -95,9 +110,13 @@ json_object! {
         guess: of.guess(),
         /// What was known before, in the order of the parameters.
         prior_information: of.problem.prior.as_ref().map(rows),
+        /// Largest number of starts for each axis.
         starts: of.settings.starts,
+        /// Seed of the random starts and of the initial motion.
         seed: of.settings.seed,
+        /// Was a bound asked for?
         certificate: of.settings.certificate,
+        /// Limit of the iterations of one start.
         max_iterations: of.settings.max_iterations,
     }
 }

@@ -1,6 +1,6 @@
 //! `calibration.json` of a sensor on a machine: the fields of every calibration, and in `machine` what was found of the machine.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::judgement::Judgement;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
@@ -90,14 +90,17 @@ pub struct MachineCalibrationFile<'a> {
 json_object! {
     /// A calibration of a sensor on a machine, where it comes from, and what judges it.
     MachineCalibrationFile<'_> as file {
-        heading: flat(Heading::of("calibration")),
+        heading: flat(Heading::<Self>::of()),
         origin: flat(file.origin),
         verdict: file.judgement.verdict(&file.result.calibration.warnings),
+        /// How the iteration ended.
         status: file.result.calibration.status.name(),
+        /// Number of iterations.
         iterations: file.result.calibration.iterations,
         /// Length of the last step, in standard deviations.
         gradient_norm: file.result.calibration.gradient_norm,
         imu: flat(ImuFields::of(file.result.calibration.calibrated())),
+        /// The covariance with a diagonal of ones.
         correlation: file.result.correlation(),
         fit: FitInUnit {
             fit: &file.result.calibration.fit,
@@ -114,6 +117,10 @@ json_object! {
     }
 }
 
+impl JsonFile for MachineCalibrationFile<'_> {
+    const KIND: &'static str = "machine";
+}
+
 json_object! {
     /// What was found of the machine, and of the noise.
     MachineResult<'_> as of {
@@ -123,7 +130,9 @@ json_object! {
             MachineTrust::Noisy => "noisy",
         },
         log: of.log,
+        /// The link that stands still.
         base: if_some(of.chain().map(|chain| &chain.base)),
+        /// The link that carries the sensor.
         tip: if_some(of.chain().map(|chain| &chain.tip)),
         /// Part of the sensor's samples that lie in the log's time and in none of its gaps.
         used_share: of.calibration.used_share,
@@ -135,6 +144,7 @@ json_object! {
         gravity_mps2: of.calibration.parameters.gravity_mps2,
         /// From the tip to the sensor.
         lever_m: <[f64; 3]>::from(of.calibration.parameters.mount.lever_m),
+        /// The sensor's orientation at the tip, a unit quaternion.
         tip_from_sensor_wxyz: of.tip_from_sensor_wxyz(),
         sensor_noise: of.calibration.noise.iter().map(|noise| of.noise_of(noise)).collect::<Vec<_>>(),
         log_noise: &of.calibration.reference_noise,
@@ -147,17 +157,24 @@ json_object! {
 struct Knots {
     start_s: f64,
     step_s: f64,
+    /// Number of intervals between knots.
     intervals: usize,
+    /// Degree of the polynomials.
     degree: usize,
 }
 
 /// A quantity that was estimated beside the sensor's parameters.
 #[derive(Serialize, JsonSchema)]
 struct Quantity {
+    /// Which quantity it is.
     name: String,
+    /// Unit of its numbers.
     unit: &'static str,
+    /// The estimate.
     value: f64,
+    /// Its standard deviation.
     sd: f64,
+    /// Standard deviation of what was known before; none without a prior.
     #[serde(with = "As::<Option<f64>>")]
     prior_sd: f64,
     /// By how much correlation in time widens the standard deviation.
@@ -167,10 +184,15 @@ struct Quantity {
 /// The noise of one sample of a sensor, in `unit`.
 #[derive(Serialize, JsonSchema)]
 struct NoiseOfSensor {
+    /// Which sensor it is.
     sensor: &'static str,
+    /// Unit of its readings.
     unit: &'static str,
+    /// Standard deviation of one sample at rest, given or from the residuals.
     noise: [f64; 3],
+    /// The part that neighbouring samples do not share.
     white_noise: [f64; 3],
+    /// Root mean square of the residuals.
     residual_rms: [f64; 3],
     /// Of the variance with the activity of the motion.
     growth: Option<f64>,
@@ -179,6 +201,7 @@ struct NoiseOfSensor {
 /// The variance of each of the sensor's parameters, by source.
 #[derive(Serialize, JsonSchema)]
 struct Budget {
+    /// The sources, in the order of the columns.
     sources: [&'static str; Source::ALL.len()],
     /// Shares of the variance, a row for each parameter.
     shares: Vec<Vec<f64>>,

@@ -14,7 +14,9 @@ pub(crate) struct ValidationOf<'a> {
 json_object! {
     /// How far the parameters of each sensor move with other data.
     ValidationOf<'_> as of {
+        /// The other recording.
         file: if_some(of.recording()),
+        /// Number of blocks of time.
         folds: if_some(of.blocks().map(|(folds, ..)| folds)),
         /// Length of a block.
         block_s: if_some(of.blocks().map(|(_, length_s, _)| length_s)),
@@ -34,11 +36,15 @@ struct ShiftOf<'a> {
 json_object! {
     /// The movement of one sensor's parameters beside what their covariance predicts.
     ShiftOf<'_> as of {
+        /// χ² of the movement, with its predicted covariance.
         chi2: of.shift.chi2,
+        /// Its degrees of freedom.
         degrees_of_freedom: of.shift.degrees_of_freedom,
         /// By how much the standard deviations are too small.
         factor: of.shift.factor,
+        /// The 99 % confidence interval of the factor.
         factor_interval_99: <[f64; 2]>::from(of.shift.factor_interval),
+        /// What follows of the covariance.
         verdict: of.shift.verdict.name(),
         /// The parameter that moves most.
         largest: LargestOf { shift: of.shift, joints: of.joints },
@@ -52,6 +58,7 @@ struct LargestOf<'a> {
 
 json_object! {
     LargestOf<'_> as of {
+        /// Which parameter it is.
         parameter: of.shift.largest.quantity.name(of.joints),
         /// In the unit of the parameter.
         shift: of.shift.largest.shift,

@@ -1,5 +1,6 @@
 //! The results of commands, as they are written and read back.
 
+pub(crate) mod batch;
 pub(crate) mod calibration;
 pub(crate) mod comparison;
 pub(crate) mod design;

@@ -1,6 +1,6 @@
 //! `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::input::Input;
 use calibrant_core::json::{flat, if_some};
 use calibrant_core::json_object;
@@ -19,7 +19,7 @@ pub struct NoiseFile<'a> {
 json_object! {
     /// The noise of one sensor or of both.
     NoiseFile<'_> as file {
-        heading: flat(Heading::of("noise")),
+        heading: flat(Heading::<Self>::of()),
         /// Of the intervals of coefficients.
         confidence: CONFIDENCE,
         sensors: file.noise,
@@ -27,4 +27,8 @@ json_object! {
         /// The gyroscope's file, where it has one of its own.
         gyroscope_input: if_some(file.inputs.get(1)),
     }
+}
+
+impl JsonFile for NoiseFile<'_> {
+    const KIND: &'static str = "noise";
 }

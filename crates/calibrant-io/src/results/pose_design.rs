@@ -1,6 +1,6 @@
 //! The files of poses: `design.json` of the best ones, and `evaluation.json` of the holds of a recording.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use super::reach::Reached;
 use calibrant_core::form::rows;
 use calibrant_core::json::{flat, if_some};
@@ -40,13 +40,15 @@ pub struct PoseEvaluationFile<'a> {
 json_object! {
     /// The best poses for a static calibration, with everything that is needed to take and to judge them.
     PoseDesignFile<'_> as file {
-        heading: flat(Heading::of("poses")),
+        heading: flat(Heading::<Self>::of()),
+        /// How the search ended.
         status: if file.design.interrupted { "interrupted" } else { "converged" },
         poses: flat(file.poses()),
         /// What the poses give.
         optimal: file.poses().value(),
         /// From 0 to 1: at least this share of the best possible.
         efficiency: file.design.efficiency(&file.problem.criterion),
+        /// Number of starts of the search.
         starts: file.design.starts,
         /// Starts that ended within 0.1 % of the best.
         starts_at_best: file.design.starts_at_best,
@@ -54,16 +56,24 @@ json_object! {
     }
 }
 
+impl JsonFile for PoseDesignFile<'_> {
+    const KIND: &'static str = "poses";
+}
+
 json_object! {
     /// The holds of a recording, beside the best poses.
     PoseEvaluationFile<'_> as file {
-        heading: flat(Heading::of("evaluation of poses")),
+        heading: flat(Heading::<Self>::of()),
         poses: flat(file.poses()),
         /// What the holds give.
         evaluation: file.poses().value(),
         /// From 0 to 1: at least this share of the best possible.
         efficiency: file.evaluation.efficiency,
     }
+}
+
+impl JsonFile for PoseEvaluationFile<'_> {
+    const KIND: &'static str = "poses-evaluation";
 }
 
 /// What both files say of poses.
@@ -125,8 +135,11 @@ json_object! {
 /// A parameter, and the value at which the information is taken.
 #[derive(Serialize, JsonSchema)]
 struct PoseParameter {
+    /// Which parameter it is.
     name: String,
+    /// Its unit.
     unit: &'static str,
+    /// The value at which the information is taken.
     nominal: f64,
 }
 

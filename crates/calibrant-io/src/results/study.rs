@@ -1,6 +1,6 @@
 //! `study.json`: every study that was run, sensor by sensor.
 
-use super::heading::Heading;
+use super::heading::{Heading, JsonFile};
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_study::Studies;
@@ -16,7 +16,7 @@ pub struct StudyFile<'a> {
 json_object! {
     /// Studies of simulated sensors: those that were run.
     StudyFile<'_> as file {
-        heading: flat(Heading::of("study")),
+        heading: flat(Heading::<Self>::of()),
         notes: &file.studies.notes,
         /// Truth and estimate of a population.
         calibration: &file.studies.calibration,
@@ -26,4 +26,8 @@ json_object! {
         /// The same with process noise.
         noisy: &file.studies.noisy,
     }
+}
+
+impl JsonFile for StudyFile<'_> {
+    const KIND: &'static str = "study";
 }

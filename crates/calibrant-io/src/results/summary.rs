@@ -1,7 +1,6 @@
 //! Writes `summary.csv`: one row for each of several recordings.
 
 use super::exact_number;
-use super::json::to_json;
 use super::machine_calibration::MachineResult;
 use crate::files::atomic_output::write_atomically;
 use calibrant_core::acceptance::{CheckedLimit, Decision};
@@ -39,37 +38,6 @@ impl From<&Error> for Failure {
     fn from(error: &Error) -> Self {
         Self { code: error.code(), message: error.to_string() }
     }
-}
-
-/// The calibrations of several recordings as one JSON array, in their order. Each entry has its file, and
-/// either the text of its calibration.json, or its error and the code of that.
-///
-/// # Examples
-/// ```
-/// use calibrant_io::{Failure, calibrations_json};
-/// use calibrant_core::error::Refusal;
-/// let failed = Failure { code: Refusal::FileEmpty, message: "the file is empty".into() };
-/// let text = calibrations_json([("a.csv", Ok("{\"schema\": 2}\n")), ("b.csv", Err(&failed))]);
-/// assert!(text.contains("\"error\": \"the file is empty\",\n    \"code\": \"file-empty\""));
-/// ```
-#[must_use]
-pub fn calibrations_json<'a>(
-    recordings: impl IntoIterator<Item = (&'a str, std::result::Result<&'a str, &'a Failure>)>,
-) -> String {
-    let entry = |(file, outcome): (&str, std::result::Result<&str, &Failure>)| {
-        let quoted = |text: &str| to_json(&text).trim_end().to_owned();
-        let outcome = match outcome {
-            // no text of JSON has a line end within a string
-            Ok(calibration) => {
-                format!("\"calibration\": {}", calibration.trim_end().replace('\n', "\n    "))
-            }
-            Err(failure) => {
-                format!("\"error\": {},\n    \"code\": \"{}\"", quoted(&failure.message), failure.code.name())
-            }
-        };
-        format!("  {{\n    \"file\": {},\n    {outcome}\n  }}", quoted(file))
-    };
-    format!("[\n{}\n]\n", recordings.into_iter().map(entry).collect::<Vec<_>>().join(",\n"))
 }
 
 /// The part of a calibration that is kept in memory until `summary.csv` is written.

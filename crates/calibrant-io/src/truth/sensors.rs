@@ -2,7 +2,7 @@
 
 use super::machine::TrueMachine;
 use super::parameter::TrueParameter;
-use crate::results::heading::Heading;
+use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::json::{flat, if_any, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{
@@ -37,8 +37,10 @@ pub struct Truth {
 json_object! {
     /// What a simulated recording was made of.
     Truth as of {
-        heading: flat(Heading::of("truth")),
+        heading: flat(Heading::<Self>::of()),
+        /// The seed of the noise.
         seed: of.seed,
+        /// What matrices and biases mean.
         convention: of.convention,
         /// The form of the accelerometer's matrix, where it has one.
         gauge: if_some(of.gauge),
@@ -52,6 +54,10 @@ json_object! {
         fixed: if_any(of.fixed.as_slice()),
         machine: if_some(of.machine.as_ref()),
     }
+}
+
+impl JsonFile for Truth {
+    const KIND: &'static str = "truth";
 }
 
 impl Truth {

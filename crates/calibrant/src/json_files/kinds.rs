@@ -1,14 +1,15 @@
 //! The kinds of JSON files, each with its JSON Schema, from the types that are written.
 
 use calibrant_io::{
-    CalibrationFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile,
-    MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
+    BatchEntry, CalibrationFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile,
+    JsonFile, MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
     ReferenceInspectionFile, SweepFile, Truth,
 };
 #[cfg(feature = "records")]
 use calibrant_records::{Fleet, KeptRecord, RecordFile, SensorDrift, SensorHistory};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
+use std::borrow::Cow;
 
 /// A kind of JSON file.
 #[derive(Debug, Clone, Copy)]
@@ -21,54 +22,56 @@ pub struct FileKind {
     pub command: &'static str,
     root: fn() -> Schema,
     part: fn(&mut SchemaGenerator) -> Schema,
+    pub(super) type_name: fn() -> Cow<'static, str>,
 }
 
 impl FileKind {
-    const fn of<T: JsonSchema>(name: &'static str, file: &'static str, command: &'static str) -> Self {
+    const fn of<T: JsonFile + JsonSchema>(file: &'static str, command: &'static str) -> Self {
+        Self::list::<T>(T::KIND, file, command)
+    }
+
+    /// A list has no key that says its kind.
+    const fn list<T: JsonSchema>(name: &'static str, file: &'static str, command: &'static str) -> Self {
         let root = || generator().into_root_schema_for::<T>();
-        Self { name, file, command, root, part: T::json_schema }
+        Self { name, file, command, root, part: T::json_schema, type_name: T::schema_name }
     }
 
     /// All kinds.
     pub const ALL: &[Self] = &[
         Self::of::<CalibrationFile<'static>>(
-            "calibration",
             "calibration.json of an accelerometer or of an IMU",
             "calibrate",
         ),
-        Self::of::<MachineCalibrationFile<'static>>(
-            "machine",
-            "calibration.json of a sensor on a machine",
-            "calibrate",
+        Self::of::<MachineCalibrationFile<'static>>("calibration.json of a sensor on a machine", "calibrate"),
+        Self::list::<Vec<BatchEntry>>(
+            "batch",
+            "the calibrations of several recordings",
+            "calibrate A B --json",
         ),
-        Self::of::<ConvertedFile<'static>>("converted", "a calibration as calibrant JSON", "convert"),
-        Self::of::<NoiseFile<'static>>("noise", "noise.json", "noise"),
-        Self::of::<ComparisonFile<'static>>("comparison", "what compare prints as JSON", "compare"),
-        Self::of::<DesignFile<'static>>("design", "design.json of a motion", "design"),
-        Self::of::<EvaluationFile<'static>>("evaluation", "evaluation.json of a motion", "design"),
-        Self::of::<SweepFile<'static>>("sweep", "sweep.json", "design"),
-        Self::of::<PoseDesignFile<'static>>("poses", "design.json of poses", "design"),
-        Self::of::<PoseEvaluationFile<'static>>("poses-evaluation", "evaluation.json of holds", "design"),
+        Self::of::<ConvertedFile<'static>>("a calibration as calibrant JSON", "convert"),
+        Self::of::<NoiseFile<'static>>("noise.json", "noise"),
+        Self::of::<ComparisonFile<'static>>("what compare prints as JSON", "compare"),
+        Self::of::<DesignFile<'static>>("design.json of a motion", "design"),
+        Self::of::<EvaluationFile<'static>>("evaluation.json of a motion", "design"),
+        Self::of::<SweepFile<'static>>("sweep.json", "design"),
+        Self::of::<PoseDesignFile<'static>>("design.json of poses", "design"),
+        Self::of::<PoseEvaluationFile<'static>>("evaluation.json of holds", "design"),
         #[cfg(feature = "study")]
-        Self::of::<calibrant_io::StudyFile<'static>>("study", "study.json", "study"),
-        Self::of::<Truth>("truth", "truth.json of a simulation", "simulate"),
-        Self::of::<InspectionFile<'static>>("recording", "what inspect prints of a recording", "inspect"),
-        Self::of::<ReferenceInspectionFile<'static>>(
-            "log",
-            "what inspect prints of a log of a motion",
-            "inspect",
-        ),
-        Self::of::<MachineFile<'static>>("chain", "what inspect prints of a machine", "inspect"),
+        Self::of::<calibrant_io::StudyFile<'static>>("study.json", "study"),
+        Self::of::<Truth>("truth.json of a simulation", "simulate"),
+        Self::of::<InspectionFile<'static>>("what inspect prints of a recording", "inspect"),
+        Self::of::<ReferenceInspectionFile<'static>>("what inspect prints of a log of a motion", "inspect"),
+        Self::of::<MachineFile<'static>>("what inspect prints of a machine", "inspect"),
         #[cfg(feature = "records")]
-        Self::of::<Vec<KeptRecord>>("records", "the list of records", "records list"),
+        Self::list::<Vec<KeptRecord>>("records", "the list of records", "records list"),
         #[cfg(feature = "records")]
-        Self::of::<RecordFile<'static>>("record", "a record with its parameters", "records show"),
+        Self::of::<RecordFile<'static>>("a record with its parameters", "records show"),
         #[cfg(feature = "records")]
-        Self::of::<SensorHistory>("history", "the history of a sensor", "records drift"),
+        Self::of::<SensorHistory>("the history of a sensor", "records drift"),
         #[cfg(feature = "records")]
-        Self::of::<Vec<SensorDrift>>("drift", "the sensors that changed most", "records drift"),
+        Self::list::<Vec<SensorDrift>>("drift", "the sensors that changed most", "records drift"),
         #[cfg(feature = "records")]
-        Self::of::<Fleet>("fleet", "the parameters over all sensors", "records fleet"),
+        Self::of::<Fleet>("the parameters over all sensors", "records fleet"),
     ];
 
     /// The kind of this name.
@@ -112,7 +115,8 @@ mod tests {
             if schema.pointer("/type").is_some_and(|of| of == "array") {
                 continue;
             }
-            for key in ["schema", "kind", "program"] {
+            assert_eq!(schema.pointer("/properties/kind/const"), Some(&kind.name.into()));
+            for key in ["schema", "program"] {
                 assert!(schema.pointer(&format!("/properties/{key}")).is_some(), "{}: {key}", kind.name);
             }
         }

@@ -15,12 +15,14 @@ json_object! {
     Calibration as of {
         /// How the iteration ended.
         status: of.status,
+        /// Number of iterations.
         iterations: of.iterations,
         /// Length of the remaining step, in standard deviations.
         gradient_norm: of.gradient_norm,
         /// `datasheet`, if that is a prior of the accelerometer.
         prior: if_some(of.datasheet_prior.then_some("datasheet")),
         imu: flat(ImuFields { imu: of.calibrated(), axes: of.axes(), knowledge: of.knowledge() }),
+        /// The covariance with a diagonal of ones.
         correlation: Form::<Vec<Vec<f64>>>::form(&of.correlation()),
         fit: FitInUnit { fit: &of.fit, unit: of.accelerometer_unit, axes: of.axes() },
         /// The motion, if the calibration is one of a commanded motion.

@@ -44,8 +44,11 @@ struct WhitenessOf {
 
 json_object! {
     WhitenessOf as test {
+        /// The axis of the residuals.
         axis: test.axis,
+        /// The statistic Q of the Ljung–Box test.
         statistic: test.of.statistic,
+        /// Number of lags that are tested.
         lags: test.of.lags,
         /// Probability of a statistic at least this large if the noise is white.
         p_value: test.of.p_value,

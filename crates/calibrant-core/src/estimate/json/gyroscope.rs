@@ -12,6 +12,7 @@ json_object! {
     /// The gyroscope in the holds.
     StillOf<'_> as of {
         noise_per_sample: with_ending(of.0.unit.suffix(), per_axis(&of.0.still.noise, 3)),
+        /// Where the noise comes from.
         noise_source: of.0.still.noise_source.to_string(),
         /// Standard deviation of the mean beyond this noise.
         between_holds_sd: with_ending(of.0.unit.suffix(), per_axis(&of.0.still.between_holds_sd, 3)),
@@ -42,6 +43,7 @@ impl RotationsOf<'_> {
 json_object! {
     /// The rotations between holds.
     RotationsOf<'_> as of {
+        /// Number of rotations that were used.
         used: of.used(),
         error_rms_rad: of.known(of.calibration.rotation_rms_rad()),
         error_before_rms_rad: of.known(of.calibration.rotation_rms_before_rad()),
@@ -57,7 +59,9 @@ json_object! {
 json_object! {
     /// A rotation between two holds and its fit. What could not be integrated has no numbers.
     RotationResult as rotation {
+        /// The hold that it begins with, from 0.
         from_hold_index: rotation.from_hold,
+        /// The hold that it ends in, from 0.
         to_hold_index: rotation.to_hold,
         start_s: rotation.start_s,
         end_s: rotation.end_s,
@@ -66,7 +70,9 @@ json_object! {
         /// Angle from propagated gravity to measured gravity.
         error_rad: integrated(rotation, rotation.error_rad),
         error_before_rad: integrated(rotation, rotation.error_before_rad),
+        /// The error in its expected standard deviations, without its own influence.
         studentised: integrated(rotation, rotation.studentised),
+        /// Was it used?
         used: rotation.used,
         /// Why it was not used.
         reason: rotation.reason.map(|reason| reason.to_string()),

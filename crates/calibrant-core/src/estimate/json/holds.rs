@@ -21,6 +21,7 @@ json_object! {
         gravity_sd_mps2: of.holds.gravity.sd_mps2,
         /// With a latitude, the model contains Earth's rate about the vertical.
         latitude_deg: if_some(of.latitude_deg),
+        /// The form of the accelerometer's matrix, which fixes the true frame.
         gauge: of.holds.gauge.name(),
         /// Were they found in the recording?
         detected: of.holds.detected,
@@ -38,6 +39,7 @@ json_object! {
         magnitude_residual_rms_before_mps2: of.holds.magnitude_residual_rms_before_mps2(),
         /// What the residuals before the calibration suppose.
         before: &of.holds.before.source,
+        /// Largest over smallest eigenvalue of the scaled information: 1 is best.
         condition_number: of.holds.condition_number,
         table: of.holds.holds.iter().map(|result| HoldOf { result, of }).collect::<Vec<_>>(),
     }
@@ -47,6 +49,7 @@ json_object! {
     /// The face alignment of the holds.
     FaceTilt as tilt {
         tilt_sd_rad: tilt.sd_rad,
+        /// Where the tilt of the faces comes from.
         source: tilt.source.name(),
         /// Equations whose scatter determined it.
         degrees_of_freedom: tilt.degrees_of_freedom,
@@ -61,9 +64,11 @@ struct HoldOf<'a> {
 json_object! {
     /// One hold and its fit.
     HoldOf<'_> as row {
+        /// Its first sample, from 0.
         first_sample: row.result.hold.first,
         /// One past the last sample.
         end_sample: row.result.hold.end,
+        /// Number of samples.
         samples: row.result.hold.samples(),
         start_s: row.result.hold.start_s,
         end_s: row.result.hold.end_s,
@@ -76,7 +81,9 @@ json_object! {
         /// Magnitude of the corrected mean reading, less gravity.
         magnitude_residual_mps2: row.result.magnitude_residual_mps2,
         magnitude_residual_before_mps2: row.of.holds.magnitude_residual_before_mps2(&row.result.hold),
+        /// The residual in its expected standard deviations, without its own influence.
         studentised_residual: row.result.studentised_residual,
+        /// Was it used?
         used: row.result.used,
         /// Why it was not used.
         reason: if_some(row.result.why_left_out().map(|why| why.to_string())),

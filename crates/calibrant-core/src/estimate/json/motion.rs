@@ -29,6 +29,7 @@ json_object! {
 
 #[derive(Serialize, JsonSchema)]
 struct Tilt {
+    /// Its name: `tilt.x`.
     name: String,
     value_rad: f64,
     sd_rad: f64,
@@ -43,6 +44,7 @@ json_object! {
         sd_mps2: of.gravity.sd_mps2,
         /// Standard deviation of the tilt beforehand.
         tilt_prior_sd_rad: of.gravity.tilt_sd_rad,
+        /// The tilt about each level axis.
         tilt: of.tilts().into_iter().map(|(name, value_rad, sd_rad)| Tilt { name, value_rad, sd_rad }).collect::<Vec<_>>(),
     }
 }

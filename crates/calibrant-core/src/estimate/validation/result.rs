@@ -137,8 +137,11 @@ json_object! {
 json_object! {
     /// A block of holds without which there is no calibration.
     FailedFold as fold {
+        /// Its first hold, from 0.
         first_hold_index: fold.holds.0,
+        /// Its last hold, from 0.
         last_hold_index: fold.holds.1,
+        /// Why there is no calibration without it.
         reason: &fold.reason,
     }
 }
@@ -146,21 +149,29 @@ json_object! {
 json_object! {
     /// All errors of one kind beside what was predicted of them.
     ValidatedErrors as kind {
+        /// Unit of the errors.
         unit: kind.kind.unit(),
+        /// Number of errors.
         errors: kind.errors.len(),
         /// How many of them count.
         counted: kind.counted(),
         /// Orientations, or rotations, that differ among those that count.
         distinct: kind.distinct,
+        /// Root mean square of the errors that count, weighted by their predicted variances.
         rms: kind.rms,
+        /// What was predicted of it.
         predicted_rms: kind.predicted_rms,
+        /// χ² of the errors that count, with their predicted covariance.
         chi2: kind.chi2,
+        /// Its degrees of freedom.
         degrees_of_freedom: kind.degrees_of_freedom,
+        /// Probability of errors at least this large if the covariance is right.
         p_value: kind.p_value,
         /// Errors over prediction.
         factor: kind.factor,
         /// 99 % interval of the factor by which the standard deviations are off.
         factor_interval_99: [kind.factor_interval.0, kind.factor_interval.1],
+        /// What follows of the covariance.
         verdict: kind.verdict,
         /// Why errors as large as predicted confirm nothing.
         caveat: if_some(kind.caveat.as_ref()),

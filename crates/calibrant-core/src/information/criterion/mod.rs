@@ -44,7 +44,9 @@ pub enum Criterion {
 json_object! {
     /// What is minimised: its letter, and its formula with the covariance C.
     Criterion as of {
+        /// Its letter.
         name: of.letter(),
+        /// What is minimised or maximised.
         formula: of.formula(),
     }
 }

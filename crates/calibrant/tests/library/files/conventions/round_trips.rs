@@ -82,7 +82,7 @@ fn the_json_says_what_it_means() {
         &calibrant::io::calibrated_imu_texts(&file, ImuFormat::CalibrantJson).expect("everything")[0].1;
     for says in [
         "\"schema\": 2",
-        "\"kind\": \"calibration\"",
+        "\"kind\": \"converted\"",
         "\"direction\": \"true to raw: y_a = S_a f + b_a",
         "\"frame\": \"fixed by the upper gauge of the accelerometer",
         "\"gauge\": \"upper\"",
@@ -97,6 +97,14 @@ fn the_json_says_what_it_means() {
     ] {
         assert!(text.contains(says), "{says}: {text}");
     }
+    // of every kind with a calibration, as of the kind that all had once
+    let read = |text: &str| parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default());
+    for kind in ["calibration", "machine", "record"] {
+        let text = text.replace("\"converted\"", &format!("\"{kind}\""));
+        assert_eq!(read(&text).expect("readable").imu, file.imu, "{kind}");
+    }
+    let error = read(&text.replace("\"converted\"", "\"noise\"")).expect_err("no calibration").to_string();
+    assert!(error.contains("the kind of this file is \"noise\", and that is no calibration"), "{error}");
 }
 
 #[test]
