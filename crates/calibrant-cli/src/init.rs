@@ -55,7 +55,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => {
             write_text(path, text)?;
             let next = NextSteps::of(&Experiment::parse(text, None)?, path);
-            console::print(&format!("wrote {}. {}\n", path.display(), next.note()));
+            console::print(&format!("wrote {}. {}\n", console::name(path), next.note()));
         }
     }
     Ok(Exit::DONE)

@@ -40,8 +40,8 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
         console::print(&format!(
             "\n{} calibrated, {failed} failed: {}\n{}\n",
             results.rows.len() - failed,
-            summary.display(),
-            page_path.display()
+            console::name(&summary),
+            console::name(&page_path)
         ));
     }
     Ok(exit)

@@ -140,9 +140,23 @@ fn names_command_neither_the_terminal_nor_a_spreadsheet() {
     bench.write("=1+1.csv", bench.read("made/recording.csv"));
     let outcome =
         bench.run("calibrate poses.toml made/recording.csv =1+1.csv a\u{1b}[2Jb.csv -o result").ends_with(3);
-    outcome.says("a\\u{1b}[2Jb.csv: cannot read the recording");
+    outcome.says("a\\u001b[2Jb.csv: cannot read the recording");
     assert!(!outcome.stderr.contains('\u{1b}') && !outcome.stdout.contains('\u{1b}'));
     assert!(bench.read("result/summary.csv").contains("\n'=1+1,'=1+1.csv,"));
+    // a name begins no line, and turns none round
+    let forging = "a\nerror: forged\t\u{202e}";
+    bench.write(&format!("{forging}.csv"), bench.read("made/recording.csv"));
+    for arguments in [
+        &["inspect", &format!("{forging}.csv")][..],
+        &["inspect", forging],
+        &["calibrate", "poses.toml", &format!("{forging}.csv"), "made/recording.csv", "-o", "forged"],
+        &["calibrate", "poses.toml", &format!("{forging}.csv"), "-o", &format!("{forging}.d")],
+    ] {
+        let outcome = bench.run_with(arguments);
+        let lines = || outcome.stdout.lines().chain(outcome.stderr.lines());
+        assert!(!lines().any(|line| line.starts_with("error: forged")), "{outcome:?}");
+        assert!(!lines().any(|line| line.contains(['\t', '\u{202e}'])), "{outcome:?}");
+    }
 }
 
 #[test]
