@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     /// Temperature of the recording, °C, for a calibration with temperature terms. It replaces that of the recording.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
-    /// Where to write the corrected recording.
+    /// Where to write the corrected recording; `-` is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }
@@ -72,7 +72,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         calibrant::apply(&imu, &recording).map_err(|error| error.in_recording(&arguments.recording))?;
     tell_all(&notes);
     write_corrected_recording(&arguments.output, &corrected, &file_name(&arguments.calibration))?;
-    console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
+    console::print(&format!("{}: {}\n", console::name(&arguments.calibration), in_words(&imu)));
     for (sensor_kind, found) in
         [(SensorKind::Accelerometer, &corrected.accelerometer), (SensorKind::Gyroscope, &corrected.gyroscope)]
     {
@@ -80,7 +80,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             console::print(&summary(sensor_kind, found));
         }
     }
-    console::print_lines(&format!("{}\n", arguments.output.display()));
+    console::print_lines(&format!("{}\n", console::name(&arguments.output)));
     Ok(Exit::DONE)
 }
 

@@ -40,8 +40,8 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if comparison.quantities.is_empty() {
         let message = format!(
             "{} and {} have no sensor in common: {}; {}",
-            arguments.a.display(),
-            arguments.b.display(),
+            console::name(&arguments.a),
+            console::name(&arguments.b),
             in_words(&a),
             in_words(&b)
         );

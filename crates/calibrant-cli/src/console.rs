@@ -1,44 +1,27 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
 mod flags;
+mod harmless;
 mod manner;
 mod width;
 
 pub(crate) use flags::as_flags;
-pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
+pub(crate) use harmless::in_one_line;
+pub(crate) use manner::{Manner, color_among, leave_stdout, set as set_manner, shows_colour};
 
 use calibrant::Error;
 use calibrant::diagnostic::Severity;
 use calibrant::report::{Sheet, wrapped};
+use harmless::{excerpt, harmless};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A text for the terminal, without control characters other than line ends and tabs, since a name of a file must not command the terminal.
-pub(crate) fn harmless(text: &str) -> String {
-    let shown = |sign: char| match sign {
-        '\n' | '\t' => sign.to_string(),
-        sign if sign.is_control() => sign.escape_default().to_string(),
-        sign => sign.to_string(),
-    };
-    text.chars().map(shown).collect()
-}
-
-/// Prints JSON to stdout, also with `--quiet`. It is that of the file; control characters that JSON leaves as they are (DEL, U+0085) are escaped.
-pub(crate) fn print_json(text: &str) {
-    let shown = |sign: char| match sign {
-        '\n' => sign.to_string(),
-        sign if sign.is_control() => format!("\\u{:04x}", u32::from(sign)),
-        sign => sign.to_string(),
-    };
-    put(&text.chars().map(shown).collect::<String>());
-}
-
 /// Prints what `json` makes, where it is asked for, or the text.
 pub(crate) fn json_or(json: bool, as_json: impl FnOnce() -> String, text: impl FnOnce() -> String) {
     if json {
-        print_json(&as_json());
+        print_always(&as_json());
     } else {
         print(&text());
     }
@@ -59,7 +42,7 @@ pub(crate) fn result(
 ) {
     json_or(json, as_json, || sheet.text(width::get()) + &sentence.map_or_else(String::new, paragraph));
     if !json && !files.is_empty() {
-        let files: String = files.iter().map(|file| format!("\n{}", file.display())).collect();
+        let files: String = files.iter().map(|file| format!("\n{}", name(file))).collect();
         print_lines(&(files + "\n"));
     }
 }
@@ -82,6 +65,11 @@ pub(crate) fn print_lines(text: &str) {
     }
 }
 
+/// The name of a file, in one line.
+pub(crate) fn name(path: &Path) -> String {
+    in_one_line(&path.display().to_string())
+}
+
 /// A paragraph, two characters from the margin.
 pub(crate) fn paragraph(text: &str) -> String {
     calibrant::report::paragraph(text, width::get())
@@ -89,12 +77,8 @@ pub(crate) fn paragraph(text: &str) -> String {
 
 /// Prints what was asked for to stdout as it is, also with `--quiet`. A closed reader (`| head`) is not an error.
 pub(crate) fn print_always(text: &str) {
-    put(&harmless(text));
-}
-
-fn put(text: &str) {
     let mut out = std::io::stdout();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             say(ERROR, &format!("cannot write to standard output: {error}"));
             std::process::exit(2);
@@ -122,12 +106,12 @@ fn say(label: Label, text: &str) {
 
 /// Prints a denied diagnostic to stderr.
 pub(crate) fn denied(code: &str, text: &str) {
-    say(ERROR, &format!("denied: {code}: {}", harmless(text)));
+    say(ERROR, &format!("denied: {code}: {}", in_one_line(text)));
 }
 
 /// Prints a text of this severity to stderr: a note unless the console is quiet.
 pub(crate) fn told(severity: Severity, text: &str) {
-    let text = harmless(text);
+    let text = in_one_line(text);
     match severity {
         Severity::Allowed => {}
         Severity::Note if manner::get().quiet => {}
@@ -146,32 +130,24 @@ pub(crate) fn error(error: &Error) {
             let (text, range) = input_error.excerpt.clone().unwrap_or_default();
             let mut title = input_error.clone();
             (title.excerpt, title.help) = (None, String::new());
-            let mut diagnostic = MietteDiagnostic::new(harmless(&title.to_string()))
+            let mut diagnostic = MietteDiagnostic::new(in_one_line(&title.to_string()))
                 .with_code(error.code().name())
                 .with_label(LabeledSpan::at(range, "here"));
             if !input_error.help.is_empty() {
-                diagnostic = diagnostic.with_help(harmless(&input_error.help));
+                diagnostic = diagnostic.with_help(in_one_line(&input_error.help));
             }
-            let name = input_error
-                .file
-                .as_ref()
-                .map_or_else(|| "experiment".into(), |file| harmless(&file.display().to_string()));
-            // one byte for one, so that the place stays
-            let text: String = text
-                .chars()
-                .map(|sign| if sign.is_ascii_control() && !"\n\r\t".contains(sign) { '?' } else { sign })
-                .collect();
-            let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, text));
+            let name = input_error.file.as_ref().map_or_else(|| "experiment".into(), |file| name(file));
+            let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, excerpt(&text)));
             say(ERROR, &format!("{report:?}"));
         }
-        _ => say(ERROR, &format!("{} [{}]", harmless(&error.to_string()), error.code().name())),
+        _ => say(ERROR, &format!("{} [{}]", in_one_line(&error.to_string()), error.code().name())),
     }
 }
 
 /// Prints an error about this recording to stderr. An error without a file's name gets its name.
 pub(crate) fn error_in(found: &Error, recording: &Path) {
     if found.is_not_identifiable() {
-        let text = harmless(&format!("{}: {found}", recording.display()));
+        let text = in_one_line(&format!("{}: {found}", recording.display()));
         say(ERROR, &format!("{text} [{}]", found.code().name()));
     } else {
         error(found);

@@ -98,7 +98,8 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         })?,
     };
     let mut file = arguments.reading.read(&arguments.input)?;
-    let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
+    let read =
+        format!("{} ({}): {}\n", console::name(&arguments.input), file.format.title(), in_words(&file.imu));
     if let Some(noise) = densities(&arguments.noise, &file.imu)? {
         file.noise = Some(noise);
     }
@@ -129,7 +130,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let written = write_calibrated_imu(&arguments.output, &file, format)?;
     console::print(&read);
     tell_all(&written.warnings);
-    let files: Vec<_> = written.files.iter().map(|path| path.display().to_string()).collect();
+    let files: Vec<_> = written.files.iter().map(|path| console::name(path)).collect();
     console::print(&format!(
         "{} ({}), true frame: {}\n",
         files.join(" and "),

@@ -55,7 +55,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => {
             write_text(path, text)?;
             let next = NextSteps::of(&Experiment::parse(text, None)?, path);
-            console::print(&format!("wrote {}. Edit it, then run{}:\n", path.display(), next.needs));
+            console::print(&format!("wrote {}. Edit it, then run{}:\n", console::name(path), next.needs));
             console::print_lines(&next.lines());
         }
     }

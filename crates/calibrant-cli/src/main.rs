@@ -40,7 +40,7 @@ use std::process::ExitCode;
 /// Calibrate accelerometers, gyroscopes and IMUs from a recording, and design the best motion to record.
 ///
 /// Exit status: 0: done. 1: done, but a diagnostic occurred that `calibrate --deny` names. 2: the usage or the experiment file is wrong, or a result cannot be written. 3: the recording is unusable. 4: the data or the motion
-/// do not determine the parameters, or the limits admit no motion. 5: a calibration is bad, or breaks a limit of [accept]. 130: interrupted; `design` and `study` have then written the best so far.
+/// do not determine the parameters, or the limits admit no motion. 5: a calibration is bad, or breaks a limit of [accept]. 130: interrupted; `design`, `study` and `calibrate` of several recordings have then written what they have.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
 struct Cli {
@@ -138,14 +138,20 @@ fn asks_for_json(matches: &ArgMatches) -> bool {
     json.copied().unwrap_or(false) || asks_for_json(command)
 }
 
-/// Sets the number of threads.
+/// Sets the number of threads, where the option or the environment gives one.
 fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
     /// The stack of a thread, bytes.
     const STACK: f64 = (2 << 20) as f64;
-    let Some(threads) = threads else { return Ok(()) };
-    let work = Budget { bytes: STACK * f64::from(threads), seconds: 0.0 };
-    budget::check(work, &format!("{threads} threads"), "take as many as there are cores")?;
-    if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global() {
+    // what rayon reads; zero is its own choice
+    let of_environment = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"].into_iter().find_map(|name| {
+        let count = std::env::var(name).ok()?.parse::<usize>().ok()?;
+        (count > 0).then(|| (count, format!("{count} threads ({name})")))
+    });
+    let given = threads.map(|count| (usize::from(count), format!("{count} threads")));
+    let Some((count, what)) = given.or(of_environment) else { return Ok(()) };
+    let work = Budget { bytes: STACK * count as f64, seconds: 0.0 };
+    budget::check(work, &what, "take as many as there are cores")?;
+    if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(count).build_global() {
         tell(ThreadsUnset { why: Phrase(error.to_string()) });
     }
     Ok(())
@@ -153,7 +159,11 @@ fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
 
 /// Takes the places of the results, then runs the command. Tells results of an earlier run that it leaves.
 fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
-    let claimed = command.places().claim(force)?;
+    let places = command.places();
+    if places.has_standard_output() {
+        console::leave_stdout();
+    }
+    let claimed = places.claim(force)?;
     interruption::handle_signals();
     let outcome = command.run();
     let kept = command.kept();

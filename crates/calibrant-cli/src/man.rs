@@ -33,7 +33,11 @@ impl crate::run::Run for Arguments {
             let man = Man::new(page.clone()).source(calibrant::io::program());
             write_atomically(&self.place(page), |out| man.render(out))?;
         }
-        console::print(&format!("{} pages: {}\n", pages.len(), self.directory.join("calibrant.1").display()));
+        console::print(&format!(
+            "{} pages: {}\n",
+            pages.len(),
+            console::name(&self.directory.join("calibrant.1"))
+        ));
         Ok(Exit::DONE)
     }
 }

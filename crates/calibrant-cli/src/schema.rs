@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
 impl crate::run::Run for Arguments {
     fn run(&self) -> calibrant::Result<Exit> {
         match self.kind.as_deref().and_then(FileKind::named) {
-            Some(kind) => console::print_json(&to_json(&kind.schema())),
+            Some(kind) => console::print_always(&to_json(&kind.schema())),
             None => {
                 let rows = FileKind::ALL.iter().map(|kind| format!("{:18}{}\n", kind.name, kind.file));
                 console::print_always(&rows.collect::<String>());

@@ -51,7 +51,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         "{} samples, seed {}{which}: {}\n",
         simulated.samples(),
         simulated.seed,
-        arguments.output.join("recording.csv").display()
+        console::name(&arguments.output.join("recording.csv"))
     ));
     Ok(Exit::DONE)
 }

@@ -6,6 +6,7 @@ use crate::diagnostics::{rules, tell, tell_in};
 use crate::exit::Exit;
 use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_name};
 use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::diagnostic::files::{FolderNameTaken, ResultsKept};
 use calibrant::io::{write_summary, write_text};
 use calibrant::progress::Progress;
@@ -26,6 +27,10 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
     bar.finish_and_clear();
     keep_earlier(arguments, &results);
     let exit = show(&results);
+    let (finished, all) = (results.rows.len() - results.interrupted(), results.rows.len());
+    if finished < all {
+        tell(SeriesInterrupted { series: "batch", items: "recordings", finished, all });
+    }
     let [summary, page_path] = ["summary.csv", "batch.html"].map(|name| arguments.output.join(name));
     write_summary(&summary, &results.summary())?;
     let (page, mut about) = (batch.page(&results), batch.about());
@@ -37,9 +42,9 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
         let failed = results.failed();
         console::print(&format!(
             "\n{} calibrated, {failed} failed: {}\n{}\n",
-            results.rows.len() - failed,
-            summary.display(),
-            page_path.display()
+            finished - failed,
+            console::name(&summary),
+            console::name(&page_path)
         ));
     }
     Ok(exit)
@@ -48,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
 /// Prints what is told of each recording. Gives the exit status.
 fn show(results: &BatchResults) -> Exit {
     let mut exit = Exit::DONE;
-    for row in &results.rows {
+    for row in results.rows.iter().filter(|row| !row.is_interrupted()) {
         row.told().iter().for_each(|found| tell_in(found, Some(&row.folder)));
         exit = exit.max(match &row.outcome {
             Ok(result) => rules().exit_of(result.finished.summary.verdict()),

@@ -1,5 +1,6 @@
 //! The commands that follow `calibrant init`, from the experiment to a calibration. They work as printed.
 
+use crate::console;
 use calibrant::io::{Experiment, FileFormat, MachinePlan, MotionPlan, Plan};
 use calibrant::motion::Trust;
 use std::path::Path;
@@ -14,7 +15,7 @@ pub(super) struct NextSteps {
 impl NextSteps {
     /// The next steps with this experiment, in this file.
     pub(super) fn of(experiment: &Experiment, file: &Path) -> Self {
-        let file = quoted(&file.display().to_string());
+        let file = quoted(&console::name(file));
         if experiment.columns.format == Some(FileFormat::Imucal) {
             let needs = ", with your session.csv and its sections.json";
             return Self {

@@ -26,7 +26,7 @@ impl Arguments {
         let given = read.len();
         let new = Records::open(&self.records)?.insert_all(read)?;
         let new_ones = number_format::counted(new, "new calibration");
-        console::print(&format!("{new_ones}, {} replaced: {}\n", given - new, self.records.display()));
+        console::print(&format!("{new_ones}, {} replaced: {}\n", given - new, console::name(&self.records)));
         Ok(Exit::DONE)
     }
 }

@@ -34,7 +34,7 @@ impl Arguments {
         let records = Records::open_existing(&self.records)?;
         let rows = records.export(&self.output, &self.selection.filter())?;
         let rows = number_format::counted(rows, "calibration");
-        console::print(&format!("{rows}: {}\n", self.output.display()));
+        console::print(&format!("{rows}: {}\n", console::name(&self.output)));
         Ok(Exit::DONE)
     }
 }

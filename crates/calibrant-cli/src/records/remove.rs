@@ -24,7 +24,7 @@ impl Arguments {
         let before = records.count()?;
         records.remove(&self.ids)?;
         let removed = number_format::counted(before - records.count()?, "calibration");
-        console::print(&format!("{removed} removed: {}\n", self.records.display()));
+        console::print(&format!("{removed} removed: {}\n", console::name(&self.records)));
         Ok(Exit::DONE)
     }
 }

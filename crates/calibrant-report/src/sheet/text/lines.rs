@@ -42,12 +42,13 @@ pub fn wrapped(text: &str, width: usize) -> String {
     text.split('\n').map(broken).collect::<Vec<_>>().join("\n")
 }
 
-/// The lines of a cell that has this much room. Words that are wider are broken.
+/// The lines of a cell that has this much room. Words that are wider are broken. A name in it begins no line.
 pub(super) fn cell(text: &str, width: usize) -> Vec<String> {
+    let text = &text.replace(['\n', '\t'], " ");
     if text.chars().count() <= width {
         return vec![text.to_owned()];
     }
-    let lines = textwrap::wrap(text, options(width, "", "").break_words(true));
+    let lines = textwrap::wrap(text.as_str(), options(width, "", "").break_words(true));
     lines.into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 

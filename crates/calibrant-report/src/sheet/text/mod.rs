@@ -52,7 +52,7 @@ fn text(section: &Section<'_>, width: usize) -> Option<String> {
     match section.on_terminal.as_ref().unwrap_or(&section.heading).as_str() {
         _ if body.is_empty() => None,
         "" => Some(body),
-        heading => Some(format!("{}\n{body}", wrapped(heading, width))),
+        heading => Some(format!("{}\n{body}", wrapped(&heading.replace(['\n', '\t'], " "), width))),
     }
 }
 
