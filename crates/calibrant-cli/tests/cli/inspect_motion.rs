@@ -70,7 +70,7 @@ fn joints_are_shown_with_their_ranges_gaps_and_jumps() {
         "elbow",
         "yes 100.0 %",
         "75.01 % 1.00 s",
-        "note: line 802: gap of 0.052 s after t = 1.6 s",
+        "gap of 0.052 s after t = 1.6 s",
         "[sampling-gap]",
     ] {
         assert!(printed.contains(words), "{words}\n{printed}");
