@@ -20,7 +20,7 @@ impl Exit {
     /// A result is written, and it is bad, or breaks a limit.
     pub(crate) const BAD: Exit = Exit(5);
 
-    /// Interrupted, as a shell says it. Results of `design` and `study` are the best so far.
+    /// Interrupted, as a shell says it. Results of `design`, `study` and a batch are those so far.
     pub(crate) const INTERRUPTED: Exit = Exit(130);
 
     /// The exit status of an error.

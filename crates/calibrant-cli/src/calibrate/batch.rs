@@ -2,11 +2,12 @@
 
 use super::arguments::Arguments;
 use crate::console;
-use crate::diagnostics::{rules, tell, tell_in};
+use crate::diagnostics::{rules, tell, tell_all, tell_in};
 use crate::exit::Exit;
 use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_name};
-use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::diagnostic::files::{FolderNameTaken, ResultsKept};
+use calibrant::diagnostic::{Diagnostic, Phrase};
 use calibrant::io::{write_summary, write_text};
 use calibrant::progress::Progress;
 use calibrant::report::batch_sheet;
@@ -26,12 +27,17 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
     bar.finish_and_clear();
     keep_earlier(arguments, &results);
     let exit = show(&results);
+    let (finished, all) = (results.rows.len() - results.interrupted(), results.rows.len());
+    let interrupted = SeriesInterrupted { series: "batch", items: "recordings", finished, all };
+    let interrupted = (finished < all).then(|| Diagnostic::from(interrupted));
+    tell_all(&interrupted);
     let [summary, page_path] = ["summary.csv", "batch.html"].map(|name| arguments.output.join(name));
     write_summary(&summary, &results.summary())?;
     let (mut page, mut about) = (batch.page(&results), batch.about());
     let failed = page.sensors.iter_mut().filter(|sensor| sensor.verdict.is_err());
     failed.flat_map(|sensor| &mut sensor.reasons).for_each(|reason| *reason = console::as_flags(reason));
     about.facts.extend(arguments.accept.iter().map(|file| ("Limits".to_owned(), file.display().to_string())));
+    about.findings.extend(interrupted.iter().map(Diagnostic::without_file));
     let sheet = batch_sheet(&page, &about);
     write_text(&page_path, &sheet.html())?;
     console::result(arguments.json, || results.json(), &sheet, None, &[]);
@@ -39,7 +45,7 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
         let failed = results.failed();
         console::print(&format!(
             "\n{} calibrated, {failed} failed: {}\n{}\n",
-            results.rows.len() - failed,
+            finished - failed,
             console::name(&summary),
             console::name(&page_path)
         ));
@@ -50,7 +56,7 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
 /// Prints what is told of each recording. Gives the exit status.
 fn show(results: &BatchResults) -> Exit {
     let mut exit = Exit::DONE;
-    for row in &results.rows {
+    for row in results.rows.iter().filter(|row| !row.is_interrupted()) {
         row.told().iter().for_each(|found| tell_in(found, Some(&row.folder)));
         exit = exit.max(match &row.outcome {
             Ok(result) => rules().exit_of(result.finished.summary.verdict()),

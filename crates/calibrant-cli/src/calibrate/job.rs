@@ -3,6 +3,7 @@
 use super::arguments::Arguments;
 use super::sources::sources;
 use crate::diagnostics::{rules, tell_all};
+use crate::interruption;
 use calibrant::batch::{Batch, BatchOptions};
 use calibrant::io::{Experiment, TableFormat, read_acceptance};
 use calibrant::session::{MotionSource, Readings, Session, SessionOptions, Source};
@@ -10,7 +11,12 @@ use calibrant::session::{MotionSource, Readings, Session, SessionOptions, Source
 /// The recordings of a call and what they share.
 pub(super) fn batch(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Batch> {
     arguments.residuals.as_deref().map(TableFormat::of).transpose()?;
-    let session = Session::with(experiment.clone(), options(arguments)?)?;
+    let sources = sources(arguments, experiment)?;
+    let mut session_options = options(arguments)?;
+    if sources.len() > 1 {
+        session_options.interruption = interruption::keeping_the_best();
+    }
+    let session = Session::with(experiment.clone(), session_options)?;
     tell_all(session.notes());
     let options = BatchOptions {
         directory: Some(arguments.output.clone()),
@@ -18,7 +24,7 @@ pub(super) fn batch(arguments: &Arguments, experiment: &Experiment) -> calibrant
         keep_json: arguments.json,
         records: arguments.records.clone(),
     };
-    Batch::new(session, sources(arguments, experiment)?, options)
+    Batch::new(session, sources, options)
 }
 
 fn options(arguments: &Arguments) -> calibrant::Result<SessionOptions> {

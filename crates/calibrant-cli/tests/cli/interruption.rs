@@ -6,22 +6,29 @@ use std::time::Duration;
 
 /// Starts the program, and sends it these signals, each after this time.
 fn interrupted(bench: &Bench, arguments: &str, after: &[Duration]) -> Outcome {
-    let child = Command::new(env!("CARGO_BIN_EXE_calibrant"))
-        .args(arguments.split_whitespace())
-        .current_dir(bench.path(""))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
-    for time in after {
-        std::thread::sleep(*time);
-        let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_calibrant"));
+    program.args(arguments.split_whitespace());
+    let signals: Vec<_> = after.iter().map(|time| ("TERM", *time)).collect();
+    signalled(bench, program, |signal| {
+        for (name, time) in &signals {
+            std::thread::sleep(*time);
+            signal(name);
+        }
+    })
+}
+
+/// Starts this program; `interrupt` sends it signals by their names.
+fn signalled(bench: &Bench, mut program: Command, interrupt: impl FnOnce(&dyn Fn(&str))) -> Outcome {
+    let piped = program.current_dir(bench.path("")).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = piped.spawn().expect("the program runs");
+    interrupt(&|name| {
+        let kill = Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status();
         assert!(kill.expect("kill runs").success());
-    }
+    });
     let output = child.wait_with_output().expect("it ends");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
     Outcome {
-        command: format!("calibrant {arguments}"),
+        command: format!("{program:?}"),
         status: output.status.code().expect("an exit status, not a signal"),
         stdout: text(output.stdout),
         stderr: text(output.stderr),
@@ -69,4 +76,61 @@ fn a_second_interruption_ends_at_once() {
     let design = "design motion.toml --force -o result";
     interrupted(&bench, design, &[SOON, Duration::from_millis(20)]).ends_with(130);
     assert!(!bench.files().iter().any(|name| name.starts_with("result/.calibrant-")), "{:?}", bench.files());
+}
+
+/// As `nohup` and a script's `&` start it.
+#[test]
+fn a_signal_that_is_ignored_stays_so_and_the_others_keep_the_best() {
+    let bench = Bench::new();
+    bench.preset("report", "motion.toml", &[]);
+    let design = "design motion.toml --starts 1000000 --force -o result";
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("trap '' HUP INT; exec {} {design}", env!("CARGO_BIN_EXE_calibrant"))]);
+    let outcome = signalled(&bench, shell, |signal| {
+        std::thread::sleep(SOON);
+        ["HUP", "INT", "TERM"].into_iter().for_each(signal);
+    });
+    outcome.ends_with(130).says("warning: the search was interrupted. The motion is the best so far");
+    assert_eq!(bench.json("result/design.json")["status"], "interrupted");
+}
+
+#[test]
+fn a_batch_says_what_is_finished_and_writes_its_summary() {
+    let bench = Bench::new();
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.run("simulate poses.toml -o made").done();
+    let text = bench.read("made/recording.csv");
+    let names: Vec<String> = (100..140).map(|k| format!("s{k}.csv")).collect();
+    for name in &names {
+        bench.write(name, text.replacen("\n0.01,", &format!("\n0.01{}1,", &name[1..4]), 1));
+    }
+    let batch = format!("calibrate poses.toml {} --no-report -o result", names.join(" "));
+    let mut program = Command::new(env!("CARGO_BIN_EXE_calibrant"));
+    program.args(batch.split_whitespace()).args(["--threads", "1"]);
+    let outcome = signalled(&bench, program, |signal| {
+        while !bench.path("result/s101/resume.json").exists() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        signal("INT");
+    });
+    let outcome = outcome.ends_with(130);
+    outcome.says("warning: the batch was interrupted: ");
+    outcome.says(" of 40 recordings are finished");
+    let summary = bench.read("result/summary.csv");
+    let finished = summary.matches(",converged,").count();
+    assert!(
+        (2..40).contains(&finished) && summary.matches(",interrupted,").count() == 40 - finished,
+        "{summary}"
+    );
+    assert!(
+        outcome.stdout.contains(&format!("\n{finished} calibrated, 0 failed: result/summary.csv\n")),
+        "{outcome:?}"
+    );
+    assert!(
+        outcome.stdout.contains(&format!("Yield 100 %: {finished} of {finished} sensors ok.")),
+        "{outcome:?}"
+    );
+    assert!(bench.read("result/batch.html").contains(&format!("{finished} of 40 recordings are finished")));
+    // what is left is calibrated when it goes on
+    bench.run(&format!("{batch} --resume")).done().says(&format!("note: {finished} of 40 recordings"));
 }

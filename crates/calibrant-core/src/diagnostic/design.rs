@@ -65,7 +65,7 @@ checks! {
     remedy "Read the error."
     says format!("the motion is not compared with the best one: {}", why.0);
 
-    /// A sweep or a study was interrupted.
+    /// A sweep, a study or a batch was interrupted.
     SeriesInterrupted "series-interrupted" Warning {
         /// What it is: `sweep`.
         series: &'static str,
@@ -77,7 +77,7 @@ checks! {
         all: usize,
     }
     decided "Somebody interrupted the program."
-    remedy "Let it run to its end."
+    remedy "Let it run to its end. A batch continues with the option `resume`."
     says format!("the {series} was interrupted: {finished} of {all} {items} are finished");
 
     /// A study compares no optimal motion.

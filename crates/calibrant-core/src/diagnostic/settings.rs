@@ -27,11 +27,11 @@ checks! {
     remedy "Leave the option away."
     says format!("cannot set the number of threads: {}", why.0);
 
-    /// The program was asked to end. It writes the best so far first.
+    /// The program was asked to end. It writes what it has first.
     Interrupted "interrupted" Note {}
-    decided "A signal asks it to end, and what it does can keep the best so far."
+    decided "A signal asks it to end, and what it does can keep what it has."
     remedy "Wait, or interrupt it again: then it ends at once."
-    says "interrupted: the best so far will be written; a second interruption ends at once";
+    says "interrupted: what is finished, or the best so far, will be written; a second interruption ends at once";
 }
 
 impl SettingUnused {

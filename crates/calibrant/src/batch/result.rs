@@ -1,7 +1,7 @@
 //! What comes of a batch: a row for each recording, and the copies among them.
 
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Refusal, Result};
 use calibrant_io::{Finished, HashedFile, ResumeKey, SummaryRow, calibrations_json};
 use std::path::PathBuf;
 
@@ -49,6 +49,12 @@ impl BatchRow {
         self.outcome.as_ref().map_or(&self.told, |result| &result.finished.told)
     }
 
+    /// Did an interruption come before its result?
+    #[must_use]
+    pub fn is_interrupted(&self) -> bool {
+        self.outcome.as_ref().is_err_and(|error| error.code() == Refusal::Interrupted)
+    }
+
     /// Did an earlier run compute its result?
     #[must_use]
     pub fn is_earlier(&self) -> bool {
@@ -71,10 +77,16 @@ impl BatchResults {
         self.rows.iter().map(row).collect()
     }
 
-    /// The number of recordings without a calibration.
+    /// The number of recordings that have no calibration, and were not interrupted.
     #[must_use]
     pub fn failed(&self) -> usize {
-        self.rows.iter().filter(|row| row.outcome.is_err()).count()
+        self.rows.iter().filter(|row| row.outcome.is_err()).count() - self.interrupted()
+    }
+
+    /// The number of recordings that an interruption left without a result.
+    #[must_use]
+    pub fn interrupted(&self) -> usize {
+        self.rows.iter().filter(|row| row.is_interrupted()).count()
     }
 
     /// All as one JSON array ([`calibrations_json`]), where the options keep the texts.
