@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     /// Temperature of the recording, °C, for a calibration with temperature terms. It replaces that of the recording.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
-    /// Where to write the corrected recording.
+    /// Where to write the corrected recording; `-` is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }

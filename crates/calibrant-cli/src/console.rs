@@ -7,7 +7,7 @@ mod width;
 
 pub(crate) use flags::as_flags;
 pub(crate) use harmless::in_one_line;
-pub(crate) use manner::{Manner, color_among, set as set_manner, shows_colour};
+pub(crate) use manner::{Manner, color_among, leave_stdout, set as set_manner, shows_colour};
 
 use calibrant::Error;
 use calibrant::diagnostic::Severity;

@@ -152,7 +152,11 @@ fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
 
 /// Takes the places of the results, then runs the command. Tells results of an earlier run that it leaves.
 fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
-    let claimed = command.places().claim(force)?;
+    let places = command.places();
+    if places.has_standard_output() {
+        console::leave_stdout();
+    }
+    let claimed = places.claim(force)?;
     interruption::handle_signals();
     let outcome = command.run();
     let kept = command.kept();

@@ -3,6 +3,7 @@
 use clap::ColorChoice;
 use std::io::IsTerminal;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How the console speaks.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,6 +17,7 @@ pub(crate) struct Manner {
 }
 
 static MANNER: OnceLock<Manner> = OnceLock::new();
+static IS_LEFT: AtomicBool = AtomicBool::new(false);
 
 /// Sets the manner, also for errors that show a place in a file.
 pub(crate) fn set(manner: Manner) {
@@ -27,9 +29,15 @@ pub(crate) fn set(manner: Manner) {
     }
 }
 
+/// Leaves stdout to a result that is written there: no tables from now on.
+pub(crate) fn leave_stdout() {
+    IS_LEFT.store(true, Ordering::Relaxed);
+}
+
 /// The manner that was set.
 pub(super) fn get() -> Manner {
-    MANNER.get().copied().unwrap_or_default()
+    let manner = MANNER.get().copied().unwrap_or_default();
+    Manner { no_tables: manner.no_tables || IS_LEFT.load(Ordering::Relaxed), ..manner }
 }
 
 /// Does stderr show colours?

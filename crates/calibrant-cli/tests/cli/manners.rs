@@ -214,3 +214,9 @@ fn a_dash_is_standard_input() {
     let batch = bench.run_from("sim/recording.csv", &format!("{calibrate} - sim/recording.csv -o batch"));
     batch.ends_with(3).says("-: this is a copy of sim/recording.csv");
 }
+    // and standard output, with nothing else in it
+    let apply = "apply named/calibration.json sim/recording.csv -o";
+    bench.run(&format!("{apply} corrected.csv")).done();
+    assert_eq!(bench.run(&format!("{apply} -")).done().stdout, bench.read("corrected.csv"));
+    let converted = bench.run("convert named/calibration.json - --to calibrant").done().stdout;
+    assert!(converted.starts_with('{') && !bench.path("-").exists(), "{converted}");

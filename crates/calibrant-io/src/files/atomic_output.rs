@@ -1,6 +1,7 @@
 //! Atomic output: it writes a result beside its place and then renames it. So a result is whole or absent.
 
 use super::manifest;
+use super::standard_input::NAME;
 use crate::recording::checksum::hex;
 pub(crate) use crate::results::program::program;
 use calibrant_core::error::{Error, Result};
@@ -25,7 +26,7 @@ fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
 /// Writes a file through `fill`: into a temporary file in the same directory, which then takes the name.
 ///
 /// Creates missing directories. Follows a link. Writes directly to what is no regular file (`/dev/stdout`, a
-/// pipe). Enters the file into the manifest of its folder, `.calibrant.jsonl`.
+/// pipe); `-` is standard output. Enters the file into the manifest of its folder, `.calibrant.jsonl`.
 ///
 /// # Errors
 /// [`Error::Output`] with the path and the system's message. An earlier file of that name is then untouched.
@@ -82,6 +83,14 @@ fn write(
     corrected_with: Option<&str>,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
+    if path.as_os_str() == NAME {
+        let mut out = BufWriter::new(io::stdout().lock());
+        return match fill(&mut out).and_then(|()| out.flush()) {
+            // a reader that has enough (`| head`) is no failure
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+            written => written,
+        };
+    }
     // a link's target, where there is one
     let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     if let Ok(found) = target.metadata() {

@@ -1,5 +1,6 @@
 //! The places of a command's results: decided, tried and held before the work begins.
 
+use super::standard_input::NAME;
 use super::manifest;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use rayon::prelude::*;
@@ -32,6 +33,12 @@ pub struct ClaimedPlaces {
 
 impl ResultPlaces {
     /// Checks the places, tries the directory for writing, and takes it.
+    /// Is a result written to standard output (`-`)?
+    #[must_use]
+    pub fn has_standard_output(&self) -> bool {
+        self.results.iter().any(|result| result.as_os_str() == NAME)
+    }
+
     ///
     /// Paths are compared after links are resolved. With `replace`, files of others, and results that were edited,
     /// are replaced; inputs never are.
@@ -47,7 +54,8 @@ impl ResultPlaces {
         let there = |result: &PathBuf| {
             Some((result.clone(), result.canonicalize().ok().filter(|file| file.is_file())?))
         };
-        let there: Vec<_> = self.results.iter().filter_map(there).collect();
+        let files = self.results.iter().filter(|result| result.as_os_str() != NAME);
+        let there: Vec<_> = files.filter_map(there).collect();
         if let Some((result, _)) = there.iter().find(|(_, resolved)| inputs.contains(resolved)) {
             let what = "this file is read, and would be replaced by the result";
             return refuse(result, what, "give another name for the result");

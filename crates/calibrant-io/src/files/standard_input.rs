@@ -5,8 +5,8 @@ use std::io::{Result, Seek, copy, stdin};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// How standard input is called among files. A file of this name is `./-`.
-const NAME: &str = "-";
+/// How standard input is called among files that are read, and standard output among those that are written. A file of this name is `./-`.
+pub(crate) const NAME: &str = "-";
 /// What came from standard input, once it was read.
 static READ: Mutex<Option<File>> = Mutex::new(None);
 
