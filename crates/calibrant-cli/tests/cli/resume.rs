@@ -80,7 +80,14 @@ fn what_is_of_other_input_is_computed_again() {
     // a key file that is cut short
     let cut = bench.read("results/s3/resume.json")[..200].to_owned();
     bench.write("results/s3/resume.json", cut);
-    resume("--force", &[3]);
+    let before = times(&bench);
+    let says = "note: s3: results/s3/resume.json cannot be read: the recording is calibrated again";
+    bench.run(&format!("{CALIBRATE} --resume")).ends_with(5).says(says);
+    assert_eq!(written_since(&bench, &before), [3]);
+    assert!(
+        !bench.run(&format!("{CALIBRATE} --resume")).stderr.contains("resume-damaged"),
+        "it was written anew"
+    );
     resume("--allow spikes", &[1, 2, 3, 4, 5, 6]);
     resume("--allow spikes", &[]);
     bench.write("experiment.toml", bench.read("experiment.toml") + "# another\n");

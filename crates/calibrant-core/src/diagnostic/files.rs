@@ -33,6 +33,15 @@ checks! {
     decided "Option `resume` is given, and the hashes of files and options are those of the earlier run."
     says format!("{kept} of {recordings} recordings were calibrated before");
 
+    /// What an earlier run kept of a recording cannot be read. The recording is calibrated again.
+    ResumeDamaged "resume-damaged" Note {
+        /// The file.
+        file: Phrase,
+    }
+    decided "Option `resume` is given, and a resume.json is cut short, or of another version."
+    remedy "Nothing: the file is written anew."
+    says format!("{} cannot be read: the recording is calibrated again", file.0);
+
     /// A mesh of a machine is missing.
     MeshMissing "mesh-missing" Warning {
         /// The mesh.

@@ -7,13 +7,14 @@ use super::resume_key::ResumeKey;
 use crate::results::json::write_json;
 use crate::results::program::program;
 use crate::results::summary::Summary;
-use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::files::ResumeDamaged;
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::Result;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// The name of the file.
-const NAME: &str = "resume.json";
+pub(super) const NAME: &str = "resume.json";
 /// The results that stand beside it, where they were written.
 const RESULTS: [&str; 2] = ["calibration.json", "report.html"];
 
@@ -56,11 +57,13 @@ impl Finished {
     }
 
     /// What an earlier run kept in this directory, with the text of `calibration.json`. `None` where it has another key, or where a result is
-    /// missing or has changed since.
-    #[must_use]
-    pub fn read(directory: &Path, key: &ResumeKey) -> Option<(Self, String)> {
-        let content: Content<Self> =
-            serde_json::from_slice(&std::fs::read(directory.join(NAME)).ok()?).ok()?;
+    /// missing or has changed since; also where `resume.json` cannot be read, which is noted.
+    pub fn read(directory: &Path, key: &ResumeKey, notes: &mut Vec<Diagnostic>) -> Option<(Self, String)> {
+        let path = directory.join(NAME);
+        let Ok(content) = serde_json::from_slice::<Content<Self>>(&std::fs::read(&path).ok()?) else {
+            notes.push(ResumeDamaged { file: Phrase(path.display().to_string()) }.into());
+            return None;
+        };
         let unchanged = |of: &HashedFile| {
             RESULTS.contains(&of.file.as_str())
                 && checksum(&directory.join(&of.file)).as_ref() == Some(&of.sha256)

@@ -37,12 +37,22 @@ pub(crate) fn enter(path: &Path, sha256: String, corrected_with: Option<&str>) -
 
 /// The entry of a file that is as it was written; `None` for a file of others, or one that was edited.
 pub(crate) fn entry(path: &Path) -> Option<WrittenFile> {
-    let (manifest, file) = place(path)?;
-    let text = std::fs::read_to_string(manifest).ok()?;
-    let entries = text.lines().rev().filter_map(|line| serde_json::from_str::<WrittenFile>(line).ok());
-    let of_name: Vec<WrittenFile> = entries.filter(|entry| entry.file == file).collect();
+    let of_name = entries(path);
     let sha256 = if of_name.is_empty() { None } else { checksum(path) }?;
     of_name.into_iter().find(|entry| entry.sha256 == sha256)
+}
+
+/// Has a file of this name been written, even if it was edited since?
+pub(super) fn names(path: &Path) -> bool {
+    !entries(path).is_empty()
+}
+
+/// The entries of this name, the newest first.
+fn entries(path: &Path) -> Vec<WrittenFile> {
+    let Some((manifest, file)) = place(path) else { return Vec::new() };
+    let text = std::fs::read_to_string(manifest).unwrap_or_default();
+    let entries = text.lines().rev().filter_map(|line| serde_json::from_str::<WrittenFile>(line).ok());
+    entries.filter(|entry| entry.file == file).collect()
 }
 
 /// The manifest of a file's folder, and the file's name in it.

@@ -1,7 +1,7 @@
 //! The places of a command's results: decided, tried and held before the work begins.
 
 use super::standard_input::NAME;
-use super::manifest;
+use super::{finished, manifest};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use rayon::prelude::*;
 use std::fs::{File, TryLockError};
@@ -122,5 +122,7 @@ fn version(path: &Path) -> Option<(SystemTime, u64)> {
 
 /// Did this program write the file as it is? An empty one may be replaced, too.
 fn is_ours(path: &Path) -> bool {
-    path.metadata().is_ok_and(|found| found.len() == 0) || manifest::entry(path).is_some()
+    path.metadata().is_ok_and(|found| found.len() == 0)
+        || manifest::entry(path).is_some()
+        || path.ends_with(finished::NAME) && manifest::names(path)
 }

@@ -96,14 +96,17 @@ impl Batch {
         let kept = directory.as_deref().zip(key);
         let earlier = kept.filter(|_| self.options.resume);
         let keep = |text: String| if self.options.keep_json { text } else { String::new() };
-        if let Some((finished, text)) = earlier.and_then(|(directory, key)| Finished::read(directory, key)) {
+        // they are of this run, not of the result
+        let mut notes = Vec::new();
+        let earlier = earlier.and_then(|(directory, key)| Finished::read(directory, key, &mut notes));
+        if let Some((finished, text)) = earlier {
             // the run that computed it need not have recorded it
             self.records.add(|| text.clone())?;
             return Ok(BatchResult { finished, json: keep(text), earlier: true });
         }
         let outcome = self.calibrate_into(directory.as_deref(), source, told)?;
         told.extend(outcome.warnings().iter().cloned());
-        let finished = Finished {
+        let mut finished = Finished {
             summary: outcome.summary(),
             cells: cells(self.session.experiment(), &outcome.calibrated),
             told: std::mem::take(told),
@@ -111,6 +114,7 @@ impl Batch {
         if let Some((directory, key)) = kept {
             finished.write(directory, key, self.session.options().report)?;
         }
+        finished.told.append(&mut notes);
         let json = if self.options.keep_json { outcome.json() } else { String::new() };
         Ok(BatchResult { finished, json, earlier: false })
     }
