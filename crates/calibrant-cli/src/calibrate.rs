@@ -25,6 +25,7 @@ impl crate::run::Run for Arguments {
             &self.validate,
             &self.validate_gyroscope,
             &self.validate_motion,
+            &self.records,
         ];
         let others = others.into_iter().flatten();
         let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);

@@ -186,7 +186,7 @@ fn another_schema_is_refused_and_says_so() {
     drop(records);
     let (code, message) = refused(&path);
     assert_eq!(code, Refusal::FormatUnsupported);
-    assert!(message.contains("version 7 of the schema, and this calibrant reads version 2"), "{message}");
+    assert!(message.contains("version 7 of the schema, and this calibrant reads version 3"), "{message}");
     // versions 0 and 1 of our own file were never released
     for version in [0, 1] {
         let opened = Connection::open(&path);
@@ -207,6 +207,12 @@ fn damage_is_an_error() {
         "DELETE FROM parameters WHERE calibration = 7 AND place = 3",
         "UPDATE models SET text = '{}'",
         "UPDATE calibrations SET degrees = x'0011223344556677' WHERE id = 7",
+        // values that a record could have
+        "UPDATE parameters SET value = value + 1e-9 WHERE calibration = 7 AND place = 3",
+        "UPDATE parameters SET sd = -sd WHERE calibration = 7 AND place = 3",
+        "UPDATE calibrations SET covariance = zeroblob(length(covariance)) WHERE id = 7",
+        "UPDATE calibrations SET sensor = 'B' WHERE id = 7",
+        "UPDATE models SET text = replace(text, 'robot', 'rabot')",
     ] {
         let transaction = records.connection.transaction().expect("begun");
         transaction.execute(harm, []).expect("done");

@@ -215,11 +215,25 @@ fn what_is_no_record_is_refused() {
     bench.write("empty.db", "");
     bench.refuses("records list empty.db", 2, &["empty.db: this file is empty"]);
     assert_eq!(bench.read("empty.db"), "");
+    // a pipe is not waited for
+    if std::process::Command::new("mkfifo").arg(bench.path("pipe")).status().is_ok_and(|made| made.success())
+    {
+        bench.refuses("records list pipe", 2, &["pipe: this file is there already, and is no database"]);
+    }
     // before the work, and before anything is written
     bench.refuses(
         &format!("{CALIBRATE} s1.csv --records motion.csv -o a"),
         2,
         &["motion.csv: this file is there already"],
+    );
+    for name in ["summary.csv", "batch.html", "s1/report.html"] {
+        let says = format!("a/{name}: this file is read, and would be replaced by the result");
+        bench.refuses(&format!("{CALIBRATE} s1.csv s2.csv --records ./a/{name} -o a"), 2, &[&says]);
+    }
+    bench.refuses(
+        &format!("{CALIBRATE} s1.csv --records empty.db -o a"),
+        2,
+        &["empty.db: this file is empty"],
     );
     bench.run(&of_date("2026-05-01")).ends_with(5);
     bench.refuses("records show r.db 99", 2, &["r.db: there is no calibration 99"]);
@@ -228,7 +242,7 @@ fn what_is_no_record_is_refused() {
     let mut bytes = std::fs::read(bench.path("r.db")).expect("there");
     bytes[60..64].copy_from_slice(&9_u32.to_be_bytes());
     bench.write("newer.db", bytes);
-    let says = "newer.db: these records have version 9 of the schema, and this calibrant reads version 2";
+    let says = "newer.db: these records have version 9 of the schema, and this calibrant reads version 3";
     bench.refuses("records list newer.db", 2, &[says, "use the calibrant that wrote them"]);
     bench.refuses(
         &of_date("2026-05-01").replace("r.db", "newer.db").replace("-o 2026-05-01", "-o a"),

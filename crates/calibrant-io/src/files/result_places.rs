@@ -4,6 +4,7 @@ use super::standard_input::NAME;
 use super::{finished, manifest};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use rayon::prelude::*;
+use std::collections::HashSet;
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ pub struct ResultPlaces {
     pub directory: Option<PathBuf>,
     /// Every file that the command may write.
     pub results: Vec<PathBuf>,
-    /// Every file that it may read.
+    /// Every file that it may read, and records to which it adds.
     pub inputs: Vec<PathBuf>,
 }
 
@@ -32,13 +33,13 @@ pub struct ClaimedPlaces {
 }
 
 impl ResultPlaces {
-    /// Checks the places, tries the directory for writing, and takes it.
     /// Is a result written to standard output (`-`)?
     #[must_use]
     pub fn has_standard_output(&self) -> bool {
         self.results.iter().any(|result| result.as_os_str() == NAME)
     }
 
+    /// Checks the places, tries the directory for writing, and takes it.
     ///
     /// Paths are compared after links are resolved. With `replace`, files of others, and results that were edited,
     /// are replaced; inputs never are.
@@ -50,16 +51,15 @@ impl ResultPlaces {
         let refuse = |file: &Path, what: &str, help: &str| {
             Err(Error::experiment(InputError::new(Refusal::FileTaken, what, help).in_file(file)))
         };
-        let inputs: Vec<_> = self.inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
-        let there = |result: &PathBuf| {
-            Some((result.clone(), result.canonicalize().ok().filter(|file| file.is_file())?))
-        };
+        // one that is not there yet may be made and then replaced, too
+        let inputs: HashSet<_> = self.inputs.iter().map(|input| resolved(input)).collect();
         let files = self.results.iter().filter(|result| result.as_os_str() != NAME);
-        let there: Vec<_> = files.filter_map(there).collect();
-        if let Some((result, _)) = there.iter().find(|(_, resolved)| inputs.contains(resolved)) {
+        let all: Vec<_> = files.map(|result| (result.clone(), resolved(result))).collect();
+        if let Some((result, _)) = all.iter().find(|(_, resolved)| inputs.contains(resolved)) {
             let what = "this file is read, and would be replaced by the result";
             return refuse(result, what, "give another name for the result");
         }
+        let there: Vec<_> = all.into_iter().filter(|(_, resolved)| resolved.is_file()).collect();
         let is_of_others = |(_, resolved): &&(PathBuf, PathBuf)| !replace && !is_ours(resolved);
         if let Some((result, _)) = there.par_iter().find_first(is_of_others) {
             let what = "this file is there already, and calibrant did not write it as it is";
@@ -110,6 +110,16 @@ impl Drop for ClaimedPlaces {
     }
 }
 
+/// A path without links, as far as it is there.
+fn resolved(path: &Path) -> PathBuf {
+    let full = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let found = full.ancestors().find_map(|place| Some((place.canonicalize().ok()?, place)));
+    match found.map(|(found, place)| (found, full.strip_prefix(place))) {
+        Some((found, Ok(rest))) => found.components().chain(rest.components()).collect(),
+        _ => full,
+    }
+}
+
 /// What differs once a result has been replaced: the file itself, where the system numbers files.
 fn version(path: &Path) -> Option<(SystemTime, u64)> {
     let found = path.metadata().ok()?;
@@ -120,7 +130,7 @@ fn version(path: &Path) -> Option<(SystemTime, u64)> {
     Some((found.modified().ok()?, number))
 }
 
-/// Did this program write the file as it is? An empty one may be replaced, too.
+/// Did this program write the file as it is? An empty one may be replaced, too; and one that only this program reads, whatever has become of it.
 fn is_ours(path: &Path) -> bool {
     path.metadata().is_ok_and(|found| found.len() == 0)
         || manifest::entry(path).is_some()

@@ -1,5 +1,6 @@
 //! The database: its schema, what is written to it, and questions to it.
 
+mod checksum;
 mod failure;
 mod model;
 mod query;

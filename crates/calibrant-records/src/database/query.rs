@@ -1,5 +1,6 @@
 //! Questions to the records.
 
+use super::checksum::Checksum;
 use super::failure::{damaged, failed};
 use super::model::{self, Further};
 use super::records::Records;
@@ -9,7 +10,7 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::CalibratedImu;
 use calibrant_io::{HashedFile, UtcTime};
 use rusqlite::types::ToSql;
-use rusqlite::{CachedStatement, Row};
+use rusqlite::{CachedStatement, Connection, Row, params};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::HashMap;
@@ -39,10 +40,12 @@ pub struct KeptRecord {
     pub record: Record,
 }
 
-/// The columns that a row is read from, in their order.
+/// The columns that a row is read from, in their order; the last is the checksum.
 const COLUMNS: &str =
     "id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, motion,
-    motion_sha256, recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance";
+    motion_sha256, recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance, checksum";
+/// The number of columns of which the checksum is.
+const VALUES: usize = 22;
 
 impl Records {
     /// The records of a filter. Those of one sensor stand together, in the order of their dates; those without a date are first, since the newest one with a date counts as the latest.
@@ -126,12 +129,54 @@ impl Records {
                 Some(record) => take(record),
                 None => {
                     let id: i64 = row.get(0).map_err(sql)?;
-                    return Err(damaged(&self.path, &format!("calibration {id} is not whole")));
+                    return Err(damaged(&self.path, &format!("calibration {id} is not as it was written")));
                 }
             }
         }
         Ok(())
     }
+}
+
+/// The parameters of a calibration, in their order.
+const PARAMETERS: &str = "SELECT value, sd FROM parameters WHERE calibration = ? ORDER BY place";
+const MODEL: &str = "SELECT id, text, checksum FROM models WHERE id = ?";
+
+/// The estimates of a calibration, and the checksum of all that is kept of it.
+fn parameters(statement: &mut CachedStatement<'_>, row: &Row<'_>) -> rusqlite::Result<(Vec<f64>, Vec<u8>)> {
+    let mut checksum = Checksum::default();
+    checksum.take(row, VALUES)?;
+    let (mut estimates, mut rows) = (Vec::new(), statement.query([row.get::<_, i64>(0)?])?);
+    while let Some(parameter) = rows.next()? {
+        checksum.take(parameter, 2)?;
+        estimates.push(parameter.get(0)?);
+    }
+    Ok((estimates, checksum.bytes()))
+}
+
+/// The text of a model, the checksum that is kept, and the one that it has.
+fn model_row(row: &Row<'_>) -> rusqlite::Result<(String, Option<Vec<u8>>, Vec<u8>)> {
+    let mut checksum = Checksum::default();
+    checksum.take(row, 2)?;
+    Ok((row.get(1)?, row.get(2)?, checksum.bytes()))
+}
+
+/// Enters the checksum of a calibration, once all of it is there.
+pub(super) fn seal(connection: &Connection, id: i64) -> rusqlite::Result<()> {
+    let mut of_parameters = connection.prepare_cached(PARAMETERS)?;
+    let (_, checksum) = connection
+        .prepare_cached(&format!("SELECT {COLUMNS} FROM calibrations WHERE id = ?"))?
+        .query_row([id], |row| parameters(&mut of_parameters, row))?;
+    connection
+        .prepare_cached("UPDATE calibrations SET checksum = ? WHERE id = ?")?
+        .execute(params![checksum, id])?;
+    Ok(())
+}
+
+/// Enters the checksum of a model.
+pub(super) fn seal_model(connection: &Connection, id: i64) -> rusqlite::Result<()> {
+    let (_, _, checksum) = connection.query_row(MODEL, [id], model_row)?;
+    connection.execute("UPDATE models SET checksum = ? WHERE id = ?", params![checksum, id])?;
+    Ok(())
 }
 
 /// Makes records of rows.
@@ -145,22 +190,21 @@ struct Reader<'r> {
 impl<'r> Reader<'r> {
     fn of(records: &'r Records) -> rusqlite::Result<Self> {
         let statement = |text| records.connection.prepare_cached(text);
-        Ok(Self {
-            estimates: statement("SELECT value FROM parameters WHERE calibration = ? ORDER BY place")?,
-            model: statement("SELECT text FROM models WHERE id = ?")?,
-            models: HashMap::new(),
-        })
+        Ok(Self { estimates: statement(PARAMETERS)?, model: statement(MODEL)?, models: HashMap::new() })
     }
 
     /// The record of a row; `None` where its parts do not fit together.
     fn record(&mut self, row: &Row<'_>) -> rusqlite::Result<Option<KeptRecord>> {
         let id: i64 = row.get(0)?;
-        let estimates =
-            self.estimates.query_map([id], |row| row.get(0))?.collect::<rusqlite::Result<Vec<f64>>>()?;
+        let (estimates, checksum) = parameters(&mut self.estimates, row)?;
+        if row.get::<_, Option<Vec<u8>>>(VALUES)?.as_ref() != Some(&checksum) {
+            return Ok(None);
+        }
         let number: i64 = row.get(16)?;
         if !self.models.contains_key(&number) {
-            let text: String = self.model.query_row([number], |row| row.get(0))?;
-            self.models.insert(number, model::read(&text));
+            let (text, kept, checksum) = self.model.query_row([number], model_row)?;
+            let whole = kept.is_some_and(|kept| kept == checksum);
+            self.models.insert(number, model::read(&text).filter(|_| whole));
         }
         let further = Further {
             reference_c: row.get(17)?,

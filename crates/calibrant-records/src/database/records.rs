@@ -3,7 +3,7 @@
 use super::failure::{Failure, empty, failed, not_a_database, unknown};
 use super::model::{self, Further};
 use super::writable::check_writable;
-use super::{repeated_recording, schema};
+use super::{query, repeated_recording, schema};
 use crate::record::Record;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::CalibratedImu;
@@ -60,13 +60,16 @@ impl Records {
     /// Opens records to write them, and makes the database where there is none.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where the file is no database of records, or one of another schema. [`Error::Output`] where it cannot be written.
+    /// [`Error::Experiment`] where the file is empty or no database of records, or one of another schema. [`Error::Output`] where it cannot be written.
     pub fn open(path: &Path) -> Result<Self> {
         if let Some(parent) = path.parent().filter(|parent| !parent.as_os_str().is_empty()) {
             let output = |source| Error::Output { path: path.to_path_buf(), source };
             std::fs::create_dir_all(parent).map_err(output)?;
         }
-        let mut records = Self::with(path, OpenFlags::SQLITE_OPEN_CREATE)?;
+        if !path.exists() {
+            make(path)?;
+        }
+        let mut records = Self::open_existing(path)?;
         check_writable(&mut records.connection, path)?;
         Ok(records)
     }
@@ -76,32 +79,22 @@ impl Records {
     /// # Errors
     /// [`Error::Experiment`] where the file is missing, empty or no database of records, or where it is one of another schema.
     pub fn open_existing(path: &Path) -> Result<Self> {
+        // a pipe would be waited for
+        if path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            return Err(not_a_database(path));
+        }
         let file = open_file(path, "records").map_err(Error::Experiment)?;
         if file.metadata().is_ok_and(|metadata| metadata.len() == 0) {
             return Err(empty(path));
         }
-        Self::with(path, OpenFlags::empty())
-    }
-
-    fn with(path: &Path, further: OpenFlags) -> Result<Self> {
-        if path.exists() {
-            let mut start = Vec::new();
-            let file = open_file(path, "records").map_err(Error::Experiment)?;
-            // a file that cannot be read is refused below
-            let _ = file.take(MAGIC.len() as u64).read_to_end(&mut start);
-            if !start.is_empty() && start != MAGIC {
-                return Err(not_a_database(path));
-            }
+        let mut start = Vec::new();
+        // a file that cannot be read is refused below
+        let _ = file.take(MAGIC.len() as u64).read_to_end(&mut start);
+        if !start.is_empty() && start != MAGIC {
+            return Err(not_a_database(path));
         }
-        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX | further;
-        let opened = Connection::open_with_flags(path, flags).and_then(|connection| {
-            connection.busy_timeout(PATIENCE)?;
-            // for a new database; covariances of 20 parameters leave half of a page of 4 KiB empty
-            connection.pragma_update(None, "page_size", 16_384)?;
-            Ok(connection)
-        });
-        let mut connection = opened.map_err(|error| failed(path, error))?;
-        schema::prepare(&mut connection, path)?;
+        let connection = connect(path, path)?;
+        schema::check(&connection, path)?;
         Ok(Self { connection, path: path.to_path_buf() })
     }
 
@@ -173,6 +166,37 @@ impl Records {
     }
 }
 
+/// Makes a database without records: beside its place, since a writer who comes at the same time must not find half of it.
+fn make(path: &Path) -> Result<()> {
+    let output = |source| Error::Output { path: path.to_path_buf(), source };
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let directory = tempfile::Builder::new().prefix(".calibrant-").tempdir_in(parent).map_err(output)?;
+    let place = directory.path().join("new");
+    schema::make(&connect(&place, path)?, path)?;
+    match tempfile::TempPath::try_from_path(place).map_err(output)?.persist_noclobber(path) {
+        // the other writer has made the same
+        Err(error) if error.error.kind() == std::io::ErrorKind::AlreadyExists => Ok(()),
+        made => made.map_err(|error| output(error.error)),
+    }
+}
+
+/// Connects to the database in this place, which is that of these records.
+fn connect(place: &Path, records: &Path) -> Result<Connection> {
+    let connected = Connection::open_with_flags(place, flags(place != records)).and_then(|connection| {
+        connection.busy_timeout(PATIENCE)?;
+        // for a new database; covariances of 20 parameters leave half of a page of 4 KiB empty
+        connection.pragma_update(None, "page_size", 16_384)?;
+        connection.pragma_update(None, "foreign_keys", true)?;
+        Ok(connection)
+    });
+    connected.map_err(|error| failed(records, error))
+}
+
+fn flags(new: bool) -> OpenFlags {
+    let usual = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    if new { usual | OpenFlags::SQLITE_OPEN_CREATE } else { usual }
+}
+
 fn insert(
     transaction: &Transaction<'_>,
     path: &Path,
@@ -234,6 +258,7 @@ fn insert(
         let sd = variance.filter(|variance| *variance > 0.0).map(f64::sqrt);
         parameter.execute(params![id, place as i64, quantity.value(&record.imu.parameters), sd])?;
     }
+    query::seal(transaction, id)?;
     Ok(Inserted { id, replaced: earlier.is_some() })
 }
 
@@ -254,5 +279,6 @@ fn model_of(transaction: &Transaction<'_>, imu: &CalibratedImu) -> rusqlite::Res
         let readings = imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit());
         name.execute(params![id, place as i64, quantity.name(), quantity.unit(readings)])?;
     }
+    query::seal_model(transaction, id)?;
     Ok(id)
 }

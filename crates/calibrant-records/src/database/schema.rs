@@ -2,7 +2,7 @@
 
 use super::failure::failed;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use rusqlite::{Connection, TransactionBehavior};
+use rusqlite::Connection;
 use std::path::Path;
 
 /// `cali`: says that a database is ours.
@@ -12,7 +12,8 @@ const APPLICATION_ID: i32 = 0x6361_6c69;
 const NEW: &str = "
     CREATE TABLE models (
         id INTEGER PRIMARY KEY,
-        text TEXT NOT NULL UNIQUE -- calibrant JSON of the sensors, with zero in place of each parameter
+        text TEXT NOT NULL UNIQUE, -- calibrant JSON of the sensors, with zero in place of each parameter
+        checksum BLOB -- of the values before it
     ) STRICT;
     CREATE TABLE names (
         model INTEGER NOT NULL REFERENCES models (id),
@@ -44,6 +45,7 @@ const NEW: &str = "
         greatest_c REAL,
         degrees BLOB, -- degrees of freedom behind the covariance, 3 f64
         covariance BLOB, -- lower triangle by rows, f64, little endian
+        checksum BLOB, -- of the values before it, and of the parameters
         UNIQUE (recording_sha256, experiment_sha256, motion_sha256, program)
     ) STRICT;
     CREATE INDEX calibrations_of_sensor ON calibrations (sensor, recorded);
@@ -66,30 +68,19 @@ const NEW: &str = "
 ";
 
 /// The version of the schema. No other one was ever released.
-pub(super) const VERSION: i32 = 2;
+pub(super) const VERSION: i32 = 3;
 
-/// Checks that a database is ours and of this version; makes the tables of one that is empty. Foreign keys hold in it from then on.
-pub(super) fn prepare(connection: &mut Connection, path: &Path) -> Result<()> {
-    let write = |error| failed(path, error);
-    connection.pragma_update(None, "foreign_keys", true).map_err(write)?;
-    // in one transaction: another process may make the database between two readings
-    let before = connection.transaction().map_err(write)?;
-    if is_made(&before, path)? {
-        return Ok(());
-    }
-    drop(before);
-    // another process may do the same at this moment
-    let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate).map_err(write)?;
-    if !is_made(&transaction, path)? {
-        transaction.execute_batch(NEW).map_err(write)?;
-        transaction.pragma_update(None, "application_id", APPLICATION_ID).map_err(write)?;
-        transaction.pragma_update(None, "user_version", VERSION).map_err(write)?;
-    }
-    transaction.commit().map_err(write)
+/// Makes the tables of a database that is new.
+pub(super) fn make(connection: &Connection, path: &Path) -> Result<()> {
+    let made = connection.execute_batch(NEW).and_then(|()| {
+        connection.pragma_update(None, "application_id", APPLICATION_ID)?;
+        connection.pragma_update(None, "user_version", VERSION)
+    });
+    made.map_err(|error| failed(path, error))
 }
 
-/// Are the tables there? They are not in a database that is empty; one of another program or version is refused.
-fn is_made(connection: &Connection, path: &Path) -> Result<bool> {
+/// Refuses a database of another program or version.
+pub(super) fn check(connection: &Connection, path: &Path) -> Result<()> {
     let number = |name: &str| {
         connection
             .pragma_query_value(None, name, |row| row.get::<_, i32>(0))
@@ -100,17 +91,11 @@ fn is_made(connection: &Connection, path: &Path) -> Result<bool> {
         Err(Error::experiment(InputError::new(refusal, message, help).in_file(path)))
     };
     if application != APPLICATION_ID {
-        let objects = connection
-            .query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get::<_, i64>(0))
-            .map_err(|error| failed(path, error))?;
-        if (application, version, objects) == (0, 0, 0) {
-            return Ok(false);
-        }
         let message = "this is an SQLite database of another program".to_owned();
         return refuse(Refusal::FormatUnknown, message, "give another file for the records");
     }
     if version == VERSION {
-        return Ok(true);
+        return Ok(());
     }
     let message = format!(
         "these records have version {version} of the schema, and this calibrant reads version {VERSION}"
