@@ -123,8 +123,9 @@ impl Experiment {
         }
         let input_error = InputError::new(
             Refusal::KeyMissing,
-            "the noise of a hold is not known, so its information is not",
-            "give sensor.noise_mps2 (or noise_counts), or holds.between_holds_sd_mps2",
+            "to design poses, the noise of the accelerometer must be known, and the experiment does not say it",
+            "write noise_mps2 (or noise_counts) under [sensor], the standard deviation of one sample, as the datasheet says it or \
+             `calibrant noise` finds it in a recording at rest; or between_holds_sd_mps2 under [holds]",
         );
         Err(Error::experiment(input_error.about_key("sensor.noise_mps2")))
     }
