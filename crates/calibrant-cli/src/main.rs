@@ -137,14 +137,20 @@ fn asks_for_json(matches: &ArgMatches) -> bool {
     json.copied().unwrap_or(false) || asks_for_json(command)
 }
 
-/// Sets the number of threads.
+/// Sets the number of threads, where the option or the environment gives one.
 fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
     /// The stack of a thread, bytes.
     const STACK: f64 = (2 << 20) as f64;
-    let Some(threads) = threads else { return Ok(()) };
-    let work = Budget { bytes: STACK * f64::from(threads), seconds: 0.0 };
-    budget::check(work, &format!("{threads} threads"), "take as many as there are cores")?;
-    if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global() {
+    // what rayon reads; zero is its own choice
+    let of_environment = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"].into_iter().find_map(|name| {
+        let count = std::env::var(name).ok()?.parse::<usize>().ok()?;
+        (count > 0).then(|| (count, format!("{count} threads ({name})")))
+    });
+    let given = threads.map(|count| (usize::from(count), format!("{count} threads")));
+    let Some((count, what)) = given.or(of_environment) else { return Ok(()) };
+    let work = Budget { bytes: STACK * count as f64, seconds: 0.0 };
+    budget::check(work, &what, "take as many as there are cores")?;
+    if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(count).build_global() {
         tell(ThreadsUnset { why: Phrase(error.to_string()) });
     }
     Ok(())

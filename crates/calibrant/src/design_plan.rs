@@ -6,8 +6,12 @@ use calibrant_core::diagnostic::design::{CalibrationsApart, CalibrationsEqual};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::interruption::Interruption;
-use calibrant_design::poses::{PoseDesign, PoseEvaluation, PoseProblem, design_poses, evaluate_poses};
-use calibrant_design::{Design, DesignProblem, DesignSettings, design};
+use calibrant_design::poses::{
+    FewestPoses, PoseDesign, PoseEvaluation, PoseProblem, design_poses, evaluate_poses, fewest_poses,
+};
+use calibrant_design::{
+    Design, DesignProblem, DesignSettings, Goal, ShortestMotion, design, shortest_motion,
+};
 use calibrant_io::{CriterionLetter, EarlierCalibration, Experiment};
 use nalgebra::Vector3;
 
@@ -139,12 +143,50 @@ impl DesignPlan {
         design(problem, &self.settings, progress)
     }
 
+    /// Finds the shortest motion that reaches the goals; `progress` is told of each start.
+    ///
+    /// # Errors
+    /// As [`shortest_motion`], and where the work is beyond the budget.
+    pub fn shortest_motion(
+        &self,
+        problem: &DesignProblem<'_>,
+        goals: &[Goal],
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<ShortestMotion> {
+        let what = format!("a search among motions of up to 16 times {} intervals", problem.intervals);
+        let work = self.settings.work_on_shortest(problem);
+        self.budget.check(work, &what, "take fewer starts or intervals").map_err(Error::Experiment)?;
+        shortest_motion(problem, goals, &self.settings, progress)
+    }
+
     /// Finds the best poses; `progress` is told of each start.
     ///
     /// # Errors
-    /// As [`design_poses`].
+    /// As [`design_poses`], and where the work is beyond the budget.
     pub fn design_poses(&self, problem: &PoseProblem, progress: &(dyn Fn(u64) + Sync)) -> Result<PoseDesign> {
+        let what = format!("{} starts of {} poses", self.settings.starts, problem.poses);
+        self.check_poses(self.settings.work_on_poses(problem), &what)?;
         design_poses(problem, &self.settings, progress)
+    }
+
+    /// Finds the fewest poses that reach the goals; `progress` is told of each start.
+    ///
+    /// # Errors
+    /// As [`fewest_poses`], and where the work is beyond the budget.
+    pub fn fewest_poses(
+        &self,
+        problem: &PoseProblem,
+        goals: &[Goal],
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<FewestPoses> {
+        let work = self.settings.work_on_fewest_poses(problem);
+        self.check_poses(work, "a search for the fewest poses")?;
+        fewest_poses(problem, goals, &self.settings, progress)
+    }
+
+    fn check_poses(&self, work: Budget, what: &str) -> Result<()> {
+        let less = "take fewer starts, poses or allowed directions";
+        self.budget.check(work, what, less).map_err(Error::Experiment)
     }
 
     /// Compares the holds of a recording with the best poses. `options`: how the recording is read and named.

@@ -7,7 +7,7 @@ use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
 use calibrant::DesignPlan;
-use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem, fewest_poses};
+use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem};
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses, write_text};
@@ -70,16 +70,15 @@ fn search(
     job: &DesignPlan,
     problem: &PoseProblem,
 ) -> calibrant::Result<(PoseDesign, Option<Reached>)> {
-    let settings = &job.settings;
     if arguments.reach.is_empty() {
-        let bar = console::progress(settings.starts as u64, "starts");
+        let bar = console::progress(job.settings.starts as u64, "starts");
         let found = job.design_poses(problem, &|done| bar.inc(done));
         bar.finish_and_clear();
         return Ok((found?, None));
     }
     let goals = goals(&arguments.reach, &problem.list, job.experiment.sensor.unit, &problem.at)?;
     let bar = console::spinner("starts");
-    let found = fewest_poses(problem, &goals, settings, &|done| bar.inc(done));
+    let found = job.fewest_poses(problem, &goals, &|done| bar.inc(done));
     bar.finish_and_clear();
     let FewestPoses { design, at_least } = found?;
     Ok((design, Some(Reached::new(&goals, &problem.list.names(), Some(at_least)))))

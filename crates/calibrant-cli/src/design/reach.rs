@@ -6,7 +6,7 @@ use super::reach_request::{asked, goals};
 use crate::console;
 use crate::exit::Exit;
 use calibrant::DesignPlan;
-use calibrant::design::{DesignProblem, shortest_motion};
+use calibrant::design::DesignProblem;
 use calibrant::io::Reached;
 use calibrant::report::number_format::{counted, short};
 
@@ -15,10 +15,9 @@ pub(super) fn run(
     job: &DesignPlan,
     problem: &DesignProblem<'_>,
 ) -> calibrant::Result<Exit> {
-    job.check_work(problem)?;
     let goals = goals(&arguments.reach, &problem.sensor.parameter_list(), problem.sensor.unit, &problem.at)?;
     let bar = console::spinner("starts");
-    let found = shortest_motion(problem, &goals, &job.settings, &|done| bar.inc(done));
+    let found = job.shortest_motion(problem, &goals, &|done| bar.inc(done));
     bar.finish_and_clear();
     let found = found.map_err(|error| error.in_experiment(&arguments.experiment))?;
     let intervals = |count: usize| {

@@ -168,6 +168,10 @@ fn work_beyond_the_budget_is_refused_before_it_starts() {
     let unknown =
         [("detail_rate_hz = 10.0 ", "detail_rate_hz = 1e6 "), ("interval_s = 5.0 ", "interval_s = 1e4 ")];
     bench.preset("report", "detail.toml", &unknown);
+    bench.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 1000 ")]);
+    let allowed: Vec<String> = (0..5000).map(|k| format!("[1.0, 0.1, {:.4}]", 1e-4 * f64::from(k))).collect();
+    let allowed = format!("starts = 3000\nallowed = [{}] #", allowed.join(", "));
+    bench.preset("static-poses", "allowed.toml", &[("# allowed = \"any\" ", &allowed), ("# starts", "# ")]);
     for (command, says) in [
         (
             "simulate long.toml -o result",
@@ -181,10 +185,28 @@ fn work_beyond_the_budget_is_refused_before_it_starts() {
         ),
         ("study long.toml --sensors 2 -o result", "this study of 6 sensors would take about"),
         ("study detail.toml --sensors 2 -o result", "this study of 6 sensors would take about"),
+        (
+            "design motion.toml --starts 20000 --reach bias.x=1ug -o result",
+            "a search among motions of up to 16 times 10 intervals would take about",
+        ),
+        ("design poses.toml -o result", "30 starts of 1000 poses would take about"),
+        (
+            "design poses.toml --starts 100000 --reach bias.x=1ug -o result",
+            "a search for the fewest poses would take about",
+        ),
+        ("design allowed.toml -o result", "3000 starts of 24 poses would take about"),
         ("study motion.toml --threads 65535 -o result", "65535 threads would take about 128 GiB of memory"),
     ] {
         bench.refuses(command, 2, &[says, "or add --force", "[work-too-large]"]);
     }
+    // nor does the environment lead around it
+    let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_calibrant"));
+    let refused = program.args(["explain"]).env("RAYON_NUM_THREADS", "100000").output().expect("it runs");
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        refused.status.code() == Some(2) && told.contains("100000 threads (RAYON_NUM_THREADS) would"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -213,10 +235,10 @@ fn a_dash_is_standard_input() {
     bench.refuses("inspect -", 3, &["-: the file is empty"]);
     let batch = bench.run_from("sim/recording.csv", &format!("{calibrate} - sim/recording.csv -o batch"));
     batch.ends_with(3).says("-: this is a copy of sim/recording.csv");
-}
     // and standard output, with nothing else in it
     let apply = "apply named/calibration.json sim/recording.csv -o";
     bench.run(&format!("{apply} corrected.csv")).done();
     assert_eq!(bench.run(&format!("{apply} -")).done().stdout, bench.read("corrected.csv"));
     let converted = bench.run("convert named/calibration.json - --to calibrant").done().stdout;
     assert!(converted.starts_with('{') && !bench.path("-").exists(), "{converted}");
+}

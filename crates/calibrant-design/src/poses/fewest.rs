@@ -23,7 +23,7 @@ use calibrant_core::information::criterion::COptimality;
 use nalgebra::{DMatrix, DVector};
 
 /// Most poses that are considered.
-const MOST: usize = 200;
+pub(super) const MOST: usize = 200;
 
 /// The fewest poses found that reach the goals, and a number that any set needs.
 #[derive(Debug, Clone, PartialEq)]

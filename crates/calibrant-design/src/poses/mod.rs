@@ -28,6 +28,7 @@ mod search;
 mod spectral_projected_gradient;
 #[cfg(test)]
 mod tests;
+mod work;
 
 pub use allowed::Allowed;
 pub use evaluate::{PoseEvaluation, covariance_of_holds, evaluate_poses};

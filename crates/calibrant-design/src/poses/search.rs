@@ -27,7 +27,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 /// Directions with which the approximate design begins.
-const BEGINNING: usize = 60;
+pub(super) const BEGINNING: usize = 60;
 /// Starts that run between two looks at the interruption.
 const ROUND: usize = 8;
 /// Iterations of a descent.

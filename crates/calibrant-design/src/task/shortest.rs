@@ -11,6 +11,7 @@
 
 use crate::problem::Goal;
 use crate::{Design, DesignProblem, DesignSettings, certificate, check_feasible, design};
+use calibrant_core::budget::Budget;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 
 /// Most intervals that are considered, as a multiple of those of the experiment.
@@ -48,6 +49,17 @@ pub fn shortest_motion(
     };
     let design = design(&of(intervals), settings, progress)?;
     Ok(ShortestMotion { design, intervals, at_least })
+}
+
+impl DesignSettings {
+    /// What the search for the shortest motion takes at most: some designs, the last of them of the most intervals.
+    #[must_use]
+    pub fn work_on_shortest(&self, problem: &DesignProblem<'_>) -> Budget {
+        /// Designs that are as long as the last.
+        const DESIGNS: f64 = 2.0;
+        let longest = DesignProblem { intervals: MOST * problem.intervals, ..problem.clone() };
+        self.work(&longest).repeated(DESIGNS)
+    }
 }
 
 /// Largest ratio of a standard deviation to its goal in the best motion found; infinite without a motion.
