@@ -14,7 +14,7 @@ use super::report::about;
 use super::source::Source;
 use super::validation::unless_too_few;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::{Result, TaskOption};
+use calibrant_core::error::{Error, Result, TaskOption};
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind};
 use calibrant_io::{Experiment, MachineLogInput, MachinePlan, file_name};
 use calibrant_machine::chain::KinematicChain;
@@ -75,6 +75,9 @@ impl<'e> MachineTask<'e> {
         let quantities = self.experiment.quantities(&moved.recorded.recording);
         let settings = &options.machine_settings();
         let problem = self.problem(&moved, &setup, &nominal, &quantities);
+        let what = format!("a calibration from a log of {} rows", moved.log.times_s().len());
+        let budget = options.reading.budget.unwrap_or_default();
+        budget.check(problem.work(), &what, "thin out the log, or split it").map_err(Error::Experiment)?;
         // what is wrong with the options is said before the calibration takes its time
         if let Some(folds) = options.folds {
             check_folds(&problem, folds)?;

@@ -1,10 +1,13 @@
 //! A session gives the same from arrays as from files.
 
+use calibrant::budget::Budget;
+use calibrant::error::Refusal;
 use calibrant::estimate::Calibration;
 use calibrant::io::{Experiment, preset, write_imu_recording};
 use calibrant::sensor::{ImuParameters, ImuRecording, Recording};
-use calibrant::session::{Outcome, Readings, Session, SessionOptions, Source};
+use calibrant::session::{MotionSource, Outcome, Readings, Session, SessionOptions, Source};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
+use calibrant::{Simulation, SimulationOptions, simulate};
 
 fn experiment(name: &str) -> Experiment {
     Experiment::parse(preset(name).expect("it exists"), None).expect("valid")
@@ -65,4 +68,25 @@ fn an_imu_in_memory_is_that_of_its_file() {
     let refused = Session::with(experiment("imu"), options).expect("prepared");
     let refused = refused.calibrate(&Source::from_file(&path)).expect_err("the same data").to_string();
     assert!(refused.contains("calibrated from"), "{refused}");
+}
+
+#[test]
+fn a_calibration_on_a_machine_beyond_the_budget_is_refused_before_it_begins() {
+    let experiment = experiment("rate-table");
+    let Simulation { recording, log: Some((log, _)), .. } =
+        simulate(&experiment, &SimulationOptions::default()).expect("simulated")
+    else {
+        panic!("a log")
+    };
+    let within = |seconds: f64| {
+        let mut options =
+            SessionOptions { motion: Some(MotionSource::Logged(log.clone())), ..SessionOptions::default() };
+        options.reading.budget = Some(Budget { seconds, ..Budget::USUAL });
+        let source = Source::from_recording("recording.csv", recording.clone());
+        Session::with(experiment.clone(), options).expect("prepared").calibrate(&source)
+    };
+    let error = within(0.1).expect_err("too long");
+    assert_eq!(error.code(), Refusal::WorkTooLarge);
+    assert!(error.to_string().contains("a calibration from a log of 12401 rows would take about"), "{error}");
+    assert!(within(100.0).is_ok());
 }

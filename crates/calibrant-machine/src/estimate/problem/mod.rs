@@ -3,6 +3,7 @@
 mod machine_problem;
 mod parameters;
 mod quantity;
+mod work;
 
 pub use machine_problem::{MachineProblem, MachineSettings, MachineSetup, MachineTrust, MountingPrior};
 pub(crate) use machine_problem::{refused, unsolved};
