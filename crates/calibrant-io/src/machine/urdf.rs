@@ -5,7 +5,7 @@ use super::joint::{ChainJoint, UrdfJoint};
 use super::link_tree::LinkTree;
 use super::meshes::{Mesh, MissingMesh, missing};
 use crate::experiment::shorten;
-use crate::text::decoding::{Checked, as_text, parsed, too_large};
+use crate::text::decoding::{Checked, as_text, parsed, refuse, too_large};
 use crate::text::excerpt::error_at;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
@@ -17,6 +17,10 @@ use std::path::{Path, PathBuf};
 const LARGEST_BYTES: u64 = 16 << 20;
 /// Largest number of elements, attributes and texts.
 const MOST_NODES: u32 = 1 << 20;
+/// Largest number of attributes of an element: XML compares each with all others.
+const MOST_ATTRIBUTES: usize = 1000;
+/// Largest number of joints that move between base and tip: the work grows with their cube.
+const MOST_JOINTS: usize = 100;
 
 /// A machine of links and joints.
 #[derive(Debug, Clone)]
@@ -82,6 +86,14 @@ impl Urdf {
         for k in self.tree.path(base, tip)? {
             match self.joints[k].in_chain(&self.text)? {
                 ChainJoint::Fixed(origin) => fixed *= origin,
+                ChainJoint::Moving(_) if joints.len() == MOST_JOINTS => {
+                    let message = format!("more than {MOST_JOINTS} joints move between `{base}` and `{tip}`");
+                    return refuse(
+                        Refusal::ValueOutOfRange,
+                        message,
+                        "give a base and a tip nearer to each other",
+                    );
+                }
                 ChainJoint::Moving(mut joint) => {
                     joint.origin = fixed * joint.origin;
                     fixed = Isometry3::identity();
@@ -110,6 +122,12 @@ fn read(bytes: &[u8]) -> Checked<Urdf> {
         return Err(too_large("a URDF file", LARGEST_BYTES).into());
     }
     let text = as_text(bytes)?;
+    // no attribute has this sign in its value
+    let attributes = |element: &str| element.bytes().filter(|byte| *byte == b'=').count();
+    if text.split('<').any(|element| !element.starts_with('!') && attributes(element) > MOST_ATTRIBUTES) {
+        let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
+        return refuse(Refusal::FileUnreadable, message, "this is hardly the file that you mean");
+    }
     let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| syntax(text, &error))?;
     let robot = robot(&document)?;

@@ -30,10 +30,21 @@ pub(super) struct TextColumns {
 /// The names that a log may have, for errors.
 const EXAMPLES: &str = "name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw";
 
+/// Largest number of columns: no machine has so many joints.
+const MOST: usize = 4096;
+
 impl TextColumns {
     /// The columns of a text that begins like this.
     pub(super) fn find(head: &Head<'_>, options: &ReferenceLogOptions) -> Checked<Self> {
         let names = names(head);
+        if names.len() > MOST {
+            let message = format!("the log has {} columns, more than {MOST}", names.len());
+            return refuse(
+                Refusal::FileUnreadable,
+                message,
+                "leave out those that are of no joint and no pose",
+            );
+        }
         let first_row: Vec<&str> = first_row(head);
         let is_comment =
             head.first_row.is_some() || head.names.first().is_some_and(|name| name.starts_with('#'));

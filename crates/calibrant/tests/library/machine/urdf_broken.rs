@@ -258,6 +258,22 @@ fn other_files_are_named() {
     assert!(message(&vec![b' '; (16 << 20) + 1], None, None).contains("larger than 16 MiB"));
     let many = format!("<robot>{}</robot>", "<a/>".repeat(1 << 20));
     assert!(message(many.as_bytes(), None, None).contains("more than 1048576 elements"));
+    // what would take minutes
+    let attributes: String = (0..1001).map(|k| format!(" a{k}='>'")).collect();
+    let wide = format!("<robot name='r'{attributes}><link name='a'/></robot>");
+    assert!(message(wide.as_bytes(), None, None).contains("an element has more than 1000 attributes"));
+    let links: String = (0..=101).map(|k| format!("<link name='l{k}'/>")).collect();
+    let joint = |k: usize| {
+        format!(
+            "<joint name='j{k}' type='continuous'><parent link='l{k}'/><child link='l{}'/></joint>",
+            k + 1
+        )
+    };
+    let long = format!("<robot name='r'>{links}{}</robot>", (0..101).map(joint).collect::<String>());
+    assert!(
+        message(long.as_bytes(), None, None).contains("more than 100 joints move between `l0` and `l101`")
+    );
+    assert!(Urdf::parse(long.as_bytes()).and_then(|of| of.chain(None, Some("l100"))).is_ok());
 }
 
 #[test]

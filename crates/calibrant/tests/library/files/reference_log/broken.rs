@@ -17,6 +17,14 @@ fn every_complaint_says_what_is_wrong_and_what_to_do() {
 }
 
 #[test]
+fn a_log_of_too_many_columns_is_refused_at_once() {
+    let names: String = (0..100_000).map(|k| format!(",j{k}_rad")).collect();
+    let text = format!("t_s{names}\n0{0}\n1{0}\n", ",0".repeat(100_000));
+    let error = parse_reference_log(text.as_bytes(), &ReferenceLogOptions::default()).expect_err("too many");
+    assert!(error.to_string().contains("the log has 100001 columns, more than 4096"), "{error}");
+}
+
+#[test]
 fn a_unit_that_contradicts_the_file_is_refused() {
     for (text, unit, expected) in [
         (
