@@ -211,7 +211,7 @@ fn damage_is_an_error() {
         "UPDATE parameters SET value = value + 1e-9 WHERE calibration = 7 AND place = 3",
         "UPDATE parameters SET sd = -sd WHERE calibration = 7 AND place = 3",
         "UPDATE calibrations SET covariance = zeroblob(length(covariance)) WHERE id = 7",
-        "UPDATE calibrations SET sensor = 'B' WHERE id = 7",
+        "UPDATE calibrations SET recorded = '2020-01-01' WHERE id = 7",
         "UPDATE models SET text = replace(text, 'robot', 'rabot')",
     ] {
         let transaction = records.connection.transaction().expect("begun");

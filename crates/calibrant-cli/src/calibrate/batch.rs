@@ -2,12 +2,12 @@
 
 use super::arguments::Arguments;
 use crate::console;
-use crate::diagnostics::{rules, tell, tell_in};
+use crate::diagnostics::{rules, tell, tell_all, tell_in};
 use crate::exit::Exit;
 use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_name};
-use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::diagnostic::files::{FolderNameTaken, ResultsKept};
+use calibrant::diagnostic::{Diagnostic, Phrase};
 use calibrant::io::{write_summary, write_text};
 use calibrant::progress::Progress;
 use calibrant::report::batch_sheet;
@@ -28,13 +28,14 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
     keep_earlier(arguments, &results);
     let exit = show(&results);
     let (finished, all) = (results.rows.len() - results.interrupted(), results.rows.len());
-    if finished < all {
-        tell(SeriesInterrupted { series: "batch", items: "recordings", finished, all });
-    }
+    let interrupted = SeriesInterrupted { series: "batch", items: "recordings", finished, all };
+    let interrupted = (finished < all).then(|| Diagnostic::from(interrupted));
+    tell_all(&interrupted);
     let [summary, page_path] = ["summary.csv", "batch.html"].map(|name| arguments.output.join(name));
     write_summary(&summary, &results.summary())?;
     let (page, mut about) = (batch.page(&results), batch.about());
     about.facts.extend(arguments.accept.iter().map(|file| ("Limits".to_owned(), file.display().to_string())));
+    about.findings.extend(interrupted.iter().map(Diagnostic::without_file));
     let sheet = batch_sheet(&page, &about);
     write_text(&page_path, &sheet.html())?;
     console::result(arguments.json, || results.json(), &sheet, None, &[]);

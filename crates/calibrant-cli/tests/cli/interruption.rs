@@ -119,13 +119,18 @@ fn a_batch_says_what_is_finished_and_writes_its_summary() {
     let summary = bench.read("result/summary.csv");
     let finished = summary.matches(",converged,").count();
     assert!(
-        (2..40).contains(&finished) && summary.matches("interrupted").count() == 40 - finished,
+        (2..40).contains(&finished) && summary.matches(",interrupted,").count() == 40 - finished,
         "{summary}"
     );
     assert!(
         outcome.stdout.contains(&format!("\n{finished} calibrated, 0 failed: result/summary.csv\n")),
         "{outcome:?}"
     );
+    assert!(
+        outcome.stdout.contains(&format!("Yield 100 %: {finished} of {finished} sensors ok.")),
+        "{outcome:?}"
+    );
+    assert!(bench.read("result/batch.html").contains(&format!("{finished} of 40 recordings are finished")));
     // what is left is calibrated when it goes on
     bench.run(&format!("{batch} --resume")).done().says(&format!("note: {finished} of 40 recordings"));
 }

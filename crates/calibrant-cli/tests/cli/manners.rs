@@ -239,6 +239,6 @@ fn a_dash_is_standard_input() {
     let apply = "apply named/calibration.json sim/recording.csv -o";
     bench.run(&format!("{apply} corrected.csv")).done();
     assert_eq!(bench.run(&format!("{apply} -")).done().stdout, bench.read("corrected.csv"));
-    let converted = bench.run("convert named/calibration.json --to calibrant -o -").done().stdout;
+    let converted = bench.run("convert named/calibration.json - --to calibrant").done().stdout;
     assert!(converted.starts_with('{') && !bench.path("-").exists(), "{converted}");
 }

@@ -1,16 +1,68 @@
 //! Checksums in the database: SQLite has none, and a number of which a byte has changed is still a number.
 
-use rusqlite::Row;
 use rusqlite::types::ValueRef;
+use rusqlite::{CachedStatement, Connection, Row, params};
 use sha2::{Digest, Sha256};
+
+/// The columns that a row is read from, in their order; the last is the checksum.
+pub(super) const COLUMNS: &str =
+    "id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, motion,
+    motion_sha256, recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance, checksum";
+/// The number of columns of which the checksum is.
+pub(super) const VALUES: usize = 22;
+
+/// The parameters of a calibration, in their order.
+pub(super) const PARAMETERS: &str = "SELECT value, sd FROM parameters WHERE calibration = ? ORDER BY place";
+pub(super) const MODEL: &str = "SELECT id, text, checksum FROM models WHERE id = ?";
+
+/// The estimates of a calibration, and the checksum of all that is kept of it.
+pub(super) fn parameters(
+    statement: &mut CachedStatement<'_>,
+    row: &Row<'_>,
+) -> rusqlite::Result<(Vec<f64>, Vec<u8>)> {
+    let mut checksum = Checksum::default();
+    checksum.take(row, VALUES)?;
+    let (mut estimates, mut rows) = (Vec::new(), statement.query([row.get::<_, i64>(0)?])?);
+    while let Some(parameter) = rows.next()? {
+        checksum.take(parameter, 2)?;
+        estimates.push(parameter.get(0)?);
+    }
+    Ok((estimates, checksum.bytes()))
+}
+
+/// The text of a model, the checksum that is kept, and the one that it has.
+pub(super) fn model_row(row: &Row<'_>) -> rusqlite::Result<(String, Option<Vec<u8>>, Vec<u8>)> {
+    let mut checksum = Checksum::default();
+    checksum.take(row, 2)?;
+    Ok((row.get(1)?, row.get(2)?, checksum.bytes()))
+}
+
+/// Enters the checksum of a calibration, once all of it is there.
+pub(super) fn seal(connection: &Connection, id: i64) -> rusqlite::Result<()> {
+    let mut of_parameters = connection.prepare_cached(PARAMETERS)?;
+    let (_, checksum) = connection
+        .prepare_cached(&format!("SELECT {COLUMNS} FROM calibrations WHERE id = ?"))?
+        .query_row([id], |row| parameters(&mut of_parameters, row))?;
+    connection
+        .prepare_cached("UPDATE calibrations SET checksum = ? WHERE id = ?")?
+        .execute(params![checksum, id])?;
+    Ok(())
+}
+
+/// Enters the checksum of a model.
+pub(super) fn seal_model(connection: &Connection, id: i64) -> rusqlite::Result<()> {
+    let (_, _, checksum) = connection.query_row(MODEL, [id], model_row)?;
+    connection.execute("UPDATE models SET checksum = ? WHERE id = ?", params![checksum, id])?;
+    Ok(())
+}
 
 /// The checksum of values as they stand in tables.
 #[derive(Default)]
-pub(super) struct Checksum(Sha256);
+struct Checksum(Sha256);
 
 impl Checksum {
     /// Takes this number of values from the beginning of a row: each with its type and its length.
-    pub(super) fn take(&mut self, row: &Row<'_>, values: usize) -> rusqlite::Result<()> {
+    fn take(&mut self, row: &Row<'_>, values: usize) -> rusqlite::Result<()> {
         for place in 0..values {
             match row.get_ref(place)? {
                 ValueRef::Null => self.value(b'n', &[]),
@@ -30,7 +82,7 @@ impl Checksum {
     }
 
     /// Its bytes, as they are kept.
-    pub(super) fn bytes(self) -> Vec<u8> {
+    fn bytes(self) -> Vec<u8> {
         self.0.finalize().to_vec()
     }
 }

@@ -65,7 +65,8 @@ pub(super) fn not_a_database(path: &Path) -> Error {
 
 /// The error for a file without contents, where records should be.
 pub(super) fn empty(path: &Path) -> Error {
-    let help = "give the file of the records; `calibrate --records` and `calibrant records add` make it";
+    let help =
+        "give another file, or remove this one: `calibrate --records` and `calibrant records add` make it";
     Error::experiment(
         InputError::new(Refusal::FormatUnknown, "this file is empty: there are no records in it", help)
             .in_file(path),

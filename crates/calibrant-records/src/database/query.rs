@@ -1,6 +1,6 @@
 //! Questions to the records.
 
-use super::checksum::Checksum;
+use super::checksum::{COLUMNS, MODEL, PARAMETERS, VALUES, model_row, parameters};
 use super::failure::{damaged, failed};
 use super::model::{self, Further};
 use super::records::Records;
@@ -10,7 +10,7 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::CalibratedImu;
 use calibrant_io::{HashedFile, UtcTime};
 use rusqlite::types::ToSql;
-use rusqlite::{CachedStatement, Connection, Row, params};
+use rusqlite::{CachedStatement, Row};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::HashMap;
@@ -39,13 +39,6 @@ pub struct KeptRecord {
     #[serde(flatten)]
     pub record: Record,
 }
-
-/// The columns that a row is read from, in their order; the last is the checksum.
-const COLUMNS: &str =
-    "id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, motion,
-    motion_sha256, recording, recording_sha256, verdict, codes, status, model, reference_c, least_c, greatest_c, degrees, covariance, checksum";
-/// The number of columns of which the checksum is.
-const VALUES: usize = 22;
 
 impl Records {
     /// The records of a filter. Those of one sensor stand together, in the order of their dates; those without a date are first, since the newest one with a date counts as the latest.
@@ -135,48 +128,6 @@ impl Records {
         }
         Ok(())
     }
-}
-
-/// The parameters of a calibration, in their order.
-const PARAMETERS: &str = "SELECT value, sd FROM parameters WHERE calibration = ? ORDER BY place";
-const MODEL: &str = "SELECT id, text, checksum FROM models WHERE id = ?";
-
-/// The estimates of a calibration, and the checksum of all that is kept of it.
-fn parameters(statement: &mut CachedStatement<'_>, row: &Row<'_>) -> rusqlite::Result<(Vec<f64>, Vec<u8>)> {
-    let mut checksum = Checksum::default();
-    checksum.take(row, VALUES)?;
-    let (mut estimates, mut rows) = (Vec::new(), statement.query([row.get::<_, i64>(0)?])?);
-    while let Some(parameter) = rows.next()? {
-        checksum.take(parameter, 2)?;
-        estimates.push(parameter.get(0)?);
-    }
-    Ok((estimates, checksum.bytes()))
-}
-
-/// The text of a model, the checksum that is kept, and the one that it has.
-fn model_row(row: &Row<'_>) -> rusqlite::Result<(String, Option<Vec<u8>>, Vec<u8>)> {
-    let mut checksum = Checksum::default();
-    checksum.take(row, 2)?;
-    Ok((row.get(1)?, row.get(2)?, checksum.bytes()))
-}
-
-/// Enters the checksum of a calibration, once all of it is there.
-pub(super) fn seal(connection: &Connection, id: i64) -> rusqlite::Result<()> {
-    let mut of_parameters = connection.prepare_cached(PARAMETERS)?;
-    let (_, checksum) = connection
-        .prepare_cached(&format!("SELECT {COLUMNS} FROM calibrations WHERE id = ?"))?
-        .query_row([id], |row| parameters(&mut of_parameters, row))?;
-    connection
-        .prepare_cached("UPDATE calibrations SET checksum = ? WHERE id = ?")?
-        .execute(params![checksum, id])?;
-    Ok(())
-}
-
-/// Enters the checksum of a model.
-pub(super) fn seal_model(connection: &Connection, id: i64) -> rusqlite::Result<()> {
-    let (_, _, checksum) = connection.query_row(MODEL, [id], model_row)?;
-    connection.execute("UPDATE models SET checksum = ? WHERE id = ?", params![checksum, id])?;
-    Ok(())
 }
 
 /// Makes records of rows.

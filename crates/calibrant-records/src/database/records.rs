@@ -3,7 +3,7 @@
 use super::failure::{Failure, empty, failed, not_a_database, unknown};
 use super::model::{self, Further};
 use super::writable::check_writable;
-use super::{query, repeated_recording, schema};
+use super::{checksum, repeated_recording, schema};
 use crate::record::Record;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::CalibratedImu;
@@ -258,7 +258,7 @@ fn insert(
         let sd = variance.filter(|variance| *variance > 0.0).map(f64::sqrt);
         parameter.execute(params![id, place as i64, quantity.value(&record.imu.parameters), sd])?;
     }
-    query::seal(transaction, id)?;
+    checksum::seal(transaction, id)?;
     Ok(Inserted { id, replaced: earlier.is_some() })
 }
 
@@ -279,6 +279,6 @@ fn model_of(transaction: &Transaction<'_>, imu: &CalibratedImu) -> rusqlite::Res
         let readings = imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit());
         name.execute(params![id, place as i64, quantity.name(), quantity.unit(readings)])?;
     }
-    query::seal_model(transaction, id)?;
+    checksum::seal_model(transaction, id)?;
     Ok(id)
 }

@@ -10,7 +10,7 @@ use calibrant_io::SummaryParameter;
 use calibrant_report::{About, Batch as Page, BatchParameter, BatchSensor};
 
 impl Batch {
-    /// The recordings with their folders, as [`batch_sheet`](crate::report::batch_sheet) takes them. The first result names the parameters.
+    /// The recordings with their folders, as [`batch_sheet`](crate::report::batch_sheet) takes them, without those that an interruption left. The first result names the parameters.
     #[must_use]
     pub fn page(&self, results: &BatchResults) -> Page {
         let experiment = self.session().experiment();
@@ -21,7 +21,12 @@ impl Batch {
         Page {
             parameters: named.iter().map(|of| parameter(of, &datasheet, limits)).collect(),
             quality: quality::columns(experiment).iter().map(|column| (*column).to_owned()).collect(),
-            sensors: results.rows.iter().map(|row| self.sensor(row, named)).collect(),
+            sensors: results
+                .rows
+                .iter()
+                .filter(|row| !row.is_interrupted())
+                .map(|row| self.sensor(row, named))
+                .collect(),
         }
     }
 
