@@ -234,7 +234,7 @@ fn what_is_noticed_has_a_code_and_can_be_denied_and_allowed() {
         rows.collect::<Vec<_>>().join("\n") + "\n"
     };
     let spike = |k: usize, mut cells: Vec<String>| {
-        if k == 700 {
+        if k == 60 {
             cells[2] = "9".to_owned();
         }
         Some(cells)

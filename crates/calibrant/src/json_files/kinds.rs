@@ -43,11 +43,7 @@ impl FileKind {
             "calibrate",
         ),
         Self::of::<MachineCalibrationFile<'static>>("calibration.json of a sensor on a machine", "calibrate"),
-        Self::list::<Vec<BatchEntry>>(
-            "batch",
-            "the calibrations of several recordings",
-            "calibrate A B --json",
-        ),
+        Self::list::<Vec<BatchEntry>>("batch", "the calibrations of several recordings", "calibrate"),
         Self::of::<ConvertedFile<'static>>("a calibration as calibrant JSON", "convert"),
         Self::of::<NoiseFile<'static>>("noise.json", "noise"),
         Self::of::<ComparisonFile<'static>>("what compare prints as JSON", "compare"),
