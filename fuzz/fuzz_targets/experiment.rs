@@ -12,9 +12,12 @@ fuzz_target!(|text: &str| {
             assert!(numbers.iter().flatten().all(|vector| vector.iter().all(|number| number.is_finite())));
             match experiment.plan {
                 Plan::Motion(plan) => assert!(plan.interval_s > 0.0 && plan.rate_hz.is_finite() && plan.intervals > 0),
-                Plan::Holds(plan) => assert!(plan.gravity.magnitude_mps2 > 0.0 && plan.gravity.sd_mps2 >= 0.0),
+                Plan::Holds(plan) => {
+                    let gravity = plan.gravity().expect("checked");
+                    assert!(gravity.magnitude_mps2 > 0.0 && gravity.sd_mps2 >= 0.0);
+                }
                 Plan::Machine(plan) => {
-                    let setup = plan.setup(sensor, experiment.imu.as_ref(), 2);
+                    let setup = plan.setup(sensor, experiment.imu.as_ref(), 2).expect("checked");
                     assert!(setup.gravity_mps2 > 0.0 && setup.lever_sd_m >= 0.0 && setup.up.norm() > 0.9);
                 }
             }

@@ -12,10 +12,10 @@ fn check(outcome: calibrant::Result<ImuFile>) {
             let sensors: Vec<_> = SensorKind::ALL.into_iter().filter_map(|sensor_kind| file.recording.sensor(sensor_kind)).collect();
             assert!(!sensors.is_empty() && file.columns.iter().any(|column| column.is_used()));
             for recording in &sensors {
-                assert!(recording.len() >= 2 && recording.readings.len() == recording.len());
-                assert!(recording.times_s.iter().all(|t| t.is_finite()));
-                assert!(recording.times_s.windows(2).all(|pair| pair[0] < pair[1]));
-                assert!(recording.readings.iter().all(|reading| reading.iter().all(|value| value.is_finite())));
+                assert!(recording.len() >= 2 && recording.readings().len() == recording.len());
+                assert!(recording.times_s().iter().all(|t| t.is_finite()));
+                assert!(recording.times_s().windows(2).all(|pair| pair[0] < pair[1]));
+                assert!(recording.readings().iter().all(|reading| reading.iter().all(|value| value.is_finite())));
             }
             if let Some(temperature) = &file.recording.temperature_c {
                 assert!(temperature.len() == sensors[0].len() && temperature.iter().all(|t| t.is_finite()));

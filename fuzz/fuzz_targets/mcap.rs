@@ -11,8 +11,8 @@ fuzz_target!(|bytes: &[u8]| {
     match parse_imu_recording(&bag, &ImuReadOptions::default()) {
         Ok(file) => {
             for recording in SensorKind::ALL.into_iter().filter_map(|sensor_kind| file.recording.sensor(sensor_kind)) {
-                assert!(recording.times_s.windows(2).all(|pair| pair[0] < pair[1]));
-                assert!(recording.readings.iter().all(|reading| reading.iter().all(|value| value.is_finite())));
+                assert!(recording.times_s().windows(2).all(|pair| pair[0] < pair[1]));
+                assert!(recording.readings().iter().all(|reading| reading.iter().all(|value| value.is_finite())));
             }
         }
         Err(error) => assert!(error.is_invalid_recording() && !error.to_string().is_empty()),

@@ -16,8 +16,8 @@ fuzz_target!(|bytes: &[u8]| {
     match parse_imu_recording(&table, &ImuReadOptions::default()) {
         Ok(file) => {
             for recording in SensorKind::ALL.into_iter().filter_map(|sensor_kind| file.recording.sensor(sensor_kind)) {
-                let fine = recording.times_s.windows(2).all(|pair| pair[0] < pair[1])
-                    && recording.readings.iter().all(|reading| reading.iter().all(|value| value.is_finite()));
+                let fine = recording.times_s().windows(2).all(|pair| pair[0] < pair[1])
+                    && recording.readings().iter().all(|reading| reading.iter().all(|value| value.is_finite()));
                 if !fine {
                     std::process::abort();
                 }
