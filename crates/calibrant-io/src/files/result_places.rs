@@ -4,7 +4,7 @@ use super::standard_input::NAME;
 use super::{finished, manifest};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use rayon::prelude::*;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -51,10 +51,11 @@ impl ResultPlaces {
         let refuse = |file: &Path, what: &str, help: &str| {
             Err(Error::experiment(InputError::new(Refusal::FileTaken, what, help).in_file(file)))
         };
+        let mut links = Links::default();
         // one that is not there yet may be made and then replaced, too
-        let inputs: HashSet<_> = self.inputs.iter().map(|input| resolved(input)).collect();
+        let inputs: HashSet<_> = self.inputs.iter().map(|input| links.resolved(input)).collect();
         let files = self.results.iter().filter(|result| result.as_os_str() != NAME);
-        let all: Vec<_> = files.map(|result| (result.clone(), resolved(result))).collect();
+        let all: Vec<_> = files.map(|result| (result.clone(), links.resolved(result))).collect();
         if let Some((result, _)) = all.iter().find(|(_, resolved)| inputs.contains(resolved)) {
             let what = "this file is read, and would be replaced by the result";
             return refuse(result, what, "give another name for the result");
@@ -110,13 +111,30 @@ impl Drop for ClaimedPlaces {
     }
 }
 
-/// A path without links, as far as it is there.
-fn resolved(path: &Path) -> PathBuf {
-    let full = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    let found = full.ancestors().find_map(|place| Some((place.canonicalize().ok()?, place)));
-    match found.map(|(found, place)| (found, full.strip_prefix(place))) {
-        Some((found, Ok(rest))) => found.components().chain(rest.components()).collect(),
-        _ => full,
+/// Paths without links, as far as they are there. The results of a batch share their folders: each folder is looked up once.
+#[derive(Default)]
+struct Links {
+    folders: HashMap<PathBuf, PathBuf>,
+}
+
+impl Links {
+    fn resolved(&mut self, path: &Path) -> PathBuf {
+        let full = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        // a name that is not there costs one look, a resolution one for each part of the path
+        let found = full.symlink_metadata().and_then(|_| full.canonicalize());
+        found.unwrap_or_else(|_| match (full.parent(), full.components().next_back()) {
+            (Some(folder), Some(name)) => self.folder(folder).join(name),
+            _ => full,
+        })
+    }
+
+    fn folder(&mut self, folder: &Path) -> PathBuf {
+        if let Some(found) = self.folders.get(folder) {
+            return found.clone();
+        }
+        let found = self.resolved(folder);
+        self.folders.insert(folder.to_path_buf(), found.clone());
+        found
     }
 }
 
