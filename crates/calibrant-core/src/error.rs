@@ -102,6 +102,13 @@ impl InputError {
         self
     }
 
+    /// The same error, with another remedy.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = with_options_worded(help.into());
+        self
+    }
+
     /// The same error, in this file.
     #[must_use]
     pub fn in_file(mut self, file: &Path) -> Self {

@@ -3,7 +3,7 @@
 use super::options::SessionOptions;
 use super::recorded::Recorded;
 use super::source::Source;
-use calibrant_core::error::{Error, InputError, Refusal, Result, with_options_worded};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 use calibrant_io::{Experiment, ImuPlan, ImuReadOptions, ImuUnit};
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ impl<'e> ImuReader<'e> {
             Err(Error::Recording(input_error))
                 if source.gyroscope.is_none() && input_error.code == Refusal::SensorUnnamed =>
             {
-                Err(Error::recording(InputError { help: with_options_worded(help.into()), ..*input_error }))
+                Err(Error::recording(input_error.with_help(help)))
             }
             read => read,
         }

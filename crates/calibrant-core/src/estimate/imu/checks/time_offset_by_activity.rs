@@ -4,7 +4,7 @@
 //! at which they do most is searched for, to a fraction of a second: where the clocks are so far apart no fit may be left to show it (`time_offset`).
 
 use crate::diagnostic::{late, repair};
-use crate::error::{Error, InputError, NotIdentifiable};
+use crate::error::{Error, NotIdentifiable};
 use crate::estimate::holds::median;
 use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
@@ -130,7 +130,7 @@ pub(crate) fn with_time_offset(error: Error, recording: &ImuRecording) -> Error 
     let both = recording.accelerometer.is_some() && recording.gyroscope.is_some();
     match error {
         Error::Recording(input_error) if both => match shifted(recording) {
-            Some(stated) => Error::recording(InputError { help: stated, ..*input_error }),
+            Some(stated) => Error::recording(input_error.with_help(stated)),
             None => Error::Recording(input_error),
         },
         Error::NotIdentifiable(undetermined) if both => {
