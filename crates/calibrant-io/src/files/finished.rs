@@ -3,6 +3,7 @@
 //! It is written after the results, and has their checksums. So a result that another run has replaced is not taken for that of this key.
 
 use super::hashed_file::{HashedFile, checksum};
+use super::manifest;
 use super::resume_key::ResumeKey;
 use crate::results::json::write_json;
 use crate::results::program::program;
@@ -11,7 +12,7 @@ use calibrant_core::diagnostic::files::ResumeDamaged;
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::Result;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The name of the file.
 pub(super) const NAME: &str = "resume.json";
@@ -47,10 +48,11 @@ impl Finished {
     /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
     pub fn write(&self, directory: &Path, key: &ResumeKey, report: bool) -> Result<()> {
         let results = RESULTS.into_iter().filter(|name| report || *name != "report.html");
+        let hashed = |path: PathBuf| manifest::as_written(&path).or_else(|| HashedFile::of(&path));
         let content = Content {
             program: program(),
             key: key.0.clone(),
-            results: results.filter_map(|name| HashedFile::of(&directory.join(name))).collect(),
+            results: results.filter_map(|name| hashed(directory.join(name))).collect(),
             finished: self,
         };
         write_json(&directory.join(NAME), &content)

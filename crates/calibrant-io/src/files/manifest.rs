@@ -4,7 +4,7 @@
 //! It has a line of JSON for each file that was written, and a file is ours that has the name and the checksum of a line.
 //! Lines are only ever appended, so several runs may write into one folder.
 
-use super::hashed_file::checksum;
+use super::hashed_file::{HashedFile, checksum};
 use crate::results::program::program;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
@@ -40,6 +40,12 @@ pub(crate) fn entry(path: &Path) -> Option<WrittenFile> {
     let of_name = entries(path);
     let sha256 = if of_name.is_empty() { None } else { checksum(path) }?;
     of_name.into_iter().find(|entry| entry.sha256 == sha256)
+}
+
+/// A file as it was written last, without reading it again; `None` where the manifest does not have it.
+pub(super) fn as_written(path: &Path) -> Option<HashedFile> {
+    let WrittenFile { file, sha256, .. } = entries(path).into_iter().next()?;
+    Some(HashedFile { file, sha256 })
 }
 
 /// Has a file of this name been written, even if it was edited since?
