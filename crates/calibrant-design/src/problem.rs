@@ -4,7 +4,7 @@ use crate::{Interruption, SoFar};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::criterion::AOptimality;
 use calibrant_core::information::{Criterion, GravityMarginal, MotionInformation};
-use calibrant_core::motion::{KnownEnds, Limits, MotionGravity, Trust};
+use calibrant_core::motion::{KnownEnds, Limits, MotionClock, MotionGravity, Trust};
 use calibrant_core::sensor::{Axis, Sensor, SensorModel, SensorParameters};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -32,6 +32,8 @@ pub struct DesignProblem<'a> {
     pub known_ends: KnownEnds,
     /// Gravity, where the sensor will sense it beside the motion.
     pub gravity: Option<MotionGravity>,
+    /// What will be known of the recording's clock beside the motion's: its delay and rate are marginalised.
+    pub clock: MotionClock,
     /// The limits of the arm.
     pub limits: &'a Limits,
     /// The criterion that is minimised.
@@ -88,6 +90,7 @@ impl<'a> DesignProblem<'a> {
             trust: Trust::Known,
             known_ends: KnownEnds::Start,
             gravity: None,
+            clock: MotionClock::default(),
             limits,
             criterion: Criterion::A(AOptimality { scale }),
             prior: None,
@@ -130,7 +133,8 @@ impl<'a> DesignProblem<'a> {
     /// # Errors
     /// As [`MotionInformation::new`].
     pub fn setting(&self) -> Result<MotionInformation> {
-        MotionInformation::new(self.sensor, self.at, self.trust, self.known_ends, self.rate_hz)
+        let exact = MotionInformation::new(self.sensor, self.at, self.trust, self.known_ends, self.rate_hz)?;
+        Ok(MotionInformation { clock: self.clock, ..exact })
     }
 
     /// Standard deviation that gravity's tilt alone gives each parameter. Empty without gravity.

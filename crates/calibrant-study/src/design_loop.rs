@@ -8,7 +8,7 @@ use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationProblem, Stimulus, calibrate};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::{
-    CommandedMotion, JerkControlledMotion, KnownEnds, Limits, MotionGravity, Trust,
+    CommandedMotion, JerkControlledMotion, KnownEnds, Limits, MotionClock, MotionGravity, Trust,
 };
 use calibrant_core::sensor::{Sensor, SensorParameters};
 use calibrant_core::simulate::{Purpose, Rng, draw_sensor, initial_motion, stream};
@@ -33,6 +33,8 @@ pub struct DesignStudyProblem<'a> {
     pub known_ends: KnownEnds,
     /// Gravity, where the sensors sense it beside the motion.
     pub gravity: Option<MotionGravity>,
+    /// The clock of the recordings beside that of the motion.
+    pub clock: MotionClock,
     /// The limits of the motion.
     pub limits: Limits,
     /// The criterion that the designs minimise.
@@ -58,6 +60,7 @@ impl<'a> DesignStudyProblem<'a> {
             trust: self.trust,
             known_ends: self.known_ends,
             gravity: self.gravity,
+            clock: self.clock,
             limits: &self.limits,
             criterion: self.criterion.clone(),
             prior,
@@ -201,6 +204,7 @@ fn calibrate_on(
         trust: problem.trust,
         known_ends: problem.known_ends,
         gravity: problem.gravity,
+        clock: problem.clock,
     };
     let (_, recording) = record(sensor, truth, &command, problem.rate_hz, rng)?;
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };

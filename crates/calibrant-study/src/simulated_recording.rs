@@ -3,7 +3,7 @@
 use calibrant_core::error::Result;
 use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use calibrant_core::sensor::{Recording, Sensor, SensorParameters};
-use calibrant_core::simulate::{Rng, draw_gravity, perturb, sample_times, simulate_recording};
+use calibrant_core::simulate::{ClockedTimes, Rng, draw_gravity, perturb, simulate_recording};
 use nalgebra::Vector3;
 
 /// The motion that really happens when this one is commanded, and the sensor's recording of it.
@@ -19,11 +19,12 @@ pub(super) fn record(
         Trust::Known | Trust::Unknown => command.motion.clone(),
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
-    let times = sample_times(&command.motion, rate_hz);
     let sensed = match &command.gravity {
         Some(gravity) => happened.plus(&draw_gravity(gravity, rng).force_mps2)?,
         None => happened.clone(),
     };
-    let recording = simulate_recording(truth, &noise, sensor.unit, sensor.axes, &sensed, &times, rng);
-    Ok((happened, recording))
+    let times = ClockedTimes::draw(&command.motion, rate_hz, &command.clock, rng);
+    let recording =
+        simulate_recording(truth, &noise, sensor.unit, sensor.axes, &sensed, &times.motion_s, rng);
+    Ok((happened, times.on_own_clock(recording)))
 }

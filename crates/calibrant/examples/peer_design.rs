@@ -12,7 +12,7 @@ use calibrant::information::Criterion;
 use calibrant::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
-use calibrant::motion::{InputNoise, KnownEnds, Limits, MotionGravity, Rest, Trust};
+use calibrant::motion::{InputNoise, KnownEnds, Limits, MotionClock, MotionGravity, Rest, Trust};
 use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Matrix3, Vector3};
 use serde_json::{Value, json};
@@ -177,6 +177,7 @@ fn answer(case: &Value) -> Result<Value, Failure> {
         trust,
         known_ends: if case["known_ends"] == "both" { KnownEnds::Both } else { KnownEnds::Start },
         gravity: gravity(&case["gravity"])?,
+        clock: MotionClock::default(),
         limits: &limits,
         criterion: criterion(&case["criterion"], &sensor, &at)?,
         prior: None,

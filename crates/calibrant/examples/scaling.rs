@@ -7,7 +7,7 @@
 //! the size of its input: 32 bytes for each sample and each node.
 
 use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-use calibrant::motion::{CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, Trust};
+use calibrant::motion::{CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, MotionClock, Trust};
 use calibrant::sensor::{Sensor, SensorModel};
 use calibrant::simulate::{Purpose, draw_sensor, perturb, sample_times, simulate_recording, stream};
 use nalgebra::Vector3;
@@ -76,7 +76,7 @@ fn measure(model: &str, trust: &str, intervals: usize, per_interval: usize) -> R
     let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &happened, &times, &mut rng);
     drop((happened, times));
     let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
-    let command = CommandedMotion { motion, trust, known_ends, gravity: None };
+    let command = CommandedMotion { motion, trust, known_ends, gravity: None, clock: MotionClock::default() };
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
 

@@ -7,7 +7,7 @@
 use calibrant::design::{Design, DesignProblem, DesignSettings, DesignStatus, design};
 use calibrant::information::Criterion;
 use calibrant::information::criterion::AOptimality;
-use calibrant::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
+use calibrant::motion::{InputNoise, KnownEnds, Limits, MotionClock, Rest, Trust};
 use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 use std::time::Instant;
@@ -68,6 +68,7 @@ fn of(model: SensorModel, trust: Trust, intervals: usize, starts: usize) -> cali
         trust,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits: &limits,
         criterion: Criterion::A(AOptimality {
             scale: DVector::repeat(sensor.parameter_list().names().len(), 1.0),

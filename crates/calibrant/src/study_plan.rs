@@ -167,6 +167,7 @@ impl<'a> StudyPlan<'a> {
             trust,
             known_ends: plan.known_ends,
             gravity: plan.gravity,
+            clock: plan.clock,
             limits: limits.clone(),
             criterion: experiment.criterion(&experiment.sensor.parameter_list(), &nominal)?,
             initial: None,

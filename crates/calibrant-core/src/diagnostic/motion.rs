@@ -2,6 +2,7 @@
 
 use super::check::checks;
 use super::parts::Phrase;
+use crate::number_format::with_sd;
 
 checks! {
     /// Samples lie outside the commanded motion. They are not used.
@@ -19,6 +20,37 @@ checks! {
     remedy "Check that both clocks start together."
     says format!(
         "{outside} of {samples} samples lie outside the motion, {motion_start_s} to {motion_end_s} s. They are not used."
+    );
+
+    /// The recording follows the motion at another time. The gains are wrong.
+    MotionDelayed "motion-delayed" Warning {
+        /// Delay that fits better: motion time less recording time, s.
+        delay_s: f64,
+        /// Its standard deviation, s.
+        sd_s: f64,
+    }
+    decided "The clocks are given as exact, and a delay beside the parameters is beyond 5 of its standard deviations."
+    remedy "Set delay_sd_s in [motion.clock]: the delay is then found, and its uncertainty is in the result."
+    says format!(
+        "the recording does not begin with the motion: a delay of {} ms fits better. Set delay_sd_s in [motion.clock], \
+         such as 1.0: the delay is then found.",
+        with_sd(1e3 * delay_s, 1e3 * sd_s)
+    );
+
+    /// The motion was found far from where it was expected.
+    DelayUnexpected "delay-unexpected" Warning {
+        /// Delay that was found: motion time less recording time, s.
+        delay_s: f64,
+        /// Delay that was expected, s.
+        expected_s: f64,
+        /// Standard deviation of the expected delay, s.
+        sd_s: f64,
+    }
+    decided "The delay is more than 5 of its standard deviations from the expected one."
+    remedy "Check that recording and motion belong together. If so, give the delay as delay_s in [motion.clock]."
+    says format!(
+        "the motion was found {delay_s:.3} s from the recording's times, not within {expected_s:.3} ± {sd_s:.3} s. \
+         Check that both belong together."
     );
 
     /// The motion has another number of intervals than the experiment states.

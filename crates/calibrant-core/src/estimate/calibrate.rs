@@ -26,14 +26,14 @@ use std::borrow::Cow;
 /// Three samples of an exactly known motion determine bias and scale factor of one axis:
 /// ```
 /// use calibrant_core::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-/// use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Trust};
+/// use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, MotionClock, Trust};
 /// use calibrant_core::sensor::{ReadingUnit, Recording, Sensor};
 /// use nalgebra::Vector3;
 ///
 /// let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
 /// let nodes = vec![Vector3::new(-9.0, 0.0, 0.0), Vector3::new(9.0, 0.0, 0.0)];
 /// let motion = JerkControlledMotion::uniform(1.0, nodes)?;
-/// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
+/// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None, clock: MotionClock::default() };
 /// let readings = [-8.91, 0.09, 9.09].map(|y| Vector3::new(y, 0.0, 0.0)).to_vec();
 /// let recording = Recording::new(vec![0.0, 0.5, 1.0], readings, 1, ReadingUnit::MetrePerSecondSquared)?;
 /// let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };

@@ -14,6 +14,7 @@
 //! [`arrowhead`](crate::arrowhead)). It holds to first order, for white Gaussian noise of the assumed size. [`FitStatistics`] state whether the data
 //! agree with that.
 
+mod alignment;
 mod between_hold_variance;
 mod bias_drift;
 mod calibrate;
@@ -34,6 +35,7 @@ mod problem;
 mod propagated;
 mod quantisation;
 mod quantised_noise;
+mod recovered_clock;
 mod recovered_gravity;
 mod result;
 mod settings;
@@ -65,6 +67,7 @@ pub use json::FitInUnit;
 pub use motion_outliers::without_motion_outliers;
 pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
+pub use recovered_clock::RecoveredClock;
 pub use recovered_gravity::RecoveredGravity;
 pub use result::*;
 pub use settings::CalibrationSettings;

@@ -16,6 +16,7 @@
 //! Where more than one sample in [`MOST_ONE_IN`] is far off, or several in a row are, the residuals are not outliers: the noise has a heavy tail,
 //! or the sensor did not follow the motion. Nothing is cut then, and a diagnostic says so.
 
+use super::alignment::aligned;
 use super::holds::median;
 use super::problem::{CalibrationProblem, Stimulus};
 use super::studentised_fit::StudentisedFit;
@@ -50,15 +51,16 @@ struct Farthest {
 pub fn without_motion_outliers(problem: &CalibrationProblem<'_>) -> Option<(Option<Recording>, Diagnostic)> {
     let Stimulus::Motion(command) = problem.stimulus else { return None };
     let recording = problem.recording;
+    let on_clock = aligned(recording, command, problem.sensor.axes).ok()?.on_motion_clock(recording);
     let times = command.motion.times_s();
-    let within = |k: &usize| (times[0]..=times[times.len() - 1]).contains(&recording.times_s[*k]);
+    let within = |k: &usize| (times[0]..=times[times.len() - 1]).contains(&on_clock.times_s[*k]);
     let mut kept: Vec<usize> = (0..recording.len()).filter(within).collect();
     let most = (kept.len() / MOST_ONE_IN).max(1);
     let mut cut = Vec::new();
     let mut farthest: Option<Farthest> = None;
     let mut is_too_many = false;
     while !is_too_many {
-        let found = outliers(problem, command, &kept);
+        let found = outliers(problem, command, &on_clock, &kept);
         let Some(first) = found.iter().max_by(|one, other| one.deviations.total_cmp(&other.deviations))
         else {
             break;
@@ -108,8 +110,12 @@ fn are_in_a_row(samples: &[usize]) -> bool {
 }
 
 /// The samples of all axes that are far off.
-fn outliers(problem: &CalibrationProblem<'_>, command: &CommandedMotion, kept: &[usize]) -> Vec<Farthest> {
-    let recording = problem.recording;
+fn outliers(
+    problem: &CalibrationProblem<'_>,
+    command: &CommandedMotion,
+    recording: &Recording,
+    kept: &[usize],
+) -> Vec<Farthest> {
     let times: Vec<f64> = kept.iter().map(|k| recording.times_s[*k]).collect();
     let fit = match command.trust {
         Trust::Known if times.len() < ENOUGH * (command.motion.intervals() + 1) => {
@@ -141,7 +147,7 @@ fn outliers(problem: &CalibrationProblem<'_>, command: &CommandedMotion, kept: &
 mod tests {
     use super::*;
     use crate::diagnostic::Check;
-    use crate::motion::{KnownEnds, Limits};
+    use crate::motion::{KnownEnds, Limits, MotionClock};
     use crate::sensor::Sensor;
     use crate::simulate::{Purpose, draw_sensor, initial_motion, sample_times, simulate_recording, stream};
 
@@ -157,7 +163,13 @@ mod tests {
         let times = sample_times(&motion, 10.0);
         let mut recording = simulate_recording(&truth, &noise, sensor.unit, 3, &motion, &times, &mut rng);
         change(&mut recording);
-        let command = CommandedMotion { motion, trust, known_ends: KnownEnds::Both, gravity: None };
+        let command = CommandedMotion {
+            motion,
+            trust,
+            known_ends: KnownEnds::Both,
+            gravity: None,
+            clock: MotionClock::default(),
+        };
         let stimulus = Stimulus::Motion(&command);
         let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus };
         without_motion_outliers(&problem).map(|(clean, found)| (clean.is_some(), found))

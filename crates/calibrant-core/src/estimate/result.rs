@@ -2,7 +2,7 @@
 
 use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
-use super::{RecoveredGravity, datasheet};
+use super::{RecoveredClock, RecoveredGravity, datasheet};
 use crate::diagnostic::{Change, Diagnostic};
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
@@ -368,6 +368,8 @@ pub struct RecoveredMotion {
     pub trust: &'static str,
     /// Gravity that the sensor sensed beside the motion, with its tilt. `None` where none was given.
     pub gravity: Option<RecoveredGravity>,
+    /// The clock of the recording beside that of the motion.
+    pub clock: RecoveredClock,
     /// Residuals `y − S s − b` of the samples used, in the unit of the readings.
     pub residuals: Vec<Vector3<f64>>,
     /// Index into the recording of the first residual's sample: the samples within the motion are contiguous.

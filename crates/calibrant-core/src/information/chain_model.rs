@@ -6,6 +6,7 @@
 //! 1 parameters only, through `ã = (1, a)`. So P = D (D + 1): 2 for one axis, 12 for three. All terms of the
 //! normal equations in the parameters are outer products of `ã`.
 
+use crate::arrowhead::Link;
 use nalgebra::{SMatrix, SVector};
 
 /// Places in the parameter list of the full chain's parameters. They are sorted by reading: bias, then row of
@@ -15,6 +16,17 @@ pub(crate) const FULL_SLOTS: [usize; 12] = [0, 3, 6, 7, 1, 8, 4, 9, 2, 10, 11, 5
 /// Entry k of `ã = (1, a)`.
 fn lifted<const D: usize>(a: &SVector<f64, D>, k: usize) -> f64 {
     if k == 0 { 1.0 } else { a[k - 1] }
+}
+
+/// `G(a)`: reading r depends on `(1, a)` through its own parameters.
+pub(crate) fn sensitivity<const D: usize, const P: usize>(a: &SVector<f64, D>) -> SMatrix<f64, D, P> {
+    let mut g = SMatrix::zeros();
+    for row in 0..D {
+        for k in 0..=D {
+            g[(row, row * (D + 1) + k)] = lifted(a, k);
+        }
+    }
+    g
 }
 
 /// The matrix `S`.
@@ -99,6 +111,61 @@ pub(crate) fn gradient<const D: usize, const P: usize>(
         }
     }
     gradient
+}
+
+/// The change of the reading with the delay of the clock and with its rate at both ends of an interval: `S j (1, s)`, with the jerk `j` and the times
+/// `s` of the ends from the middle of the motion. Both are linear within an interval, as the reading is.
+pub(crate) fn clock_sensitivity<const D: usize>(
+    s: &SMatrix<f64, D, D>,
+    jerk: &SVector<f64, D>,
+    times_s: [f64; 2],
+) -> [SMatrix<f64, D, 2>; 2] {
+    let moved = s * jerk;
+    times_s.map(|time_s| SMatrix::from_columns(&[moved, moved * time_s]))
+}
+
+/// The normal equations of an interval with delay and rate of the clock behind the parameters: Q = P + 2.
+///
+/// `clock` is their sensitivity at both ends, `m = (m_00, m_01, m_11)`, `r` the weighted sums of the residuals at both ends.
+pub(crate) fn with_clock<const D: usize, const P: usize, const Q: usize>(
+    link: &Link<D, P>,
+    s: &SMatrix<f64, D, D>,
+    weight: &SVector<f64, D>,
+    m: [f64; 3],
+    nodes: [&SVector<f64, D>; 2],
+    clock: &[SMatrix<f64, D, 2>; 2],
+    r: [&SVector<f64, D>; 2],
+) -> Link<D, Q> {
+    let weighted =
+        |of: SMatrix<f64, D, 2>| SMatrix::<f64, D, 2>::from_fn(|row, c| weight[row] * of[(row, c)]);
+    let u0 = weighted(clock[0] * m[0] + clock[1] * m[1]);
+    let u1 = weighted(clock[0] * m[1] + clock[1] * m[2]);
+    let mut whole: Link<D, Q> = Link {
+        h00: link.h00,
+        h01: link.h01,
+        h11: link.h11,
+        b0: SMatrix::zeros(),
+        b1: SMatrix::zeros(),
+        c: SMatrix::zeros(),
+        g0: link.g0,
+        g1: link.g1,
+        gp: SVector::zeros(),
+    };
+    whole.b0.fixed_view_mut::<D, P>(0, 0).copy_from(&link.b0);
+    whole.b1.fixed_view_mut::<D, P>(0, 0).copy_from(&link.b1);
+    whole.c.fixed_view_mut::<P, P>(0, 0).copy_from(&link.c);
+    whole.gp.fixed_rows_mut::<P>(0).copy_from(&link.gp);
+    whole.b0.fixed_view_mut::<D, 2>(0, P).copy_from(&s.tr_mul(&u0));
+    whole.b1.fixed_view_mut::<D, 2>(0, P).copy_from(&s.tr_mul(&u1));
+    for k in 0..2 {
+        let both: SVector<f64, P> =
+            gradient(nodes[0], &u0.column(k).into_owned(), nodes[1], &u1.column(k).into_owned());
+        whole.c.fixed_view_mut::<P, 1>(0, P + k).copy_from(&both);
+        whole.c.fixed_view_mut::<1, P>(P + k, 0).copy_from(&both.transpose());
+    }
+    whole.c.fixed_view_mut::<2, 2>(P, P).copy_from(&(clock[0].tr_mul(&u0) + clock[1].tr_mul(&u1)));
+    whole.gp.fixed_rows_mut::<2>(P).copy_from(&(clock[0].tr_mul(r[0]) + clock[1].tr_mul(r[1])));
+    whole
 }
 
 /// A node of the chain after a fit: its acceleration, and the covariance of that with the parameters.

@@ -6,9 +6,10 @@
 //! motion.
 
 use super::chain_model::FULL_SLOTS;
+use super::clock_marginal::marginal;
 use super::motion_information::PartInformation;
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, Trust};
+use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, MotionClock, Trust};
 use crate::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
@@ -29,6 +30,8 @@ pub struct MotionInformation {
     pub known_ends: KnownEnds,
     /// Sample rate, Hz.
     pub rate_hz: f64,
+    /// What is known of the recording's clock: its delay and rate are marginalised.
+    pub clock: MotionClock,
 }
 
 impl MotionInformation {
@@ -57,7 +60,16 @@ impl MotionInformation {
                 "set known_ends = \"both\"",
             )));
         }
-        Ok(Self { axes: sensor.axes, model: sensor.model, at, noise, trust, known_ends, rate_hz })
+        Ok(Self {
+            axes: sensor.axes,
+            model: sensor.model,
+            at,
+            noise,
+            trust,
+            known_ends,
+            rate_hz,
+            clock: MotionClock::default(),
+        })
     }
 
     /// Information on all parameters, in the order of the parameter list: p × p, entry (i, j) in 1/(unit of θᵢ · unit of θⱼ).
@@ -80,6 +92,9 @@ impl MotionInformation {
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn information(&self, motion: &JerkControlledMotion) -> Result<DMatrix<f64>> {
+        if !self.clock.is_exact() && self.trust != Trust::Unknown {
+            return Ok(marginal(&self.joint_with_clock(motion)?, &self.clock).0);
+        }
         match self.model {
             SensorModel::Full => Ok(place(&[self.full(motion).at(motion)?], &[FULL_SLOTS.to_vec()])),
             SensorModel::ScaleBias => {
@@ -92,7 +107,19 @@ impl MotionInformation {
         }
     }
 
-    /// Derivative of `⟨Ω, F⟩` with respect to the accelerations of the motion's nodes, `Ω` symmetric (p × p).
+    /// Information on all parameters and on the clock, which all axes share: delay and rate last.
+    fn joint_with_clock(&self, motion: &JerkControlledMotion) -> Result<DMatrix<f64>> {
+        if self.model == SensorModel::Full {
+            return self.full(motion).joint_at(motion).map(|(joint, slots)| spread(&[(joint, slots)], 12));
+        }
+        let blocks = (0..self.axes)
+            .map(|axis| self.single(axis, motion).joint_at(motion))
+            .collect::<Result<Vec<_>>>()?;
+        Ok(spread(&blocks, 2 * self.axes))
+    }
+
+    /// Derivative of `⟨Ω, F⟩` with respect to the accelerations of the motion's nodes, `Ω` symmetric (p × p). Of a scale-bias sensor with a clock that is not
+    /// exact, each axis counts as if it alone told the time.
     ///
     /// # Errors
     /// As [`information`](Self::information).
@@ -140,8 +167,23 @@ impl MotionInformation {
             s: SMatrix::from_fn(|i, j| self.at.matrix[(axes[i], axes[j])]),
             trust: self.trust,
             known_ends: self.known_ends,
+            clock: if self.trust == Trust::Unknown { MotionClock::default() } else { self.clock },
         }
     }
+}
+
+/// Blocks of parameters, each with the clock behind them, in the places of the whole.
+fn spread(blocks: &[(DMatrix<f64>, Vec<usize>)], size: usize) -> DMatrix<f64> {
+    let mut whole = DMatrix::zeros(size + 2, size + 2);
+    for (block, slots) in blocks {
+        let places: Vec<usize> = slots.iter().copied().chain([size, size + 1]).collect();
+        for (i, &row) in places.iter().enumerate() {
+            for (j, &column) in places.iter().enumerate() {
+                whole[(row, column)] += block[(i, j)];
+            }
+        }
+    }
+    whole
 }
 
 /// A block-diagonal matrix from blocks and their places.

@@ -2,6 +2,7 @@
 //! It uses the sensor, the motion and the arrowhead.
 
 pub(crate) mod chain_model;
+mod clock_marginal;
 pub mod criterion;
 mod expected_information;
 pub(crate) mod gravity_marginal;

@@ -11,6 +11,8 @@
 //! (a minimum of matrices: `A` minimises in every direction at once). For trust `known`, `A = 0`. For
 //! `noisy`, `Q_i = diag(σ_u(u_i)² Δτ_i²)`. For `unknown`, `Q_i = ∞` and the ends are fixed.
 //!
+//! The clock of the recording is marginalised as well ([`clock_marginal`](super::clock_marginal)).
+//!
 //! # Derivative
 //! `A` minimises, so the derivative may keep it constant (envelope theorem). For a symmetric `Ω`,
 //!
@@ -24,9 +26,10 @@
 //! `O(N)` for the factorisation, and again for each derivative.
 
 use super::chain_model as model;
+use super::clock_marginal::ClockResponse;
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::error::{Error, Result, UndeterminedGroup};
-use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, Trust};
+use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, MotionClock, Trust};
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
 /// The conditions of axes that are estimated together: one axis (P = 2), or all three of a full sensor (P =
@@ -45,6 +48,16 @@ pub struct PartInformation<const D: usize, const P: usize> {
     pub(super) s: SMatrix<f64, D, D>,
     pub(super) trust: Trust,
     pub(super) known_ends: KnownEnds,
+    pub(super) clock: MotionClock,
+}
+
+fn undetermined_motion() -> Error {
+    Error::undetermined(UndeterminedGroup {
+        parameters: Vec::new(),
+        free_combinations: 0,
+        reason: "the samples do not determine the motion in between its ends".into(),
+        remedy: "sample faster, or use fewer intervals".into(),
+    })
 }
 
 /// The information at a motion, and the terms that its derivative needs.
@@ -56,6 +69,18 @@ pub struct Linearised<const D: usize, const P: usize> {
     pub(super) residual: Vec<SMatrix<f64, D, P>>,
     /// Costate `ψ` of each interval; empty unless the motion is noisy.
     pub(super) costate: Vec<SMatrix<f64, D, P>>,
+    /// What the clock takes of `R`; `None` where it is exact.
+    pub(super) clock: Option<ClockResponse<D, P>>,
+}
+
+impl<const D: usize, const P: usize> Linearised<D, P> {
+    /// The remaining sensitivity of the readings at both ends of an interval. The clock's part differs on both sides of a node.
+    pub(super) fn ends(&self, i: usize) -> [SMatrix<f64, D, P>; 2] {
+        let ends = [self.residual[i], self.residual[i + 1]];
+        let Some(clock) = &self.clock else { return ends };
+        let [first, last] = clock.of_interval(i);
+        [ends[0] - first, ends[1] - last]
+    }
 }
 
 /// Derivative of `⟨Ω, F⟩`.
@@ -84,7 +109,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         (&self.tau, &self.sums, &self.weight, &self.s) == (&other.tau, &other.sums, &other.weight, &other.s)
-            && (self.trust, self.known_ends) == (other.trust, other.known_ends)
+            && (self.trust, self.known_ends, self.clock) == (other.trust, other.known_ends, other.clock)
     }
 
     /// How far the motion is trusted.
@@ -128,53 +153,40 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         self.determined(&self.nodes(motion)).map(|at| at.information)
     }
 
+    /// The information of parameters and clock at a motion, and the places of the parameters.
+    pub(super) fn joint_at(&self, motion: &JerkControlledMotion) -> Result<(DMatrix<f64>, Vec<usize>)> {
+        let joint = self.joint_with_clock(&self.nodes(motion)).ok_or_else(undetermined_motion)?;
+        Ok((joint, self.slots.to_vec()))
+    }
+
     fn determined(&self, nodes: &[SVector<f64, D>]) -> Result<Linearised<D, P>> {
-        self.linearise(nodes).ok_or_else(|| {
-            Error::undetermined(UndeterminedGroup {
-                parameters: Vec::new(),
-                free_combinations: 0,
-                reason: "the samples do not determine the motion in between its ends".into(),
-                remedy: "sample faster, or use fewer intervals".into(),
-            })
-        })
+        self.linearise(nodes).ok_or_else(undetermined_motion)
     }
 
     /// The information at a motion. `None` where the samples leave a node of an unknown motion undetermined.
     #[must_use]
     pub fn linearise(&self, a: &[SVector<f64, D>]) -> Option<Linearised<D, P>> {
+        if !self.clock.is_exact() {
+            return self.linearise_with_clock(a);
+        }
         if self.trust == Trust::Known {
             let mut information = SMatrix::zeros();
             for (m, a) in self.sums.iter().zip(a.windows(2)) {
                 information += model::information::<D, P>(&self.weight, [m.m00, m.m01, m.m11], &a[0], &a[1]);
             }
-            let residual = a.iter().map(sensitivity).collect();
-            return Some(Linearised { information, residual, costate: Vec::new() });
+            let residual = a.iter().map(model::sensitivity).collect();
+            return Some(Linearised { information, residual, costate: Vec::new(), clock: None });
         }
         let increments = self.increments(a);
-        let sws = self.s.tr_mul(&SMatrix::from_diagonal(&self.weight)) * self.s;
-        let link = |i: usize| {
-            let m = &self.sums[i];
-            Link {
-                h00: sws * m.m00,
-                h01: sws * m.m01,
-                h11: sws * m.m11,
-                b0: model::coupling(&self.s, &self.weight, [m.m00, m.m01], &a[i], &a[i + 1]),
-                b1: model::coupling(&self.s, &self.weight, [m.m01, m.m11], &a[i], &a[i + 1]),
-                c: model::information(&self.weight, [m.m00, m.m01, m.m11], &a[i], &a[i + 1]),
-                g0: SVector::zeros(),
-                g1: SVector::zeros(),
-                gp: SVector::zeros(),
-            }
-        };
         let system = Arrowhead::eliminate(
             self.intervals(),
-            link,
+            |i| self.link(i, a),
             |i| increments[i].clone(),
             SMatrix::zeros(),
             SVector::zeros(),
         )
         .ok()?;
-        let mut residual: Vec<SMatrix<f64, D, P>> = a.iter().map(sensitivity).collect();
+        let mut residual: Vec<SMatrix<f64, D, P>> = a.iter().map(model::sensitivity).collect();
         for parameter in 0..P {
             let response = system.chain_step(&SVector::from_fn(|k, _| f64::from(u8::from(k == parameter))));
             for (r, step) in residual.iter_mut().zip(&response) {
@@ -182,16 +194,36 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
                 r.set_column(parameter, &column);
             }
         }
-        let costate =
-            if let Trust::Noisy(_) = self.trust { self.costate(&residual, &increments) } else { Vec::new() };
-        Some(Linearised { information: system.information, residual, costate })
+        let mut at =
+            Linearised { information: system.information, residual, costate: Vec::new(), clock: None };
+        if let Trust::Noisy(_) = self.trust {
+            at.costate = self.costate(&at, &increments);
+        }
+        Some(at)
+    }
+
+    /// The normal equations of one interval.
+    pub(super) fn link(&self, i: usize, a: &[SVector<f64, D>]) -> Link<D, P> {
+        let sws = self.s.tr_mul(&SMatrix::from_diagonal(&self.weight)) * self.s;
+        let m = &self.sums[i];
+        Link {
+            h00: sws * m.m00,
+            h01: sws * m.m01,
+            h11: sws * m.m11,
+            b0: model::coupling(&self.s, &self.weight, [m.m00, m.m01], &a[i], &a[i + 1]),
+            b1: model::coupling(&self.s, &self.weight, [m.m01, m.m11], &a[i], &a[i + 1]),
+            c: model::information(&self.weight, [m.m00, m.m01, m.m11], &a[i], &a[i + 1]),
+            g0: SVector::zeros(),
+            g1: SVector::zeros(),
+            gp: SVector::zeros(),
+        }
     }
 
     /// The force of the readings at and after each interval's end on its increment, less the force that fixes
     /// a known end.
-    fn costate(
+    pub(super) fn costate(
         &self,
-        residual: &[SMatrix<f64, D, P>],
+        at: &Linearised<D, P>,
         increments: &[Increment<D>],
     ) -> Vec<SMatrix<f64, D, P>> {
         let sw = self.s.tr_mul(&SMatrix::from_diagonal(&self.weight));
@@ -199,8 +231,9 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         let mut costate = vec![force; self.intervals()];
         for i in (0..self.intervals()).rev() {
             let m = &self.sums[i];
-            costate[i] = force - sw * (residual[i] * m.m01 + residual[i + 1] * m.m11);
-            force -= sw * (residual[i] * (m.m00 + m.m01) + residual[i + 1] * (m.m01 + m.m11));
+            let [first, last] = at.ends(i);
+            costate[i] = force - sw * (first * m.m01 + last * m.m11);
+            force -= sw * (first * (m.m00 + m.m01) + last * (m.m01 + m.m11));
         }
         if self.known_ends == KnownEnds::Both {
             // Σ W = 0: the force that fixes the end makes Σ Q ψ vanish
@@ -225,7 +258,6 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
     #[must_use]
     pub fn derivative(&self, at: &Linearised<D, P>, omega: &SMatrix<f64, P, P>) -> InformationDerivative<D> {
         let mut nodes = vec![SVector::zeros(); at.residual.len()];
-        let felt: Vec<SMatrix<f64, D, P>> = at.residual.iter().map(|r| r * omega).collect();
         // reading r depends on acceleration k through its parameter S_rk
         let pull = |felt: &SMatrix<f64, D, P>| {
             SVector::<f64, D>::from_fn(|k, _| {
@@ -233,9 +265,16 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
             })
         };
         for (i, m) in self.sums.iter().enumerate() {
-            let (p0, p1) = (pull(&felt[i]), pull(&felt[i + 1]));
+            let felt = at.ends(i).map(|r| r * omega);
+            let (p0, p1) = (pull(&felt[0]), pull(&felt[1]));
             nodes[i] += p0 * m.m00 + p1 * m.m01;
             nodes[i + 1] += p0 * m.m01 + p1 * m.m11;
+            if let Some(clock) = &at.clock {
+                let pulled = clock.pulled(i, &felt, [m.m00, m.m01, m.m11]).component_mul(&self.weight);
+                let moved = self.s.tr_mul(&pulled) * (2.0 / self.interval_s(i));
+                nodes[i] += moved;
+                nodes[i + 1] -= moved;
+            }
         }
         let mut variances = vec![SVector::zeros(); self.intervals()];
         for (variance, psi) in variances.iter_mut().zip(&at.costate) {
@@ -282,7 +321,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
     }
 
     /// The prior on each increment.
-    fn increments(&self, a: &[SVector<f64, D>]) -> Vec<Increment<D>> {
+    pub(super) fn increments(&self, a: &[SVector<f64, D>]) -> Vec<Increment<D>> {
         let rounding = 64.0 * f64::EPSILON * a.iter().map(SVector::amax).fold(0.0, f64::max);
         let mut increments: Vec<_> = (0..self.intervals())
             .map(|i| {
@@ -311,16 +350,4 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         }
         increments
     }
-}
-
-/// `G(a)`: reading r depends on `(1, a)` through its own parameters.
-fn sensitivity<const D: usize, const P: usize>(a: &SVector<f64, D>) -> SMatrix<f64, D, P> {
-    let mut g = SMatrix::zeros();
-    for row in 0..D {
-        g[(row, row * (D + 1))] = 1.0;
-        for k in 0..D {
-            g[(row, row * (D + 1) + 1 + k)] = a[k];
-        }
-    }
-    g
 }

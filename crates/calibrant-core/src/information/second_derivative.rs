@@ -19,6 +19,8 @@
 //! it. The differences lose digits where the increments are much noisier than the readings, and it does no
 //! harm: the second derivative tells the solver how far to go, not where the optimum is.
 //!
+//! The second derivative leaves out how the clock's part changes. The first derivative has all of it.
+//!
 //! # Cost
 //! `O((N D)³)` for `U`, and `O((N D)² D)` for each `Ω`: meant for motions of up to some hundred unknowns.
 
@@ -121,8 +123,9 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
     ) -> Vec<SMatrix<f64, P, P>> {
         let mut felt = vec![SMatrix::<f64, D, P>::zeros(); a.len()];
         for (i, m) in self.sums.iter().enumerate() {
-            felt[i] += at.residual[i] * m.m00 + at.residual[i + 1] * m.m01;
-            felt[i + 1] += at.residual[i] * m.m01 + at.residual[i + 1] * m.m11;
+            let [one, other] = at.ends(i);
+            felt[i] += one * m.m00 + other * m.m01;
+            felt[i + 1] += one * m.m01 + other * m.m11;
         }
         let mut first = vec![SMatrix::<f64, P, P>::zeros(); a.len() * D];
         for (place, derivative) in first.iter_mut().enumerate() {
@@ -132,6 +135,19 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
                     let part = self.weight[reading] * felt[place / D][(reading, p)];
                     derivative[(row, p)] += part;
                     derivative[(p, row)] += part;
+                }
+            }
+        }
+        if let Some(clock) = &at.clock {
+            let sw = self.s.tr_mul(&SMatrix::<f64, D, D>::from_diagonal(&self.weight));
+            for (i, m) in self.sums.iter().enumerate() {
+                let felt = at.ends(i).map(|r| sw * r);
+                for d in 0..D {
+                    let rows = [felt[0].row(d).into_owned(), felt[1].row(d).into_owned()];
+                    let form = clock.form(i, rows, [m.m00, m.m01, m.m11]) / self.interval_s(i);
+                    let both = form + form.transpose();
+                    first[i * D + d] += both;
+                    first[(i + 1) * D + d] -= both;
                 }
             }
         }

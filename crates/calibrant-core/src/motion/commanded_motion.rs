@@ -1,6 +1,6 @@
 //! The commanded motion and how far it is trusted (`[motion] trust`). Plain data: no estimation here.
 
-use super::{JerkControlledMotion, MotionGravity};
+use super::{JerkControlledMotion, MotionClock, MotionGravity};
 use crate::json_name;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -79,4 +79,6 @@ pub struct CommandedMotion {
     pub known_ends: KnownEnds,
     /// Gravity, where the sensor senses it beside the motion. `None`: the motion is all that it senses.
     pub gravity: Option<MotionGravity>,
+    /// What is known of the recording's clock beside the motion's. Trust `unknown` takes it as exact.
+    pub clock: MotionClock,
 }

@@ -6,6 +6,7 @@ mod gravity;
 mod hold;
 mod jerk_controlled;
 mod limits;
+mod motion_clock;
 mod sample_times;
 
 pub use commanded_motion::{CommandedMotion, InputNoise, KnownEnds, Trust};
@@ -14,4 +15,5 @@ pub use hold::Hold;
 pub(crate) use hold::to_ms;
 pub use jerk_controlled::{JerkControlledMotion, MotionState, MotionTable};
 pub use limits::{AxisLimits, Limits, Rest};
+pub use motion_clock::MotionClock;
 pub use sample_times::{IntervalSums, sample_times};

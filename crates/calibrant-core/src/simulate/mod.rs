@@ -3,6 +3,7 @@
 //! Every item of work (a sensor, a motion) has a ChaCha stream of its own under the common seed. So results
 //! do not depend on the number of threads or on the order in which items are made.
 
+mod clock;
 mod drawn_imu;
 mod holds;
 mod imu;
@@ -13,6 +14,7 @@ mod recording;
 mod table_recording;
 
 pub use crate::motion::sample_times;
+pub use clock::{ClockedTimes, TrueClock};
 pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_sensor, draw_thermal};
 pub use holds::{HoldsSimulation, simulate_holds, simulate_holds_in};
 pub use imu::simulate_imu;

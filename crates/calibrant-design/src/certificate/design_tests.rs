@@ -7,7 +7,7 @@ use calibrant_core::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
 use calibrant_core::motion::{
-    InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionGravity, Rest, Trust,
+    InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, MotionGravity, Rest, Trust,
 };
 use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use calibrant_core::simulate::{Purpose, initial_motion, stream};
@@ -29,6 +29,7 @@ fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits, trust: Trust) -> DesignPr
         trust,
         known_ends: if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start },
         gravity: None,
+        clock: MotionClock::default(),
         limits,
         criterion: Criterion::A(AOptimality { scale }),
         prior: None,

@@ -7,7 +7,7 @@ use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
-use calibrant_core::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, Rest, Trust};
+use calibrant_core::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, Rest, Trust};
 use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use calibrant_core::simulate::{Purpose, Rng, initial_motion, stream};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -130,6 +130,7 @@ fn no_random_motion_and_no_optimum_beats_the_bound() {
                 criterion: criterion.clone(),
                 prior: prior.clone(),
                 gravity: None,
+                clock: MotionClock::default(),
             };
             let rest = JerkControlledMotion::uniform(0.5, vec![Vector3::zeros(); intervals + 1]);
             let setting = problem.setting().expect("a setting");

@@ -8,7 +8,9 @@ use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
 use crate::{Certificate, DesignProblem, Interruption};
 use calibrant_core::error::Result;
 use calibrant_core::information::{Criterion, covariance};
-use calibrant_core::motion::{AxisLimits, InputNoise, IntervalSums, JerkControlledMotion, KnownEnds, Trust};
+use calibrant_core::motion::{
+    AxisLimits, InputNoise, IntervalSums, JerkControlledMotion, KnownEnds, MotionClock, Trust,
+};
 use calibrant_core::sensor::{Quantity, SensorModel};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -57,6 +59,8 @@ pub(crate) fn lower_bound(
     problem: &DesignProblem<'_>,
     interruption: &Interruption,
 ) -> Result<Option<LowerBound>> {
+    // a clock that is not exact only takes information away: the bound of an exact one holds
+    let problem = &DesignProblem { clock: MotionClock::default(), ..problem.clone() };
     let setting = problem.setting()?;
     let rest =
         JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;

@@ -4,7 +4,7 @@
 use crate::{Design, DesignProblem, DesignSettings, DesignStatus, design};
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::EOptimality;
-use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
+use calibrant_core::motion::{InputNoise, KnownEnds, Limits, MotionClock, Rest, Trust};
 use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 
@@ -40,6 +40,7 @@ fn best(model: SensorModel, trust: Trust, limits: &Limits, intervals: usize, int
         trust,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits,
         criterion: Criterion::E(EOptimality { scale }),
         prior: None,

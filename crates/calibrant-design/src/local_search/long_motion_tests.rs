@@ -3,7 +3,7 @@
 use crate::{Design, DesignProblem, DesignSettings, DesignStatus, Interruption, design};
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::AOptimality;
-use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
+use calibrant_core::motion::{InputNoise, KnownEnds, Limits, MotionClock, Rest, Trust};
 use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 
@@ -30,6 +30,7 @@ fn long(trust: Trust, intervals: usize, settings: &DesignSettings) -> Design {
         trust,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits: &limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
         prior: None,

@@ -16,7 +16,7 @@ use crate::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
 use calibrant_core::error::Result;
 use calibrant_core::information::criterion::DOptimality;
 use calibrant_core::information::{Criterion, PartInformation};
-use calibrant_core::motion::{JerkControlledMotion, Limits};
+use calibrant_core::motion::{JerkControlledMotion, Limits, MotionClock};
 use calibrant_core::sensor::{Axis, SensorModel};
 use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::{DVector, SMatrix, SVector, Vector3};
@@ -64,6 +64,15 @@ pub(crate) fn search(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Found> {
     let setting = problem.setting()?;
+    // what is best for an exact clock is a good start
+    let exact = match problem.clock.is_exact() {
+        true => None,
+        false => {
+            let exact = DesignProblem { clock: MotionClock::default(), ..problem.clone() };
+            let found = self::search(&exact, settings, None, limits, initial, (inside, slack), &|_| ())?;
+            Some(JerkControlledMotion::new(initial.times_s().to_vec(), found.nodes)?)
+        }
+    };
     let search = Search { initial, settings, progress, problem, bound };
     let mut found = Found {
         nodes: vec![Vector3::zeros(); problem.intervals + 1],
@@ -88,7 +97,8 @@ pub(crate) fn search(
         let all = problem.sensor.active_axes().to_vec();
         let left = settings.seconds.map(|seconds| (seconds - begun.elapsed().as_secs_f64()).max(0.0));
         let settings = &DesignSettings { seconds: left, ..settings.clone() };
-        found.take(&whole, &[all], combined, &Search { settings, ..search });
+        let promising = exact.iter().map(|exact| whole.information.nodes(exact)).chain(combined).collect();
+        found.take(&whole, &[all], promising, &Search { settings, ..search });
         return Ok(found);
     }
     let mut classes: Vec<(Part<1, 2>, Vec<Vec<Axis>>)> = Vec::new();
@@ -100,9 +110,15 @@ pub(crate) fn search(
         }
     }
     for (part, axes) in &classes {
-        found.take(part, axes, Vec::new(), &search);
+        let of_axes = |axes: &Vec<Axis>| exact.as_ref().map(|exact| axis_nodes(exact, axes));
+        found.take(part, axes, axes.iter().filter_map(of_axes).collect(), &search);
     }
     Ok(found)
+}
+
+/// The nodes of a motion on these axes.
+fn axis_nodes<const D: usize>(motion: &JerkControlledMotion, axes: &[Axis]) -> Nodes<D> {
+    motion.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
 }
 
 fn part<const D: usize, const P: usize>(
@@ -220,9 +236,7 @@ impl Found {
         search: &Search<'_>,
     ) {
         let Search { initial, settings, progress, problem, .. } = *search;
-        let own = |axes: &[Axis]| -> Nodes<D> {
-            initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
-        };
+        let own = |axes: &[Axis]| -> Nodes<D> { axis_nodes(initial, axes) };
         let first = groups[0][0].index() as u64;
         let count = settings.starts * D * groups.len();
         // axes that are designed one after the other share the time

@@ -148,7 +148,7 @@ mod tests {
     use super::*;
     use calibrant_core::information::Criterion;
     use calibrant_core::information::criterion::AOptimality;
-    use calibrant_core::motion::{KnownEnds, Limits, Trust};
+    use calibrant_core::motion::{KnownEnds, Limits, MotionClock, Trust};
     use calibrant_core::sensor::{Sensor, SensorParameters};
     use nalgebra::{DVector, Vector3};
 
@@ -166,6 +166,7 @@ mod tests {
             trust: Trust::Known,
             known_ends: KnownEnds::Start,
             gravity: None,
+            clock: MotionClock::default(),
             limits: &limits,
             criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
             prior: None,

@@ -6,7 +6,7 @@ use calibrant_core::error::Result;
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::AOptimality;
 use calibrant_core::json_object;
-use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
+use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, MotionClock, Trust};
 use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 use rayon::prelude::*;
@@ -69,6 +69,7 @@ pub fn trace_surface(sensor: &Sensor, settings: &SurfaceSettings) -> Result<Trac
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits: &limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
         prior: None,

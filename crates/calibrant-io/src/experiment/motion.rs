@@ -3,12 +3,13 @@
 use super::direction::Direction;
 use super::number::{Count, PerAxis, Within};
 use super::ranges::{
-    Duration, GravityComponent, GravitySd, Height, JerkNoise, JerkRatio, Latitude, Rate, SmallTilt,
+    Delay, DelaySd, Duration, GravityComponent, GravitySd, Height, JerkNoise, JerkRatio, Latitude, Rate,
+    RateSd, SmallTilt,
 };
 use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
 use calibrant_core::motion::{
-    CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, MotionGravity, Trust,
+    CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, MotionClock, MotionGravity, Trust,
 };
 use calibrant_core::sensor::Sensor;
 use nalgebra::Vector3;
@@ -45,6 +46,31 @@ pub struct MotionSection {
     pub height_m: Option<Within<Height>>,
     /// Standard deviation of the arm's tilt about each axis.
     pub tilt_sd_deg: Option<Within<SmallTilt>>,
+    /// The clock of the recording beside that of the motion; without it both begin together.
+    pub clock: Option<MotionClockSection>,
+}
+
+/// `[motion.clock]`: motion time = recording time + delay.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionClockSection {
+    /// Expected delay.
+    pub delay_s: Option<Within<Delay>>,
+    /// Its standard deviation.
+    pub delay_sd_s: Option<Within<DelaySd>>,
+    /// Standard deviation of the rate between the two clocks.
+    pub rate_sd_ppm: Option<Within<RateSd>>,
+}
+
+impl From<MotionClockSection> for MotionClock {
+    fn from(section: MotionClockSection) -> Self {
+        let usual = Self { delay_s: 0.0, delay_sd_s: 2.0, rate_sd: 1e-4 };
+        Self {
+            delay_s: section.delay_s.map_or(usual.delay_s, f64::from),
+            delay_sd_s: section.delay_sd_s.map_or(usual.delay_sd_s, f64::from),
+            rate_sd: section.rate_sd_ppm.map_or(usual.rate_sd, |rate| rate.get() / 1e6),
+        }
+    }
 }
 
 /// How far a commanded motion is trusted.
@@ -90,13 +116,16 @@ pub struct MotionPlan {
     pub known_ends: KnownEnds,
     /// Gravity in the sensor's axes, where it is given.
     pub gravity: Option<MotionGravity>,
+    /// The clock of the recording beside that of the motion.
+    pub clock: MotionClock,
 }
 
 impl MotionPlan {
     /// The command of this motion.
     #[must_use]
     pub fn command(&self, motion: JerkControlledMotion) -> CommandedMotion {
-        CommandedMotion { motion, trust: self.trust, known_ends: self.known_ends, gravity: self.gravity }
+        let Self { trust, known_ends, gravity, clock, .. } = *self;
+        CommandedMotion { motion, trust, known_ends, gravity, clock }
     }
 
     /// The range of a sensor, less what gravity takes of it.
@@ -138,6 +167,14 @@ impl MotionSection {
     /// The plan of such a motion.
     pub(super) fn plan(&self, sensor: &Sensor) -> Result<MotionPlan> {
         let (trust, known_ends) = self.trust()?;
+        let clock = self.clock.map_or_else(MotionClock::default, MotionClock::from);
+        if trust == Trust::Unknown && !clock.is_exact() {
+            return Err(refused(
+                "motion.clock",
+                "trust \"unknown\" has no motion in which a delay could be found",
+                "leave [motion.clock] away, or set delay_sd_s = 0.0 and rate_sd_ppm = 0.0 in it",
+            ));
+        }
         let plan = MotionPlan {
             intervals: self.intervals.size(),
             interval_s: self.interval_s.get(),
@@ -145,6 +182,7 @@ impl MotionSection {
             trust,
             known_ends,
             gravity: self.gravity_of(sensor)?,
+            clock,
         };
         plan.check_samples("motion.rate_hz", plan.rate_hz)?;
         Ok(plan)

@@ -100,6 +100,7 @@ impl Experiment {
             trust: plan.trust,
             known_ends: plan.known_ends,
             gravity: plan.gravity,
+            clock: plan.clock,
             limits: &self.limits,
             criterion: self.criterion(&list, &at)?,
             at,

@@ -1,4 +1,4 @@
-//! Reads and writes `motion.csv`: the nodes of a commanded motion.
+//! Reads and writes `motion.csv`: the nodes of a commanded motion. It reads `motion_dense.csv` as well.
 
 use crate::text::decoding::{self, Checked, refuse};
 use crate::text::delimited::{Delimiter, Line, Lines};
@@ -16,10 +16,16 @@ const LARGEST_FILE: u64 = 1 << 30;
 const LARGEST: f64 = 1e9;
 /// The names of the columns.
 const NAMES: [&str; 4] = ["t_s", "ax_mps2", "ay_mps2", "az_mps2"];
+/// What `motion_dense.csv` has beside them, which follows from them.
+const DENSE: [&str; 9] =
+    ["px_m", "vx_mps", "jx_mps3", "py_m", "vy_mps", "jy_mps3", "pz_m", "vz_mps", "jz_mps3"];
+/// Distance from a line, relative to the largest acceleration, that is rounding.
+const STRAIGHT: f64 = 1e-9;
 
 /// Reads the nodes of a motion: header `t_s,ax_mps2,ay_mps2,az_mps2`, one row for each node.
 ///
 /// For one axis only `ax_mps2` is read (`ay_mps2` and `az_mps2` may be there). Delimiters and comments as in recordings.
+/// Of the columns of `motion_dense.csv` ([`write_dense_motion`](crate::write_dense_motion)) it takes time and acceleration; rows on one line are one interval.
 ///
 /// # Errors
 /// [`Error::Experiment`] with file, line and column. The file cannot be read or is not text. A column is
@@ -67,7 +73,7 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
         return refuse(Refusal::FileEmpty, "the file is empty", HELP);
     };
     let delimiter = Delimiter::of(header.text);
-    let slots = read_header(header, delimiter, axes)?;
+    let (slots, is_dense) = read_header(header, delimiter, axes)?;
     let (mut times_s, mut nodes): (Vec<f64>, Vec<Vector3<f64>>) = (Vec::new(), Vec::new());
     for line in lines {
         let [t, x, y, z] = read_row(line, delimiter, &slots)?;
@@ -87,6 +93,9 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
         let message = format!("a motion needs at least two nodes, this one has {}", nodes.len());
         return refuse(Refusal::MotionInvalid, message, HELP);
     }
+    if is_dense {
+        (times_s, nodes) = corners(&times_s, &nodes);
+    }
     JerkControlledMotion::new(times_s, nodes).map_err(|error| {
         error
             .input_error()
@@ -96,11 +105,25 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     })
 }
 
-/// The content of each column: 0 the time, 1 to 3 an axis; `None` for an axis that the sensor does not have.
-fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec<Option<usize>>> {
+/// The rows of a motion at a constant rate between which the acceleration is not on one line, and both ends.
+fn corners(times_s: &[f64], nodes: &[Vector3<f64>]) -> (Vec<f64>, Vec<Vector3<f64>>) {
+    let largest = nodes.iter().map(Vector3::amax).fold(0.0, f64::max);
+    let is_corner = |k: usize| {
+        let part = (times_s[k] - times_s[k - 1]) / (times_s[k + 1] - times_s[k - 1]);
+        let on_line = nodes[k - 1] * (1.0 - part) + nodes[k + 1] * part;
+        (nodes[k] - on_line).amax() > STRAIGHT * largest
+    };
+    let last = nodes.len() - 1;
+    let kept = (0..=last).filter(|&k| k == 0 || k == last || is_corner(k));
+    kept.map(|k| (times_s[k], nodes[k])).unzip()
+}
+
+/// The content of each column: 0 the time, 1 to 3 an axis; `None` for an axis that the sensor does not have, or for what follows from the acceleration. And whether
+/// there is the latter.
+fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<(Vec<Option<usize>>, bool)> {
     let needed = &NAMES[..=axes];
     let help = format!("the header is {}", needed.join(","));
-    let mut slots = Vec::new();
+    let (mut slots, mut is_dense) = (Vec::new(), false);
     let mut fields: Vec<_> = line.fields(delimiter).collect();
     if fields.len() > 1 && fields.last().is_some_and(|(_, field)| field.is_empty()) {
         fields.pop();
@@ -121,6 +144,10 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
                 return reject(Refusal::ColumnRepeated, format!("column `{shown}` is there twice"));
             }
             Some(slot) => slots.push(Some(slot)),
+            None if DENSE.iter().any(|name| name.eq_ignore_ascii_case(field)) => {
+                is_dense = true;
+                slots.push(None);
+            }
             None => return reject(Refusal::HeaderMissing, format!("column `{shown}` is not known")),
         }
     }
@@ -130,7 +157,7 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
     let missing: Vec<&str> =
         (0..=axes).filter(|slot| !slots.contains(&Some(*slot))).map(|slot| NAMES[slot]).collect();
     if missing.is_empty() {
-        return Ok(slots);
+        return Ok((slots, is_dense));
     }
     let message = match missing.as_slice() {
         [one] => format!("column {one} is missing"),

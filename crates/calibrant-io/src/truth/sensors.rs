@@ -8,7 +8,7 @@ use calibrant_core::json_object;
 use calibrant_core::sensor::{
     Gauge, ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
-use calibrant_core::simulate::TrueGravity;
+use calibrant_core::simulate::{TrueClock, TrueGravity};
 use nalgebra::{Matrix3, Vector3};
 
 /// The content of `truth.json`: what a simulated recording was made of.
@@ -30,6 +30,7 @@ pub struct Truth {
     reference_c: Option<f64>,
     parameters: Vec<TrueParameter>,
     gravity: Option<TrueGravity>,
+    clock: Option<TrueClock>,
     fixed: Vec<TrueParameter>,
     machine: Option<TrueMachine>,
 }
@@ -50,6 +51,8 @@ json_object! {
         parameters: &of.parameters,
         /// What the sensor sensed beside a commanded motion.
         gravity: if_some(of.gravity),
+        /// The clock of the recording beside that of a commanded motion.
+        clock: if_some(of.clock),
         /// Everything else that differs from an ideal sensor: what a calibration of the experiment takes as given.
         fixed: if_any(of.fixed.as_slice()),
         machine: if_some(of.machine.as_ref()),
@@ -76,6 +79,7 @@ impl Truth {
             reference_c: None,
             parameters: list.quantities().iter().map(parameter).collect(),
             gravity: None,
+            clock: None,
             fixed: Vec::new(),
             machine: None,
         }
@@ -85,6 +89,12 @@ impl Truth {
     #[must_use]
     pub fn with_gravity(self, gravity: Option<TrueGravity>) -> Self {
         Self { gravity, ..self }
+    }
+
+    /// The same, with the clock of the recording.
+    #[must_use]
+    pub fn with_clock(self, clock: Option<TrueClock>) -> Self {
+        Self { clock, ..self }
     }
 
     /// The same, with the machine that carried the sensor.
@@ -123,7 +133,17 @@ impl Truth {
             _ => None,
         });
         let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
-        Self { seed, convention, gauge, reference_c, parameters, gravity: None, fixed, machine: None }
+        Self {
+            seed,
+            convention,
+            gauge,
+            reference_c,
+            parameters,
+            gravity: None,
+            clock: None,
+            fixed,
+            machine: None,
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The data and the quality of a calibration, in words.
 
-use crate::number_format::{count, counted, missed_angle, probability, significant, with_sd};
+use crate::number_format::{
+    count, counted, missed_angle, probability, significant, with_sd, with_sd_or_exact,
+};
 use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, RecoveredMotion, TimeOffset};
 use calibrant_core::sensor::SensorKind;
 
@@ -77,7 +79,7 @@ pub(super) fn milliseconds(time: &TimeOffset) -> String {
     format!("{sign}{} ms", with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
 }
 
-/// What is unknown, or was taken out of the readings: the latitude, gravity beside a motion.
+/// What is unknown, or was taken out of the readings: the latitude, gravity beside a motion, the clock of the recording.
 pub(super) fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
     let latitude = calibration.unknown_latitude().map(|unknown| {
         format!(
@@ -86,7 +88,7 @@ pub(super) fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
             unknown.parameter.name()
         )
     });
-    latitude.into_iter().chain(tilt(calibration)).collect()
+    latitude.into_iter().chain(tilt(calibration)).chain(clock(calibration)).collect()
 }
 
 /// The reference temperature, the polynomials and the temperatures of the holds; `None` without temperature terms.
@@ -101,6 +103,19 @@ pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> 
         "Biases and gains are those at T₀ = {} °C. With τ = T − T₀, a bias increases by bias_per_k τ + bias_per_k2 τ², and a gain is multiplied by \
          1 + scale_per_k τ + scale_per_k2 τ²{range}.",
         celsius(thermal.reference_c)
+    ))
+}
+
+/// The clock of the recording beside that of a commanded motion.
+fn clock(calibration: &Calibration) -> Option<String> {
+    let Recovered::Motion(RecoveredMotion { clock, .. }) = &calibration.recovered else { return None };
+    if clock.given.is_exact() {
+        return None;
+    }
+    Some(format!(
+        "the time of the motion is that of the recording plus {} ms, and the rates of both clocks differ by {} ppm; the standard deviations contain both",
+        with_sd_or_exact(1e3 * clock.delay_s, 1e3 * clock.delay_sd_s),
+        with_sd_or_exact(1e6 * clock.rate, 1e6 * clock.rate_sd)
     ))
 }
 

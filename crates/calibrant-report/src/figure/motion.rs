@@ -34,6 +34,7 @@ pub(crate) fn acceleration_figure(
         (true, Some(_)) => "readings, corrected, less gravity",
         (false, Some(_)) => "readings, less gravity",
     };
+    let recording = &*recovered.clock.on_motion_clock(recording);
     let panels = Panel::by_axis(recording.active_axes(), TIME, "acceleration (m/s²)", |axis, panel| {
         let value = |k: usize| {
             let reading = &recording.readings()[k];

@@ -35,6 +35,7 @@ pub(crate) fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits) -> DesignProbl
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(parameters, 1.0) }),
         prior: None,

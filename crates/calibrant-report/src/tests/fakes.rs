@@ -4,8 +4,8 @@ use super::{estimate, motion, sensor, study};
 use calibrant_core::diagnostic::holds::HoldLeftOut;
 use calibrant_core::diagnostic::{Diagnostic, HoldReason, HoldSpan};
 use estimate::{
-    Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
-    Uncalibrated, Whiteness,
+    Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredClock,
+    RecoveredMotion, Uncalibrated, Whiteness,
 };
 use motion::{Gravity, Hold, JerkControlledMotion};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -135,6 +135,7 @@ fn calibrated(
             acceleration_sd_mps2,
             trust: "unknown",
             gravity: None,
+            clock: RecoveredClock::default(),
             residuals,
             first_sample: 0,
         }),

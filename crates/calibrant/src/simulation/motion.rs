@@ -9,7 +9,7 @@ use crate::session::MotionSource;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::simulate::{
-    Purpose, draw_gravity, draw_sensor, perturb, sample_times, simulate_recording, stream,
+    ClockedTimes, Purpose, draw_gravity, draw_sensor, perturb, simulate_recording, stream,
 };
 use calibrant_design::initial_motion;
 use calibrant_io::{Experiment, MotionPlan, Truth};
@@ -75,16 +75,19 @@ pub(super) fn simulate(
         Trust::Known | Trust::Unknown => None,
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
-    let times = sample_times(&motion, plan.rate_hz);
     let gravity = plan.gravity.as_ref().map(|gravity| draw_gravity(gravity, &mut rng));
     let at_rest = gravity.map_or_else(Vector3::zeros, |gravity| gravity.force_mps2);
     let sensed = happened.as_ref().unwrap_or(&motion).plus(&at_rest)?;
-    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &sensed, &times, &mut rng);
+    let times = ClockedTimes::draw(&motion, plan.rate_hz, &plan.clock, &mut rng);
+    let recording =
+        simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &sensed, &times.motion_s, &mut rng);
+    let clock = times.clock;
+    let recording = times.on_own_clock(recording);
     let truth = Truth::of_sensor(random.seed, &sensor.parameter_list(), sensor.unit, &truth);
     Ok(Simulation {
         motion: Some((motion, sensor.axes)),
         true_motion: happened,
         notes: notes.into_iter().collect(),
-        ..Simulation::new(random.seed, recording, truth.with_gravity(gravity))
+        ..Simulation::new(random.seed, recording, truth.with_gravity(gravity).with_clock(clock))
     })
 }

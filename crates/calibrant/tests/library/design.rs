@@ -5,7 +5,7 @@ use calibrant::information::Criterion;
 use calibrant::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
-use calibrant::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
+use calibrant::motion::{InputNoise, KnownEnds, Limits, MotionClock, Rest, Trust};
 use calibrant::report::{About, design_sheet};
 use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
@@ -73,6 +73,7 @@ fn problem<'a>(
         trust,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits,
         criterion,
         prior: None,

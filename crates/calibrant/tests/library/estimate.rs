@@ -5,7 +5,9 @@ use crate::common::messages;
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, Recovered, Stimulus, calibrate,
 };
-use calibrant::motion::{CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust};
+use calibrant::motion::{
+    CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, Trust,
+};
 use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
@@ -152,6 +154,7 @@ fn an_increment_without_noise_is_a_constraint() {
                 trust: Trust::Noisy(noise),
                 known_ends: ends,
                 gravity: None,
+                clock: MotionClock::default(),
             };
             let problem = CalibrationProblem {
                 sensor: &sensor,

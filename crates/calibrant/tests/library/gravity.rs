@@ -9,7 +9,7 @@ use calibrant::estimate::{
 use calibrant::information::Criterion;
 use calibrant::information::criterion::{AOptimality, DOptimality};
 use calibrant::io::{Experiment, preset};
-use calibrant::motion::{CommandedMotion, InputNoise, KnownEnds, Limits, MotionGravity, Trust};
+use calibrant::motion::{CommandedMotion, InputNoise, KnownEnds, Limits, MotionClock, MotionGravity, Trust};
 use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_gravity, draw_sensor, initial_motion, sample_times, simulate_recording, stream,
@@ -183,7 +183,13 @@ fn tilts_from_their_prior_are_covered() {
             ..Limits::default()
         };
         let motion = initial_motion(10, 1.0, 3, &limits, &mut stream(1, Purpose::Motion, 0)).expect("valid");
-        let command = CommandedMotion { motion, trust, known_ends: KnownEnds::Start, gravity: Some(gravity) };
+        let command = CommandedMotion {
+            motion,
+            trust,
+            known_ends: KnownEnds::Start,
+            gravity: Some(gravity),
+            clock: MotionClock::default(),
+        };
         let problem = StudyProblem { sensor: &sensor, command: &command, rate_hz: 10.0, sensors: SENSORS };
         for datasheet_prior in [false, true] {
             let calibration = CalibrationSettings { datasheet_prior, ..CalibrationSettings::default() };
@@ -226,6 +232,7 @@ fn the_tilt_is_estimated_where_the_datasheet_is_a_prior() {
             trust: Trust::Known,
             known_ends: KnownEnds::Start,
             gravity: Some(gravity),
+            clock: MotionClock::default(),
         };
         let problem = CalibrationProblem {
             sensor: &sensor,
@@ -329,6 +336,7 @@ fn criteria_see_gravity_as_they_should() {
             trust: Trust::Known,
             known_ends: KnownEnds::Start,
             gravity,
+            clock: MotionClock::default(),
             limits: &limits,
             criterion,
             prior: None,
@@ -411,6 +419,7 @@ fn a_sensor_of_one_axis_takes_one_number() {
             trust: Trust::Known,
             known_ends: KnownEnds::Start,
             gravity,
+            clock: MotionClock::default(),
         };
         let problem = CalibrationProblem {
             sensor: &sensor,

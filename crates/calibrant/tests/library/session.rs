@@ -7,7 +7,7 @@ use calibrant::estimate::{
     Stimulus, calibrate,
 };
 use calibrant::io::{Experiment, preset, write_imu_recording, write_motion, write_recording};
-use calibrant::motion::{CommandedMotion, Gravity, KnownEnds, Limits, Trust};
+use calibrant::motion::{CommandedMotion, Gravity, KnownEnds, Limits, MotionClock, Trust};
 use calibrant::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::session::{MotionSource, Outcome, Session, SessionOptions, Source};
 use calibrant::simulate::{
@@ -114,8 +114,13 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     let outcome = session.calibrate(&Source::from_file(path("recording.csv"))).expect("calibrated");
     let calibration = outcome.calibration().expect("of sensors");
 
-    let command =
-        CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start, gravity: None };
+    let command = CommandedMotion {
+        motion,
+        trust: Trust::Known,
+        known_ends: KnownEnds::Start,
+        gravity: None,
+        clock: MotionClock::default(),
+    };
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
     let expected = calibrate(&problem, &CalibrationSettings::default()).expect("calibrated");
     assert_eq!(calibration.values, expected.values);

@@ -12,7 +12,7 @@ use calibrant::estimate::{
 };
 use calibrant::information::criterion::{AOptimality, Criterion};
 use calibrant::motion::{
-    CommandedMotion, Gravity, InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust,
+    CommandedMotion, Gravity, InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, Trust,
 };
 use calibrant::sensor::{Gauge, Quantity, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
@@ -57,13 +57,19 @@ fn study(
     };
     let mut rng = stream(1, Purpose::Motion, 0);
     let motion = initial_motion(intervals, interval_s, 3, &limits, &mut rng).expect("valid");
-    study_of(model, trust, motion, rate_hz)
+    study_of(model, trust, motion, rate_hz, MotionClock::default())
 }
 
-fn study_of(model: SensorModel, trust: Trust, motion: JerkControlledMotion, rate_hz: f64) -> Study {
+fn study_of(
+    model: SensorModel,
+    trust: Trust,
+    motion: JerkControlledMotion,
+    rate_hz: f64,
+    clock: MotionClock,
+) -> Study {
     let sensor = Sensor { model, cross_axis_sd: Some(0.005), ..Sensor::memsic_mxd2020u() };
     let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
-    let command = CommandedMotion { motion, trust, known_ends, gravity: None };
+    let command = CommandedMotion { motion, trust, known_ends, gravity: None, clock };
     let problem = StudyProblem { sensor: &sensor, command: &command, rate_hz, sensors: SENSORS };
     run_study(&problem, &StudySettings { seed: 20, ..StudySettings::default() }, &|_| ())
         .expect("identifiable")
@@ -107,6 +113,22 @@ fn known_motion_delivers_the_promised_covariance() {
 }
 
 #[test]
+fn a_clock_that_is_not_exact_delivers_the_promised_covariance() {
+    let clock = MotionClock { delay_s: 0.02, delay_sd_s: 0.5, rate_sd: 1e-4 };
+    let limits = Limits { acceleration_mps2: Some(Vector3::repeat(10.0)), ..Limits::default() };
+    let mut rng = stream(1, Purpose::Motion, 0);
+    let motion = initial_motion(20, 0.5, 3, &limits, &mut rng).expect("valid");
+    let noise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };
+    for (model, trust) in [
+        (SensorModel::ScaleBias, Trust::Known),
+        (SensorModel::Full, Trust::Known),
+        (SensorModel::Full, Trust::Noisy(noise)),
+    ] {
+        assert_honest(&study_of(model, trust, motion.clone(), 20.0, clock));
+    }
+}
+
+#[test]
 fn unknown_motion_delivers_the_promised_covariance() {
     assert_honest(&study(SensorModel::ScaleBias, Trust::Unknown, 14, 5.0, 2.0, 30.0));
 }
@@ -135,6 +157,7 @@ fn optimal_motion(trust: Trust, bound: f64) -> JerkControlledMotion {
         trust,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits: &limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(6, 1.0) }),
         prior: None,
@@ -146,13 +169,14 @@ fn optimal_motion(trust: Trust, bound: f64) -> JerkControlledMotion {
 #[test]
 fn optimal_known_motion_delivers_the_promised_covariance() {
     let motion = optimal_motion(Trust::Known, 30.0);
-    assert_honest(&study_of(SensorModel::ScaleBias, Trust::Known, motion, 10.0));
+    assert_honest(&study_of(SensorModel::ScaleBias, Trust::Known, motion, 10.0, MotionClock::default()));
 }
 
 #[test]
 fn optimal_noisy_motion_delivers_the_promised_covariance() {
     let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
-    let study = study_of(SensorModel::ScaleBias, noise, optimal_motion(noise, 20.0), 10.0);
+    let study =
+        study_of(SensorModel::ScaleBias, noise, optimal_motion(noise, 20.0), 10.0, MotionClock::default());
     assert_honest(&study);
     // the joint estimate is biased by order N var(K)/K²: a few hundredths of a standard deviation
     for row in study.summary.iter().filter(|row| row.name.starts_with("scale.")) {

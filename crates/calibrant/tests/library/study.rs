@@ -2,7 +2,7 @@
 
 use calibrant::design::{DesignSettings, SurfaceSettings, TraceSurface, trace_surface};
 use calibrant::information::criterion::{AOptimality, Criterion};
-use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust};
+use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, Trust};
 use calibrant::sensor::Sensor;
 use calibrant::study::{DesignStudy, DesignStudyProblem, StudySettings, run_design_study};
 use nalgebra::{DVector, Vector3};
@@ -29,6 +29,7 @@ fn problem(sensor: &Sensor, trust: Trust, bound: f64, sensors: usize) -> DesignS
         trust,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
         limits,
         criterion: Criterion::A(AOptimality { scale: DVector::repeat(6, 1.0) }),
         initial: None,

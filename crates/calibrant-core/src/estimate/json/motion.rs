@@ -1,6 +1,6 @@
 //! A recovered motion as JSON.
 
-use crate::estimate::{RecoveredGravity, RecoveredMotion};
+use crate::estimate::{RecoveredClock, RecoveredGravity, RecoveredMotion};
 use crate::json::{flat, if_some};
 use crate::json_object;
 use crate::motion::MotionTable;
@@ -19,11 +19,28 @@ json_object! {
         /// Trust in the command: `known`, `noisy`, `unknown`.
         trust: of.recovered.trust,
         gravity: if_some(of.recovered.gravity.as_ref()),
+        clock: if_some(Some(of.recovered.clock).filter(|clock| !clock.given.is_exact())),
         motion: flat(MotionTable {
             motion: &of.recovered.motion,
             axes: of.axes,
             acceleration_sd_mps2: Some(&of.recovered.acceleration_sd_mps2),
         }),
+    }
+}
+
+json_object! {
+    /// The clock of the recording beside that of the motion, estimated with the parameters: motion time = t + delay_s + rate (t − at_s).
+    RecoveredClock as of {
+        /// Delay at the time at_s: motion time less recording time.
+        delay_s: of.delay_s,
+        /// Its standard deviation.
+        delay_sd_s: of.delay_sd_s,
+        /// Rate between the clocks.
+        rate_ppm: 1e6 * of.rate,
+        /// Its standard deviation.
+        rate_sd_ppm: 1e6 * of.rate_sd,
+        /// Time of the recording at the middle of the motion.
+        at_s: of.at_s,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The solution of one chain.
 
+use super::clock::ClockEquations;
 use super::context::Context;
 use super::fit::{Chain, Fit, State};
 use super::sample_pairs::PairSums;
@@ -31,6 +32,8 @@ pub(super) struct Solved {
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
+    /// The equations of parameters and clock; none where the motion is unknown, of which nothing tells the time.
+    pub(super) clock: Option<ClockEquations>,
 }
 
 impl Solved {
@@ -52,8 +55,11 @@ impl Solved {
             status: CalibrationStatus::Converged,
             iterations: 0,
             gradient_norm: 0.0,
+            clock: None,
         };
-        for part in parts {
+        let mut clocks = Vec::new();
+        for mut part in parts {
+            clocks.extend(part.clock.take().map(|equations| (part.slots.clone(), equations)));
             for (i, &row) in part.slots.iter().enumerate() {
                 whole.values[row] = part.values[i];
                 whole.bias[row] = part.bias[i];
@@ -79,12 +85,13 @@ impl Solved {
                 whole.status = part.status;
             }
         }
+        whole.clock = (!clocks.is_empty()).then(|| ClockEquations::sum(size, clocks.into_iter()));
         whole
     }
 }
 
-/// Solves the chain of these axes; `slots` are the places of its parameters in the list.
-pub(super) fn solve<const D: usize, const P: usize>(
+/// Solves the chain of these axes; `slots` are the places of its parameters in the list, Q = P + 2.
+pub(super) fn solve<const D: usize, const P: usize, const Q: usize>(
     context: &Context<'_>,
     axes: [usize; D],
     slots: [usize; P],
@@ -93,7 +100,14 @@ pub(super) fn solve<const D: usize, const P: usize>(
     let (start, system) = starting_state(context, &chain, axes, slots)?;
     let fit =
         chain.fit(start, system, context.settings).map_err(|node| vec![explain_node(context, axes, node)])?;
-    Ok(summarise(&chain, fit, &context.pairs, axes, slots))
+    let clock = (context.command.trust != Trust::Unknown)
+        .then(|| chain.clock_equations::<Q>(&fit.state, &context.nodes_s()).ok())
+        .flatten()
+        .map(|(information, rhs)| ClockEquations {
+            information: DMatrix::from_fn(Q, Q, |i, j| information[(i, j)]),
+            rhs: nalgebra::DVector::from_fn(Q, |i, _| rhs[i]),
+        });
+    Ok(Solved { clock, ..summarise(&chain, fit, &context.pairs, axes, slots) })
 }
 
 /// A state and its factored system.
@@ -239,6 +253,7 @@ fn summarise<const D: usize, const P: usize>(
         status,
         iterations: fit.iterations,
         gradient_norm: fit.gradient_norm,
+        clock: None,
     }
 }
 

@@ -8,6 +8,7 @@ use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::KnownEnds;
 use crate::sensor::Quantity;
 use nalgebra::SVector;
+use std::ops::Range;
 
 /// The data that all chains of a problem share.
 pub(super) struct Context<'a> {
@@ -30,11 +31,10 @@ impl<'a> Context<'a> {
         problem: &'a CalibrationProblem<'a>,
         command: &'a CommandedMotion,
         settings: &'a CalibrationSettings,
-        first: usize,
-        end: usize,
+        used: Range<usize>,
     ) -> Result<Self> {
-        let times = &problem.recording.times_s[first..end];
-        let readings = &problem.recording.readings[first..end];
+        let times = &problem.recording.times_s[used.clone()];
+        let readings = &problem.recording.readings[used];
         let tau = command.motion.times_s();
         let positions = Positions::locate(times, tau);
         let mut context = Self {
@@ -56,6 +56,13 @@ impl<'a> Context<'a> {
         }
         context.noise = context.noise_of_a_sample()?;
         Ok(context)
+    }
+
+    /// The times of the nodes from the middle of the motion, s.
+    pub(super) fn nodes_s(&self) -> Vec<f64> {
+        let tau = self.command.motion.times_s();
+        let middle = 0.5 * (tau[0] + tau[tau.len() - 1]);
+        tau.iter().map(|time| time - middle).collect()
     }
 
     /// σ_ν in the unit of the readings. For counts without a nominal gain, a rough gain comes from the data.

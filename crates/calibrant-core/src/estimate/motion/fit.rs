@@ -124,6 +124,39 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         Ok((system, unreduced))
     }
 
+    /// The equations of the parameters and of the clock behind them (Q = P + 2), without the motion. `nodes_s` are the times of the nodes from the middle of
+    /// the motion.
+    pub(super) fn clock_equations<const Q: usize>(
+        &self,
+        state: &State<D, P>,
+        nodes_s: &[f64],
+    ) -> Result<(SMatrix<f64, Q, Q>, SVector<f64, Q>), Undetermined> {
+        let s = model::matrix(&state.p);
+        let link = |i: usize| {
+            let (m, times) = (&self.moments[i], [nodes_s[i], nodes_s[i + 1]]);
+            let nodes = [&state.a[i], &state.a[i + 1]];
+            let jerk = (nodes[1] - nodes[0]) / (times[1] - times[0]);
+            let clock = model::clock_sensitivity(&s, &jerk, times);
+            let (r0, r1) = self.residuals(i, state);
+            let m = [m.m00, m.m01, m.m11];
+            model::with_clock::<D, P, Q>(&self.link(i, state), &s, &self.weight, m, nodes, &clock, [&r0, &r1])
+        };
+        let (prior, prior_rhs) = self.prior_equations(state);
+        let (mut border, mut rhs) = (SMatrix::<f64, Q, Q>::zeros(), SVector::<f64, Q>::zeros());
+        border.fixed_view_mut::<P, P>(0, 0).copy_from(&prior);
+        rhs.fixed_rows_mut::<P>(0).copy_from(&prior_rhs);
+        let intervals = self.moments.len();
+        if self.rigid {
+            for link in (0..intervals).map(link) {
+                border += link.c;
+                rhs += link.gp;
+            }
+            return Ok((border, rhs));
+        }
+        let system = Arrowhead::eliminate(intervals, link, |i| self.increment(i, state), border, rhs)?;
+        Ok((system.information, system.rhs))
+    }
+
     /// The equations of the parameters alone, the motion as it is in `state`.
     pub(super) fn as_commanded(&self, state: &State<D, P>) -> Arrowhead<D, P> {
         let (mut information, mut rhs) = self.prior_equations(state);

@@ -1,10 +1,11 @@
 //! Calibration from a commanded motion: the chain problem for each axis (scale-bias) or for all at once (full).
 //!
 //! With a diagonal `S` the axes are independent, and the scale-bias model is three chains of scalars. The full model is one chain of 3×3
-//! blocks. The result is assembled from [`Solved`] chains. Where gravity is given, the chains solve for the reading at rest, from which [`gravity`]
+//! blocks. The result is assembled from [`Solved`] chains. The [`clock`] of the recording is estimated about them. Where gravity is given, the chains solve for the reading at rest, from which [`gravity`]
 //! makes biases.
 
 mod chain;
+mod clock;
 mod context;
 mod contradicted_gravity;
 mod fit;
@@ -16,7 +17,7 @@ mod verdict;
 
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
-    RecoveredGravity, RecoveredMotion, statistics,
+    RecoveredClock, RecoveredGravity, RecoveredMotion, statistics,
 };
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::information::chain_model::FULL_SLOTS;
@@ -32,38 +33,32 @@ pub(super) fn calibrate(
     command: &CommandedMotion,
     settings: &CalibrationSettings,
 ) -> Result<Calibration> {
-    let (first, end) = samples_within(problem, &command.motion)?;
-    let context = Context::new(problem, command, settings, first, end)?;
-    let mut solved = match problem.sensor.model {
-        SensorModel::ScaleBias => solve_axes(&context)?,
-        SensorModel::Full => {
-            let whole = solve::<3, 12>(&context, [0, 1, 2], FULL_SLOTS).map_err(not_identifiable)?;
-            Solved::merge(vec![whole])
-        }
-    };
+    let (clock, used, is_found) = clock::find(problem, command, settings)?;
+    let recording = clock.on_motion_clock(problem.recording);
+    let problem = CalibrationProblem { recording: &recording, ..*problem };
+    let first = used.start;
+    let context = Context::new(&problem, command, settings, used)?;
+    let mut solved = solve_at(&context)?;
+    if !is_found {
+        solved.status = CalibrationStatus::Stalled;
+    }
+    let delayed = clock::delayed(&solved, &clock);
+    clock::marginalise(&mut solved, &clock);
     let gravity = command.gravity.map(|gravity| gravity::take_out(&context, &gravity, &mut solved));
-    assemble(&context, solved, gravity, first)
+    let mut calibration = assemble(&context, solved, (gravity, clock), first)?;
+    calibration.warnings.extend(delayed);
+    Ok(calibration)
 }
 
-/// The range of samples within the motion. Samples outside are not used, with a warning ([`verdict`]).
-fn samples_within(problem: &CalibrationProblem<'_>, motion: &JerkControlledMotion) -> Result<(usize, usize)> {
-    let times = &problem.recording.times_s;
-    let (start, stop) = (motion.times_s()[0], motion.times_s()[motion.intervals()]);
-    let slack = 1e-6 * (stop - start) / motion.intervals() as f64;
-    let first = times.partition_point(|&t| t < start - slack);
-    let end = times.partition_point(|&t| t <= stop + slack);
-    if first >= end {
-        return Err(Error::recording(InputError::new(
-            Refusal::MotionInvalid,
-            format!(
-                "no sample lies within the motion: the recording spans {} to {} s, the motion {start} to {stop} s",
-                times[0],
-                times[times.len() - 1]
-            ),
-            "check that both use the same clock and start together",
-        )));
+/// The solution for a given clock.
+fn solve_at(context: &Context<'_>) -> Result<Solved> {
+    match context.problem.sensor.model {
+        SensorModel::ScaleBias => solve_axes(context),
+        SensorModel::Full => {
+            let whole = solve::<3, 12, 14>(context, [0, 1, 2], FULL_SLOTS).map_err(not_identifiable)?;
+            Ok(Solved::merge(vec![whole]))
+        }
     }
-    Ok((first, end))
 }
 
 fn not_identifiable(groups: Vec<crate::error::UndeterminedGroup>) -> Error {
@@ -76,7 +71,7 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
     let mut parts = Vec::with_capacity(axes);
     let mut undetermined = Vec::new();
     for axis in 0..axes {
-        match solve::<1, 2>(context, [axis], [axis, axes + axis]) {
+        match solve::<1, 2, 4>(context, [axis], [axis, axes + axis]) {
             Ok(part) => parts.push(part),
             Err(groups) => undetermined.extend(groups),
         }
@@ -88,7 +83,7 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
 fn assemble(
     context: &Context<'_>,
     solved: Solved,
-    gravity: Option<RecoveredGravity>,
+    (gravity, clock): (Option<RecoveredGravity>, RecoveredClock),
     first_sample: usize,
 ) -> Result<Calibration> {
     let problem = context.problem;
@@ -165,6 +160,7 @@ fn assemble(
             acceleration_sd_mps2: solved.node_sd,
             trust: context.command.trust.name(),
             gravity,
+            clock,
             residuals,
             first_sample,
         }),

@@ -23,7 +23,8 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &
     }
     let recorded = context.problem.recording.len();
     let used = context.positions.samples();
-    if used < recorded {
+    // where the clock is estimated, the motion is looked for in the recording
+    if used < recorded && context.command.clock.is_exact() {
         warnings.push(
             SamplesOutsideMotion {
                 outside: recorded - used,

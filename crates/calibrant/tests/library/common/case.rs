@@ -1,7 +1,7 @@
 //! A simulated sensor on a random motion.
 
 use calibrant::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Limits, Trust};
+use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Limits, MotionClock, Trust};
 use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
@@ -53,7 +53,13 @@ impl Case {
         Self {
             sensor,
             truth,
-            command: CommandedMotion { motion, trust, known_ends, gravity: None },
+            command: CommandedMotion {
+                motion,
+                trust,
+                known_ends,
+                gravity: None,
+                clock: MotionClock::default(),
+            },
             recording,
         }
     }

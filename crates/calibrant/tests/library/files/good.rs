@@ -6,7 +6,7 @@ use calibrant::io::{
     CriterionLetter, Experiment, ExperimentFile, HashedFile, HoldsPlan, MotionPlan, NoisyVariant, PRESETS,
     Plan, Preset, Prior, ScaleBy, experiment_keys, preset,
 };
-use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
+use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, MotionClock, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
 
@@ -67,6 +67,7 @@ fn the_report_preset_is_the_report() {
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
     };
     assert_eq!(*motion(&experiment), expected);
     let bounds = |bound: f64| Limits {
@@ -90,6 +91,7 @@ fn the_report_preset_is_the_report() {
         trust: Trust::Unknown,
         known_ends: KnownEnds::Both,
         gravity: None,
+        clock: MotionClock::default(),
     };
     assert_eq!(unknown.plan, expected);
     let noise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };

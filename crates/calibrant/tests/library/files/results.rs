@@ -6,8 +6,8 @@ use calibrant::diagnostic::Diagnostic;
 use calibrant::diagnostic::datasheet::WeakerThanDatasheet;
 use calibrant::error::Refusal;
 use calibrant::estimate::{
-    Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
-    Uncalibrated, Whiteness,
+    Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredClock,
+    RecoveredMotion, Uncalibrated, Whiteness,
 };
 use calibrant::io::{
     CalibrationFile, Failure, Input, Origin, Summary, SummaryRow, Truth, read_motion, to_json,
@@ -157,6 +157,7 @@ pub(super) fn uniaxial() -> Calibration {
         acceleration_sd_mps2: vec![Vector3::zeros(); 2],
         trust: "known",
         gravity: None,
+        clock: RecoveredClock::default(),
         residuals: Vec::new(),
         first_sample: 0,
     };

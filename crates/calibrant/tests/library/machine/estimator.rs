@@ -11,7 +11,7 @@ use calibrant::machine::estimate::{
     MountingPrior, calibrate_on_machine,
 };
 use calibrant::machine::log::{JointLog, ReferenceLog};
-use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Trust};
+use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, MotionClock, Trust};
 use calibrant::sensor::{
     Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, Sensor,
     SensorKind, SensorModel,
@@ -131,6 +131,7 @@ fn a_gantry_that_is_trusted_gives_the_estimate_of_the_report() {
         trust: Trust::Known,
         known_ends: KnownEnds::Start,
         gravity: None,
+        clock: MotionClock::default(),
     };
     let problem = CalibrationProblem {
         sensor: &sensor,
