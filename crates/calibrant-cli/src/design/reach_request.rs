@@ -49,8 +49,8 @@ pub(super) fn evidence(
     // a bound of one says nothing
     let least = at_least.filter(|least| *least > 1);
     let bound = match least {
-        Some(least) if least == found => return " By the bound, fewer cannot.".into(),
-        Some(least) => format!(" By the bound, fewer than {} cannot.", counted(least)),
+        Some(least) if least == found => return " Fewer cannot, by the bound.".into(),
+        Some(least) => format!(" Fewer than {} cannot, by the bound.", counted(least)),
         None => String::new(),
     };
     match found {
@@ -144,11 +144,11 @@ mod tests {
     #[test]
     fn a_bound_of_one_proves_nothing() {
         let said = |at_least, found| evidence(at_least, found, 30, |count| format!("{count} poses"));
-        assert_eq!(said(Some(9), 9), " By the bound, fewer cannot.");
+        assert_eq!(said(Some(9), 9), " Fewer cannot, by the bound.");
         assert_eq!(said(Some(1), 4), " With 3 poses, none was found in 30 starts.");
         assert_eq!(
             said(Some(3), 4),
-            " By the bound, fewer than 3 poses cannot. With 3 poses, none was found in 30 starts."
+            " Fewer than 3 poses cannot, by the bound. With 3 poses, none was found in 30 starts."
         );
         assert_eq!(said(Some(1), 1), "");
     }

@@ -14,17 +14,13 @@ pub(super) struct Enough {
     pub(super) set: Vec<Vector3<f64>>,
 }
 
-/// Cells along the edge of the grid of directions that make up a set.
-const CELLS: usize = 8;
-
 /// The fewest poses that determine all parameters.
 ///
 /// # Errors
 /// [`Error::NotIdentifiable`] where the allowed directions leave parameters undetermined however many there are.
 pub(super) fn enough(problem: &PoseProblem, information: &HoldInformation) -> Result<Enough> {
     let reason = "the allowed directions are not enough, however often each is held";
-    let (all, _) = problem.allowed.grid(CELLS);
-    let all: Vec<_> = all.iter().map(|u| problem.allowed.nearest(u)).collect();
+    let all = problem.allowed.sample();
     let left = left_free(information, &all);
     if !left.is_empty() {
         let remedy = match problem.directions {
