@@ -79,12 +79,12 @@ fn efficiency(assessment: &Assessment) -> Option<String> {
         format!(" (at least {} % of any admissible motion)", significant(100.0 * certain, 3))
     });
     let meaning = if efficiency > 1.0 + 1e-6 {
-        "the motion is better than the best motion within the limits".into()
+        "the motion is better than the best one found within the limits".into()
     } else if efficiency > 0.99 {
-        "no better motion exists".into()
+        "the search found none that is more than 1 % better".into()
     } else {
         format!(
-            "{} recordings of this motion give as much information as one of the best motion",
+            "{} recordings of this motion give as much information as one of the best found",
             significant(1.0 / efficiency, 3)
         )
     };
@@ -152,7 +152,7 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
     sentences.extend(efficiency(assessment));
     if assessment.efficiency().is_some_and(|efficiency| efficiency > BLIND && most > WORTH_IT) {
         sentences.push(
-            "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \
+            "The criterion hardly shows the difference, since parameters that improve little dominate it. Judge by the standard \
              deviations."
                 .to_string(),
         );

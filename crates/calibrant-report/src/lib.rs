@@ -9,6 +9,7 @@ mod comparison;
 mod design;
 mod evaluation;
 mod figure;
+mod gravity;
 mod html;
 mod limits;
 mod machine;

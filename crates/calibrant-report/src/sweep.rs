@@ -35,7 +35,7 @@ fn verdict(sweep: &Sweep, about: &About) -> SheetVerdict {
         .map(|(point, ended)| format!("{}: {}", value(sweep, point), status(ended)))
         .collect();
     let (grade, word) = match () {
-        () if failed.len() == sweep.points.len() => (Grade::Bad, "✗ No motion is possible."),
+        () if failed.len() == sweep.points.len() => (Grade::Bad, "✗ No motion was designed."),
         () if failed.is_empty() && unfinished.is_empty() => (Grade::Good, "✓ All designs converged."),
         () => (Grade::Caution, "! Look closer."),
     };

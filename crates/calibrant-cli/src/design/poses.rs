@@ -1,7 +1,7 @@
 //! `calibrant design` of a `[holds]` experiment: the best poses.
 
 use super::pose_output::about;
-use super::reach_request::{asked, goals};
+use super::reach_request::{asked, evidence, goals};
 use super::{Arguments, pose_evaluation};
 use crate::console;
 use crate::diagnostics::tell;
@@ -11,6 +11,7 @@ use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem};
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses, write_text};
+use calibrant::report::number_format::counted;
 use calibrant::report::{pose_in_words, pose_sheet};
 
 pub(super) fn run(arguments: &Arguments, job: &DesignPlan) -> calibrant::Result<Exit> {
@@ -45,7 +46,7 @@ fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> cal
     let unit = job.experiment.sensor.unit;
     let (design, reached) = search(arguments, job, problem)?;
     let words: Vec<String> = design.directions.iter().map(pose_in_words).collect();
-    let sentence = reached.as_ref().map(|reached| goal_sentence(arguments, &design, reached));
+    let sentence = reached.as_ref().map(|reached| goal_sentence(arguments, &design, problem, reached));
     let output = &arguments.output;
     let file = PoseDesignFile { design: &design, reached: reached.as_ref(), problem, unit };
     write_json(&output.join("design.json"), &file)?;
@@ -85,15 +86,17 @@ fn search(
 }
 
 /// What came of `--reach`.
-fn goal_sentence(arguments: &Arguments, design: &PoseDesign, reached: &Reached) -> String {
+fn goal_sentence(
+    arguments: &Arguments,
+    design: &PoseDesign,
+    problem: &PoseProblem,
+    reached: &Reached,
+) -> String {
     let found = design.directions.len();
     let more = if arguments.from.is_empty() { "" } else { "more " };
     let poses =
         if found == 1 { format!("One {more}pose reaches") } else { format!("{found} {more}poses reach") };
-    let proof = match reached.at_least {
-        Some(least) if least == found => " Fewer cannot, whatever their directions.".into(),
-        Some(least) => format!(" Fewer than {least} cannot, whatever their directions."),
-        None => String::new(),
-    };
-    format!("{poses} {}.{proof}", asked(&arguments.reach))
+    let evidence = evidence(reached.at_least, found, design.starts, |count| counted(count, "pose"));
+    let beside = if problem.gravity_is_given() { "" } else { ", beside the error of gravity" };
+    format!("{poses} {}{beside}.{evidence}", asked(&arguments.reach))
 }

@@ -2,7 +2,7 @@
 
 use super::Arguments;
 use super::output::finish;
-use super::reach_request::{asked, goals};
+use super::reach_request::{asked, evidence, goals};
 use crate::console;
 use crate::exit::Exit;
 use calibrant::DesignPlan;
@@ -23,13 +23,9 @@ pub(super) fn run(
     let intervals = |count: usize| {
         format!("{} ({} s)", counted(count, "interval"), short(count as f64 * problem.interval_s))
     };
-    let proof = match found.at_least {
-        Some(least) if least == found.intervals => " Fewer cannot, within these limits.".into(),
-        Some(least) => format!(" Fewer than {} cannot, within these limits.", intervals(least)),
-        None => String::new(),
-    };
+    let evidence = evidence(found.at_least, found.intervals, job.settings.starts, intervals);
     let wanted = asked(&arguments.reach);
-    let sentence = format!("A motion of {} reaches {wanted}.{proof}", intervals(found.intervals));
+    let sentence = format!("A motion of {} reaches {wanted}.{evidence}", intervals(found.intervals));
     let problem = DesignProblem { intervals: found.intervals, ..problem.clone() };
     let reached = Reached::new(&goals, &problem.sensor.parameter_list().names(), found.at_least);
     finish(arguments, job, &problem, &found.design, Some((&reached, &sentence)))

@@ -39,6 +39,26 @@ const UNITS: [(&str, f64, Dimension); 9] = [
     ("m/s²", 1.0, Dimension::Acceleration),
 ];
 
+/// What stands against fewer than were found: the bound, and below that the search.
+pub(super) fn evidence(
+    at_least: Option<usize>,
+    found: usize,
+    starts: usize,
+    counted: impl Fn(usize) -> String,
+) -> String {
+    // a bound of one says nothing
+    let least = at_least.filter(|least| *least > 1);
+    let bound = match least {
+        Some(least) if least == found => return " Fewer cannot, by the bound.".into(),
+        Some(least) => format!(" Fewer than {} cannot, by the bound.", counted(least)),
+        None => String::new(),
+    };
+    match found {
+        1 => bound,
+        _ => format!("{bound} With {}, none was found in {starts} starts.", counted(found - 1)),
+    }
+}
+
 /// Reads `scale.x=50ppm` or `bias.z=0.2mg`.
 pub(crate) fn parse(text: &str) -> Result<Request, String> {
     let (name, value) =
@@ -120,6 +140,18 @@ mod tests {
     use super::*;
     use calibrant::sensor::SensorModel;
     use nalgebra::Matrix3;
+
+    #[test]
+    fn a_bound_of_one_proves_nothing() {
+        let said = |at_least, found| evidence(at_least, found, 30, |count| format!("{count} poses"));
+        assert_eq!(said(Some(9), 9), " Fewer cannot, by the bound.");
+        assert_eq!(said(Some(1), 4), " With 3 poses, none was found in 30 starts.");
+        assert_eq!(
+            said(Some(3), 4),
+            " Fewer than 3 poses cannot, by the bound. With 3 poses, none was found in 30 starts."
+        );
+        assert_eq!(said(Some(1), 1), "");
+    }
 
     #[test]
     fn goals_have_the_units_of_data_sheets() {

@@ -7,20 +7,23 @@ use nalgebra::DVector;
 /// Derivative of each quantity with respect to the assumed gravity, `∂p/∂g = −p/g`.
 ///
 /// Gravity is a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the gyroscope's matrix and the temperature terms do not
-/// depend on it. Times the uncertainty of gravity, it is a column of the covariance's root.
+/// depend on it. `prior_share`: the share of each quantity's information that comes from a prior; this part does not follow gravity. Without any it is
+/// empty. Times the uncertainty of gravity, it is a column of the covariance's root.
 pub(super) fn gravity_slope(
     quantities: &[ImuQuantity],
+    prior_share: &[f64],
     imu: &ImuParameters,
     gravity: &Gravity,
 ) -> DVector<f64> {
     DVector::from_iterator(
         quantities.len(),
-        quantities.iter().map(|quantity| match quantity {
+        quantities.iter().enumerate().map(|(k, quantity)| match quantity {
             ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(_))
             | ImuQuantity::Of(SensorKind::Gyroscope, _)
             | ImuQuantity::Thermal(..) => 0.0,
             ImuQuantity::Of(SensorKind::Accelerometer, _) | ImuQuantity::GSensitivity(..) => {
-                -quantity.value(imu) / gravity.magnitude_mps2
+                let of_data = 1.0 - prior_share.get(k).copied().unwrap_or(0.0);
+                -quantity.value(imu) / gravity.magnitude_mps2 * of_data
             }
         }),
     )
@@ -48,7 +51,7 @@ mod tests {
         let gravity = Gravity { magnitude_mps2: 9.8, sd_mps2: 0.0 };
         let share = 1e-6;
         let mut moved = imu;
-        let slope = gravity_slope(&quantities, &imu, &gravity);
+        let slope = gravity_slope(&quantities, &[], &imu, &gravity);
         for (quantity, slope) in quantities.iter().zip(slope.iter()) {
             quantity.add_to(&mut moved, slope * share * gravity.magnitude_mps2);
         }

@@ -43,6 +43,7 @@ pub(crate) mod statistics;
 mod studentised_fit;
 mod tangent_plane;
 mod uncalibrated;
+mod uncertain_gravity;
 mod unknown_latitude;
 mod validation;
 
@@ -73,6 +74,7 @@ pub use result::*;
 pub use settings::CalibrationSettings;
 pub use statistics::{chi2_p_value, f_p_value};
 pub use uncalibrated::Uncalibrated;
+pub use uncertain_gravity::UncertainGravity;
 pub use unknown_latitude::UnknownLatitude;
 pub use validation::{
     BiasShift, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, ParameterPart, UnusedError,

@@ -4,7 +4,7 @@ use super::Calibration;
 use crate::sensor::ImuQuantity;
 
 /// Least increase of a standard deviation that is reported.
-const SIZEABLE: f64 = 1.15;
+pub(super) const SIZEABLE: f64 = 1.15;
 
 /// How much an unknown latitude adds to the standard deviations.
 #[derive(Debug, Clone, PartialEq)]

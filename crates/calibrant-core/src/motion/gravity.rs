@@ -28,6 +28,10 @@ pub struct Gravity {
     pub sd_mps2: f64,
 }
 
+/// Heights on land scatter about their mean as those of an exponential distribution do, m: the mean height of land is 800 m.
+const HEIGHT_M: f64 = 800.0;
+/// Gravity falls with height by this, (m/s²)/m.
+const FREE_AIR_PER_M: f64 = 3.086e-6;
 /// Gravity on the surface of the Earth: from the Andes to the Arctic Ocean, m/s².
 const ON_EARTH: std::ops::RangeInclusive<f64> = 9.76..=9.84;
 
@@ -35,6 +39,13 @@ impl Gravity {
     /// Standard uncertainty of [`from_latitude`](Self::from_latitude), m/s². It is the root mean square of
     /// gravity anomalies over land, about 35 mGal.
     pub const ANOMALY_SD_MPS2: f64 = 3.5e-4;
+
+    /// Gravity somewhere on land: standard gravity, and how far the Earth's surface is from it.
+    ///
+    /// At sea level gravity is from 9.7803 m/s² (equator) to 9.8322 m/s² (poles), less 3.086e-6 m/s² for each metre of height. With any place on the
+    /// globe equally likely, and heights of 800 m on average, its mean is 9.795 m/s² with the standard deviation 0.016 m/s². So the root mean square
+    /// about standard gravity is 0.019 m/s². With any latitude equally likely, this is also 0.019 m/s².
+    pub const SOMEWHERE: Self = Self { magnitude_mps2: 9.806_65, sd_mps2: 0.019 };
 
     /// Normal gravity of the WGS 84 ellipsoid by Somigliana's formula, with the free-air correction to second order in height.
     ///
@@ -66,6 +77,13 @@ impl Gravity {
         let h = height_m / A;
         let magnitude_mps2 = surface * (1.0 - 2.0 * (1.0 + F + M - 2.0 * F * s2) * h + 3.0 * h * h);
         Self { magnitude_mps2, sd_mps2: Self::ANOMALY_SD_MPS2 }
+    }
+
+    /// Gravity at a latitude where the height is not known: that of 800 m, the mean of land. Its standard uncertainty is that of such heights, 2.5e-3 m/s².
+    #[must_use]
+    pub fn at_latitude(latitude_deg: f64) -> Self {
+        let gravity = Self::from_latitude(latitude_deg, HEIGHT_M);
+        Self { sd_mps2: (FREE_AIR_PER_M * HEIGHT_M).hypot(Self::ANOMALY_SD_MPS2), ..gravity }
     }
 
     /// The least and the most on the Earth's surface, m/s², where this is neither: the Earth has it nowhere.
@@ -181,6 +199,25 @@ mod tests {
         assert!([9.0, 9.7, 9.9, 1.62].into_iter().all(reported));
         // Huascarán and the Arctic Ocean have the extremes (`hirt2013`)
         assert!(![9.7639, 9.80665, 9.8337].into_iter().any(reported));
+    }
+
+    /// The mean square by the midpoint rule, over sines of the latitude and over latitudes, with the moments of an exponential distribution of heights.
+    #[test]
+    fn the_unknown_gravity_has_the_spread_of_the_surface() {
+        const COUNT: usize = 10_000;
+        let of_sine = |x: f64| x.asin().to_degrees();
+        let of_angle = |x: f64| 90.0 * x;
+        for latitude in [&of_sine as &dyn Fn(f64) -> f64, &of_angle] {
+            let height = FREE_AIR_PER_M * HEIGHT_M;
+            let square = |k: usize| {
+                let x = (k as f64 + 0.5) / COUNT as f64;
+                let at_sea = Gravity::from_latitude(latitude(x), 0.0).magnitude_mps2;
+                let off = at_sea - height - Gravity::SOMEWHERE.magnitude_mps2;
+                off * off + height * height + Gravity::ANOMALY_SD_MPS2.powi(2)
+            };
+            let rms = ((0..COUNT).map(square).sum::<f64>() / COUNT as f64).sqrt();
+            assert!((rms - Gravity::SOMEWHERE.sd_mps2).abs() < 5e-4, "{rms}");
+        }
     }
 
     #[test]

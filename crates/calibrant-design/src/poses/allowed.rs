@@ -80,6 +80,25 @@ impl Allowed {
         }
     }
 
+    /// Some allowed directions, which determine what all of them determine: of each cone the axis and two circles, so that no polynomial
+    /// of degree 2 is zero on them and not on the cone.
+    pub(super) fn sample(&self) -> Vec<Vector3<f64>> {
+        /// Directions on a circle, and cells along the edge of the grid where all are allowed.
+        const COUNT: usize = 8;
+        let Self::Near(list, within) = self else { return self.grid(COUNT).0 };
+        let on_circles = |axis: &Vector3<f64>| {
+            let (axis, one) = (*axis, perpendicular(axis));
+            let other = axis.cross(&one);
+            let on_circle = move |k: usize| {
+                let angle = if k < COUNT { *within } else { 0.5 * within };
+                let (sin, cos) = (std::f64::consts::TAU * k as f64 / COUNT as f64).sin_cos();
+                axis * angle.cos() + (one * cos + other * sin) * angle.sin()
+            };
+            (0..2 * COUNT).map(on_circle).chain([axis])
+        };
+        list.iter().flat_map(on_circles).collect()
+    }
+
     /// Directions so dense that every allowed one is within an angle of one of them, and that angle, rad.
     ///
     /// The grid is that of the centres of the cells of a cube's faces, `cells` along each edge, seen from the

@@ -1,11 +1,12 @@
 //! The information of given poses, against the best possible.
 
 use super::Allowed;
+use super::efficiency::efficiency;
 use super::enough::{named, singular};
 use super::hold_information::HoldInformation;
 use super::order::Drift;
 use super::problem::{PoseProblem, with_gravity};
-use super::result::{PoseBound, efficiency};
+use super::result::PoseBound;
 use super::search::relaxed;
 use super::spectral_projected_gradient::Poses;
 use calibrant_core::error::{Error, NotIdentifiable, Result};

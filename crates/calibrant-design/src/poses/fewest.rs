@@ -10,7 +10,7 @@
 //! n make the variances of designs not quite monotone, so that a smaller number may do: the bound says from
 //! where on.
 
-use super::enough::{fewest_that_determine, singular};
+use super::enough::{enough, singular};
 use super::hold_information::HoldInformation;
 use super::problem::{PoseProblem, gravity_slope};
 use super::result::PoseDesign;
@@ -46,7 +46,7 @@ pub fn fewest_poses(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<FewestPoses> {
     let information = HoldInformation::new(problem).ok_or_else(singular)?;
-    let fewest = fewest_that_determine(problem, &information, settings.seed)?;
+    let enough = enough(problem, &information)?;
     let limits = variances_of_holds(problem, goals)?;
     let questions = questions(&limits, problem.list.len());
     let possible = |poses: usize| -> Result<bool> {
@@ -55,22 +55,28 @@ pub fn fewest_poses(
             .all(|weights| least_sum(problem, &information, weights, poses, settings.seed) <= 1.0))
     };
     if !possible(MOST)? {
-        let message = format!("more than {MOST} poses are needed to reach the standard deviations asked for");
+        let message = format!(
+            "by the bound, more than {MOST} poses are needed to reach the standard deviations asked for"
+        );
         let help = "hold longer (holds.hold_s), or ask for less";
         return Err(Error::experiment(InputError::new(Refusal::ValueOutOfRange, message, help)));
     }
-    let at_least = first_that_passes(0, MOST, possible)?.max(fewest);
+    let at_least = first_that_passes(0, MOST, possible)?.max(enough.at_least);
     let slope = gravity_slope(problem);
     let mut best: Option<PoseDesign> = None;
     let mut used = |poses: usize| -> Result<f64> {
-        let design = design_poses(&PoseProblem { poses, ..problem.clone() }, settings, progress)?;
+        let design = match design_poses(&PoseProblem { poses, ..problem.clone() }, settings, progress) {
+            // this many were not found to determine all
+            Err(Error::NotIdentifiable(_)) => return Ok(f64::INFINITY),
+            other => other?,
+        };
         let used = largest_use(&limits, &design.covariance, &slope);
         if used <= 1.0 && best.as_ref().is_none_or(|best| best.directions.len() > poses) {
             best = Some(design);
         }
         Ok(used)
     };
-    let (mut low, mut high) = (at_least - 1, at_least);
+    let (mut low, mut high) = (at_least - 1, at_least.max(enough.set.len()));
     loop {
         let needed = used(high)?;
         if needed <= 1.0 {
@@ -87,12 +93,14 @@ pub fn fewest_poses(
     Ok(FewestPoses { design, at_least })
 }
 
-/// Each goal's parameter, with the variance that is left to the holds beside that of gravity.
+/// Each goal's parameter, with the variance that is left to the holds beside that of gravity. Where nobody gave gravity, the goals are those of the
+/// holds alone.
 fn variances_of_holds(problem: &PoseProblem, goals: &[Goal]) -> Result<Vec<(usize, f64)>> {
     let slope = gravity_slope(problem);
     let of = |goal: &Goal| {
         let gravity = slope[goal.parameter].abs();
-        let left = goal.sd * goal.sd - gravity * gravity;
+        let of_gravity = if problem.gravity_is_given() { gravity * gravity } else { 0.0 };
+        let left = goal.sd * goal.sd - of_gravity;
         if left > 0.0 {
             return Ok((goal.parameter, left));
         }
@@ -141,7 +149,9 @@ fn largest_use(limits: &[(usize, f64)], covariance: &DMatrix<f64>, gravity: &DVe
 }
 
 fn by_this_criterion() -> Error {
-    let message = format!("{MOST} poses by this criterion do not reach the standard deviations asked for");
+    let message = format!(
+        "the best {MOST} poses found by this criterion do not reach the standard deviations asked for"
+    );
     let help =
         "choose criterion c with weights on these parameters, hold longer (holds.hold_s), or ask for less";
     Error::experiment(InputError::new(Refusal::ValueOutOfRange, message, help))

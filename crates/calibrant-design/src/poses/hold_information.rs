@@ -99,6 +99,11 @@ impl HoldInformation {
         self.entries.tr_mul(&(sum * &self.entries)) + &self.prior
     }
 
+    /// `m(u)`, p × p.
+    pub(super) fn of_hold(&self, u: &Vector3<f64>) -> DMatrix<f64> {
+        self.entries.tr_mul(&(self.sum(std::iter::once((u, 1.0))) * &self.entries))
+    }
+
     /// `Gᵀ N⁻¹`, p × 3.
     pub(super) fn on_reading(&self, u: &Vector3<f64>) -> DMatrix<f64> {
         let (weight, phi) = (self.weight(u), self.regressors(u));

@@ -17,8 +17,10 @@
 
 mod allowed;
 mod approximate;
+mod efficiency;
 mod enough;
 mod evaluate;
+mod exchange;
 mod fewest;
 mod hold_information;
 mod order;
@@ -28,6 +30,7 @@ mod search;
 mod spectral_projected_gradient;
 #[cfg(test)]
 mod tests;
+mod usual;
 mod work;
 
 pub use allowed::Allowed;
@@ -36,3 +39,4 @@ pub use fewest::{FewestPoses, fewest_poses};
 pub use problem::{DirectionKnowledge, PoseNuisance, PoseProblem};
 pub use result::{PoseBound, PoseDesign};
 pub use search::design_poses;
+pub use usual::UsualPoses;

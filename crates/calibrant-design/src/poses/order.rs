@@ -34,9 +34,9 @@
 //!
 //! In an order with B = 0 the drift costs nothing (a trend-free order, `cox1951`).
 
+use super::efficiency::efficiency;
 use super::hold_information::HoldInformation;
 use super::problem::PoseProblem;
-use super::result::efficiency;
 use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 use rand::seq::SliceRandom;

@@ -8,6 +8,7 @@
 use super::Allowed;
 use calibrant_core::information::{Criterion, covariance};
 use calibrant_core::json_object;
+use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{ParameterList, Quantity, SensorParameters};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -115,6 +116,20 @@ pub(super) fn with_gravity(problem: &PoseProblem, of_holds: DMatrix<f64>) -> DMa
 }
 
 impl PoseProblem {
+    /// Did somebody give gravity? It is not known better than on the Earth's surface otherwise.
+    #[must_use]
+    pub fn gravity_is_given(&self) -> bool {
+        self.nuisance.gravity_sd_mps2 < Gravity::SOMEWHERE.sd_mps2
+    }
+
+    /// Standard deviations without the part of gravity, which no pose changes.
+    #[must_use]
+    pub fn sd_beside_gravity(&self, covariance: &DMatrix<f64>) -> DVector<f64> {
+        covariance
+            .diagonal()
+            .zip_map(&gravity_slope(self), |variance, gravity| (variance - gravity * gravity).max(0.0).sqrt())
+    }
+
     /// The covariance before the poses, where all parameters are known: that of the prior, with gravity.
     #[must_use]
     pub fn covariance_before(&self) -> Option<DMatrix<f64>> {

@@ -1,5 +1,7 @@
 //! The result of the search for the best poses.
 
+use super::efficiency::efficiency;
+use super::usual::UsualPoses;
 use calibrant_core::information::Criterion;
 use calibrant_core::json_object;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -16,6 +18,8 @@ pub struct PoseDesign {
     pub value: f64,
     /// The bound that no set of as many poses can beat.
     pub bound: PoseBound,
+    /// Poses that an engineer would take without a design, where the problem allows them.
+    pub usual: Vec<UsualPoses>,
     /// Number of starts of the search, and of those that ended within 0.1 % of the best.
     pub starts: usize,
     /// See `starts`.
@@ -60,19 +64,6 @@ impl PoseBound {
     #[must_use]
     pub fn efficiency_of(&self, criterion: &Criterion, value: f64, parameters: usize) -> f64 {
         efficiency(criterion, value, self.value, parameters)
-    }
-}
-
-/// How efficient a design with this value is, from 0 to 1: the bound by the value. For D it is
-/// `exp((bound − value) / p)`.
-///
-/// Both are ratios of an information `φ(M)` that doubles when all poses are taken twice (`pukelsheim2006`):
-/// `1/Φ(M⁻¹)`, for D `det(M)^(1/p)`. So the efficiency means the same for all criteria. Without a prior, 1/2 says
-/// that twice as many recordings are needed.
-pub(super) fn efficiency(criterion: &Criterion, value: f64, bound: f64, parameters: usize) -> f64 {
-    match criterion {
-        Criterion::D(_) => ((bound - value) / parameters as f64).exp(),
-        _ => bound / value,
     }
 }
 

@@ -3,24 +3,21 @@
 //! Half of the starts are random. The others take poses from the approximate design, by their shares. Each is
 //! improved by exchange, over the allowed list or the directions of the approximate design, and then by
 //! descent where directions may move. The best is kept.
-//!
-//! The exchange of poses for others of a list (`fedorov1972`).
-//!
-//! One pose after the other is replaced by the direction of the list that lowers the criterion most. It ends
-//! after a round without a change.
 
 use super::Allowed;
 use super::approximate::{Approximate, approximate};
-use super::enough::{check, singular};
-use super::hold_information::{HoldInformation, OnEntries};
+use super::enough::{check, made_regular, none_found, singular};
+use super::exchange::exchange;
+use super::hold_information::HoldInformation;
 use super::order::{Drift, best_order};
 use super::problem::{PoseProblem, with_gravity};
 use super::result::PoseDesign;
 use super::spectral_projected_gradient::{Descent, Poses};
+use super::usual::usual_poses;
 use crate::criterion::SmoothCriterion;
 use crate::{AT_BEST, DesignSettings};
 use calibrant_core::error::Result;
-use calibrant_core::information::{Criterion, covariance};
+use calibrant_core::information::Criterion;
 use calibrant_core::simulate::{Purpose, Rng, stream};
 use nalgebra::Vector3;
 use rand::RngExt;
@@ -77,7 +74,7 @@ pub fn design_poses(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<PoseDesign> {
     let information = HoldInformation::new(problem).ok_or_else(singular)?;
-    check(problem, &information, settings.seed)?;
+    check(problem, &information)?;
     let relaxed = relaxed(problem, &information, settings.seed).ok_or_else(singular)?;
     let mut found: Vec<(f64, Poses)> = Vec::new();
     let mut interrupted = false;
@@ -90,8 +87,8 @@ pub fn design_poses(
             .into_par_iter()
             .filter_map(|number| {
                 let mut rng = stream(settings.seed, Purpose::Start, number as u64);
-                let outcome =
-                    improve(problem, &information, &relaxed, start(problem, &relaxed, number, &mut rng));
+                let start = start(problem, &relaxed, number, &mut rng);
+                let outcome = improve(problem, &information, &relaxed, start);
                 progress(1);
                 outcome
             })
@@ -100,8 +97,10 @@ pub fn design_poses(
     }
     let starts = found.len();
     let values: Vec<f64> = found.iter().map(|(value, _)| *value).collect();
-    let (value, poses) =
-        found.into_iter().min_by(|one, other| one.0.total_cmp(&other.0)).ok_or_else(singular)?;
+    let (value, poses) = found
+        .into_iter()
+        .min_by(|one, other| one.0.total_cmp(&other.0))
+        .ok_or_else(|| none_found(problem, &information, settings.starts))?;
     let without = poses.covariance(&information).ok_or_else(singular)?;
     let drift = Drift::of(&information, &poses.directions, without, &problem.nuisance.drift_sd);
     let order = best_order(problem, &poses.directions, &drift, settings.seed);
@@ -110,6 +109,7 @@ pub fn design_poses(
         covariance: with_gravity(problem, drift.covariance(&order)),
         value,
         bound: relaxed.bound_of(value),
+        usual: usual_poses(problem, &information, value),
         starts,
         starts_at_best: values.iter().filter(|other| problem.criterion.gap(**other, value) < AT_BEST).count(),
         interrupted,
@@ -164,10 +164,16 @@ fn improve(
         Allowed::Of(list) => list,
         _ => &relaxed.poses.directions,
     };
-    let mut poses = Poses::equal(start);
+    let mut poses = Poses::equal(made_regular(information, start, list));
     for &exponent in exponents {
         let criterion = SmoothCriterion { criterion: &problem.criterion, exponent };
-        poses = Poses::equal(exchange(information, criterion, list, poses.directions));
+        poses = Poses::equal(exchange(
+            information,
+            criterion,
+            list,
+            poses.directions,
+            !problem.allowed.is_continuous(),
+        ));
         if problem.allowed.is_continuous() {
             let descent = Descent {
                 information,
@@ -181,42 +187,4 @@ fn improve(
     }
     let value = problem.criterion.value(&poses.covariance(information)?);
     value.is_finite().then_some((value, poses))
-}
-
-/// Rounds over all poses.
-const ROUNDS: usize = 50;
-/// Relative decrease below which a replacement is rounding.
-const ROUNDING: f64 = 1e-10;
-
-/// The poses after the exchange.
-pub(super) fn exchange(
-    information: &HoldInformation,
-    criterion: SmoothCriterion<'_>,
-    list: &[Vector3<f64>],
-    mut poses: Vec<Vector3<f64>>,
-) -> Vec<Vector3<f64>> {
-    let of = |u: &Vector3<f64>| information.sum(std::iter::once((u, 1.0)));
-    let value = |sum: &OnEntries| {
-        covariance(&information.of_parameters(sum)).map_or(f64::INFINITY, |c| criterion.at(&c).0)
-    };
-    let candidates: Vec<OnEntries> = list.iter().map(of).collect();
-    let mut sum = information.sum(poses.iter().map(|u| (u, 1.0)));
-    let mut least = value(&sum);
-    for _ in 0..ROUNDS {
-        let before = least;
-        for pose in &mut poses {
-            let without = sum - of(pose);
-            for (candidate, u) in candidates.iter().zip(list) {
-                let trial = without + candidate;
-                let found = value(&trial);
-                if found < least - ROUNDING {
-                    (least, sum, *pose) = (found, trial, *u);
-                }
-            }
-        }
-        if least.partial_cmp(&before) != Some(std::cmp::Ordering::Less) {
-            break;
-        }
-    }
-    poses
 }

@@ -1,12 +1,14 @@
 //! Best poses against closed forms of the theory of design.
 
 use super::hold_information::HoldInformation;
-use super::{Allowed, DirectionKnowledge, PoseNuisance, PoseProblem, design_poses, evaluate_poses};
-use crate::DesignSettings;
+use super::{
+    Allowed, DirectionKnowledge, PoseNuisance, PoseProblem, design_poses, evaluate_poses, fewest_poses,
+};
+use crate::{DesignSettings, Goal};
 use calibrant_core::information::Criterion;
 use calibrant_core::information::criterion::{AOptimality, DOptimality, EOptimality, MOptimality};
 use calibrant_core::sensor::{Gauge, ParameterList, SensorModel, SensorParameters};
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix4, Vector3, Vector4};
 
 pub(super) fn problem(directions: DirectionKnowledge, poses: usize) -> PoseProblem {
     let list = match directions {
@@ -111,6 +113,68 @@ fn fewer_poses_than_are_needed_are_refused_with_the_number() {
         PoseProblem { allowed: Allowed::cube(false, false), ..problem(DirectionKnowledge::Unknown, 30) };
     let error = design_poses(&faces, &DesignSettings::default(), &|_| {}).expect_err("faces").to_string();
     assert!(error.contains("matrix.xy") && error.contains("design.allowed"), "{error}");
+}
+
+/// All combinations of 26 directions, by the normal matrix of one axis: `tr C = 3 σ² tr (Σ φ φᵀ)⁻¹` with `φ = (1, f)`.
+#[test]
+fn the_search_on_a_finite_set_finds_the_best_of_all_combinations() {
+    let Allowed::Of(list) = Allowed::cube(true, true) else { panic!("a list") };
+    let squares: Vec<Matrix4<f64>> = list
+        .iter()
+        .map(|u| {
+            let phi = Vector4::new(1.0, 9.80665 * u.x, 9.80665 * u.y, 9.80665 * u.z);
+            phi * phi.transpose()
+        })
+        .collect();
+    let mut best = f64::INFINITY;
+    for (a, b, c) in (0..26).flat_map(|a| (a..26).flat_map(move |b| (b..26).map(move |c| (a, b, c)))) {
+        for d in c..26 {
+            let sum = squares[a] + squares[b] + squares[c] + squares[d];
+            // none of the best is nearly singular
+            if let Some(inverse) = sum.try_inverse().filter(|_| sum.determinant() > 1.0) {
+                best = best.min(3e-6 * inverse.trace());
+            }
+        }
+    }
+    let problem = PoseProblem {
+        criterion: Criterion::A(AOptimality { scale: DVector::repeat(12, 1.0) }),
+        allowed: Allowed::Of(list),
+        ..problem(KNOWN, 4)
+    };
+    let design = design_poses(&problem, &DesignSettings::default(), &|_| {}).expect("determined");
+    assert!((design.value / best - 1.0).abs() < 1e-9, "{} {best}", design.value);
+}
+
+/// Opposite faces give biases and scale factors, each edge one cross-axis sensitivity: nine equations for nine unknowns.
+#[test]
+fn a_fixture_with_just_enough_directions_is_not_refused() {
+    let Allowed::Of(mut list) = Allowed::cube(false, false) else { panic!("a list") };
+    let edges = [Vector3::new(1.0, 1.0, 0.0), Vector3::new(1.0, 0.0, 1.0), Vector3::new(0.0, 1.0, 1.0)];
+    list.extend(edges.iter().map(Vector3::normalize));
+    let problem =
+        PoseProblem { allowed: Allowed::Of(list.clone()), ..problem(DirectionKnowledge::Unknown, 9) };
+    let design = design_poses(&problem, &DesignSettings::default(), &|_| {}).expect("determined");
+    assert!(list.iter().all(|u| design.directions.contains(u)), "{:?}", design.directions);
+    let goals = [Goal { parameter: 3, sd: 1.0 }];
+    let found = fewest_poses(&problem, &goals, &DesignSettings::default(), &|_| {}).expect("reachable");
+    assert_eq!((found.at_least, found.design.directions.len()), (9, 9));
+}
+
+/// A vehicle that tilts by 10°, against poses by hand: upright and on the rim.
+#[test]
+fn small_tilts_are_enough_where_directions_are_known() {
+    let tilt = 10.0_f64.to_radians();
+    let allowed = Allowed::Near(vec![Vector3::z()], tilt);
+    let criterion = Criterion::A(AOptimality { scale: DVector::repeat(12, 1.0) });
+    let problem = PoseProblem { allowed, criterion, ..problem(KNOWN, 24) };
+    let rim = |k: usize| {
+        let (sin, cos) = (k as f64 * std::f64::consts::PI / 8.0).sin_cos();
+        Vector3::new(tilt.sin() * cos, tilt.sin() * sin, tilt.cos())
+    };
+    let by_hand: Vec<_> = (0..16).map(rim).chain([Vector3::z(); 8]).collect();
+    let by_hand = evaluate_poses(&problem, &by_hand, 1).expect("determined").value;
+    let design = design_poses(&problem, &DesignSettings::default(), &|_| {}).expect("determined");
+    assert!(design.value <= by_hand, "{} {by_hand}", design.value);
 }
 
 /// One hold with its direction as an explicit unknown, by dense elimination.

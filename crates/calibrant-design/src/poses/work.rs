@@ -2,7 +2,7 @@
 
 use super::fewest::MOST;
 use super::search::BEGINNING;
-use super::{Allowed, PoseProblem};
+use super::{Allowed, PoseProblem, exchange};
 use crate::DesignSettings;
 use calibrant_core::budget::Budget;
 
@@ -14,9 +14,13 @@ impl DesignSettings {
             Allowed::Of(list) => list.len(),
             _ => BEGINNING,
         };
+        let pairs = match &problem.allowed {
+            Allowed::Of(list) => exchange::pairs(problem.poses, list.len()) as f64,
+            _ => 0.0,
+        };
         let (starts, poses, directions) = (self.starts as f64, problem.poses as f64, directions as f64);
-        // measured, within a factor of two: the exchange of each pose for each direction, and their order
-        let seconds = 25e-6 * starts * poses * directions + 1.5e-7 * poses.powf(3.5);
+        // measured, within a factor of two: the exchange of each pose for each direction, of pairs twice or so, and their order
+        let seconds = starts * (25e-6 * poses * directions + 2e-5 * pairs) + 1.5e-7 * poses.powf(3.5);
         Budget { bytes: 1e3 * starts * poses + 1e4 * directions, seconds }
     }
 

@@ -29,8 +29,10 @@ pub struct Design {
     pub parameters: Vec<Parameter>,
     /// The best motion.
     pub optimal: Evaluation,
-    /// The motion that experience would choose.
+    /// The initial motion of the search: random, within a tenth of the limits, as in the thesis.
     pub initial: Evaluation,
+    /// The motion that an engineer would write: the best shuttle at the limits. `None` where the intervals or the limits leave no room for one.
+    pub shuttle: Option<Evaluation>,
     /// Every start, in order.
     pub starts: Vec<StartOutcome>,
     /// Iterations over all starts.
@@ -62,6 +64,24 @@ impl Design {
     #[must_use]
     pub fn gap(&self, value: f64, best: f64) -> f64 {
         self.criterion.gap(value - self.floor, best - self.floor)
+    }
+
+    /// The motion with which the best one is compared, and its name: the shuttle, or the random initial motion where there is no room for one.
+    #[must_use]
+    pub fn baseline(&self) -> (&'static str, &Evaluation) {
+        self.shuttle.as_ref().map_or(("random", &self.initial), |shuttle| ("shuttle", shuttle))
+    }
+
+    /// How many times the information of that motion the best one has: the number of its recordings that tell as much as one of the best. `None` where
+    /// either leaves parameters undetermined.
+    #[must_use]
+    pub fn information_over_baseline(&self) -> Option<f64> {
+        let (before, best) = (self.baseline().1.value, self.optimal.value);
+        let times = match self.criterion {
+            Criterion::D(_) => ((before - best) / self.parameters.len() as f64).exp(),
+            _ => (before - self.floor) / (best - self.floor),
+        };
+        times.is_finite().then_some(times)
     }
 
     /// Is the gap that was asked for proved? `None` where none was asked for.
@@ -99,8 +119,14 @@ json_object! {
         /// What the motion determines: the order of all lists of parameters.
         parameters: &of.parameters,
         optimal: &of.optimal,
-        /// The motion that experience would choose.
+        /// The initial motion of the search: random, within a tenth of the limits.
         initial: &of.initial,
+        /// The best shuttle at the limits, with which the design is compared; `null` where there is no room for one.
+        shuttle: &of.shuttle,
+        /// What the best motion is compared with: `shuttle`, or `random` where there is none.
+        baseline: of.baseline().0,
+        /// How many times the information of that motion the best one has.
+        information_over_baseline: of.information_over_baseline(),
         certificate: &of.certificate,
         /// The part of the criterion that no motion changes: that of gravity's tilt.
         floor: of.floor,

@@ -1,6 +1,7 @@
 //! What a user asks for: the best motion, the shortest one, a sweep, and what they take.
 
 mod shortest;
+mod shuttle;
 mod solve;
 mod sweep;
 mod trace_surface;

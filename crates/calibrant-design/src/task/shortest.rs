@@ -136,7 +136,7 @@ fn is_possible(problem: &DesignProblem<'_>, goals: &[Goal], settings: &DesignSet
 
 fn out_of_reach(problem: &DesignProblem<'_>, most: usize) -> Error {
     let message = format!(
-        "{most} intervals of {} s do not reach the standard deviations asked for",
+        "the best motion found of {most} intervals of {} s does not reach the standard deviations asked for",
         problem.interval_s
     );
     let help = "loosen the limits, choose criterion c with weights on these parameters, or ask for less";

@@ -1,5 +1,6 @@
 //! The design of the best motion: feasibility first, then the search, and the certificate beside it.
 
+use super::shuttle::best_shuttle;
 use crate::certificate::LowerBound;
 use crate::limits::{initial_motion, inside};
 use crate::local_search::SHORT;
@@ -61,6 +62,7 @@ pub fn design(
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let floor = problem.floor();
     let initial = evaluate(problem, &initial)?;
+    let shuttle = best_shuttle(problem, &limits)?;
     let optimal = evaluate(problem, &best)?;
     let certificate = bound.map(|bound| bound.certificate(&problem.criterion, optimal.value, floor));
     let interrupted = settings.interruption.is_asked();
@@ -70,6 +72,7 @@ pub fn design(
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         optimal,
         initial,
+        shuttle,
         iterations: found.starts.iter().map(|start| start.iterations).sum(),
         starts: found.starts,
         gap_goal: settings

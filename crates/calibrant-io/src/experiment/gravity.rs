@@ -1,4 +1,4 @@
-//! Gravity: its magnitude, or the latitude and the height that give it.
+//! Gravity: its magnitude, or the latitude and the height that give it. Without any of them it is that of somewhere on the Earth.
 
 use super::number::Within;
 use super::ranges::{GravitySd, Height, Latitude};
@@ -6,7 +6,7 @@ use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 
-/// Gravity, from the keys of this section: a magnitude with its standard uncertainty, or latitude and height. Beside
+/// Gravity, from the keys of this section: a magnitude with its standard uncertainty, or latitude and height, or the latitude alone. Beside
 /// a magnitude a latitude may serve for the Earth's rate.
 pub(super) fn gravity_of(
     section: &str,
@@ -29,12 +29,15 @@ pub(super) fn gravity_of(
         }
         (Some(_), _, Some(_)) => twice("height_m", ""),
         (Some(magnitude_mps2), _, None) => Ok(Gravity { magnitude_mps2, sd_mps2: sd.unwrap_or(0.0) }),
-        (None, Some(latitude), Some(height)) => {
-            let gravity = Gravity::from_latitude(latitude, height);
+        (None, None, Some(_)) => Err(missing(key("latitude_deg"), "height_m goes with latitude_deg")),
+        (None, None, None) if sd.is_some() => Err(missing(key("gravity_mps2"), HELP)),
+        (None, place, height) => {
+            let gravity = match (place, height) {
+                (Some(latitude), Some(height)) => Gravity::from_latitude(latitude, height),
+                (Some(latitude), None) => Gravity::at_latitude(latitude),
+                (None, _) => Gravity::SOMEWHERE,
+            };
             Ok(Gravity { sd_mps2: sd.unwrap_or(gravity.sd_mps2), ..gravity })
         }
-        (None, Some(_), None) => Err(missing(key("height_m"), "latitude_deg and height_m go together")),
-        (None, None, Some(_)) => Err(missing(key("latitude_deg"), "latitude_deg and height_m go together")),
-        (None, None, None) => Err(missing(key("gravity_mps2"), HELP)),
     }
 }

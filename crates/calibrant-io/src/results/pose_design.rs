@@ -48,6 +48,8 @@ json_object! {
         optimal: file.poses().value(),
         /// From 0 to 1: at least this share of the best possible.
         efficiency: file.design.efficiency(&file.problem.criterion),
+        /// Poses that an engineer would take without a design, where they are allowed.
+        usual: &file.design.usual,
         /// Number of starts of the search.
         starts: file.design.starts,
         /// Starts that ended within 0.1 % of the best.

@@ -1,9 +1,12 @@
 //! The data and the quality of a calibration, in words.
 
+use crate::gravity::{advice, known_to};
 use crate::number_format::{
     count, counted, missed_angle, probability, significant, with_sd, with_sd_or_exact,
 };
-use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, RecoveredMotion, TimeOffset};
+use calibrant_core::estimate::{
+    Calibration, FaceTilt, Recovered, RecoveredMotion, TimeOffset, UncertainGravity,
+};
 use calibrant_core::sensor::SensorKind;
 
 /// Below this, a probability counts as evidence against the model.
@@ -89,6 +92,19 @@ pub(super) fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
         )
     });
     latitude.into_iter().chain(tilt(calibration)).chain(clock(calibration)).collect()
+}
+
+/// The part of the gains' uncertainty that is gravity's, and what would make it smaller.
+pub(super) fn uncertain_gravity(calibration: &Calibration) -> Option<String> {
+    let UncertainGravity { gravity, parameter, sd, sd_without } = calibration.uncertain_gravity()?;
+    Some(format!(
+        "gravity is known to {} only, an error that all gains of the accelerometer share: it makes the standard deviation of {} {} in place of {}; {}",
+        known_to(&gravity),
+        parameter.name(),
+        significant(sd, 2),
+        significant(sd_without, 2),
+        advice(&gravity)
+    ))
 }
 
 /// The reference temperature, the polynomials and the temperatures of the holds; `None` without temperature terms.

@@ -1,6 +1,6 @@
 //! The verdict on a calibration: can it be used?
 
-use super::quality::{calibration_quality, used_in_words};
+use super::quality::{calibration_quality, uncertain_gravity, used_in_words};
 use crate::About;
 use crate::number_format::{capitalised, percent};
 use crate::sheet::{Grade, SheetVerdict};
@@ -70,7 +70,9 @@ fn sentence(calibration: &Calibration) -> String {
         quality if quality.is_empty() => String::new(),
         quality => capitalised(&quality) + ". ",
     };
-    format!("{sensors} from {}. {quality}{}.", used_in_words(calibration), gains(calibration))
+    let gravity =
+        uncertain_gravity(calibration).map_or_else(String::new, |words| format!(" {}.", capitalised(&words)));
+    format!("{sensors} from {}. {quality}{}.{gravity}", used_in_words(calibration), gains(calibration))
 }
 
 /// The relative standard deviation of each sensor's gains, on the worst axis.

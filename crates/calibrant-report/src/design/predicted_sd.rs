@@ -75,16 +75,17 @@ pub(crate) fn criterion_table(design: &Design) -> Table {
         let meaning = "No motion changes it, and the values below are above it.".to_string();
         row("share of the tilt", Cell::Number(significant(design.floor, 4)), meaning);
     }
-    row("initial motion", shown(design.initial.value), String::new());
-    let better = design.gap(design.initial.value, design.optimal.value);
+    let (name, before) = design.baseline();
+    row(name, shown(before.value), String::new());
+    let better = design.gap(before.value, design.optimal.value);
     let meaning = match better {
         _ if !better.is_finite() => String::new(),
-        _ if nats => format!("{} nats below the initial motion.", significant(better, 3)),
+        _ if nats => format!("{} nats below that of the {name} motion.", significant(better, 3)),
         _ if better < 0.5 => {
-            format!("The initial motion's value is {} higher.", percent(better))
+            format!("The value of the {name} motion is {} higher.", percent(better))
         }
         _ => {
-            format!("The initial motion's value is {} times as large.", significant(1.0 + better, 3))
+            format!("The value of the {name} motion is {} times as large.", significant(1.0 + better, 3))
         }
     };
     row("optimal motion", shown(design.optimal.value), meaning);

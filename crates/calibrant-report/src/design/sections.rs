@@ -13,37 +13,43 @@ use crate::sheet::{Section, Sheet};
 use calibrant_core::information::Criterion;
 use calibrant_design::{AT_BEST, Design, LimitUse};
 
-/// A design as a sheet: the certificate in words, the predicted standard deviations of initial and optimal motion,
+/// A design as a sheet: the certificate in words, the predicted standard deviations of a shuttle and of the optimal motion,
 /// the motions with their limits, confidence ellipses, correlations, and the starts of the search.
 #[must_use]
 pub fn design_sheet<'a>(design: &'a Design, about: &'a About) -> Sheet<'a> {
     let axes = axes(&design.parameters);
-    let (initial, optimal) = (("initial", &design.initial), ("optimal", &design.optimal));
+    let (before, optimal) = (design.baseline(), ("optimal", &design.optimal));
     let motion = motion_section(
         "The motion of the arm on each axis, with the limits that it keeps at all times.",
-        "Figure 8 of the thesis: initial against optimal jerk (a) and acceleration (b)",
-        vec![
-            Drawn::before("initial", &design.initial.motion),
-            Drawn::after("optimal", &design.optimal.motion),
-        ],
+        "Jerk (a) and acceleration (b), as in Figure 8 of the thesis",
+        vec![Drawn::before(before.0, &before.1.motion), Drawn::after("optimal", &design.optimal.motion)],
         axes,
         design.limits.clone(),
         (&uses(&design.limits, &design.parameters, &design.optimal.motion), "optimal motion"),
     );
-    let confidence = confidence_section(&design.parameters, initial, Some(optimal), &design.optimal);
+    let confidence = confidence_section(&design.parameters, before, Some(optimal), &design.optimal);
     let sections = vec![predicted(design), motion, confidence, search(design)];
     about.sheet("Design", verdict(design, about), sections, READINGS)
 }
 
 fn predicted(design: &Design) -> Section<'_> {
-    let mut section = Section::new("Predicted standard deviations").lead(
-        "Standard deviations that a calibration from a recording of the motion will state. The initial motion is what experience would \
-         choose: random, within a tenth of the limits.",
-    );
+    let before = design.baseline();
+    let what = match before.0 {
+        "shuttle" => {
+            "The shuttle is what an engineer would write: to and fro at full acceleration, with the ramps and the stroke that are best \
+             within the limits."
+        }
+        _ => {
+            "The random motion is within a tenth of the limits. These limits and intervals leave no room for a shuttle."
+        }
+    };
+    let mut section = Section::new("Predicted standard deviations").lead(format!(
+        "Standard deviations that a calibration from a recording of the motion will state. {what}"
+    ));
     section.line(values(design));
     section.table(promised_table(
         &design.parameters,
-        ("initial", &design.initial),
+        before,
         Some(("optimal", &design.optimal)),
         design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice()),
     ));
@@ -83,10 +89,11 @@ fn values(design: &Design) -> String {
     } else {
         String::new()
     };
+    let (name, before) = design.baseline();
     format!(
-        "{}: {} initial, {} optimal{above}",
+        "{}: {} {name}, {} optimal{above}",
         criterion_in_words(&design.criterion),
-        significant(design.initial.value - design.floor, 5),
+        significant(before.value - design.floor, 5),
         significant(design.optimal.value - design.floor, 5)
     )
 }

@@ -5,7 +5,7 @@ use super::limits::uses;
 use super::predicted_sd::times;
 use crate::About;
 use crate::figure::DisplayUnit;
-use crate::number_format::{percent, significant};
+use crate::number_format::{capitalised, percent, significant};
 use crate::sheet::{Grade, SheetVerdict};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::design::{SearchInterrupted, SearchNotConverged};
@@ -15,7 +15,7 @@ use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitKind,
 
 /// A standard deviation within this share of its lower bound counts as optimal.
 const PROVED: f64 = 0.01;
-/// An initial motion within this factor of the bound leaves nothing to gain.
+/// A motion within this factor of the bound leaves nothing to gain.
 const NOTHING_TO_GAIN: f64 = 1.02;
 /// Within this distance, the bound is still informative.
 const NEAR: f64 = 0.1;
@@ -103,10 +103,12 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
             excess => format!("{} times the bound", significant(1.0 + excess, 2)),
         }
     ));
-    if excess.len() > 1 {
+    if excess.len() < design.parameters.len() {
+        sentences.push("The parameters without a bound may be improved.".to_string());
+    } else if excess.len() > 1 {
         sentences.push("All other parameters are at least as near to their bounds.".to_string());
     }
-    let farthest = sd / least - 1.0;
+    let farthest = if excess.len() < design.parameters.len() { f64::INFINITY } else { sd / least - 1.0 };
     if farthest > PROVED {
         sentences.push(
             "The bound itself may be lower than any motion can reach (see below). A better motion need not exist."
@@ -151,18 +153,25 @@ fn tilt(design: &Design) -> Option<String> {
 }
 
 fn improvement(design: &Design) -> Option<String> {
-    if design.initial.covariance.is_none() {
-        return Some(
-            "The initial motion leaves parameters undetermined; this one determines them all.".to_string(),
-        );
-    }
-    let factors = design.parameters.iter().zip(design.initial.sd()).zip(design.optimal.sd());
+    let (name, before) = design.baseline();
+    let (the, a) = match name {
+        "shuttle" => ("the shuttle", "a shuttle at the limits"),
+        _ => ("the initial motion", "the initial motion, a random one"),
+    };
+    let Some(information) = design.information_over_baseline() else {
+        return Some(format!(
+            "{} leaves parameters undetermined; this one determines them all.",
+            capitalised(a)
+        ));
+    };
+    let factors = design.parameters.iter().zip(before.sd()).zip(design.optimal.sd());
     let factors: Vec<(&str, f64)> =
         factors.map(|((parameter, old), new)| (parameter.name.as_str(), old / new)).collect();
     let least = factors.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let most = factors.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let mut sentence = format!(
-        "Compared with the initial motion, standard deviations shrink by a factor of {} ({}) to {} ({}).",
+        "The motion has {} times the information of {a}: standard deviations shrink by a factor of {} ({}) to {} ({}).",
+        significant(information, 3),
         times(least.1).trim_end_matches(" ×"),
         least.0,
         times(most.1).trim_end_matches(" ×"),
@@ -172,14 +181,14 @@ fn improvement(design: &Design) -> Option<String> {
     let exhausted: Vec<&str> = bounds
         .into_iter()
         .flatten()
-        .zip(design.initial.sd())
+        .zip(before.sd())
         .zip(&factors)
-        .filter(|((bound, initial), _)| **bound > 0.0 && initial / **bound < NOTHING_TO_GAIN)
+        .filter(|((bound, before), _)| **bound > 0.0 && before / **bound < NOTHING_TO_GAIN)
         .map(|(_, factor)| factor.0)
         .collect();
     if !exhausted.is_empty() && exhausted.len() < factors.len() {
         sentence.push_str(&format!(
-            " No motion improves {}: the initial motion is already at the bound.",
+            " No motion improves {} by more than 2 %: {the} is already near the bound.",
             exhausted.join(", ")
         ));
     }

@@ -58,7 +58,7 @@ pub(crate) fn sweep_curves(sweep: &Sweep) -> Figure {
             ));
         }
         panel.log_x = ratio(&mut points.iter().map(|point| point.value)) > WIDE;
-        panel.when_empty = "no motion is possible at any of the values".to_string();
+        panel.when_empty = "no motion was designed at any of the values".to_string();
         panel.log_or_from_zero(ratio(&mut all()) > WIDE)
     };
     let panels: Vec<Panel> = kinds(&sweep.parameters).into_iter().map(&mut panel).collect();

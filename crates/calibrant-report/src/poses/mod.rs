@@ -6,14 +6,16 @@ pub use attitude::pose_in_words;
 
 use super::design::{criterion_explained, criterion_in_words, gap_in_words};
 use super::figure::{DisplayUnit, device, pose_directions};
+use super::gravity::{advice, known_to};
 use super::html::escape;
 use super::report_context::{About, READINGS};
-use crate::number_format::{counted, signed, significant};
+use crate::number_format::{capitalised, counted, signed, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Shown, Table};
 use attitude::Attitude;
+use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::ReadingUnit;
-use calibrant_design::poses::{PoseBound, PoseDesign, PoseEvaluation, PoseProblem};
-use nalgebra::{DVector, Vector3};
+use calibrant_design::poses::{PoseBound, PoseDesign, PoseEvaluation, PoseProblem, UsualPoses};
+use nalgebra::{DMatrix, Vector3};
 
 /// Efficiency from which on nothing is left to gain.
 const AS_GOOD_AS_ANY: f64 = 0.99;
@@ -30,11 +32,11 @@ pub fn pose_sheet<'a>(
 ) -> Sheet<'a> {
     let criterion = &problem.criterion;
     let efficiency = design.efficiency(criterion);
-    let word = if efficiency >= AS_GOOD_AS_ANY { "✓ As good as any." } else { "✓ Found." };
+    let word = if efficiency >= AS_GOOD_AS_ANY { "✓ As good as any, to 1 %." } else { "✓ Found." };
     let sentence = design_in_words(design, efficiency);
     let verdict =
         SheetVerdict::new(Grade::Good, word, sentence.clone()).with("Findings", about.findings.clone());
-    let mut predicted = predicted_section(&design.sd(), problem, unit, design.value, &design.bound);
+    let mut predicted = predicted_section(&design.covariance, problem, unit, design.value, &design.bound);
     predicted.line(format!(
         "{} of {} ended at this value (gap {}).",
         design.starts_at_best,
@@ -64,10 +66,17 @@ fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
     } else {
         (format!("The {poses} poses have"), format!("any {poses} allowed poses"))
     };
-    format!(
+    let mut sentence = format!(
         "{have} at least {} % of the information that {any} can have.",
         significant(100.0 * efficiency, 4)
-    )
+    );
+    for UsualPoses { name, information_over } in &design.usual {
+        sentence.push_str(&match information_over {
+            Some(times) => format!(" They have {} times the information of {name}.", significant(*times, 3)),
+            None => format!(" {} leave parameters undetermined.", capitalised(name)),
+        });
+    }
+    sentence
 }
 
 /// The evaluation of holds as a sheet: how efficient they were. `directions`: that of each hold.
@@ -80,11 +89,12 @@ pub fn pose_evaluation_sheet<'a>(
     about: &'a About,
 ) -> Sheet<'a> {
     let (grade, word) = match evaluation.efficiency {
-        efficiency if efficiency >= AS_GOOD_AS_ANY => (Grade::Good, "✓ As good as any."),
+        efficiency if efficiency >= AS_GOOD_AS_ANY => (Grade::Good, "✓ As good as any, to 1 %."),
         efficiency if efficiency >= WORTH_CHANGING => (Grade::Good, "✓ Good poses."),
-        _ => (Grade::Caution, "! Better poses exist."),
+        _ => (Grade::Caution, "! Better poses may exist."),
     };
-    let predicted = predicted_section(&evaluation.sd(), problem, unit, evaluation.value, &evaluation.bound);
+    let predicted =
+        predicted_section(&evaluation.covariance, problem, unit, evaluation.value, &evaluation.bound);
     let verdict = SheetVerdict::new(grade, word, evaluation_in_words(evaluation, directions.len()));
     let sections = vec![predicted, direction_section(directions, &evaluation.bound)];
     about.sheet("Evaluation of poses", verdict, sections, READINGS)
@@ -95,7 +105,7 @@ fn evaluation_in_words(evaluation: &PoseEvaluation, holds: usize) -> String {
     let efficiency = evaluation.efficiency;
     let more = if efficiency < AS_GOOD_AS_ANY {
         format!(
-            " {} recordings in these directions tell as much as one in the best.",
+            " At most {} recordings in these directions tell as much as one in the best.",
             significant(1.0 / efficiency, 3)
         )
     } else {
@@ -142,9 +152,9 @@ fn pose_table(directions: &[Vector3<f64>]) -> Table {
     table
 }
 
-/// The standard deviations, and what they are compared by. The criterion has this value.
+/// The standard deviations from this covariance, and what they are compared by. The criterion has this value.
 fn predicted_section<'a>(
-    sd: &DVector<f64>,
+    covariance: &DMatrix<f64>,
     problem: &PoseProblem,
     unit: ReadingUnit,
     value: f64,
@@ -161,7 +171,16 @@ fn predicted_section<'a>(
         significant(value, 5),
         significant(bound.value, 5)
     ));
-    section.table(predicted(problem, sd, unit));
+    section.table(predicted(problem, covariance, unit));
+    if !problem.gravity_is_given() {
+        let gravity =
+            Gravity { magnitude_mps2: problem.gravity_mps2, sd_mps2: problem.nuisance.gravity_sd_mps2 };
+        section.line(format!(
+            "gravity is not given: all scale factors share its error of {}, which no pose changes; {}",
+            known_to(&gravity),
+            advice(&gravity)
+        ));
+    }
     section.explanation(format!("The poses are compared by {}.", criterion_explained(criterion)));
     section
 }
@@ -179,19 +198,23 @@ fn direction_section<'a>(directions: &'a [Vector3<f64>], bound: &'a PoseBound) -
     section
 }
 
-fn predicted(problem: &PoseProblem, sd: &DVector<f64>, reading: ReadingUnit) -> Table {
+fn predicted(problem: &PoseProblem, covariance: &DMatrix<f64>, reading: ReadingUnit) -> Table {
     let before = problem.covariance_before();
+    let beside = (!problem.gravity_is_given()).then(|| problem.sd_beside_gravity(covariance));
     let mut columns: Vec<Column> = vec!["parameter".into(), "unit".into()];
     match before {
         Some(_) => columns.extend(["sd before".into(), "sd then".into()]),
         None => columns.push("predicted sd".into()),
     }
+    columns.extend(beside.as_ref().map(|_| "beside gravity".into()));
     let mut table = Table::new(columns);
-    for (k, (quantity, sd)) in problem.list.quantities().iter().zip(sd.iter()).enumerate() {
-        let unit = DisplayUnit::suited_to(quantity.unit(reading), [*sd]);
+    for (k, quantity) in problem.list.quantities().iter().enumerate() {
+        let sd = covariance[(k, k)].sqrt();
+        let unit = DisplayUnit::suited_to(quantity.unit(reading), [sd]);
         let mut row = vec![Cell::name(quantity.name()), unit.cell(quantity.unit(reading))];
         row.extend(before.as_ref().map(|before| Cell::sd(before[(k, k)].sqrt(), unit.factor)));
-        row.push(Cell::sd(*sd, unit.factor));
+        row.push(Cell::sd(sd, unit.factor));
+        row.extend(beside.as_ref().map(|beside| Cell::sd(beside[k], unit.factor)));
         table.row(row);
     }
     table

@@ -201,7 +201,8 @@ fn a_sweep_shows_every_value_and_why_some_have_no_design() {
     let html = sweep_sheet(&nothing, &about()).html();
     assert_sound(&html);
     assert!(
-        html.contains("No motion is possible") && html.contains("no motion is possible at any of the values")
+        html.contains("No motion was designed")
+            && html.contains("no motion was designed at any of the values")
     );
     assert_sound(&sweep_sheet(&Sweep { points: Vec::new(), ..sweep }, &about()).html());
 }

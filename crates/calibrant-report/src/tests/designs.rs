@@ -102,6 +102,7 @@ pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
         criterion: problem.criterion.clone(),
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         initial,
+        shuttle: Some(swing(problem, [1.0, 1.5, 2.0])),
         limits,
         floor: 0.0,
         floor_sd: Vec::new(),

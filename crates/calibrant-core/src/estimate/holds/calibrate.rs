@@ -77,7 +77,7 @@ fn assemble(
     let mut covariance = robust.covariance.clone();
     let quantities = list.of_accelerometer();
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
-    let slope = gravity_slope(&quantities, &imu, &g);
+    let slope = gravity_slope(&quantities, &[], &imu, &g);
     covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
 
     let results: Vec<HoldResult> = holds

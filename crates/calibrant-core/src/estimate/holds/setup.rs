@@ -29,7 +29,7 @@ impl HoldsSetup {
 impl Default for HoldsSetup {
     fn default() -> Self {
         Self {
-            gravity: Gravity { magnitude_mps2: 9.806_65, sd_mps2: 0.0 },
+            gravity: Gravity::SOMEWHERE,
             gauge: Gauge::Upper,
             intervals_s: None,
             bias_drift_sd_mps2: Self::USUAL_DRIFT_SD_MPS2,

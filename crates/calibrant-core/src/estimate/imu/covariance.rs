@@ -45,7 +45,7 @@ impl Uncertainty {
             })
             .collect();
         // the uncertainty of gravity
-        let slope = gravity_slope(&model.quantities, imu, g);
+        let slope = gravity_slope(&model.quantities, &prior_share, imu, g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
         for slope in drifts {
             covariance += &slope * slope.transpose();

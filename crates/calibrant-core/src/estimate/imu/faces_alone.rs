@@ -81,7 +81,7 @@ fn solved(
     }
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
     let quantities = list.of_accelerometer();
-    let slope = gravity_slope(&quantities, &imu, &problem.holds.gravity);
+    let slope = gravity_slope(&quantities, &[], &imu, &problem.holds.gravity);
     covariance += &slope * slope.transpose() * problem.holds.gravity.sd_mps2.powi(2);
     let off = &values - &prior.mean;
     let (mut chi2, mut squares) = (off.component_mul(&off).dot(&prior.weight), Vector3::zeros());

@@ -172,7 +172,8 @@ fn inverse_hold_s(holds: &HoldCalibration) -> f64 {
 /// The covariance without the uncertainty that gravity and latitude have in common here and there.
 fn without_place(calibration: &Calibration, holds: &HoldCalibration, setup: &ImuSetup) -> DMatrix<f64> {
     let Calibration { covariance, quantities, imu, prior_share, .. } = calibration;
-    let covariance = recentred(covariance, quantities, imu, &holds.gravity, &setup.holds.gravity);
+    let covariance =
+        recentred(covariance, (quantities, prior_share), imu, &holds.gravity, &setup.holds.gravity);
     let Some(gyroscope) = &calibration.gyroscope else { return covariance };
     match (&gyroscope.of_vertical, setup.latitude_deg) {
         (Some(slope), None) => covariance - slope * slope.transpose(),
@@ -188,12 +189,12 @@ fn without_place(calibration: &Calibration, holds: &HoldCalibration, setup: &Imu
 /// gravity looks like one of the scale factors.
 fn recentred(
     covariance: &DMatrix<f64>,
-    quantities: &[ImuQuantity],
+    (quantities, prior_share): (&[ImuQuantity], &[f64]),
     imu: &ImuParameters,
     calibrated: &Gravity,
     now: &Gravity,
 ) -> DMatrix<f64> {
     let variance = if calibrated == now { -now.sd_mps2.powi(2) } else { now.sd_mps2.powi(2) };
-    let slope = gravity_slope(quantities, imu, calibrated);
+    let slope = gravity_slope(quantities, prior_share, imu, calibrated);
     covariance + &slope * slope.transpose() * variance
 }

@@ -43,13 +43,12 @@ fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
                 let lines = text.lines().enumerate().map(|(i, line)| if i == at { key } else { line });
                 Experiment::parse(&lines.collect::<Vec<_>>().join("\n"), None)
             };
-            // latitude and height replace gravity and go together: no line is good alone, but the latitude of
-            // an IMU
-            let alone = |key: &str| key.starts_with("latitude") && name.starts_with("imu");
+            // a height belongs to a latitude, an uncertainty to a value
+            let alone = !key.starts_with("height_m") && !key.starts_with("gravity_sd_mps2");
             match with(key) {
-                Ok(_) => assert!(alone(key) || !key.starts_with("latitude") && !key.starts_with("height")),
+                Ok(_) => assert!(alone, "{name}: {key}"),
                 Err(error) => {
-                    assert!(error.to_string().contains("gravity is given twice"), "{name}: {key}: {error}")
+                    assert!(!alone && error.to_string().contains("is missing"), "{name}: {key}: {error}")
                 }
             }
         }
@@ -117,7 +116,8 @@ fn static_presets_are_for_si_and_for_counts() {
         (counts.sensor.unit, counts.sensor.gain, counts.sensor.offset),
         (ReadingUnit::Counts, None, None)
     );
-    assert_eq!(gravity(&counts), Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 });
+    // no preset contains a value that nobody gave
+    assert_eq!(gravity(&counts), Gravity::SOMEWHERE);
     assert_eq!(holds(&counts).gauge, Gauge::Upper);
 }
 
@@ -131,19 +131,22 @@ fn gravity_comes_from_latitude_and_height() {
     assert_eq!(gravity(&experiment), Gravity::from_latitude(52.2, 30.0));
     let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\nheight_m = 30\ngravity_sd_mps2 = 1e-3\n"));
     assert_eq!(gravity(&experiment).sd_mps2, 1e-3);
+    let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\n"));
+    assert_eq!(gravity(&experiment), Gravity::at_latitude(52.2));
+    assert_eq!(gravity(&parse(HOLDS)), Gravity::SOMEWHERE);
 }
 
 #[test]
 fn a_latitude_beside_the_gravity_of_an_imu_is_for_the_rate_of_the_earth() {
     let imu = preset("imu").expect("known");
-    let gravity = "gravity_mps2 = 9.80665 ";
-    let experiment = parse(&imu.replace(gravity, &format!("latitude_deg = -33.9\n{gravity}")));
+    let (commented, gravity) = ("# gravity_mps2 = 9.80665 ", "gravity_mps2 = 9.80665 ");
+    let experiment = parse(&imu.replace(commented, &format!("latitude_deg = -33.9\n{gravity}")));
     let plan = holds(&experiment);
     assert_eq!(plan.gravity().expect("given").magnitude_mps2, 9.80665);
     let setup = experiment.imu.as_ref().expect("an IMU").setup(plan).expect("valid");
     assert_eq!(setup.latitude_deg, Some(-33.9));
     // the height is unused there
-    let both = imu.replace(gravity, &format!("height_m = 30.0\nlatitude_deg = -33.9\n{gravity}"));
+    let both = imu.replace(commented, &format!("height_m = 30.0\nlatitude_deg = -33.9\n{gravity}"));
     let error = Experiment::parse(&both, None).expect_err("twice").to_string();
     assert!(error.contains("`holds.height_m`: gravity is given twice"), "{error}");
     assert!(error.contains("latitude_deg alone may stand beside it, for the Earth's rate"), "{error}");

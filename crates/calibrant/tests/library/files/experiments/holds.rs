@@ -16,18 +16,13 @@ pub(super) const CASES: &[Case] = &[
     ),
     (
         "gravity_mps2 = 9.81⏎",
-        "",
+        "gravity_sd_mps2 = 1e-3⏎",
         "line 9, column 1: `holds.gravity_mps2`: this required key is missing (give gravity_mps2, or latitude_deg and height_m)",
     ),
     (
         "gravity_mps2 = 9.81",
-        "latitude_deg = 52.2",
-        "line 9, column 1: `holds.height_m`: this required key is missing (latitude_deg and height_m go together)",
-    ),
-    (
-        "gravity_mps2 = 9.81",
         "height_m = 52.2",
-        "line 9, column 1: `holds.latitude_deg`: this required key is missing (latitude_deg and height_m go together)",
+        "line 9, column 1: `holds.latitude_deg`: this required key is missing (height_m goes with latitude_deg)",
     ),
     (
         "gravity_mps2 = 9.81",

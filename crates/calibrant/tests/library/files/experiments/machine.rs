@@ -26,7 +26,7 @@ fn setup(text: &str) -> MachineSetup {
 #[test]
 fn what_is_not_said_is_as_the_estimator_expects() {
     assert_eq!(setup(LEAST), MachineSetup { gravity_mps2: 9.81, ..MachineSetup::default() });
-    let text = preset("arm").expect("known").replace("gravity_mps2 = 9.80665", "gravity_mps2 = 9.81");
+    let text = preset("arm").expect("known").replace("# gravity_mps2 = 9.80665", "gravity_mps2 = 9.81");
     assert_eq!(setup(&text), setup(LEAST), "the preset states the defaults");
 }
 
