@@ -29,10 +29,10 @@ struct Simulated {
 }
 
 impl Simulated {
-    /// In a hand, or on a chain, for half a minute.
+    /// In a hand, or on a chain, for a third of a minute.
     fn new(chain: Option<KinematicChain>, setup: MachineSetup, errors: &LogErrors) -> Self {
         let mut rng = stream(3, Purpose::Motion, 0);
-        let wanted = MotionToDraw { duration_s: 30.0, rest_s: 1.0, acceleration: 5.0, knot_step_s: None };
+        let wanted = MotionToDraw { duration_s: 20.0, rest_s: 1.0, acceleration: 5.0, knot_step_s: None };
         let motion = match &chain {
             Some(chain) => draw_joint_motion(chain, &wanted, &mut rng),
             None => draw_body_motion(&wanted, &mut rng),
@@ -40,7 +40,7 @@ impl Simulated {
         let joints = chain.as_ref().map_or(0, |chain| chain.joints.len());
         let imu = ImuParameters::identity();
         let truth = draw_machine(&setup, imu, &SensorKind::ALL, joints, &mut rng).parameters;
-        let sampling = SensorSampling { start_s: 0.2, samples: 2960, rate_hz: 100.0 };
+        let sampling = SensorSampling { start_s: 0.2, samples: 1960, rate_hz: 100.0 };
         let sensors = [
             (SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.02),
             (SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 2e-3),

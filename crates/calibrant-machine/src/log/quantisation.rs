@@ -1,9 +1,11 @@
 //! The step in which an encoder, or the decimals of a file, round the values of a log.
 
-/// Fewest changes that tell a step.
+/// Changes that tell a step: the smallest ones, since over many steps the rounding of decimals adds up.
 const FEWEST: usize = 50;
-/// Changes of fewer steps than this are compared with whole numbers of them: over more, the rounding of decimals adds up.
-const LARGEST_MULTIPLE: f64 = 30.0;
+/// All changes of fewer steps than this are looked at,
+const SMALL: f64 = 30.0;
+/// and none of more.
+const LARGEST: f64 = 1e5;
 /// A change is a multiple of the step where it is this near to one, in steps.
 const TOLERANCE: f64 = 0.05;
 /// Share of the changes that are multiples where values have steps. Of other values a tenth is, by chance.
@@ -25,8 +27,10 @@ pub fn step_of(values: impl IntoIterator<Item = f64>) -> f64 {
     let changes: Vec<f64> =
         finite.array_windows().map(|[one, next]| (next - one).abs()).filter(|change| *change > 0.0).collect();
     let step = changes.iter().copied().fold(f64::INFINITY, f64::min);
-    let near: Vec<f64> =
-        changes.iter().map(|change| change / step).filter(|n| *n < LARGEST_MULTIPLE).collect();
+    let mut ratios: Vec<f64> = changes.iter().map(|change| change / step).collect();
+    ratios.sort_by(f64::total_cmp);
+    let farthest = ratios.get(FEWEST - 1).map_or(0.0, |ratio| ratio.clamp(SMALL, LARGEST));
+    let near = &ratios[..ratios.partition_point(|ratio| *ratio <= farthest)];
     let multiples = near.iter().filter(|n| (**n - n.round()).abs() < TOLERANCE).count();
     let has_steps = near.len() >= FEWEST && multiples as f64 >= MULTIPLES * near.len() as f64;
     if has_steps { step } else { 0.0 }

@@ -16,14 +16,17 @@ const SAMPLES: usize = 4;
 /// A control point needs this number of samples, or some are held by nothing.
 const HOLDING: f64 = 2.0;
 
+/// Knots that are hardly nearer do not help.
+const NEARER: f64 = 0.75;
+
 /// Model and state with knots half as far apart; `None` where nothing would hold so many control points.
 pub(crate) fn refined<'a>(model: &Model<'a>, state: &State) -> Option<(Model<'a>, State)> {
     let knots = state.motion.knots();
-    let step_s = 0.5 * knots.step_s;
-    if model.trust == MachineTrust::Known || step_s < HOLDING * holding_step_s(model) {
+    let step_s = (0.5 * knots.step_s).max(HOLDING * holding_step_s(model));
+    if model.trust == MachineTrust::Known || step_s > NEARER * knots.step_s {
         return None;
     }
-    let finer = UniformKnots { step_s, intervals: 2 * knots.intervals, ..knots };
+    let finer = UniformKnots::covering(knots.start_s, knots.end_s(), step_s, knots.degree);
     let chain = match &state.motion {
         Motion::Joints(joints) => Some(&joints.chain),
         Motion::Poses(_) => None,

@@ -5,7 +5,7 @@
 
 use super::knot_choice::{Candidate, candidate};
 use crate::chain::KinematicChain;
-use crate::estimate::MachineProblem;
+use crate::estimate::{MachineProblem, MachineSetup};
 use crate::log::{PoseLog, ReferenceLog};
 use calibrant_core::diagnostic::machine::{JointReversed, PosesOtherwise};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
@@ -31,12 +31,17 @@ pub(crate) fn suspect(problem: &MachineProblem<'_>) -> Option<Diagnostic> {
         ReferenceLog::Joints(_) => reversed(problem.chain?)
             .map(|(found, chain)| (found, score(&MachineProblem { chain: Some(&chain), ..*problem })))
             .collect(),
-        ReferenceLog::Poses(log) => conventions()
-            .map(|(found, turned, placed)| {
+        ReferenceLog::Poses(log) => {
+            let convention = |(found, turned, placed): (Diagnostic, Turned, Placed)| {
                 let log = ReferenceLog::Poses(otherwise(log, &turned, &placed));
                 (found, score(&MachineProblem { log: &log, ..*problem }))
-            })
-            .collect(),
+            };
+            let upwards = |(found, setup): (Diagnostic, MachineSetup)| {
+                (found, score(&MachineProblem { setup: &setup, ..*problem }))
+            };
+            // of two that fit alike, the simpler one stands first
+            other_directions_up(problem.setup).map(upwards).chain(conventions().map(convention)).collect()
+        }
     };
     let (found, least) = tried
         .into_iter()
@@ -51,6 +56,20 @@ fn reversed(chain: &KinematicChain) -> impl Iterator<Item = (Diagnostic, Kinemat
         let mut chain = chain.clone();
         chain.joints[j].axis = Unit::new_unchecked(-joint.axis.into_inner());
         (JointReversed { joint: joint.name.clone() }.into(), chain)
+    })
+}
+
+/// The other axes of the world as the direction up.
+fn other_directions_up(setup: &MachineSetup) -> impl Iterator<Item = (Diagnostic, MachineSetup)> + '_ {
+    let directions = Axis::ALL.into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]);
+    directions.filter_map(|(axis, sign)| {
+        let mut up = Vector3::zeros();
+        up[axis.index()] = sign;
+        let words = format!("`up` in [machine] is \"{}{axis}\"", if sign < 0.0 { "-" } else { "" });
+        let is_other = up.dot(&setup.up.normalize()) < 0.7;
+        is_other.then(|| {
+            (PosesOtherwise { convention: Phrase(words) }.into(), MachineSetup { up, ..setup.clone() })
+        })
     })
 }
 

@@ -27,7 +27,7 @@ pub(crate) const REFUSED: f64 = 10.0;
 /// From this factor on, nine tenths of a variance are of errors that the model does not have.
 const UNDERMODELLED: f64 = 3.0;
 /// Largest usual share of outliers in the log.
-const OUTLIERS: f64 = 1e-3;
+pub(crate) const OUTLIERS: f64 = 1e-3;
 /// Least usual share of the sensor's samples that are used.
 const USED: f64 = 0.95;
 
