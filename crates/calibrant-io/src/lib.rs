@@ -78,7 +78,7 @@ pub use recording::{
 };
 pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,
-    read_reference_log, write_joint_log, write_pose_log,
+    read_reference_log, unusable_log, write_joint_log, write_pose_log,
 };
 pub use results::batch::{BatchEntry, calibrations_json};
 pub use results::calibration::CalibrationFile;

@@ -1,6 +1,7 @@
 //! Checks of a sensor on a machine.
 
 use super::check::checks;
+use super::parts::Phrase;
 use crate::number_format::{counted, significant};
 use crate::sensor::SensorKind;
 
@@ -24,7 +25,7 @@ checks! {
 
     /// Residuals are correlated in time, as with a tracker's error. The stated standard deviations take it
     /// into account.
-    ResidualsCorrelated "residuals-correlated" Warning {
+    ResidualsCorrelated "residuals-correlated" Note {
         /// The parameter that it widens most.
         parameter: String,
         /// The factor of its standard deviation.
@@ -35,6 +36,23 @@ checks! {
     says format!(
         "the residuals are correlated in time, and standard deviations are wider by this: that of {parameter} by a \
          factor of {factor:.1}. Look at the spectrum of the residuals."
+    );
+
+    /// The errors of the reference are mostly not noise, and the model does not have them. How uncertain the result is
+    /// hangs on a few blocks of time.
+    ReferenceUndermodelled "reference-undermodelled" Warning {
+        /// The parameter that it widens most.
+        parameter: String,
+        /// The factor of its standard deviation.
+        factor: f64,
+    }
+    decided "Correlation of the residuals widens the standard deviation of a parameter of the sensor by more than a factor \
+        of three: the reference's errors are ten times as much as noise would be."
+    remedy "Look at the spectrum of the residuals in the report. Model what moves, or improve the reference."
+    says format!(
+        "most of the uncertainty of {parameter} is from errors of the reference that are no noise: its standard deviation \
+         is {factor:.1} times that of noise alone. Look at the spectrum of the residuals, model what moves, or improve \
+         the reference."
     );
 
     /// The data contradict what was known of the machine beforehand.
@@ -50,6 +68,49 @@ checks! {
     says format!(
         "{parameter} is {deviations:.1} prior standard deviations from what was expected. Correct the nominal value or \
          its standard deviation in [machine]."
+    );
+
+    /// The data refute what was known of the machine beforehand: the result is of another machine or mount than the
+    /// one that is described.
+    PriorRefuted "prior-refuted" Error {
+        /// The quantity.
+        parameter: String,
+        /// Its distance from what was expected, in prior standard deviations.
+        deviations: f64,
+    }
+    decided "A quantity is more than thirty of its prior standard deviations from what was expected."
+    remedy "Correct the nominal value in [machine]. Check the urdf, the mount, the direction up and the clocks."
+    says format!(
+        "{parameter} is {deviations:.0} prior standard deviations from what was expected: the machine is not the one \
+         that [machine] describes. Correct the nominal value. Check the urdf, the mount, the direction up and the clocks."
+    );
+
+    /// Recording and log fit where a joint counts the other way.
+    JointReversed "joint-reversed" Error {
+        /// The joint.
+        joint: String,
+    }
+    decided "Recording and log contradict each other, and with the axis of the joint reversed the residuals are less \
+        than half as large."
+    remedy "Reverse the axis of the joint in the URDF, or the sign of its column in the log."
+    says format!(
+        "recording and log fit if the joint {joint} turns or slides the other way. Reverse its axis in the URDF, or the \
+         sign of its column in the log."
+    );
+
+    /// Recording and log fit where the poses are of another convention.
+    PosesOtherwise "poses-otherwise" Error {
+        /// The convention, in words.
+        convention: Phrase,
+    }
+    decided "Recording and log contradict each other, and with the poses in one of the usual other conventions the \
+        residuals are less than half as large."
+    remedy "Write the poses as x, y, z of the body in the world, and the quaternion that turns its axes into the \
+        world's, with names of the columns."
+    says format!(
+        "recording and poses fit if {}. A log has the position of the body in a right-handed world, and the quaternion \
+         that turns its axes into the world's.",
+        convention.0
     );
 
     /// The poses of a log are interpolated. The measured ones take their place.

@@ -18,6 +18,7 @@ pub mod files;
 pub mod fit;
 pub mod gyroscope;
 pub mod holds;
+pub mod log;
 pub mod machine;
 pub mod motion;
 pub mod noise;

@@ -3,11 +3,11 @@
 use super::code::Code;
 use super::{
     acceptance, change, comparison, convention, correction, datasheet, design, faces, files, fit, gyroscope,
-    holds, machine, motion, noise, reader, samples, settings, simulation, turns, validation,
+    holds, log, machine, motion, noise, reader, samples, settings, simulation, turns, validation,
 };
 
 /// The codes of all areas.
-const AREAS: [&[Code]; 21] = [
+const AREAS: [&[Code]; 22] = [
     settings::CODES,
     samples::CODES,
     holds::CODES,
@@ -15,6 +15,7 @@ const AREAS: [&[Code]; 21] = [
     turns::CODES,
     gyroscope::CODES,
     motion::CODES,
+    log::CODES,
     machine::CODES,
     fit::CODES,
     datasheet::CODES,

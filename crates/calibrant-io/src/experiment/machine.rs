@@ -157,6 +157,7 @@ impl MachinePlan {
             tilt_sd_rad: self.tilt_sd_deg.map_or(usual.tilt_sd_rad, |tilt| tilt.get().to_radians()),
             knot_step_s: self.log.knot_step_s.map(f64::from),
             reference_noise: self.log.noise_of(self.has_joints(), joints)?,
+            known: imu.map_or_else(Vec::new, |imu| imu.known.clone()),
             ..usual
         };
         self.mount.add_to(&mut known)?;

@@ -287,17 +287,13 @@ impl ExperimentFile {
 
     /// On a machine nothing is read that only a calibration by holds needs.
     fn imu_on_a_machine(&self, gyroscope: &GyroscopeSection) -> Result<ImuPlan> {
-        for (section, is_there) in
-            [("known", self.known.is_some()), ("temperature", self.temperature.is_some())]
-        {
-            if is_there {
-                let message = format!("[{section}] is not read with [machine]");
-                return Err(refused(section, message, "take it out"));
-            }
+        if self.temperature.is_some() {
+            let message = "[temperature] is not read with [machine]";
+            return Err(refused("temperature", message, "take it out"));
         }
         match gyroscope.turn_keys().into_iter().find_map(|(key, is_there)| is_there.then_some(key)) {
             Some(key) => Err(refused(key, "turns are not read with [machine]", "take this key out")),
-            None => gyroscope.plan(None, None),
+            None => gyroscope.plan(self.known.as_ref(), None),
         }
     }
 }

@@ -9,6 +9,8 @@ use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
 pub struct ReferenceLogFile {
     /// The samples: times in s that do not decrease, positions in rad and m.
     pub log: ReferenceLog,
+    /// Is the unit of each joint's column that of an angle? `None` where nothing says it.
+    pub turns: Vec<Option<bool>>,
     /// The format, as recognised.
     pub format: ReferenceFormat,
     /// What was noticed.

@@ -61,6 +61,16 @@ impl ReferenceLogFile {
         let times = ("t_s", log.times_s().to_vec(), 1);
         let all = std::iter::once(&times).chain(&lists);
         let sha256 = hex_of_lists(all.map(|(name, values, _)| (*name, values.iter().copied())));
-        Ok(Self { log, format, findings: Vec::new(), rows, sha256, counted_from_ns: None })
+        let mut file = Self {
+            log,
+            turns: Vec::new(),
+            format,
+            findings: Vec::new(),
+            rows,
+            sha256,
+            counted_from_ns: None,
+        };
+        file.turns = vec![None; file.joints().map_or(0, |log| log.names.len())];
+        Ok(file)
     }
 }

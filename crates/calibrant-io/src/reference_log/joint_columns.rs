@@ -8,6 +8,8 @@ pub(super) struct JointColumn {
     /// The name of the joint.
     pub(super) joint: String,
     pub(super) is_velocity: bool,
+    /// Is its unit that of an angle?
+    pub(super) turns: bool,
     /// The factor to rad, m, rad/s or m/s.
     pub(super) factor: f64,
 }
@@ -37,7 +39,7 @@ pub(super) fn joint_column(name: &str) -> Option<JointColumn> {
     let name = name.trim();
     // `elbow [deg]` says the same as `elbow_deg`
     let bracket = name.strip_suffix([']', ')']).and_then(|name| name.rsplit_once(['[', '(']));
-    let (base, is_velocity, factor) = ENDINGS.iter().find_map(|&(ending, is_velocity, factor)| {
+    let (base, is_velocity, factor, turns) = ENDINGS.iter().find_map(|&(ending, is_velocity, factor)| {
         let base = match bracket {
             Some((base, unit)) => unit.trim().eq_ignore_ascii_case(ending).then_some(base.trim_end()),
             None => {
@@ -45,12 +47,12 @@ pub(super) fn joint_column(name: &str) -> Option<JointColumn> {
                 if end.eq_ignore_ascii_case(ending) { base.strip_suffix('_') } else { None }
             }
         }?;
-        Some((base, is_velocity, factor))
+        Some((base, is_velocity, factor, ending.starts_with(['r', 'd'])))
     })?;
     let words: &[&str] =
         if is_velocity { &["_velocity", "_vel", ".velocity"] } else { &["_position", "_pos", ".position"] };
     let joint = words.iter().find_map(|word| base.strip_suffix(word)).unwrap_or(base);
-    (!joint.is_empty()).then(|| JointColumn { joint: joint.to_owned(), is_velocity, factor })
+    (!joint.is_empty()).then(|| JointColumn { joint: joint.to_owned(), is_velocity, turns, factor })
 }
 
 /// The number of a column of RTDE, `actual_q_3` or `actual_qd_3`, and whether it is a velocity.
@@ -83,7 +85,8 @@ mod tests {
             ("rail_m_s", "rail", true, 1.0),
             ("arm_1_m_rad", "arm_1_m", false, 1.0),
         ] {
-            let expected = JointColumn { joint: joint.to_owned(), is_velocity, factor };
+            let turns = !name.contains("rail");
+            let expected = JointColumn { joint: joint.to_owned(), is_velocity, turns, factor };
             assert_eq!(joint_column(name), Some(expected), "{name}");
         }
         for name in ["t_s", "t_ms", "elbow", "_rad", "rad", "m", "é", "", "[m]", "actual_q_0", "arm"] {

@@ -1,10 +1,12 @@
 //! Makes a log of the values of a file: times in seconds, poses or positions of joints, and findings.
 
+use super::angles::unwrap_angles;
 use super::content::Content;
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
+use super::held_rows::leave_out_held;
 use super::pose_columns::VALUES;
-use super::quaternion::orientation;
+use super::quaternion::{ROUNDED, orientation};
 use super::rows::Rows;
 use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
@@ -12,6 +14,7 @@ use crate::recording::tally::Tally;
 use crate::recording::{TimeUnit, recording_quality};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::log::QuaternionNorm;
 use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, ValuesMissing};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::rate_hz;
@@ -48,23 +51,27 @@ pub(super) fn assemble(
         }
     }
     let times_s: Vec<f64> = kept.iter().map(|&row| rows.times[row]).collect();
-    let log = match content {
-        Content::Poses => ReferenceLog::Poses(poses(times_s, &kept, &rows)?),
-        Content::Joints { names, has_velocities } => {
+    let (mut log, turns) = match content {
+        Content::Poses => (ReferenceLog::Poses(poses(times_s, &kept, &rows, &mut findings)?), Vec::new()),
+        Content::Joints { names, turns, has_velocities } => {
             let joints = names.len();
             let positions = kept.iter().flat_map(|&row| &value(row)[..joints]).copied().collect();
             let velocities =
                 has_velocities.then(|| kept.iter().flat_map(|&row| &value(row)[joints..]).copied().collect());
-            ReferenceLog::Joints(JointLog { names, times_s, positions, velocities })
+            let mut log = JointLog { names, times_s, positions, velocities };
+            findings.extend(unwrap_angles(&mut log, &turns));
+            (ReferenceLog::Joints(log), turns)
         }
     };
     check_seen(&log, &rows)?;
+    findings.extend(leave_out_held(&mut log));
     if rows.truncated.is_some() {
         findings.push(Diagnostic::from(LineTruncated {}).at_line(rows.truncated));
     }
     sampling(&kept, &rows, &mut findings);
     Ok(ReferenceLogFile {
         log,
+        turns,
         format,
         findings,
         rows: number_of_rows,
@@ -100,17 +107,23 @@ fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>
     }
 }
 
-fn poses(times_s: Vec<f64>, kept: &[usize], rows: &Rows) -> Checked<PoseLog> {
+fn poses(times_s: Vec<f64>, kept: &[usize], rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<PoseLog> {
     let mut positions_m = Vec::with_capacity(kept.len());
     let mut world_from_body = Vec::with_capacity(kept.len());
+    let mut farthest = 0.0_f64;
     for &row in kept {
         let values = &rows.values[row * VALUES..][..VALUES];
         let position = Vector3::new(values[0], values[1], values[2]);
         positions_m.push(position.iter().all(|value| !value.is_nan()).then_some(position));
-        world_from_body.push(orientation([values[3], values[4], values[5], values[6]]).map_err(|message| {
+        let found = orientation([values[3], values[4], values[5], values[6]]).map_err(|message| {
             let help = "are its columns in the order of the format, w first or last? a body that was not seen is NaN";
             at(InputError::new(Refusal::ValueInvalid, message, help), rows, row)
-        })?);
+        })?;
+        farthest = found.map_or(farthest, |(_, off)| farthest.max(off));
+        world_from_body.push(found.map(|(orientation, _)| orientation));
+    }
+    if farthest > ROUNDED {
+        findings.push(QuaternionNorm { off: farthest }.into());
     }
     Ok(PoseLog { times_s, positions_m, world_from_body })
 }

@@ -12,7 +12,8 @@ use super::messages::{JointState, Message, Pose, TYPES};
 use super::rows::Rows;
 use crate::recording::TimeUnit;
 use crate::recording::mcap_container::{Bag, Topics};
-use crate::text::decoding::Checked;
+use crate::text::decoding::{Checked, refuse};
+use calibrant_core::error::Refusal;
 use std::collections::BTreeMap;
 
 pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFile> {
@@ -30,6 +31,11 @@ pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFil
     }
     let (content, rows) = match joints.is_empty() {
         true => (Content::Poses, of_poses(&poses)),
+        false if joints.iter().all(|message| message.positions.is_empty()) => {
+            let message = "the messages of JointState have no positions";
+            let help = "record a topic whose messages have them: velocities and efforts are no reference";
+            return refuse(Refusal::ColumnMissing, message, help);
+        }
         false => of_joints(&joints),
     };
     let mut file = assemble(
@@ -95,7 +101,8 @@ fn of_joints(messages: &[JointState]) -> (Content, Rows) {
             rows.values.extend(names.iter().map(|name| of_joint(name).unwrap_or(f64::NAN)));
         }
     }
-    (Content::Joints { names, has_velocities }, rows)
+    let turns = vec![None; names.len()];
+    (Content::Joints { names, turns, has_velocities }, rows)
 }
 
 /// Rows with these times and no values yet.

@@ -13,9 +13,11 @@
 //! them, and [`log_assembly`] makes a log of their values. A value that is NaN was not recorded: the body was not
 //! seen. Times may stand still; one that goes backwards is an error.
 
+mod angles;
 mod content;
 mod file;
 mod format;
+mod held_rows;
 mod in_memory;
 mod joint_columns;
 mod joints_in_order;
@@ -37,5 +39,5 @@ pub use file::ReferenceLogFile;
 pub use format::ReferenceFormat;
 pub use options::ReferenceLogOptions;
 pub use read::{parse_reference_log, read_reference_log};
-pub use recognise::is_reference_log;
+pub use recognise::{is_reference_log, unusable_log};
 pub use writer::{write_joint_log, write_pose_log};

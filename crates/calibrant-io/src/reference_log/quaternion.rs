@@ -2,11 +2,14 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 
-/// Largest difference of the norm from 1: more is not the rounding of a unit quaternion.
-const OFF: f64 = 0.01;
+/// Largest difference of the norm from 1 that two decimals make: half a unit of the last one in each of four values.
+pub(super) const ROUNDED: f64 = 0.01;
+/// The same of one decimal: more is no quaternion.
+const OFF: f64 = 0.1;
 
-/// The orientation; `None` where a value is missing. The error is what is wrong with the norm.
-pub(super) fn orientation([w, x, y, z]: [f64; 4]) -> Result<Option<UnitQuaternion<f64>>, String> {
+/// The orientation, and how far the norm is from 1; `None` where a value is missing. The error is what is wrong with
+/// the norm.
+pub(super) fn orientation([w, x, y, z]: [f64; 4]) -> Result<Option<(UnitQuaternion<f64>, f64)>, String> {
     if [w, x, y, z].iter().any(|value| value.is_nan()) {
         return Ok(None);
     }
@@ -15,8 +18,26 @@ pub(super) fn orientation([w, x, y, z]: [f64; 4]) -> Result<Option<UnitQuaternio
     if norm == 0.0 {
         return Err("0, 0, 0, 0 is no orientation: the norm of a quaternion is 1".into());
     }
-    if (norm - 1.0).abs() > OFF {
+    let off = (norm - 1.0).abs();
+    if off > OFF {
         return Err(format!("the norm of the quaternion is {norm:.4}, not 1"));
     }
-    Ok(Some(UnitQuaternion::from_quaternion(quaternion)))
+    Ok(Some((UnitQuaternion::from_quaternion(quaternion), off)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::options::ReferenceLogOptions;
+    use super::super::read::parse_reference_log;
+
+    #[test]
+    fn a_norm_that_is_two_per_cent_off_is_said_and_mended() {
+        let text = "t_s,qw,qx,qy,qz\n0,1.02,0,0,0\n1,0.6,0.8,0,0\n";
+        let file = parse_reference_log(text.as_bytes(), &ReferenceLogOptions::default()).expect("a log");
+        let poses = file.poses().expect("of poses");
+        assert_eq!(poses.world_from_body[0].map(|of| of.w), Some(1.0));
+        assert_eq!(file.findings[0].code().name(), "quaternion-norm");
+        let broken = text.replace("1.02", "1.2");
+        assert!(parse_reference_log(broken.as_bytes(), &ReferenceLogOptions::default()).is_err());
+    }
 }

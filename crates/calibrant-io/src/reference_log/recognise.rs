@@ -8,6 +8,7 @@ use super::text_columns::{TextColumns, first_row};
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::text_header::Head;
 use crate::text::decoding;
+use calibrant_core::error::{Error, Refusal};
 use std::path::Path;
 
 /// Is a file a log of joints or poses, by its beginning? Its rows may still be broken.
@@ -22,6 +23,19 @@ pub fn is_reference_log(path: &Path, options: &ReferenceLogOptions) -> bool {
     let Ok(columns) = TextColumns::find(&head, options) else { return false };
     // eight columns without a header may be anything
     columns.format != ReferenceFormat::Tum || !columns.names.is_empty() || has_orientation(&first_row(&head))
+}
+
+/// Why a bag that has a motion gives no log of it. `None` for a bag without a motion, and for other files.
+#[must_use]
+pub fn unusable_log(path: &Path, options: &ReferenceLogOptions) -> Option<Error> {
+    let beginning = FileBeginning::read(path, is_bag).ok()?;
+    match read_reference_log(path, options) {
+        Err(Error::Recording(why)) if is_bag(&beginning.bytes) => {
+            let is_without = why.code == Refusal::TopicUnknown && why.answers.is_empty();
+            (!is_without).then(|| Error::recording(*why))
+        }
+        _ => None,
+    }
 }
 
 /// Are the last four of the fields of a row a quaternion?

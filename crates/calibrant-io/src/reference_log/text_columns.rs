@@ -90,8 +90,12 @@ impl TextColumns {
                 return refuse(Refusal::ColumnMissing, message, help);
             }
             let joint = |number: usize| format!("actual_q_{number}");
-            let column =
-                |(number, is_velocity)| JointColumn { joint: joint(number), is_velocity, factor: 1.0 };
+            let column = |(number, is_velocity)| JointColumn {
+                joint: joint(number),
+                is_velocity,
+                turns: true,
+                factor: 1.0,
+            };
             let columns = rtde.iter().map(|found| found.map(column));
             Self::of_joints(
                 ReferenceFormat::Rtde,
@@ -171,17 +175,21 @@ impl TextColumns {
         let mut slots = vec![None; names.len()];
         let mut factors = vec![1.0; 2 * joints.len()];
         let mut has_velocities = false;
+        let mut turning = vec![None; joints.len()];
         for (k, column) in columns.iter().enumerate() {
-            let Some(JointColumn { joint, is_velocity, factor }) = column else { continue };
+            let Some(JointColumn { joint, is_velocity, turns, factor }) = column else { continue };
             let Some(number) = joints.iter().position(|known| known == joint) else { continue };
             let value = if *is_velocity { joints.len() + number } else { number };
             check_repeated(&slots, 1 + value, k, &names)?;
             slots[k] = Some(1 + value);
             factors[value] = *factor;
             has_velocities |= is_velocity;
+            if !is_velocity {
+                turning[number] = Some(*turns);
+            }
         }
         factors.truncate(if has_velocities { 2 } else { 1 } * joints.len());
-        let content = Content::Joints { names: joints, has_velocities };
+        let content = Content::Joints { names: joints, turns: turning, has_velocities };
         Ok(Self { format, content, names, slots, factors, time_unit: None })
     }
 

@@ -1,8 +1,8 @@
 //! Is the covariance right where residuals are correlated in time? The scatter of the scores tells (`newey1987`).
 //!
-//! `g_b` is the score of a block of time: what its samples add to the gradient of the parameters, the motion eliminated. With independent residuals
-//! `Σ_b g_b g_bᵀ` estimates the information `Σ⁻¹`. Where the reference's error is correlated over many samples, the scores scatter more, and the variance of
-//! parameter `i` is `Σ_b (Σ g_b)_i²`.
+//! `g_b` is the score of a block of time: what its samples add to the gradient of the parameters, the motion eliminated, and `H_b` its information. Without the
+//! block the estimate moves by `d_b = (H − H_b)⁻¹ g_b`, so `(B − 1)/B Σ_b d_b d_bᵀ` estimates the covariance of the data's part (the jackknife). Where the
+//! reference's error is correlated over many samples, it exceeds what independent residuals give, `Σ (H − P) Σ` with the information `P` of the priors.
 //!
 //! Where the variance of each parameter comes from.
 //!
@@ -18,6 +18,7 @@
 //! E[δᵀ Q₁ δ · δᵀ Q₂ δ] = tr(Q₁ M) tr(Q₂ M) + 2 tr(Q₁ M Q₂ M)
 //! ```
 
+use crate::estimate::least_squares::{Block, Scaled};
 use crate::estimate::noise::Posterior;
 use crate::estimate::problem::Layout;
 use crate::estimate::{BudgetRow, MachineParameters, MachineQuantity, MachineTrust, Source};
@@ -25,69 +26,62 @@ use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Fewest blocks that tell a variance.
-const FEWEST: usize = 12;
-
-/// The shortest block for a recording of this duration, s.
-fn shortest_s(duration_s: f64) -> f64 {
-    (duration_s / 60.0).clamp(0.5, 3.0)
-}
+const FEWEST: usize = 8;
+/// A parameter of which the data tell less than this part of the variance is known from elsewhere.
+const TOLD: f64 = 0.01;
 
 /// The factor by which the standard deviation of each parameter exceeds that of independent residuals; 1 where the difference is not significant.
 /// Blocks of several lengths tell: each is twice as long as the one before. The largest factor counts.
 pub(crate) fn inflation(
-    quantities: &[MachineQuantity],
+    layout: &Layout,
     covariance: &DMatrix<f64>,
-    scores: &[(f64, DVector<f64>)],
+    information: &DMatrix<f64>,
+    blocks: &[Block],
 ) -> Vec<f64> {
-    let mut largest = vec![1.0; quantities.len()];
-    let (Some((first, _)), Some((last, _))) = (scores.first(), scores.last()) else { return largest };
-    let mut length_s = shortest_s(last - first);
-    loop {
-        let blocks = blocks(scores, length_s);
-        if blocks.len() < FEWEST {
-            return largest;
-        }
-        for (largest, factor) in largest.iter_mut().zip(of_blocks(quantities, covariance, &blocks)) {
+    let mut largest = vec![1.0; layout.len()];
+    let mut blocks = blocks.to_vec();
+    while blocks.len() >= FEWEST {
+        let factors = of_blocks(layout, covariance, information, &blocks);
+        for (largest, factor) in largest.iter_mut().zip(factors) {
             *largest = f64::max(*largest, factor);
         }
-        length_s *= 2.0;
+        blocks = blocks.chunks(2).map(|pair| pair[1..].iter().fold(pair[0].clone(), Block::with)).collect();
     }
+    largest
 }
 
-/// Sums of the scores over blocks of this length; blocks without samples are left out.
-fn blocks(scores: &[(f64, DVector<f64>)], length_s: f64) -> Vec<DVector<f64>> {
-    let first = scores[0].0;
-    let mut blocks: Vec<DVector<f64>> = Vec::new();
-    let mut place = usize::MAX;
-    for (time, score) in scores {
-        let block = ((time - first) / length_s) as usize;
-        if block == place {
-            if let Some(sum) = blocks.last_mut() {
-                *sum += score;
-            }
-        } else {
-            place = block;
-            blocks.push(score.clone());
+fn of_blocks(
+    layout: &Layout,
+    covariance: &DMatrix<f64>,
+    information: &DMatrix<f64>,
+    blocks: &[Block],
+) -> Vec<f64> {
+    let number = blocks.len() as f64;
+    let mut moved = DVector::zeros(layout.len());
+    for block in blocks {
+        let without = Scaled::new(&(information - &block.information));
+        let step = without.map_or_else(|| covariance * &block.score, |without| without.solve(&block.score));
+        moved += step.map(|step| step * step * (number - 1.0) / number);
+    }
+    let by_prior = covariance * &layout.prior * covariance;
+    let all = |k: usize| covariance[(k, k)];
+    let of_data = |k: usize| all(k) - by_prior[(k, k)];
+    let told: Vec<usize> = (0..layout.len()).filter(|k| of_data(*k) > TOLD * all(*k)).collect();
+    let mut factors = vec![1.0; layout.len()];
+    // the parameters of a class share a verdict: one ratio alone is uncertain by √(2/blocks)
+    let limit = 1.0 + 2.0 * (2.0 / number).sqrt();
+    for k in &told {
+        let alike =
+            told.iter().filter(|other| class(layout.quantities[**other]) == class(layout.quantities[*k]));
+        let ratios: Vec<f64> = alike.map(|k| moved[*k] / of_data(*k)).collect();
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        if mean > limit {
+            // its own ratio scatters, and the class's mean is that of others: half of each
+            let wider = 0.5 * (of_data(*k) * mean + moved[*k]).max(2.0 * of_data(*k));
+            factors[*k] = ((wider + by_prior[(*k, *k)]) / all(*k)).sqrt();
         }
     }
-    blocks.retain(|score| score.amax() > 0.0);
-    blocks
-}
-
-fn of_blocks(quantities: &[MachineQuantity], covariance: &DMatrix<f64>, blocks: &[DVector<f64>]) -> Vec<f64> {
-    let mut variance = DVector::zeros(quantities.len());
-    for block in blocks {
-        variance += (covariance * block).map(|step| step * step);
-    }
-    let ratios: Vec<f64> = (0..quantities.len()).map(|k| variance[k] / covariance[(k, k)]).collect();
-    // the parameters of a class share a verdict: one ratio alone is uncertain by √(2/blocks)
-    let classes: Vec<usize> = quantities.iter().map(|quantity| class(*quantity)).collect();
-    let limit = 1.0 + 2.0 * (2.0 / blocks.len() as f64).sqrt();
-    let significant = |class: usize| {
-        let of: Vec<f64> = (0..ratios.len()).filter(|k| classes[*k] == class).map(|k| ratios[k]).collect();
-        of.iter().sum::<f64>() > limit * of.len() as f64
-    };
-    (0..ratios.len()).map(|k| if significant(classes[k]) { ratios[k].max(1.0).sqrt() } else { 1.0 }).collect()
+    factors
 }
 
 /// Parameters that the same residuals determine.
@@ -130,7 +124,6 @@ pub(crate) fn budget(
         })
         .map(|(i, quantity)| {
             let model_variance = sigma[(i, i)];
-            let scale = (covariance[(i, i)] - second[(i, i)]) / model_variance;
             let mut parts = [0.0; Source::ALL.len()];
             for (part, source) in parts.iter_mut().zip(Source::ALL) {
                 *part = match source {
@@ -146,6 +139,8 @@ pub(crate) fn budget(
             };
             let at = |wanted: Source| Source::ALL.iter().position(|source| *source == wanted).unwrap_or(0);
             parts[at(place)] += rest;
+            // the noise is that of some intervals, so the parts are those of the variance only about
+            let scale = (covariance[(i, i)] - second[(i, i)]) / parts.iter().sum::<f64>();
             let mut parts = parts.map(|part| part * scale);
             parts[at(Source::Mounting)] += second[(i, i)];
             BudgetRow { quantity, variance: covariance[(i, i)], parts }

@@ -3,6 +3,8 @@
 mod begin;
 mod calibrate;
 mod covariance;
+#[cfg(test)]
+mod hard_logs;
 mod least_squares;
 mod noise;
 mod problem;

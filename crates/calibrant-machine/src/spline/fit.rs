@@ -4,6 +4,7 @@
 //! The penalty is so small that it only decides where no sample does: a gap is bridged by a parabola.
 
 use super::{UniformKnots, VectorSpline, Weights};
+use crate::log::{rounding_sd, step_of};
 use rayon::prelude::*;
 
 /// Residuals up to this many standard deviations keep their full weight.
@@ -34,6 +35,8 @@ pub struct SplineFit {
     pub sd: Vec<f64>,
     /// Number of outliers of each component.
     pub outliers: Vec<usize>,
+    /// Standard deviation of the rounding of each component, where its values have a step; 0 elsewhere. The noise is at least this.
+    pub rounding_sd: Vec<f64>,
 }
 
 /// Fits a vector to samples, `dimension` values for each time. A value that is NaN was not recorded.
@@ -58,6 +61,7 @@ pub fn fit_vectors(times_s: &[f64], values: &[f64], dimension: usize, knots: Uni
         spline: VectorSpline { knots, dimension, controls: vec![0.0; dimension * knots.controls()] },
         sd: Vec::new(),
         outliers: Vec::new(),
+        rounding_sd: Vec::new(),
     };
     let fitted = |j: usize| {
         let samples: Vec<Sample<'_>> = (weights.iter().zip(values[j..].iter().step_by(dimension)))
@@ -73,6 +77,7 @@ pub fn fit_vectors(times_s: &[f64], values: &[f64], dimension: usize, knots: Uni
         }
         fit.sd.push(of.sd);
         fit.outliers.push(of.outliers);
+        fit.rounding_sd.push(of.rounding_sd);
     }
     fit
 }
@@ -94,15 +99,17 @@ struct Component {
     controls: Vec<f64>,
     sd: f64,
     outliers: usize,
+    rounding_sd: f64,
 }
 
 impl Component {
     fn fitted(samples: &[Sample<'_>], knots: UniformKnots) -> Self {
         let mut weight = vec![1.0; samples.len()];
-        let mut fit = Self { controls: vec![0.0; knots.controls()], sd: 0.0, outliers: 0 };
+        let rounding_sd = rounding_sd(step_of(samples.iter().map(|sample| sample.value)));
+        let mut fit = Self { controls: vec![0.0; knots.controls()], sd: 0.0, outliers: 0, rounding_sd };
         // rounding is no residual
         let largest = samples.iter().fold(0.0_f64, |largest, sample| largest.max(sample.value.abs()));
-        let floor = ROUNDING * largest.max(f64::MIN_POSITIVE / ROUNDING);
+        let floor = rounding_sd.max(ROUNDING * largest.max(f64::MIN_POSITIVE / ROUNDING));
         for round in 0..ROUNDS {
             let (factor, controls) = solved(samples, &weight, knots);
             fit.controls = controls;
@@ -123,7 +130,7 @@ impl Component {
                 let determined = trace(samples, &before, &factor);
                 let squares: f64 = residuals.iter().zip(&before).map(|(r, w)| w * w * r * r).sum();
                 let degrees = (samples.len() as f64 - determined).max(1.0);
-                fit.sd = (squares / degrees).sqrt();
+                fit.sd = (squares / degrees).sqrt().max(rounding_sd);
                 fit.outliers =
                     residuals.iter().zip(&scale).filter(|(r, scale)| r.abs() > OUTLIER * **scale).count();
                 break;

@@ -14,7 +14,7 @@ use crate::figure::{
     residuals_and_speed, sensor_on_tip, three_views,
 };
 use crate::limits::limit_section;
-use crate::number_format::{count, significant};
+use crate::number_format::{count, fixed, significant};
 use crate::sheet::{Section, Sheet, Shown, Table};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_machine::estimate::{
@@ -42,7 +42,7 @@ pub fn machine_sheet<'a>(
     let mut sections = vec![parameters(calibration)];
     sections.extend(limit_section(&about.limits));
     sections.extend(validation_section(validations, calibration));
-    sections.push(mount(calibration, setup));
+    sections.push(mount(calibration, setup, recording));
     sections.push(variances(calibration));
     sections.push(machine(calibration, &scene));
     sections.push(residuals(calibration, recording, &scene));
@@ -71,14 +71,30 @@ fn parameters<'a>(calibration: &MachineCalibration) -> Section<'a> {
     section
 }
 
-fn mount<'a>(calibration: &MachineCalibration, setup: &MachineSetup) -> Section<'a> {
-    let mut section = Section::new("Mount and clock").lead("Lever arm: from the origin of the tip or the tracked body to the sensor, in its axes. Mounting: turn of the sensor about its own axes against the expected one. Delay: motion time less IMU time. Clock rate: that of the reference against the IMU’s. Tilt: of gravity against the base.");
+fn mount<'a>(
+    calibration: &MachineCalibration,
+    setup: &MachineSetup,
+    recording: &ImuRecording,
+) -> Section<'a> {
+    let mut section = Section::new("Mount and clock").lead("Lever arm: from the origin of the tip or the tracked body to the sensor, in its axes. Mounting: turn of the sensor about its own axes against the expected one. Delay: motion time less IMU time, in the middle of the recording. Clock rate: that of the reference against the IMU’s. Tilt: of gravity against the base.");
     section.table(mount_table(calibration, setup));
+    section.paragraph(delays_at_start(calibration, recording));
     mounting_in_words(calibration, setup).into_iter().for_each(|words| section.paragraph(words));
     if is_widened(calibration) {
         section.explanation("Sd widened: the factor by which correlation of the residuals in time widens the sd; the stated sd has it.");
     }
     section
+}
+
+/// The delays at the first sample, where the clocks differ in rate.
+fn delays_at_start(calibration: &MachineCalibration, recording: &ImuRecording) -> String {
+    let delays: Vec<String> = (calibration.delays_at_start_s(recording).into_iter())
+        .map(|(sensor, delay_s)| format!("{} ms ({sensor})", fixed(1e3 * delay_s, 3)))
+        .collect();
+    format!(
+        "The delays are those in the middle of the recording. At its start they are {}.",
+        delays.join(" and ")
+    )
 }
 
 fn variances(calibration: &MachineCalibration) -> Section<'_> {

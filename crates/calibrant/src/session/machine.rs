@@ -4,6 +4,7 @@ use super::calibrated::{Calibrated, MachineOutcome};
 use super::clean::take_out_outliers_in_motion;
 use super::duplicates::refuse_duplicate;
 use super::machine_datasheet::beyond_datasheets;
+use super::machine_limits::beyond_limits;
 use super::machine_log::LogFile;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
@@ -90,6 +91,7 @@ impl<'e> MachineTask<'e> {
         let Experiment { sensor: accelerometer, imu, .. } = self.experiment;
         let beyond = beyond_datasheets(accelerometer, imu.as_ref(), &calibration);
         calibration.warnings.extend(beyond);
+        calibration.warnings.extend(beyond_limits(&moved.log, self.chain));
         let mut validations = Vec::new();
         if let Some((other, second)) = &other {
             let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), settings, other)?;

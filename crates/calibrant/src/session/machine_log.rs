@@ -5,7 +5,9 @@ use super::source::Readings;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::machine::PosesInterpolated;
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
-use calibrant_io::{MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log};
+use calibrant_io::{
+    MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log, unusable_log,
+};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::log::{ReferenceLog, recover_interpolated};
 use std::path::PathBuf;
@@ -37,6 +39,9 @@ impl LogFile {
     ) -> Result<Self> {
         if recording.is_file() && is_reference_log(recording.path(), options) {
             return Self::read(&MotionSource::File(recording.path().into()), options, notes);
+        }
+        if let Some(why) = unusable_log(recording.path(), options).filter(|_| recording.is_file()) {
+            return Err(why);
         }
         let help = format!(
             "add {option} FILE: a CSV with t_s and a column for each joint (elbow_rad), or poses of the body"

@@ -50,6 +50,7 @@ mod holds;
 mod kind;
 mod machine;
 mod machine_datasheet;
+mod machine_limits;
 mod machine_log;
 mod motion_source;
 mod noise;

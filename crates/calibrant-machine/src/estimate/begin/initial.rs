@@ -29,9 +29,9 @@ impl<'a> Initial<'a> {
         let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
             return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
         };
-        let MotionOfLog { motion, sd, outliers } = fit;
+        let MotionOfLog { motion, sd, outliers, rounding_sd } = fit;
         let knots = motion.knots();
-        let covered = covered(problem.log, &knots);
+        let covered = covered(problem.log, &knots, 0.0);
         let gravity = TiltedGravity::new(&setup.up);
         let mut nominal = MachineParameters::nominal(setup, *problem.nominal, motion.joints());
         let placement = Placement::new(problem, &motion, &covered, gravity.vector(&nominal));
@@ -56,7 +56,7 @@ impl<'a> Initial<'a> {
             .collect();
         let middle_s = middle_s(main);
         let sd = setup.reference_noise.clone().unwrap_or(sd).iter().map(|sd| sd.max(1e-12)).collect();
-        let log = WeighedLog { log: problem.log, sd, growth: Vec::new() };
+        let log = WeighedLog { log: problem.log, sd, rounding_sd, growth: Vec::new() };
         let model = Model { streams, log, layout, gravity, trust: setup.trust, middle_s, covered };
         Ok(Self { model, state: State { motion, parameters }, outliers })
     }
@@ -89,6 +89,15 @@ pub(crate) fn check_log(problem: &MachineProblem<'_>) -> Result<()> {
             );
             return bad(message, "log every joint between base and tip");
         }
+    }
+    if let ReferenceLog::Poses(log) = problem.log
+        && problem.recording.accelerometer.is_some()
+        && log.positions_m.iter().all(Option::is_none)
+    {
+        return Err(refused(
+            "the log has orientations and no positions, and these an accelerometer needs",
+            "log the positions, too; or take the accelerometer's columns out of the recording, and the gyroscope is calibrated alone",
+        ));
     }
     let noise = problem.setup.reference_noise.as_ref().map_or(0, Vec::len);
     let components = problem

@@ -74,11 +74,27 @@ fn on<'a>(
 }
 
 /// A distance of knots, and what was found with it.
-struct Candidate {
+pub(super) struct Candidate {
     step_s: f64,
     /// Sum of the logarithms of the residuals with a trusted motion.
-    score: f64,
+    pub(super) score: f64,
+    /// Number of the residuals' components: three for each sensor.
+    pub(super) components: usize,
     parameters: MachineParameters,
+}
+
+/// What is found with knots of this distance, from these parameters if they are known already. `None` where nothing is determined.
+pub(super) fn candidate(
+    problem: &MachineProblem<'_>,
+    step_s: f64,
+    known: Option<&MachineParameters>,
+) -> Result<Option<Candidate>> {
+    let Initial { mut model, mut state, .. } = on(problem, step_s, Degree::Quintic, known)?;
+    let solved = trusted(&mut model, &mut state, STEPS[usize::from(known.is_some())], SAMPLES);
+    let sd = || model.streams.iter().flat_map(|stream| stream.sd.iter());
+    let score = sd().map(|sd| sd.ln()).sum();
+    let found = Candidate { step_s, score, components: sd().count(), parameters: state.parameters };
+    Ok(solved.map(|()| found))
 }
 
 struct Search<'p, 'a> {
@@ -91,18 +107,13 @@ impl Search<'_, '_> {
     /// Is this distance the best so far? One that is refused may have too few knots for the motion: it does not count as worse.
     fn is_best(&mut self, step_s: f64) -> bool {
         let known = self.best.as_ref().map(|best| &best.parameters);
-        let steps = STEPS[usize::from(known.is_some())];
-        match on(self.problem, step_s, Degree::Quintic, known) {
-            Ok(Initial { mut model, mut state, .. }) => {
-                let solved = trusted(&mut model, &mut state, steps, SAMPLES);
-                let sd = model.streams.iter().flat_map(|stream| stream.sd.iter());
-                let score = sd.map(|sd| sd.ln()).sum::<f64>();
+        match candidate(self.problem, step_s, known) {
+            Ok(found) => {
                 let least = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
-                let best = solved.is_some() && score < least;
-                if best {
-                    self.best = Some(Candidate { step_s, score, parameters: state.parameters });
-                }
-                best
+                let better = found.filter(|found| found.score < least);
+                let is_best = better.is_some();
+                self.best = better.or(self.best.take());
+                is_best
             }
             Err(error) => {
                 self.refusal = Some(error);

@@ -137,7 +137,7 @@ fn model<'a>(
     });
     Model {
         streams: streams.collect(),
-        log: WeighedLog { log, sd: vec![1.0; 6], growth: Vec::new() },
+        log: WeighedLog { log, sd: vec![1.0; 6], rounding_sd: vec![0.0; 6], growth: Vec::new() },
         layout: layout.clone(),
         gravity: TiltedGravity::new(&setup.up),
         trust: MachineTrust::Noisy,

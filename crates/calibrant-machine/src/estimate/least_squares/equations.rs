@@ -1,8 +1,8 @@
 //! The normal equations at one point, interval by interval.
 
-use super::{Front, Model, Pass, RowWriter, Sample, State};
+use super::{Block, Front, Model, Pass, RowWriter, Sample, State, block_s};
 use crate::reference::Felt;
-use nalgebra::{DMatrix, DVector, Dyn, MatrixView};
+use nalgebra::{DMatrix, Dyn, MatrixView};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -18,8 +18,8 @@ pub(crate) struct Equations {
     pub(crate) front: Front,
     /// Twice the cost: `χ²`, with Huber's cost of outliers.
     pub(crate) cost: f64,
-    /// The scores of the parameters in time: the beginning of each part, s, and its right side.
-    pub(crate) scores: Vec<(f64, DVector<f64>)>,
+    /// The part of each block of time.
+    pub(crate) blocks: Vec<Block>,
 }
 
 /// Where samples lie in the intervals: `streams[s][i] .. streams[s][i + 1]` in interval `i`.
@@ -81,24 +81,32 @@ impl Model<'_> {
         let order = if pass.noisy() { knots.degree.order() } else { 0 };
         let mut front = Front::new(unknowns, order, self.layout.len());
         let groups = self.groups(state, pass);
-        let (mut cost, mut scores) = (0.0, Vec::with_capacity(groups.len()));
-        let mut right = DVector::zeros(self.layout.len());
+        let (mut cost, mut blocks) = (0.0, Vec::new());
+        let length_s = block_s(knots.end_s() - knots.start_s);
+        let (mut end_s, mut before) = (knots.start_s + length_s, front.border());
         for batch in groups.chunks(BATCH) {
             let parts: Vec<(DMatrix<f64>, f64)> =
                 batch.par_iter().map(|group| self.of_intervals(group, state, &places, pass)).collect();
             for (group, (equations, part)) in batch.iter().zip(&parts) {
                 cost += part;
                 front.add(equations);
-                let now = front.border_right();
-                scores.push((knots.knot_s(group.start), &now - &right));
-                right = now;
+                if knots.knot_s(group.end) >= end_s || group.end == knots.intervals {
+                    let now = front.border();
+                    let (score, information) =
+                        (&now.score - &before.score, &now.information - &before.information);
+                    // a block without samples tells nothing
+                    if score.amax() > 0.0 {
+                        blocks.push(Block { score, information });
+                    }
+                    (end_s, before) = (knots.knot_s(group.end) + length_s, now);
+                }
             }
         }
         let deviation = self.layout.deviation(&state.parameters);
         let pull = -(&self.layout.prior * &deviation);
         cost -= deviation.dot(&pull);
         front.add_to_border(&self.layout.prior, &pull);
-        Equations { front, cost, scores }
+        Equations { front, cost, blocks }
     }
 
     /// The normal equations of some intervals, and their cost.

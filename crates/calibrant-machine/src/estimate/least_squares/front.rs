@@ -11,6 +11,7 @@
 //! Blocks of joints have one entry a joint, those of poses six. What is left at the end is the information of the parameters, with the motion marginalised.
 //! Time and memory are linear in the number of intervals. Without blocks (`Trust::Known`) the front is the border alone.
 
+use super::Block;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// An eliminated block: `L`, and `G` for the later blocks, the border and the right side.
@@ -106,8 +107,14 @@ impl Front {
         }
     }
 
-    /// The right side of the border as it stands: its increments are the scores of the intervals.
-    pub(crate) fn border_right(&self) -> DVector<f64> {
+    /// Right side and information of the border as they stand: their increments are those of the intervals.
+    pub(crate) fn border(&self) -> Block {
+        let (chain, border) = (self.slots.len(), self.border);
+        let information = self.matrix.view((chain, chain), (border, border)).into_owned();
+        Block { score: self.border_right(), information }
+    }
+
+    fn border_right(&self) -> DVector<f64> {
         let (chain, border) = (self.slots.len(), self.border);
         self.matrix.view((chain, chain + border), (border, 1)).column(0).into_owned()
     }

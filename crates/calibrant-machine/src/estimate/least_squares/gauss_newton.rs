@@ -1,10 +1,9 @@
 //! Gauss–Newton steps, halved where they do not lower the cost.
 
-use super::{Equations, Model, Pass, Solved, State};
+use super::{Block, Equations, Model, Pass, Solved, State};
 use crate::estimate::problem::MachineSettings;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
-use nalgebra::DVector;
 
 /// Steps shorter than this are taken as they are, in standard deviations.
 const NEAR: f64 = 0.3;
@@ -16,7 +15,7 @@ pub(crate) struct Minimum {
     pub(crate) state: State,
     pub(crate) solved: Solved,
     pub(crate) cost: f64,
-    pub(crate) scores: Vec<(f64, DVector<f64>)>,
+    pub(crate) blocks: Vec<Block>,
     pub(crate) iterations: usize,
     pub(crate) status: CalibrationStatus,
     /// Length of the last step of the parameters, in standard deviations.
@@ -25,11 +24,11 @@ pub(crate) struct Minimum {
 
 /// The equations at a state, solved. `None` where they determine nothing.
 pub(crate) fn equations_at(model: &Model<'_>, state: State, pass: Pass) -> Option<Minimum> {
-    let Equations { front, cost, scores } = model.equations(&state, pass);
+    let Equations { front, cost, blocks } = model.equations(&state, pass);
     let solved = front.finish()?;
     let last_step = solved.parameters.dot(&solved.right).max(0.0).sqrt();
     let status = CalibrationStatus::IterationLimit;
-    Some(Minimum { state, solved, cost, scores, iterations: 0, status, last_step })
+    Some(Minimum { state, solved, cost, blocks, iterations: 0, status, last_step })
 }
 
 /// The state after this share of the step.

@@ -13,6 +13,8 @@ pub(crate) struct WeighedLog<'a> {
     pub(crate) log: &'a ReferenceLog,
     /// Standard deviation of one sample, for each unknown of a control point.
     pub(crate) sd: Vec<f64>,
+    /// The part of it that is rounding: less noise than this is not found.
+    pub(crate) rounding_sd: Vec<f64>,
     /// How many times larger the noise of each sample is. Empty: everywhere 1.
     pub(crate) growth: Vec<f64>,
 }

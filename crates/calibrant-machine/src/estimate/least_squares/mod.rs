@@ -1,5 +1,6 @@
 //! The least-squares problem, its normal equations, and the steps that solve it.
 
+mod block;
 #[cfg(test)]
 mod derivative_tests;
 mod equations;
@@ -10,6 +11,7 @@ mod model;
 mod moments;
 mod sample_rows;
 
+pub(crate) use block::{Block, block_s};
 pub(crate) use equations::{Equations, Places};
 pub(crate) use front::{Front, Scaled, Solved};
 pub(crate) use gauss_newton::{Minimum, equations_at, minimise, stepped};

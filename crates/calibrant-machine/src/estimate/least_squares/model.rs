@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Everything but the state.
+#[derive(Clone)]
 pub(crate) struct Model<'a> {
     pub(crate) streams: Vec<Stream<'a>>,
     pub(crate) log: WeighedLog<'a>,

@@ -79,19 +79,21 @@ pub(crate) fn noise_search(
 /// New noise from the residuals. Returns the largest relative change of a variance.
 fn update_noise(model: &mut Model<'_>, sums: &Sums, problem: &MachineProblem<'_>) -> f64 {
     let mut change = 0.0_f64;
-    let mut update = |sd: &mut f64, moments: &Moments| {
+    let mut update = |sd: &mut f64, moments: &Moments, least: f64| {
         if let Some(factor) = moments.variance_factor().filter(|factor| *factor > 0.0) {
-            change = change.max(factor.ln().abs());
-            *sd *= factor.powf(0.5 * RELAXATION);
+            let before = *sd;
+            *sd = (before * factor.powf(0.5 * RELAXATION)).max(least);
+            change = change.max(2.0 / RELAXATION * (*sd / before).ln().abs());
         }
     };
     for (stream, moments) in model.streams.iter_mut().zip(&sums.streams) {
         if problem.setup.noise_of(stream.sensor).is_none() {
-            stream.sd.iter_mut().zip(moments).for_each(|(sd, moments)| update(sd, moments));
+            stream.sd.iter_mut().zip(moments).for_each(|(sd, moments)| update(sd, moments, 0.0));
         }
     }
     if problem.setup.reference_noise.is_none() && model.trust == MachineTrust::Noisy {
-        model.log.sd.iter_mut().zip(&sums.log).for_each(|(sd, moments)| update(sd, moments));
+        let log = model.log.sd.iter_mut().zip(&sums.log).zip(&model.log.rounding_sd);
+        log.for_each(|((sd, moments), least)| update(sd, moments, *least));
     }
     change
 }

@@ -4,6 +4,7 @@ use crate::chain::KinematicChain;
 use crate::estimate::MachineQuantity;
 use crate::log::ReferenceLog;
 use calibrant_core::error::{Error, InputError, Refusal};
+use calibrant_core::estimate::KnownTerm;
 use calibrant_core::interruption::Interruption;
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{Gauge, ImuParameters, ImuQuantity, ImuRecording, SensorKind};
@@ -127,6 +128,8 @@ pub struct MachineSetup {
     pub gyroscope_noise: Option<Vector3<f64>>,
     /// Noise of one sample of the log: of each joint in rad or m, or of position (3 axes, m) and orientation (3 axes, rad). `None`: from the residuals.
     pub reference_noise: Option<Vec<f64>>,
+    /// Parameters of the sensor that are known: held at their values, or within a standard deviation of them.
+    pub known: Vec<KnownTerm>,
 }
 
 impl MountingPrior {
@@ -135,12 +138,13 @@ impl MountingPrior {
 }
 
 impl MachineSetup {
-    /// Standard deviation of what is known of a quantity beforehand, with this number of sensors: 0 where it is held, infinite for a parameter
-    /// of the IMU.
+    /// Standard deviation of what is known of a quantity beforehand, with this number of sensors: 0 where it is held, infinite where nothing is
+    /// known, as of most parameters of the IMU.
     #[must_use]
     pub fn prior_sd(&self, quantity: MachineQuantity, sensors: usize) -> f64 {
         match quantity {
-            MachineQuantity::Imu(_) => f64::INFINITY,
+            MachineQuantity::Imu(of) => (self.known.iter().find(|known| known.quantity == of))
+                .map_or(f64::INFINITY, |known| known.sd.unwrap_or(0.0)),
             MachineQuantity::Lever(_) => self.lever_sd_m,
             MachineQuantity::Mounting(_) => match self.mounting {
                 MountingPrior::Within(sd_rad) => sd_rad,
@@ -196,6 +200,7 @@ impl Default for MachineSetup {
             accelerometer_noise: None,
             gyroscope_noise: None,
             reference_noise: None,
+            known: Vec::new(),
         }
     }
 }

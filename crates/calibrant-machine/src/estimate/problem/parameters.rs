@@ -34,7 +34,11 @@ pub(crate) fn place(sensor: SensorKind) -> usize {
 
 impl MachineParameters {
     /// What is known beforehand.
-    pub(crate) fn nominal(setup: &MachineSetup, imu: ImuParameters, joints: usize) -> Self {
+    pub(crate) fn nominal(setup: &MachineSetup, mut imu: ImuParameters, joints: usize) -> Self {
+        for known in &setup.known {
+            let away = known.value - known.quantity.value(&imu);
+            known.quantity.add_to(&mut imu, away);
+        }
         Self {
             imu,
             mount: SensorMount { lever_m: setup.lever_m, tip_from_sensor: setup.tip_from_sensor },

@@ -22,7 +22,7 @@ pub(crate) fn assembled(
     outliers: Vec<usize>,
 ) -> MachineCalibration {
     let (state, layout) = (&minimum.state, &model.layout);
-    let inflation = inflation(&layout.quantities, &posterior.covariance, &minimum.scores);
+    let inflation = inflation(layout, &posterior.covariance, &minimum.solved.information, &minimum.blocks);
     let n = layout.len();
     let second = of_mounting(layout, &state.parameters, &posterior.covariance);
     let covariance = DMatrix::from_fn(n, n, |i, j| {
@@ -71,6 +71,7 @@ pub(crate) fn assembled(
         noise,
         reference_noise: reference_noise(problem, model, growths.log, &outliers),
         motion: state.motion.clone(),
+        covered: model.covered.clone(),
         used_share: used as f64 / samples.max(1) as f64,
         warnings: Vec::new(),
     }

@@ -1,22 +1,33 @@
 //! What a user should know of a result on a machine.
 
 use crate::estimate::problem::{Layout, place};
-use crate::estimate::{MachineCalibration, MachineSetup, MachineTrust};
-use calibrant_core::diagnostic::Diagnostic;
+use crate::estimate::{MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, SensorResidual};
+use calibrant_core::diagnostic::datasheet::ScaleNegative;
 use calibrant_core::diagnostic::fit::{ModelContradicted, NotConverged};
 use calibrant_core::diagnostic::machine::{
-    LogCoversPart, LogOutliers, MachineResiduals, PriorContradicted, ResidualsCorrelated,
+    LogCoversPart, LogOutliers, MachineResiduals, PriorContradicted, PriorRefuted, ReferenceUndermodelled,
+    ResidualsCorrelated,
 };
+use calibrant_core::diagnostic::{Check, Diagnostic, Severity};
 use calibrant_core::estimate::{CalibrationStatus, implausible_gains};
+use calibrant_core::sensor::{Axis, ReadingUnit};
 
-/// Largest usual ratio of the residuals to the noise between neighbouring samples: with noisy trust, and with known trust.
-const RESIDUALS: [f64; 2] = [1.1, 1.25];
+/// Largest usual ratio of the residuals to the noise between neighbouring samples, with noisy trust,
+pub(crate) const LARGEST_EXCESS: f64 = 1.1;
+/// and with known trust.
+const WITH_KNOWN_TRUST: f64 = 1.25;
 /// Largest usual distance of a quantity from its prior mean, in prior standard deviations.
 const CONTRADICTED: f64 = 4.0;
+/// A quantity that is farther than this is not what was described: a standard deviation that is stated ten times too small leaves three tenths of it.
+const REFUTED: f64 = 30.0;
+/// From this ratio of the residuals on, a mistake is looked for.
+const LARGE: f64 = 2.0;
 /// A ratio of the residuals beyond this refuses the model.
-const REFUSED: f64 = 10.0;
+pub(crate) const REFUSED: f64 = 10.0;
+/// From this factor on, nine tenths of a variance are of errors that the model does not have.
+const UNDERMODELLED: f64 = 3.0;
 /// Largest usual share of outliers in the log.
-const OUTLIERS: f64 = 1e-3;
+pub(crate) const OUTLIERS: f64 = 1e-3;
 /// Least usual share of the sensor's samples that are used.
 const USED: f64 = 0.95;
 
@@ -37,6 +48,7 @@ pub(crate) fn all(
         let unit = calibration.units[place(of.sensor)].unwrap_or(of.sensor.stimulus_unit());
         implausible_gains(of.sensor, unit, matrix, |_| false)
     }));
+    found.extend(reversed_axes(calibration));
     found.extend(contradicted(setup, layout, calibration));
     let (outliers, samples) = (calibration.reference_noise.iter())
         .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
@@ -49,11 +61,36 @@ pub(crate) fn all(
     found
 }
 
+/// Axes of counts whose gain has the other sign than the nominal one.
+fn reversed_axes(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
+    let of_counts = |of: &&SensorResidual| calibration.units[place(of.sensor)] == Some(ReadingUnit::Counts);
+    calibration.noise.iter().filter(of_counts).flat_map(|of| {
+        let [found, nominal] =
+            [&calibration.parameters, &calibration.nominal].map(|of_all| of_all.imu.sensor(of.sensor).matrix);
+        let is_reversed = move |axis: &Axis| {
+            let along = (axis.index(), axis.index());
+            found[along] * nominal[along] < 0.0
+        };
+        Axis::ALL.into_iter().filter(is_reversed).map(|axis| ScaleNegative { axis }.into())
+    })
+}
+
+/// Does the result contradict the log, so that a mistake in it is likely?
+pub(crate) fn contradict(calibration: &MachineCalibration) -> bool {
+    let is_contradiction =
+        |found: &Diagnostic| found.severity() == Severity::Error || found.code() == PriorContradicted::CODE;
+    let is_large = |of: &SensorResidual| excess(of) > LARGE;
+    calibration.warnings.iter().any(is_contradiction) || calibration.noise.iter().any(is_large)
+}
+
 /// Residuals that are larger than the noise of neighbouring samples.
 fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
-    let limit = RESIDUALS[usize::from(calibration.trust == MachineTrust::Known)];
+    let limit = match calibration.trust {
+        MachineTrust::Noisy => LARGEST_EXCESS,
+        MachineTrust::Known => WITH_KNOWN_TRUST,
+    };
     calibration.noise.iter().filter_map(move |of| {
-        let ratio = (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt();
+        let ratio = excess(of);
         let sensor_kind = of.sensor;
         match ratio > limit {
             true if ratio > REFUSED => Some(Diagnostic::from(ModelContradicted { sensor_kind, ratio })),
@@ -63,14 +100,23 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
     })
 }
 
-/// The parameter whose standard deviation correlation widens most.
+/// The residuals of a sensor in parts of the noise that neighbouring samples do not share.
+fn excess(of: &SensorResidual) -> f64 {
+    (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt()
+}
+
+/// The parameter of the sensor whose standard deviation correlation widens most.
 fn correlated(calibration: &MachineCalibration) -> Option<Diagnostic> {
+    let of_sensor = |k: &usize| matches!(calibration.quantities[*k], MachineQuantity::Imu(_));
     let widest = (0..calibration.inflation.len())
+        .filter(of_sensor)
         .max_by(|one, other| calibration.inflation[*one].total_cmp(&calibration.inflation[*other]))?;
-    let factor = calibration.inflation[widest];
-    (factor > 1.0).then(|| {
-        Diagnostic::from(ResidualsCorrelated { parameter: calibration.names().swap_remove(widest), factor })
-    })
+    let (factor, parameter) = (calibration.inflation[widest], calibration.names().swap_remove(widest));
+    match factor > 1.0 {
+        true if factor > UNDERMODELLED => Some(ReferenceUndermodelled { parameter, factor }.into()),
+        true => Some(ResidualsCorrelated { parameter, factor }.into()),
+        false => None,
+    }
 }
 
 /// Quantities that the data move far from what was expected.
@@ -82,8 +128,11 @@ fn contradicted(setup: &MachineSetup, layout: &Layout, calibration: &MachineCali
             let deviations =
                 deviation[k].abs() / setup.prior_sd(layout.quantities[k], calibration.noise.len());
             let parameter = names[k].clone();
-            (deviations > CONTRADICTED)
-                .then_some(Diagnostic::from(PriorContradicted { parameter, deviations }))
+            match deviations > CONTRADICTED {
+                true if deviations > REFUTED => Some(PriorRefuted { parameter, deviations }.into()),
+                true => Some(PriorContradicted { parameter, deviations }.into()),
+                false => None,
+            }
         })
         .collect()
 }

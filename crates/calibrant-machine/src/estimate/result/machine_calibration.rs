@@ -1,11 +1,12 @@
 //! The result of a calibration on a machine.
 
+use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::huber;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
 use crate::reference::Motion;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{CalibrationStatus, FitStatistics};
-use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, ReadingUnit, SensorKind};
+use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, ImuRecording, ReadingUnit, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -48,6 +49,8 @@ pub struct MachineCalibration {
     pub reference_noise: Vec<ReferenceNoise>,
     /// The motion: smoothed, or estimated.
     pub motion: Motion,
+    /// Intervals of the motion's splines in which the sensor's samples are used: those of gaps in the log are not.
+    pub covered: Vec<bool>,
     /// Where each variance comes from.
     pub budget: Vec<BudgetRow>,
     /// Part of the sensor's samples that lie in the log's time and in none of its gaps, 0 to 1.
@@ -156,6 +159,20 @@ impl MachineCalibration {
     pub fn estimate(&self, quantity: MachineQuantity) -> Option<(f64, f64)> {
         let place = self.position(quantity)?;
         Some((self.values[place], self.covariance[(place, place)].max(0.0).sqrt()))
+    }
+
+    /// The delay of each sensor at the first sample of the recording, s: that of the parameters is in its middle, and the clocks differ in rate.
+    #[must_use]
+    pub fn delays_at_start_s(&self, recording: &ImuRecording) -> Vec<(SensorKind, f64)> {
+        let times = |sensor: &SensorKind| recording.sensor(*sensor);
+        let sensors = self.sensors();
+        let Some(middle_s) = sensors.last().and_then(times).map(middle_s) else { return Vec::new() };
+        let first_s = |sensor: &SensorKind| times(sensor).and_then(|of| of.times_s().first().copied());
+        let delay = |sensor: SensorKind| {
+            let first_s = first_s(&sensor)?;
+            Some((sensor, self.parameters.motion_time(sensor, first_s, middle_s) - first_s))
+        };
+        sensors.into_iter().filter_map(delay).collect()
     }
 
     /// The true frame, in words: a matrix that has the form of a gauge defines it.

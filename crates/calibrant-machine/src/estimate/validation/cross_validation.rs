@@ -9,13 +9,14 @@
 //! The log stays whole; the sensor's samples are left out. Knots and noise are those of the calibration.
 
 use super::{FailedBlock, MachineValidation, MachineValidationSource, Movement, judged, widened};
-use crate::estimate::begin::{covered, middle_s};
+use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::{Model, Scaled, State, Stream, WeighedLog, minimise};
 use crate::estimate::noise::{Activity, Growths};
 use crate::estimate::problem::{Layout, TiltedGravity, refused, unsolved};
 use crate::estimate::result::undetermined;
 use crate::estimate::{MachineCalibration, MachineProblem, MachineSettings};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::CalibrationStatus;
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::DVector;
 
@@ -38,6 +39,10 @@ pub fn cross_validate_on_machine(
         return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
     };
     check_folds(problem, folds)?;
+    if calibration.status != CalibrationStatus::Converged {
+        let message = "the calibration did not converge: how far it moves without a block tells nothing";
+        return Err(refused(message, "look at the warnings of the calibration"));
+    }
     let (first, last) = (main.times_s()[0], main.times_s()[main.len() - 1]);
     let length_s = (last - first) / folds as f64;
     let (mut movements, mut failed) = (Vec::new(), Vec::new());
@@ -104,6 +109,9 @@ fn without(
     let model = model(problem, calibration, &recording, &state);
     undetermined::check(&model, &state)?;
     let minimum = minimise(&model, state, settings)?.ok_or_else(unsolved)?;
+    if minimum.status != CalibrationStatus::Converged {
+        return Err(refused("the iteration does not converge", "leave fewer blocks"));
+    }
     let covariance = Scaled::new(&minimum.solved.information).ok_or_else(unsolved)?.inverse();
     let parameters = &minimum.state.parameters;
     let shift = (calibration.quantities.iter().zip(&calibration.values))
@@ -133,13 +141,14 @@ fn model<'a>(
         log: WeighedLog {
             log: problem.log,
             sd: calibration.reference_noise.iter().map(|of| of.sd).collect(),
+            rounding_sd: Vec::new(),
             growth: Vec::new(),
         },
         layout: Layout::new(problem.setup, &sensors, problem.quantities, calibration.nominal.clone()),
         gravity: TiltedGravity::new(&problem.setup.up),
         trust: problem.setup.trust,
         middle_s: whole.map_or(0.0, middle_s),
-        covered: covered(problem.log, &state.motion.knots()),
+        covered: calibration.covered.clone(),
     };
     let growths = Growths {
         streams: calibration.noise.iter().map(|of| of.growth).collect(),

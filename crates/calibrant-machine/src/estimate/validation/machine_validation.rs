@@ -57,11 +57,11 @@ pub struct FailedBlock {
 pub struct ParameterShift {
     /// The sensor.
     pub sensor: SensorKind,
-    /// `Δᵀ C⁻¹ Δ`, summed over the blocks and scaled to its degrees of freedom (`satterthwaite1946`).
+    /// The square of `factor` times the degrees of freedom: `Δᵀ C⁻¹ Δ` on another recording.
     pub chi2: f64,
-    /// Its degrees of freedom: combinations of parameters that the other data determine, for each block but one.
+    /// Its degrees of freedom: combinations of parameters that the other data determine; of blocks, those of `Δᵀ Δ` (`satterthwaite1946`).
     pub degrees_of_freedom: usize,
-    /// `√(χ²/degrees of freedom)`: by how much the standard deviations are too small.
+    /// `√(χ²/degrees of freedom)`, of blocks `√(Σ Δᵀ Δ / Σ tr C)`: by how much the standard deviations are too small.
     pub factor: f64,
     /// Its 99 % confidence interval.
     pub factor_interval: (f64, f64),
@@ -106,13 +106,18 @@ pub(crate) fn judged(
     let of_sensor = |place: &usize| matches!(calibration.quantities[*place], MachineQuantity::Imu(of) if of.sensor_kind() == sensor);
     let places: Vec<usize> = (0..calibration.quantities.len()).filter(of_sensor).collect();
     let stated: Vec<f64> = places.iter().map(|place| calibration.covariance[(*place, *place)]).collect();
-    let (mut chi2, mut told) = (0.0, 0);
     let mut largest: Option<LargestShift> = None;
-    for movement in movements {
-        let shift = DVector::from_fn(places.len(), |i, _| movement.shift[places[i]] / stated[i].sqrt());
-        let covariance = DMatrix::from_fn(places.len(), places.len(), |i, j| {
-            movement.covariance[(places[i], places[j])] / (stated[i] * stated[j]).sqrt()
-        });
+    let scaled: Vec<(DVector<f64>, DMatrix<f64>)> = movements
+        .iter()
+        .map(|movement| {
+            let shift = DVector::from_fn(places.len(), |i, _| movement.shift[places[i]] / stated[i].sqrt());
+            let covariance = DMatrix::from_fn(places.len(), places.len(), |i, j| {
+                movement.covariance[(places[i], places[j])] / (stated[i] * stated[j]).sqrt()
+            });
+            (shift, covariance)
+        })
+        .collect();
+    for (movement, (shift, covariance)) in movements.iter().zip(&scaled) {
         for (i, place) in places.iter().enumerate() {
             let in_sd = shift[i] / covariance[(i, i)].max(TOLD).sqrt();
             if largest.is_none_or(|of| in_sd.abs() > of.in_sd.abs()) {
@@ -124,20 +129,12 @@ pub(crate) fn judged(
                 });
             }
         }
-        let SymmetricEigen { eigenvalues, eigenvectors } = covariance.symmetric_eigen();
-        for (value, direction) in eigenvalues.iter().zip(eigenvectors.column_iter()) {
-            if *value > TOLD {
-                chi2 += direction.dot(&shift).powi(2) / value;
-                told += 1;
-            }
-        }
     }
-    // blocks of one recording: what leaves one block moves towards the others, and the sum of all movements is about 0
-    let blocks = movements.len();
-    let degrees = if blocks > 1 { told * (blocks - 1) / blocks } else { told };
+    let (factor, degrees) = match scaled.as_slice() {
+        [(shift, covariance)] => of_recording(shift, covariance),
+        blocks => of_blocks(blocks),
+    }?;
     let distribution = ChiSquared::new(degrees as f64).ok()?;
-    // each movement has its mean, so the sum is scaled to these degrees
-    let factor = (chi2 / told as f64).sqrt();
     let chi2 = factor * factor * degrees as f64;
     let [high, low] = TAILS.map(|tail| factor * (degrees as f64 / distribution.inverse_cdf(tail)).sqrt());
     Some(ParameterShift {
@@ -149,6 +146,30 @@ pub(crate) fn judged(
         verdict: CovarianceVerdict::of(factor, (low, high)),
         largest: largest?,
     })
+}
+
+/// The movement on another recording: each combination of parameters that it tells counts alike.
+fn of_recording(shift: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<(f64, usize)> {
+    let SymmetricEigen { eigenvalues, eigenvectors } = covariance.clone().symmetric_eigen();
+    let told = eigenvalues.iter().zip(eigenvectors.column_iter()).filter(|(value, _)| **value > TOLD);
+    let squares: Vec<f64> = told.map(|(value, direction)| direction.dot(shift).powi(2) / value).collect();
+    let chi2: f64 = squares.iter().sum();
+    (!squares.is_empty()).then(|| ((chi2 / squares.len() as f64).sqrt(), squares.len()))
+}
+
+/// The movements without one block after the other: their squares, in parts of the stated variances, beside what is predicted. A block hardly tells most
+/// combinations of parameters. What is wrong with the model moves these by more than is predicted of them, and by little of what is stated; so they count as much
+/// as they are predicted to move. The sum has `(tr C)²/tr C²` degrees of freedom for each block (`satterthwaite1946`) but one: what leaves one block moves towards
+/// the others, and the sum of all movements is about 0.
+fn of_blocks(blocks: &[(DVector<f64>, DMatrix<f64>)]) -> Option<(f64, usize)> {
+    let moved: f64 = blocks.iter().map(|(shift, _)| shift.norm_squared()).sum();
+    let predicted: f64 = blocks.iter().map(|(_, covariance)| covariance.trace()).sum();
+    let degrees = |(_, covariance): &(DVector<f64>, DMatrix<f64>)| {
+        covariance.trace().powi(2) / covariance.norm_squared()
+    };
+    let number = blocks.len() as f64;
+    let degrees = blocks.iter().map(degrees).sum::<f64>() * (number - 1.0) / number;
+    (predicted > TOLD && degrees >= 1.0).then(|| ((moved / predicted).sqrt(), degrees.round() as usize))
 }
 
 /// A covariance, widened as that of the calibration.

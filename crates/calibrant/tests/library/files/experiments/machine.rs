@@ -160,7 +160,6 @@ fn contradictions_point_at_their_line() {
     let imu = preset("arm").expect("known");
     for (change, says) in [
         (("g_sensitivity = false", "turns = []"), "turns are not read with [machine]"),
-        (("[columns]", "[known]\n[columns]"), "[known] is not read with [machine]"),
         (("[columns]", "[temperature]\n[columns]"), "[temperature] is not read with [machine]"),
         (("\"residuals\"", "\"datasheet\""), "\"datasheet\" needs noise_mps2"),
     ] {

@@ -148,8 +148,8 @@ const CASES: &[(&[u8], &str)] = &[
         "line 1: two columns hold the same: `qw` and `qw` (rename one of them in the file)",
     ),
     (
-        b"t_s,qw,qx,qy,qz\n0,1,0,0,0\n1,1,0.2,0,0\n",
-        "line 3: the norm of the quaternion is 1.0198, not 1 (are its columns in the order of the format, w first or last? a body that was not seen is NaN)",
+        b"t_s,qw,qx,qy,qz\n0,1,0,0,0\n1,1,0.5,0,0\n",
+        "line 3: the norm of the quaternion is 1.1180, not 1 (are its columns in the order of the format, w first or last? a body that was not seen is NaN)",
     ),
     (
         b"t_s,qw,qx,qy,qz\n0,1,0,0,0\n1,0,0,0,0\n",

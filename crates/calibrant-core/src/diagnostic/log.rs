@@ -1,0 +1,75 @@
+//! Checks of a log of a machine's motion.
+
+use super::check::checks;
+use crate::number_format::{counted, short, significant};
+
+checks! {
+    /// The angles of a log jump by a full turn, as those of an encoder that counts one turn. They are continued.
+    AnglesContinued "angles-continued" Note {
+        /// The joints.
+        joints: Vec<String>,
+        /// Number of jumps.
+        jumps: usize,
+    }
+    decided "All angles of a joint are within one turn, and two that follow each other are more than half a turn apart."
+    says format!(
+        "the angles of {} jump by a full turn {}. They are continued",
+        joints.join(", "),
+        match jumps {
+            1 => "once".to_owned(),
+            jumps => format!("{jumps} times"),
+        }
+    );
+
+    /// The quaternions of a log do not have the norm 1. They are normalised.
+    QuaternionNorm "quaternion-norm" Note {
+        /// The largest difference of a norm from 1.
+        off: f64,
+    }
+    decided "A norm is more than 1 % from 1. More than 10 % is refused."
+    remedy "Write the quaternions with more decimals."
+    says format!("quaternions have norms that are up to {} % off 1. They are normalised", significant(100.0 * off, 2));
+
+    /// Rows of a log repeat the one before while the machine moves: the log holds its last values. They are left out.
+    RowsHeld "rows-held" Note {
+        /// Number of rows that are left out.
+        rows: usize,
+        /// Their share of all.
+        share: f64,
+    }
+    decided "One row in a hundred is the same as the one before it, between changes of three steps of the values or more."
+    remedy "Log each sample once, with its own time."
+    says format!(
+        "{} of the log ({:.0} %) repeat the one before while the machine moves: the log holds its last values. They are \
+         left out",
+        counted(*rows, "row"),
+        100.0 * share
+    );
+
+    /// The log has positions that the machine's file does not allow.
+    BeyondLimits "beyond-limits" Warning {
+        /// The joint.
+        joint: String,
+        /// Its least position in the log.
+        least: f64,
+        /// Its largest.
+        most: f64,
+        /// Its lower limit.
+        lower: f64,
+        /// Its upper limit.
+        upper: f64,
+        /// Their unit.
+        position_unit: &'static str,
+    }
+    decided "A position is beyond a limit of the URDF by more than a hundredth of the range, whatever number of full \
+        turns is added."
+    remedy "Check the unit of the column, the zero of the joint, and the limits in the URDF."
+    says format!(
+        "{joint} is logged from {} to {} {position_unit}, its limits in the URDF are {} to {} {position_unit}. Check the \
+         unit of its column, and its zero",
+        significant(*least, 3),
+        significant(*most, 3),
+        short(*lower),
+        short(*upper)
+    );
+}

@@ -1,0 +1,129 @@
+//! What would fit, where recording and log do not.
+//!
+//! A joint that counts the other way, the order of a quaternion, the inverse of an orientation, a left-handed frame: each is tried on the smoothed log, with the few
+//! steps of the parameters that choose the knots. The score is the sum of the logarithms of the residuals. A mistake that is found makes them far smaller.
+
+use super::knot_choice::{Candidate, candidate};
+use crate::chain::KinematicChain;
+use crate::estimate::{MachineProblem, MachineSetup};
+use crate::log::{PoseLog, ReferenceLog};
+use calibrant_core::diagnostic::machine::{JointReversed, PosesOtherwise};
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
+use calibrant_core::sensor::Axis;
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+
+/// A distance of knots that follows hands and machines well enough to compare, s.
+const STEP_S: f64 = 0.1;
+/// A mistake is named where the residuals without it are this many times smaller, in the geometric mean.
+const TELLING: f64 = 2.0;
+
+type Turned = Box<dyn Fn(&UnitQuaternion<f64>) -> UnitQuaternion<f64>>;
+type Placed = Box<dyn Fn(&Vector3<f64>, &UnitQuaternion<f64>) -> Vector3<f64>>;
+
+/// The mistake without which recording and log fit; `None` where none of those that are tried is it.
+pub(crate) fn suspect(problem: &MachineProblem<'_>) -> Option<Diagnostic> {
+    let score = |problem: &MachineProblem<'_>| {
+        let Candidate { score, components, .. } = candidate(problem, STEP_S, None).ok().flatten()?;
+        Some(score / components as f64)
+    };
+    let as_given = score(problem).unwrap_or(f64::INFINITY);
+    let tried: Vec<(Diagnostic, Option<f64>)> = match problem.log {
+        ReferenceLog::Joints(_) => reversed(problem.chain?)
+            .map(|(found, chain)| (found, score(&MachineProblem { chain: Some(&chain), ..*problem })))
+            .collect(),
+        ReferenceLog::Poses(log) => {
+            let convention = |(found, turned, placed): (Diagnostic, Turned, Placed)| {
+                let log = ReferenceLog::Poses(otherwise(log, &turned, &placed));
+                (found, score(&MachineProblem { log: &log, ..*problem }))
+            };
+            let upwards = |(found, setup): (Diagnostic, MachineSetup)| {
+                (found, score(&MachineProblem { setup: &setup, ..*problem }))
+            };
+            // of two that fit alike, the simpler one stands first
+            other_directions_up(problem.setup).map(upwards).chain(conventions().map(convention)).collect()
+        }
+    };
+    let (found, least) = tried
+        .into_iter()
+        .filter_map(|(found, score)| Some((found, score?)))
+        .min_by(|one, other| one.1.total_cmp(&other.1))?;
+    (least < as_given - TELLING.ln()).then_some(found)
+}
+
+/// The chain with each joint in turn the other way.
+fn reversed(chain: &KinematicChain) -> impl Iterator<Item = (Diagnostic, KinematicChain)> + '_ {
+    chain.joints.iter().enumerate().map(|(j, joint)| {
+        let mut chain = chain.clone();
+        chain.joints[j].axis = Unit::new_unchecked(-joint.axis.into_inner());
+        (JointReversed { joint: joint.name.clone() }.into(), chain)
+    })
+}
+
+/// The other axes of the world as the direction up.
+fn other_directions_up(setup: &MachineSetup) -> impl Iterator<Item = (Diagnostic, MachineSetup)> + '_ {
+    let directions = Axis::ALL.into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]);
+    directions.filter_map(|(axis, sign)| {
+        let mut up = Vector3::zeros();
+        up[axis.index()] = sign;
+        let words = format!("`up` in [machine] is \"{}{axis}\"", if sign < 0.0 { "-" } else { "" });
+        let is_other = up.dot(&setup.up.normalize()) < 0.7;
+        is_other.then(|| {
+            (PosesOtherwise { convention: Phrase(words) }.into(), MachineSetup { up, ..setup.clone() })
+        })
+    })
+}
+
+fn otherwise(log: &PoseLog, turned: &Turned, placed: &Placed) -> PoseLog {
+    let places = log.positions_m.iter().zip(&log.world_from_body);
+    PoseLog {
+        times_s: log.times_s.clone(),
+        positions_m: places.map(|(at, of)| Some(placed(at.as_ref()?, &of.unwrap_or_default()))).collect(),
+        world_from_body: log.world_from_body.iter().map(|of| of.as_ref().map(turned)).collect(),
+    }
+}
+
+/// The usual other conventions of poses.
+fn conventions() -> impl Iterator<Item = (Diagnostic, Turned, Placed)> {
+    let of = |values: [f64; 4]| {
+        let [w, i, j, k] = values;
+        UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k))
+    };
+    let same = || -> Placed { Box::new(|at, _| *at) };
+    let w_last = move |q: &UnitQuaternion<f64>| of([q.k, q.w, q.i, q.j]);
+    let w_first = move |q: &UnitQuaternion<f64>| of([q.i, q.j, q.k, q.w]);
+    let mut all: Vec<(String, Turned, Placed)> = vec![
+        ("their quaternions are x, y, z, w, not w, x, y, z".into(), Box::new(w_last), same()),
+        ("their quaternions are w, x, y, z, not x, y, z, w".into(), Box::new(w_first), same()),
+        (
+            "their quaternions are x, y, z, w, and turn the world into the body".into(),
+            Box::new(move |q| w_last(q).inverse()),
+            same(),
+        ),
+        (
+            "their quaternions are w, x, y, z, and turn the world into the body".into(),
+            Box::new(move |q| w_first(q).inverse()),
+            same(),
+        ),
+        ("their quaternions turn the world into the body".into(), Box::new(UnitQuaternion::inverse), same()),
+        (
+            "they are of the world in the body".into(),
+            Box::new(UnitQuaternion::inverse),
+            Box::new(|at, turned| -turned.inverse_transform_vector(at)),
+        ),
+    ];
+    for axis in Axis::ALL {
+        let mut mirror = Vector3::repeat(1.0);
+        mirror[axis.index()] = -1.0;
+        let placed = move || -> Placed { Box::new(move |at, _| at.component_mul(&mirror)) };
+        // a mirror turns an axis of rotation by half a turn beside
+        let turned = move |q: &UnitQuaternion<f64>, sign: f64| {
+            let v = Vector3::new(q.i, q.j, q.k).component_mul(&mirror) * sign;
+            of([q.w, v.x, v.y, v.z])
+        };
+        let frame = format!("they are of a left-handed frame: mirror {axis}");
+        all.push((frame.clone(), Box::new(move |q| turned(q, -1.0)), placed()));
+        all.push((frame + ", and invert the angles", Box::new(move |q| turned(q, 1.0)), placed()));
+    }
+    all.into_iter()
+        .map(|(words, turned, placed)| (PosesOtherwise { convention: Phrase(words) }.into(), turned, placed))
+}
