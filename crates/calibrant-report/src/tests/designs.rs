@@ -6,7 +6,7 @@ use design::{
     SweepVariable,
 };
 use information::criterion::{AOptimality, Criterion};
-use motion::{JerkControlledMotion, KnownEnds, Limits, Rest, Trust};
+use motion::{JerkControlledMotion, KnownEnds, Limits, MotionClock, Rest, Trust};
 use nalgebra::{DVector, Vector3};
 use sensor::{Axis, Sensor, SensorParameters};
 use simulate::{Purpose, initial_motion, stream};
