@@ -40,6 +40,22 @@ checks! {
         )
     };
 
+    /// Samples of the gyroscope look like spikes, but are knocks: with them the rotations meet gravity better.
+    KnocksKept "knocks-kept" Note {
+        /// Number of the samples.
+        samples: usize,
+        /// Rotation error with them, rad.
+        kept_rad: f64,
+        /// Rotation error without them, rad.
+        cut_rad: f64,
+    }
+    decided "The calibration was made with them and without them. The one with the smaller rotation error stays."
+    says format!(
+        "gyroscope: {samples} samples in movements look like spikes, but are kept: the rotation error is {:.2}° with them and {:.2}° without. They are knocks",
+        kept_rad.to_degrees(),
+        cut_rad.to_degrees()
+    );
+
     /// The recording of an IMU has no gyroscope. Only the accelerometer was calibrated.
     GyroscopeMissing "gyroscope-missing" Warning {}
     decided "The file has no columns of a gyroscope, and no other file gives it."
