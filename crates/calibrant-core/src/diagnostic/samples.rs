@@ -1,6 +1,7 @@
 //! Checks of the samples of a recording: spikes, coarse readings, lost samples, temperatures.
 
 use super::check::checks;
+use crate::number_format::counted;
 use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
 
 checks! {
@@ -51,7 +52,8 @@ checks! {
     }
     decided "The calibration was made with them and without them. The one with the smaller rotation error stays."
     says format!(
-        "gyroscope: {samples} samples in movements look like spikes, but are kept: the rotation error is {:.2}° with them and {:.2}° without. They are knocks",
+        "gyroscope: {} in movements may be spikes or knocks. The rotation error is {:.3}° with them and {:.3}° without: they stay",
+        counted(*samples, "sample"),
         kept_rad.to_degrees(),
         cut_rad.to_degrees()
     );
