@@ -27,6 +27,12 @@ pub(crate) struct RecordingOptions {
     /// Sample rate, Hz, for files without sample times.
     #[arg(long, value_name = "HZ")]
     rate_hz: Option<f64>,
+    /// Standard deviation of that rate, ppm (default: 50000, 5 per cent, of a rate that is typed; 100 of one that a logger states).
+    #[arg(long, value_name = "PPM", value_parser = ppm)]
+    rate_sd_ppm: Option<f64>,
+    /// Which sensor to read, if the rows of a file are those of several: its value in the column that numbers them.
+    #[arg(long, value_name = "VALUE")]
+    instance: Option<String>,
     /// Sample times: even, or as-logged (default: even, if the logged times are steps of a coarse clock about even ones).
     #[arg(long, value_name = "TIMES", value_parser = times)]
     times: Option<SampleTimes>,
@@ -67,6 +73,8 @@ impl RecordingOptions {
             accelerometer_unit: self.accelerometer_unit,
             gyroscope_unit: self.gyroscope_unit,
             rate_hz: self.rate_hz,
+            rate_sd_ppm: self.rate_sd_ppm,
+            instance: self.instance.clone(),
             times: self.times,
             topic: self.topic.clone(),
             budget: Some(budget()),
@@ -142,6 +150,11 @@ fn time_unit(text: &str) -> Result<TimeUnit, String> {
 fn times(text: &str) -> Result<SampleTimes, String> {
     let found = SampleTimes::ALL.into_iter().find(|times| times.name() == text);
     found.ok_or_else(|| "sample times are even or as-logged".into())
+}
+
+fn ppm(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| (0.0..=1e5).contains(value));
+    value.ok_or_else(|| "a standard deviation in ppm, from 0 to 100000".into())
 }
 
 /// A temperature that a sensor can have, °C.

@@ -72,9 +72,9 @@ pub use recording::corrected::{check_not_corrected, write_corrected_recording};
 pub use recording::ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, imu_from_columns,
-    imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
-    write_imu_recording, write_recording,
+    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TYPED_RATE_SD_PPM, TimeUnit, USUAL_RATE_SD_PPM,
+    imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,
+    read_imu_sensor, write_imu_recording, write_recording,
 };
 pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,

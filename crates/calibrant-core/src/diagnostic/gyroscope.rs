@@ -90,6 +90,72 @@ checks! {
         if *is_mirrored { ". Its axes point the opposite way" } else { "" }
     );
 
+    /// The rotations miss gravity by far more than the gyroscope's noise and knocks explain.
+    RotationsScatter "rotations-scatter" Warning {
+        /// Standard deviation of the rotation errors beyond noise and knocks, rad.
+        excess_sd_rad: f64,
+        /// The largest rate of a rotation, rad/s.
+        peak_radps: f64,
+    }
+    decided "The standard deviation beyond noise and knocks is more than 0.6°, and more than 1 % of the angle of the rotations."
+    remedy "Turn the sensor more slowly, and look at the rotations in the report: errors that grow with the rate are those of a range."
+    says format!(
+        "the rotations miss gravity by {:.1}° rms beyond what the gyroscope's noise and knocks explain. The fastest rate is {:.0}°/s. Does the gyroscope \
+         saturate, wrap or lose gain at such rates, are samples lost, or has it a g-sensitivity that is not estimated?",
+        excess_sd_rad.to_degrees(),
+        peak_radps.to_degrees()
+    );
+
+    /// The mean rate of the gyroscope differs from hold to hold by far more than its noise explains.
+    RestScatters "rest-scatters" Warning {
+        /// Standard deviation between holds beyond noise, rad/s.
+        between_sd_radps: f64,
+        /// Is the g-sensitivity estimated?
+        has_g_sensitivity: bool,
+    }
+    decided "The standard deviation between holds is more than 0.1°/s, and the bias has 50 times the standard deviation that noise gives it."
+    remedy "Estimate the g-sensitivity (gyroscope.g_sensitivity). Let the sensor warm up, and hold it still."
+    says format!(
+        "the gyroscope's mean rate differs from hold to hold by {:.2}°/s rms, far beyond its noise, and its bias is known no better than that. {}",
+        between_sd_radps.to_degrees(),
+        match has_g_sensitivity {
+            true => "Let the sensor warm up, and hold it still.",
+            false => "Has it a g-sensitivity? It is not estimated (gyroscope.g_sensitivity). Otherwise let the sensor warm up, and hold it still.",
+        }
+    );
+
+    /// A gain of the gyroscope is known no better than before the calibration.
+    GainsUncertain "gains-uncertain" Warning {
+        /// The largest relative standard deviation of a gain.
+        relative_sd: f64,
+        /// The part of it that is the sample rate's.
+        rate_sd: f64,
+    }
+    decided "A gain has a standard deviation of more than 2 %: gyroscopes are delivered with 1 to 5 %."
+    remedy "Record with sample times, or say how well the rate is known. Record more rotations, about all axes."
+    says format!(
+        "a gain of the gyroscope has a standard deviation of {:.1} %. {}",
+        100.0 * relative_sd,
+        match 2.0 * rate_sd > *relative_sd {
+            true => "It is that of the sample rate, which was not measured: record with sample times, or say how well the rate is known \
+                (option `rate_sd_ppm`, or rate_sd_ppm in [columns]).",
+            false => "Record more rotations, about all axes.",
+        }
+    );
+
+    /// All gains of the gyroscope are off by one factor.
+    GyroscopeScaled "gyroscope-scaled" Warning {
+        /// The factor.
+        factor: f64,
+    }
+    decided "All three gains are more than 5 % off, and differ from each other by less than a third of that. Gains of one sensor are off by per cents, \
+        each by its own."
+    remedy "Check the sample rate, the range of the gyroscope (its sensitivity), and its unit."
+    says format!(
+        "the gyroscope reads {factor:.2} times the turns that gravity shows, on all three axes. Is the sample rate {factor:.2} times the one that was used, or was the \
+         sensitivity of another range used, or another unit?"
+    );
+
     /// A rotation is not used.
     RotationLeftOut "rotation-left-out" Warning {
         /// Number of the hold before it, from 1.

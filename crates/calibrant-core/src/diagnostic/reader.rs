@@ -242,6 +242,21 @@ checks! {
     remedy "Check the rate that the message names."
     says clock.to_string();
 
+    /// A sample rate was given that is not that of the sample times.
+    RateUnlikeTimes "rate-unlike-times" Warning {
+        /// The rate that was given, Hz.
+        given_hz: f64,
+        /// That of the sample times, Hz.
+        found_hz: f64,
+    }
+    decided "They differ by more than a hundredth. The sample times are used."
+    remedy "Leave option `rate_hz` away, or find out which of them is wrong."
+    says format!(
+        "the rate was given as {} Hz, but the sample times show {} Hz: the times are used",
+        plain(*given_hz, 6),
+        plain(*found_hz, 6)
+    );
+
     /// The times count from the first sample.
     TimesFromFirst "times-from-first" Note {
         /// Column of the times.

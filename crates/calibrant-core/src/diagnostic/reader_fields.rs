@@ -42,9 +42,16 @@ pub enum ClockSourceKind {
         rate_hz: f64,
         /// The key in the file that states the rate; `None` where the user gives it.
         stated_by: Option<&'static str>,
+        /// Standard deviation of the rate, ppm.
+        sd_ppm: f64,
     },
-    /// From the rows and this rate, Hz, that was given: the times in the file are those of packets.
-    Packets(f64),
+    /// From the rows and a rate that was given: the times in the file are those of packets.
+    Packets {
+        /// The rate, Hz.
+        rate_hz: f64,
+        /// Standard deviation of it, ppm.
+        sd_ppm: f64,
+    },
     /// From the line through all times, which are steps of a host's clock. Or the user says that the samples are even.
     Even {
         /// The sample rate, Hz.
@@ -89,9 +96,17 @@ pub enum TemperatureDoubt {
 
 impl fmt::Display for ClockSourceKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const SD: &str = "rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given";
+        let uncertain = |sd_ppm: f64| {
+            let sd = if sd_ppm < 1e4 {
+                format!("{} ppm", plain(sd_ppm, 3))
+            } else {
+                format!("{} %", plain(1e-4 * sd_ppm, 3))
+            };
+            format!("its uncertainty is {sd} (option `rate_sd_ppm`, or rate_sd_ppm in [columns])")
+        };
         match self {
-            Self::Derived { is_empty, counter, rate_hz, stated_by } => {
+            Self::Derived { is_empty, counter, rate_hz, stated_by, sd_ppm } => {
+                let sd = uncertain(*sd_ppm);
                 let empty =
                     if *is_empty { "its sample times are missing" } else { "the file has no sample times" };
                 let source = stated_by.map_or_else(|| "as given".into(), |key| format!("its `{key}`"));
@@ -99,20 +114,21 @@ impl fmt::Display for ClockSourceKind {
                 match counter {
                     Some(name) => write!(
                         f,
-                        "{empty}: they are computed from the counter `{name}` and {rate} Hz ({source}); {SD}"
+                        "{empty}: they are computed from the counter `{name}` and {rate} Hz ({source}); {sd}"
                     ),
                     None => write!(
                         f,
                         "{empty} and no counter: each row is taken as one sample at {rate} Hz ({source}), so lost samples \
-                         do not show; {SD}"
+                         do not show; {sd}"
                     ),
                 }
             }
-            Self::Packets(rate_hz) => write!(
+            Self::Packets { rate_hz, sd_ppm } => write!(
                 f,
                 "its times are those of packets, not of samples: each row is taken as one sample at {} Hz (as given), so \
-                 lost samples do not show; {SD}",
-                plain(*rate_hz, 6)
+                 lost samples do not show; {}",
+                plain(*rate_hz, 6),
+                uncertain(*sd_ppm)
             ),
             Self::Even { rate_hz, tick_s } => {
                 if let Some(tick_s) = tick_s {
@@ -171,7 +187,7 @@ impl Part for FileTimes {
 impl Part for ClockSourceKind {
     fn add_to(&self, parts: &mut Parts, _: &'static str) {
         match self {
-            Self::Derived { rate_hz, .. } | Self::Packets(rate_hz) | Self::Even { rate_hz, .. } => {
+            Self::Derived { rate_hz, .. } | Self::Packets { rate_hz, .. } | Self::Even { rate_hz, .. } => {
                 parts.numbers.push(("rate_hz", *rate_hz));
             }
             Self::RateUnused => {}

@@ -1,6 +1,7 @@
 //! Checks of the samples of a recording: spikes, coarse readings, lost samples, temperatures.
 
 use super::check::checks;
+use crate::number_format::counted;
 use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
 
 checks! {
@@ -39,6 +40,23 @@ checks! {
             unit.symbol()
         )
     };
+
+    /// Samples of the gyroscope look like spikes, but are knocks: with them the rotations meet gravity better.
+    KnocksKept "knocks-kept" Note {
+        /// Number of the samples.
+        samples: usize,
+        /// Rotation error with them, rad.
+        kept_rad: f64,
+        /// Rotation error without them, rad.
+        cut_rad: f64,
+    }
+    decided "The calibration was made with them and without them. The one with the smaller rotation error stays."
+    says format!(
+        "gyroscope: {} in movements may be spikes or knocks. The rotation error is {:.3}° with them and {:.3}° without: they stay",
+        counted(*samples, "sample"),
+        kept_rad.to_degrees(),
+        cut_rad.to_degrees()
+    );
 
     /// The recording of an IMU has no gyroscope. Only the accelerometer was calibrated.
     GyroscopeMissing "gyroscope-missing" Warning {}

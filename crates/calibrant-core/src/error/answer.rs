@@ -44,10 +44,12 @@ options! {
     Gyroscope "gyroscope" "The file of the gyroscope.";
     GyroscopeUnit "gyroscope_unit" "Unit of the gyroscope's readings.";
     Hold "hold" "The interval in which the sensor is held still.";
+    Instance "instance" "Which sensor to read of a file with the rows of several.";
     Motion "motion" "The commanded motion, or the log of the machine.";
     Noise "noise" "A file with noise densities.";
     Poses "poses" "The directions of holds.";
     RateHz "rate_hz" "The sample rate in Hz.";
+    RateSdPpm "rate_sd_ppm" "The standard deviation of the sample rate in ppm.";
     Records "records" "The database to which results are added.";
     Sections "sections" "The faces and turns of a session.";
     Seconds "seconds" "How long a search may take.";

@@ -205,6 +205,9 @@ refusals! {
     GravityMissed "gravity-missed"
         "The rotations of the gyroscope do not turn gravity from hold to hold."
         "Check that both files belong together, the axes, and saturation.";
+    GyroscopeScaled "gyroscope-scaled"
+        "The gyroscope reads a multiple of the turns that gravity shows."
+        "Correct its sample rate, its range (sensitivity) or its unit.";
     FitFailed "fit-failed"
         "The fit breaks down or does not converge."
         "Check the units and the holds.";

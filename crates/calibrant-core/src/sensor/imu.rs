@@ -48,6 +48,17 @@ impl ImuRecording {
         self.cleaned(|sensor_kind| sensor_kind == SensorKind::Gyroscope)
     }
 
+    /// The gyroscope with the spikes that [`without_spikes`](Self::without_spikes) finds in its movements, where there are some: they may be knocks. With
+    /// the number of them, and what is removed nevertheless.
+    #[must_use]
+    pub fn gyroscope_with_knocks(&self) -> Option<(Recording, usize, Option<Spikes>)> {
+        let gyroscope = self.gyroscope.as_ref()?;
+        let (_, all) = gyroscope.without_spikes_beside(self.accelerometer.as_ref(), true);
+        let (kept, at_rest) = gyroscope.without_spikes_beside(self.accelerometer.as_ref(), false);
+        let others = all?.samples.len() - at_rest.as_ref().map_or(0, |spikes| spikes.samples.len());
+        (others > 0).then(|| (kept.into_owned(), others, at_rest))
+    }
+
     /// The same for a recording on a machine, where the movements of both sensors count.
     #[must_use]
     pub fn without_spikes_in_motion(&self) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {

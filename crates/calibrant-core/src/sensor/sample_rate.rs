@@ -127,6 +127,11 @@ fn least_step(times_s: &[f64], median: f64) -> Option<f64> {
     let multiple =
         |step: f64| Some((step / least).round()).filter(|n| (step / least - n).abs() < MULTIPLE_TOLERANCE);
     let whole = some.iter().filter(|step| multiple(**step).is_some()).count();
+    // where samples are lost by chance, one step is more frequent than two: otherwise it is the tick of a clock
+    let count = |n: f64| some.iter().filter(|step| multiple(**step) == Some(n)).count();
+    if count(2.0) > count(1.0) {
+        return None;
+    }
     // of coarse times each step is a multiple
     let fewest = if least < COARSE_S { 1.0 - MULTIPLE_TOLERANCE } else { 0.3 };
     let is_usual = least > fewest * median && whole as f64 > WHOLE_SHARE * some.len() as f64;

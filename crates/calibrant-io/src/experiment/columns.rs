@@ -36,6 +36,8 @@ pub struct ColumnsSection {
     pub gyroscope_unit: Option<String>,
     /// Name of the column of temperatures.
     pub temperature: Option<String>,
+    /// Which sensor, of a file with the rows of several.
+    pub instance: Option<String>,
     /// Topic of a bag with several.
     pub topic: Option<String>,
 }
@@ -68,6 +70,7 @@ impl ColumnsSection {
             )?,
             rate_hz: self.rate_hz.map(f64::from),
             rate_sd_ppm: self.rate_sd_ppm.map(f64::from),
+            instance: column("columns.instance", self.instance.as_ref())?,
             topic: column("columns.topic", self.topic.as_ref())?,
             times: self.times,
             columns,

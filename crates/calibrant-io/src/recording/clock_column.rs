@@ -43,7 +43,8 @@ impl ClockColumn<'_> {
         let name = self.name;
         let Some(unit) = self.unit else { return Err(which_unit(name, &ticks).into()) };
         let per_second = unit.per_second().unwrap_or(1.0);
-        let (mut ticks, wraps) = unwrap(ticks, self.wraps_at);
+        let wraps_at = self.wraps_at.or_else(|| wraps_in_32_bits(&ticks, per_second));
+        let (mut ticks, wraps) = unwrap(ticks, wraps_at);
         if wraps > 0 {
             findings.push(ClockSource { clock: ClockSourceKind::Wrapped(name.to_owned(), wraps) }.into());
         }
@@ -73,6 +74,14 @@ impl ClockColumn<'_> {
         }
         Ok(Seconds { times_s: ticks, counted_from_ns })
     }
+}
+
+/// Width of a counter of 32 bits, if the ticks begin anew as such a counter does: with the step back, the next time is at most a second later.
+fn wraps_in_32_bits(ticks: &[f64], per_second: f64) -> Option<f64> {
+    const WIDTH: f64 = (1_u64 << 32) as f64;
+    let mut back = ticks.array_windows().filter(|[one, next]| next < one).peekable();
+    back.peek()?;
+    back.all(|[one, next]| (0.0..=per_second).contains(&(next + WIDTH - one))).then_some(WIDTH)
 }
 
 /// The error for a time that goes backwards, s.

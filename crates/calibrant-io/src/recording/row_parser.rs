@@ -1,6 +1,7 @@
 //! Parses one row of a recording: its fields as numbers, each in its slot, or an error that points at the
 //! field.
 
+use crate::recording::text_times::TextTime;
 use crate::text::decoding::Checked;
 use crate::text::delimited::{Delimiter, Line, last_number_is_cut};
 use calibrant_core::error::{InputError, Refusal};
@@ -50,6 +51,10 @@ pub(crate) struct Layout {
     pub(crate) has_header: bool,
     /// Are times whole ticks of a clock? They may then be larger than seconds can be.
     pub(crate) ticks: bool,
+    /// Are times text, such as `13:35:38.42`?
+    pub(crate) text_times: bool,
+    /// The rows to read, where not all: a column, and its value in them.
+    pub(crate) only: Option<(usize, String)>,
     /// Slots of readings, of which a few may be invalid samples.
     pub(crate) may_be_invalid: Range<usize>,
 }
@@ -114,7 +119,7 @@ impl<'l> RowReader<'l> {
     /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Returns
     /// `false` where the line is empty or was cut off.
     pub(crate) fn read(&mut self, line: Line<'_>, values: &mut [f64]) -> Checked<bool> {
-        if line.is_void() {
+        if line.is_void() || !self.is_asked(line) {
             return Ok(false);
         }
         self.rows += 1;
@@ -140,6 +145,13 @@ impl<'l> RowReader<'l> {
             width => width,
         };
         Ok(true)
+    }
+
+    /// Is it one of the rows to read?
+    fn is_asked(&self, line: Line<'_>) -> bool {
+        let field =
+            |column: usize| line.fields(self.layout.delimiter).nth(column).map(|(_, field)| field.trim());
+        self.layout.only.as_ref().is_none_or(|(column, value)| field(*column) == Some(value.as_str()))
     }
 
     /// Returns an error at the first invalid reading where they are too many to be a few bad samples. To be
@@ -209,7 +221,11 @@ impl<'l> RowReader<'l> {
 
     /// Ticks of a clock, less the first where they are too large to be exact.
     fn tick(&mut self, field: &str) -> Option<f64> {
-        let Ok(ticks) = field.parse::<i64>() else {
+        let whole = match self.layout.text_times {
+            true => TextTime::parse(field).map(|time| time.ns),
+            false => field.parse::<i64>().ok(),
+        };
+        let Some(ticks) = whole else {
             let origin = self.origin.unwrap_or(0);
             return number(field).map(|value| if origin == 0 { value } else { value - origin as f64 });
         };

@@ -119,6 +119,19 @@ impl<'t> Head<'t> {
         value[..end].parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
     }
 
+    /// The one sample rate that comments state, Hz: `data_rate = 100.0 Hz`, `ODR: 104 Hz`, `sample_rate_hz=200`. `None` where they state several.
+    pub(crate) fn rate_in_comments(&self) -> Option<f64> {
+        const KEYS: [&str; 6] = ["data_rate", "data rate", "sampl", "update rate", "odr", "output rate"];
+        let stated = |line: &Line<'_>| {
+            let text = line.text.to_lowercase();
+            let after = |key: &str| text.split_once(key).map(|(_, rest)| rest.to_owned());
+            KEYS.iter().find_map(|key| number_of_hz(&after(key)?))
+        };
+        let mut rates = self.preamble.iter().filter_map(stated);
+        let first = rates.next()?;
+        rates.all(|other| other == first).then_some(first)
+    }
+
     /// Is there a line `sep=,` (for Excel)?
     pub(crate) fn has_separator_line(&self) -> bool {
         self.preamble.iter().any(|line| is_separator(line.text.trim_ascii()))
@@ -172,6 +185,16 @@ fn no_json(text: &str) -> InputError {
             "a recording is a table: a header such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
         ),
     }
+}
+
+/// The number of `… = 100.0 Hz` or of `…_hz: 100`: the first one, if the unit stands beside it.
+fn number_of_hz(text: &str) -> Option<f64> {
+    let start = text.find(|c: char| c.is_ascii_digit())?;
+    let end =
+        text[start..].find(|c: char| !c.is_ascii_digit() && c != '.').map_or(text.len(), |at| start + at);
+    let has_unit = text[..start].contains("hz") || text[end..].trim_start().starts_with("hz");
+    let number: f64 = text[start..end].parse().ok()?;
+    (has_unit && number > 0.0).then_some(number)
 }
 
 fn is_number(field: &&str) -> bool {

@@ -229,6 +229,8 @@ impl TextColumns {
             names: self.names.clone(),
             has_header: !self.names.is_empty(),
             ticks: self.time_unit != Some(TimeUnit::Second),
+            text_times: false,
+            only: None,
             may_be_invalid: 0..0,
         }
     }

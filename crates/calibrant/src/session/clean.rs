@@ -1,6 +1,6 @@
 //! Outliers are taken out of a recording once, for all stages that follow.
 
-use calibrant_core::diagnostic::{Diagnostic, samples};
+use calibrant_core::diagnostic::{Check, Diagnostic, samples};
 use calibrant_core::estimate::{CalibrationProblem, Stimulus, without_motion_outliers};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::{ImuRecording, Sensor, SensorKind, Spikes};
@@ -24,6 +24,15 @@ pub(crate) fn take_out_outliers_in_motion(recording: &mut ImuRecording) -> Vec<D
         *recording = clean;
     }
     found
+}
+
+/// Replaces what was found of the gyroscope's spikes: those in movements were kept, those at rest were not.
+pub(crate) fn keep_knocks(found: &mut Vec<Diagnostic>, at_rest: Option<&Spikes>, recording: &ImuRecording) {
+    let kind = SensorKind::Gyroscope;
+    let is_of_it =
+        |found: &Diagnostic| found.subject().is_some_and(|subject| subject.starts_with(kind.name()));
+    found.retain(|found| found.code() != samples::Spikes::CODE || !is_of_it(found));
+    found.extend(at_rest.into_iter().flat_map(|spikes| diagnostics(recording, &[(kind, spikes.clone())])));
 }
 
 fn diagnostics(recording: &ImuRecording, outliers: &[(SensorKind, Spikes)]) -> Vec<Diagnostic> {

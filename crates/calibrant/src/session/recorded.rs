@@ -5,7 +5,7 @@ use super::source::Source;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
-use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, USUAL_RATE_SD_PPM, UtcTime};
+use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, UtcTime};
 use std::path::Path;
 
 /// The samples of one sensor or of both, and where they come from.
@@ -47,11 +47,8 @@ impl Recorded {
     pub(crate) fn imu_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
         let file = source.read_imu(options)?;
         let findings = findings_of(&file, source);
-        let ImuFile { recording, format, sha256, counted_from_ns, rate_is_nominal, .. } = file;
-        let rate_sd = match rate_is_nominal {
-            true => 1e-6 * options.rate_sd_ppm.unwrap_or(USUAL_RATE_SD_PPM),
-            false => 0.0,
-        };
+        let ImuFile { recording, format, sha256, counted_from_ns, rate_sd_ppm, .. } = file;
+        let rate_sd = 1e-6 * rate_sd_ppm.unwrap_or(0.0);
         let (format, joined) = (Some(format), Vec::new());
         Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
     }

@@ -1,6 +1,7 @@
 //! The stages from a recording to a calibration, whatever the sensors.
 
 use super::calibrated::Calibrated;
+use super::clean::keep_knocks;
 use super::duplicates::refuse_duplicate;
 use super::kind::Kind;
 use super::noise::NoiseInHold;
@@ -12,7 +13,7 @@ use super::report::about;
 use super::setup::Setup;
 use super::source::Source;
 use super::validation::{on_recording, unless_too_few};
-use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
+use calibrant_core::diagnostic::samples::{CalibrationExtrapolated, KnocksKept};
 use calibrant_core::diagnostic::{Diagnostic, Severity};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationSettings, Validation, other_temperature};
@@ -59,8 +60,28 @@ impl<'e> Task<'e> {
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_rate_sd(recorded.rate_sd);
         let mut before = self.kind.missing(&recorded.recording);
+        let knocks = match self.kind {
+            Kind::Imu(..) => recorded.recording.gyroscope_with_knocks(),
+            _ => None,
+        };
         before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
-        let (mut calibration, noise) = self.calibrate(source, &recorded, &setup, options.report)?;
+        let mut outcome = self.calibrate(source, &recorded, &setup, options.report);
+        if let Some((gyroscope, samples, at_rest)) = knocks {
+            let cut = recorded.recording.gyroscope.replace(gyroscope);
+            let kept = self.calibrate(source, &recorded, &setup, options.report);
+            let better = kept.as_ref().ok().and_then(|(kept, _)| {
+                KnocksKept::of(outcome.as_ref().ok().map(|(cut, _)| cut), kept, samples)
+            });
+            match better {
+                Some(better) => {
+                    notes.push(better.into());
+                    keep_knocks(&mut before, at_rest.as_ref(), &recorded.recording);
+                    outcome = kept;
+                }
+                None => recorded.recording.gyroscope = cut,
+            }
+        }
+        let (mut calibration, noise) = outcome?;
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
         setup.set_white_noise(noise.white_noise);

@@ -34,6 +34,7 @@ mod nominal_rate;
 mod priors;
 mod propagated;
 mod quantisation;
+mod rotation_scatter;
 mod saturation;
 mod sensor_change;
 mod session;

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::holds::HoldsSpreadLittle;
+use crate::diagnostic::samples::KnocksKept;
 use crate::diagnostic::{Check, samples};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::are_correlated;
@@ -11,6 +12,7 @@ use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
+use crate::sensor::{ImuRecording, SensorKind};
 
 /// Calibrates an IMU.
 ///
@@ -61,13 +63,26 @@ fn without_outliers(
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<Calibration> {
-    let (recording, outliers) = problem.recording.without_spikes();
-    let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
+    let (recording, mut outliers) = problem.recording.without_spikes();
+    let mut outcome = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise);
+    let mut note = None;
+    if let Some((gyroscope, samples, at_rest)) = problem.recording.gyroscope_with_knocks() {
+        let recording = ImuRecording { gyroscope: Some(gyroscope), ..recording.into_owned() };
+        let kept = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise);
+        if let Ok(found) = &kept
+            && let Some(better) = KnocksKept::of(outcome.as_ref().ok(), found, samples)
+        {
+            outliers.retain(|(sensor_kind, _)| *sensor_kind == SensorKind::Accelerometer);
+            outliers.extend(at_rest.map(|at_rest| (SensorKind::Gyroscope, at_rest)));
+            (outcome, note) = (kept, Some(Diagnostic::from(better)));
+        }
+    }
+    let mut calibration = outcome?;
     let found = outliers.iter().filter_map(|(sensor_kind, outliers)| {
         let unit = problem.recording.sensor(*sensor_kind)?.unit;
         Some(samples::Spikes::of(outliers, *sensor_kind, unit).into())
     });
-    calibration.warnings.splice(0..0, found);
+    calibration.warnings.splice(0..0, found.chain(note));
     Ok(calibration)
 }
 

@@ -27,6 +27,7 @@ mod earth_rate;
 mod estimated;
 mod faces_alone;
 mod initial;
+mod knocks_kept;
 mod least_squares;
 mod model;
 mod problem;

@@ -9,6 +9,8 @@ use std::fmt;
 pub enum ColumnMeaning {
     /// Sample times.
     Time,
+    /// Another clock: it gives the times where no column of sample times says its unit.
+    Clock,
     /// A number that counts samples, lost ones included.
     Counter,
     /// Readings of one axis.
@@ -33,6 +35,7 @@ impl fmt::Display for ColumnMeaning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Time => f.write_str("time"),
+            Self::Clock => f.write_str("another clock"),
             Self::Counter => f.write_str("sample counter"),
             Self::Reading(sensor_kind, axis) => write!(f, "{sensor_kind} {axis}"),
             Self::Temperature => f.write_str("temperature"),
@@ -55,6 +58,7 @@ impl ColumnMeaning {
             Self::Increment => Some("increments of a strapdown integration, not readings"),
             Self::Magnetometer => Some("the magnetometer is not calibrated"),
             Self::Calendar => Some("the time of day is not needed"),
+            Self::Clock => Some("the sample times are in another column"),
             Self::Other => Some("not known to be needed"),
             Self::Time | Self::Counter | Self::Reading(..) | Self::Temperature => None,
         }

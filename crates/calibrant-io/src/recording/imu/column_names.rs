@@ -3,6 +3,7 @@
 //! | meaning | names | units, as an ending or in brackets |
 //! |---|---|---|
 //! | time | `t`, `time`, `timestamp`, `stamp` | `_s`, `_ms`, `_us`, `_ns` |
+//! | another clock | `millis`, `micros`, `ms`, `elapsed`, `rtcTime`, `TimeUS` | the name itself, or as of a time |
 //! | counter | `n_samples`, `sample`, `index`, `counter`, `packetcounter` | |
 //! | accelerometer | `ax`, `acc_x`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x` | `_mps2`, `_g`, `_mg`, `_counts` |
 //! | gyroscope | `gx`, `wx`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
@@ -18,9 +19,40 @@ use calibrant_core::sensor::{Axis, SensorKind};
 
 /// Names of a time.
 const TIME: &[&str] = &["t", "time", "timestamp", "stamp", "timestamps", "sampletime", "headerstamp"];
+/// Names of another clock.
+const CLOCK: &[&str] = &[
+    "clock",
+    "datetime",
+    "elapsed",
+    "elapsedtime",
+    "epoch",
+    "epochtime",
+    "gpstime",
+    "localtime",
+    "rtc",
+    "rtctime",
+    "systemtime",
+    "timeofday",
+    "unixtime",
+    "uptime",
+    "utc",
+    "utctime",
+];
+/// Names before the unit of a clock, as in `TimeUS`.
+const BEFORE_UNIT: &[&str] = &["", "time", "timestamp", "elapsed", "uptime", "clock", "epoch", "unix"];
 /// Names of a sample counter.
-const COUNTER: &[&str] =
-    &["nsamples", "sample", "samples", "samplenumber", "sampleindex", "index", "counter", "packetcounter"];
+const COUNTER: &[&str] = &[
+    "nsamples",
+    "sample",
+    "samples",
+    "samplenumber",
+    "sampleindex",
+    "index",
+    "count",
+    "counter",
+    "packetcounter",
+    "seq",
+];
 /// Names of an accelerometer.
 const ACCELEROMETER: &[&str] =
     &["a", "acc", "accel", "accelerometer", "acceleration", "linearacceleration", "arss", "rawacc", "accraw"];
@@ -53,7 +85,10 @@ pub(crate) fn column(name: &str) -> ImuColumn {
     let meaning = meaning(&base);
     // an ending that is no unit of such a column belongs to the name
     let unit = match (meaning, unit.as_deref()) {
-        (ColumnMeaning::Time, Some(unit)) => TimeUnit::parse(unit).map(ColumnUnit::Time),
+        (ColumnMeaning::Time | ColumnMeaning::Clock, Some(unit)) => {
+            TimeUnit::parse(unit).map(ColumnUnit::Time)
+        }
+        (ColumnMeaning::Clock, None) => unit_in_name(&plain(&base)).map(ColumnUnit::Time),
         (ColumnMeaning::Counter, _) => Some(ColumnUnit::Time(TimeUnit::Sample)),
         (ColumnMeaning::Reading(sensor_kind, _), Some(unit)) => {
             ImuUnit::parse(unit).filter(|unit| unit.suits(sensor_kind)).map(ColumnUnit::Reading)
@@ -101,9 +136,12 @@ fn split_unit(name: &str) -> (String, Option<String>) {
 }
 
 fn meaning(base: &str) -> ColumnMeaning {
-    let plain: String = base.chars().filter(|c| c.is_alphanumeric()).collect();
+    let plain = plain(base);
     if TIME.contains(&plain.as_str()) {
         return ColumnMeaning::Time;
+    }
+    if CLOCK.contains(&plain.as_str()) || unit_in_name(&plain).is_some() {
+        return ColumnMeaning::Clock;
     }
     if COUNTER.contains(&plain.as_str()) {
         return ColumnMeaning::Counter;
@@ -136,6 +174,16 @@ fn meaning(base: &str) -> ColumnMeaning {
     } else {
         ColumnMeaning::Other
     }
+}
+
+fn plain(base: &str) -> String {
+    base.chars().filter(|c| c.is_alphanumeric()).collect()
+}
+
+/// The unit that is the name of a clock, or its end: `millis`, `TimeUS`. A single `s` is none.
+fn unit_in_name(plain: &str) -> Option<TimeUnit> {
+    let unit = |before: &&str| TimeUnit::parse(plain.strip_prefix(*before).filter(|rest| rest.len() > 1)?);
+    BEFORE_UNIT.iter().find_map(unit).filter(|unit| *unit != TimeUnit::Sample)
 }
 
 fn is_angle(plain: &str) -> bool {
@@ -175,6 +223,12 @@ mod tests {
             ("t_us", (ColumnMeaning::Time, Some(ColumnUnit::Time(TimeUnit::Microsecond)))),
             ("time", (ColumnMeaning::Time, None)),
             ("n_samples", (ColumnMeaning::Counter, Some(ColumnUnit::Time(TimeUnit::Sample)))),
+            ("millis", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Millisecond)))),
+            ("ms", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Millisecond)))),
+            ("TimeUS", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Microsecond)))),
+            ("elapsed (s)", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Second)))),
+            ("rtcTime", (ColumnMeaning::Clock, None)),
+            ("times", (ColumnMeaning::Other, None)),
             ("temp_c", (ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))),
             ("Temperature (°C)", (ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))),
             ("temp", (ColumnMeaning::Temperature, None)),

@@ -59,8 +59,8 @@ pub(super) struct Samples {
     pub(super) origin: i64,
     /// The time from which the times count, ns.
     pub(super) counted_from_ns: Option<i128>,
-    /// Do the times follow from a nominal rate?
-    pub(super) rate_is_nominal: bool,
+    /// Standard deviation of the rate, ppm, where the times follow from one.
+    pub(super) rate_sd_ppm: Option<f64>,
     /// Line that was cut off, where the last one was.
     pub(super) truncated: Option<usize>,
     /// Last line of the text.

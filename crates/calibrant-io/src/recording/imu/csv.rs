@@ -3,6 +3,7 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::format::FileFormat;
+use super::sample_clock::COMMENT;
 use super::unit::{ColumnUnit, ImuUnit};
 use super::{column_names, imu_tk};
 use crate::recording::text_header::Head;
@@ -23,7 +24,8 @@ pub(super) fn draft(head: &Head<'_>, asked: Option<SensorKind>) -> Draft {
             _ => named,
         }
     };
-    Draft::new(FileFormat::Csv, columns)
+    let rate_hz = head.rate_in_comments().map(|rate_hz| (rate_hz, COMMENT));
+    Draft { rate_hz, ..Draft::new(FileFormat::Csv, columns) }
 }
 
 fn is_reading(column: &ImuColumn) -> bool {

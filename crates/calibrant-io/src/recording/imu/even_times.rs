@@ -39,6 +39,10 @@ const MOST_STEPS: usize = 12;
 const MULTIPLE: f64 = 1e-3;
 /// Largest distance between the line and logged times before and after it, in ticks. A lost sample moves all times after it.
 const MOST_TICKS: f64 = 3.0;
+/// A host is late now and then by more, but then the earliest times of each such number of samples are on the line, to a tick and a quarter: a lost sample
+/// would move them all by a sample.
+const BLOCK: usize = 50;
+const EARLIEST_TICKS: f64 = 1.25;
 /// A coarser tick, in even steps, may be that of packets, and a lost packet would not show.
 const COARSEST: f64 = 2.0;
 /// A logged step longer than this number of even steps is a gap.
@@ -61,7 +65,8 @@ impl EvenTimes {
         let (least, most) = line.off(times);
         let longest_s = steps(times).fold(0.0, f64::max);
         let is_even = tick_s <= COARSEST * line.step_s
-            && most - least <= (MOST_TICKS * tick_s).min(2.0 * line.step_s.max(tick_s))
+            && (most - least <= (MOST_TICKS * tick_s).min(2.0 * line.step_s.max(tick_s))
+                || line.earliest_range_s(times) <= EARLIEST_TICKS * tick_s && tick_s <= line.step_s)
             && longest_s <= GAP * line.step_s.max(tick_s);
         is_even.then_some(line)
     }
@@ -102,6 +107,16 @@ impl EvenTimes {
     fn off(&self, times: &[f64]) -> (f64, f64) {
         let off = times.iter().enumerate().map(|(k, t)| t - self.at(k));
         off.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), off| (least.min(off), most.max(off)))
+    }
+
+    /// The range of the earliest times of blocks beside the line, s.
+    fn earliest_range_s(&self, times: &[f64]) -> f64 {
+        let off: Vec<f64> = times.iter().enumerate().map(|(k, t)| t - self.at(k)).collect();
+        let earliest =
+            off.chunks_exact(BLOCK).map(|block| block.iter().copied().fold(f64::INFINITY, f64::min));
+        let (least, most) = earliest
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), off| (least.min(off), most.max(off)));
+        most - least
     }
 
     /// The time of a sample, s.
@@ -163,6 +178,21 @@ mod tests {
                 "{even:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_host_that_is_late_now_and_then_is_seen_by_its_earliest_times() {
+        // steps of 1, 2 or 3 ticks of 5.12 ms, and seldom of more
+        let late = |k: usize| 0.001 * (k * 7919 % 11) as f64 / 11.0 + if k % 487 == 3 { 0.021 } else { 0.0 };
+        let times: Vec<f64> =
+            (0..5000).map(|k| ((k as f64 / 104.0 + late(k)) / 0.00512).ceil() * 0.00512).collect();
+        let even = EvenTimes::found(&times).expect("even");
+        assert!(
+            (even.step_s * 104.0 - 1.0).abs() < 2e-5 && (even.tick_s.expect("found") - 0.00512).abs() < 1e-9
+        );
+        let mut lost = times;
+        lost.drain(2000..2001);
+        assert_eq!(EvenTimes::found(&lost), None, "one lost sample moves all times after it");
     }
 
     #[test]

@@ -24,8 +24,8 @@ pub struct ImuFile {
     pub second: Option<SecondFile>,
     /// The time from which the times count, ns, where they count from their first and the file has another.
     pub counted_from_ns: Option<i128>,
-    /// Do the sample times follow from a nominal rate, not from a clock that was recorded?
-    pub rate_is_nominal: bool,
+    /// Standard deviation of the rate of the samples, ppm, where they have no clock that was recorded.
+    pub rate_sd_ppm: Option<f64>,
 }
 
 impl ImuFile {

@@ -21,6 +21,10 @@ pub(super) struct Draft {
     pub(super) counter_wraps_at: Option<f64>,
     /// Sample rate that the file states, Hz, and its place.
     pub(super) rate_hz: Option<(f64, &'static str)>,
+    /// Columns whose times are text, and the ticks (ns) after which they begin anew.
+    pub(super) texts: Vec<(usize, Option<f64>)>,
+    /// Columns of numbers that only go up.
+    pub(super) may_be_clocks: Vec<String>,
     /// Of a plain text of one accelerometer: what its experiment expects. Such a recording need not show
     /// gravity, and its clock may have coarse steps.
     pub(super) plain: Option<AccelerometerOnly>,
@@ -36,6 +40,8 @@ impl Draft {
             time_wraps_at: None,
             counter_wraps_at: None,
             rate_hz: None,
+            texts: Vec::new(),
+            may_be_clocks: Vec::new(),
             plain: None,
             line: None,
         }
@@ -78,7 +84,45 @@ impl Draft {
             self.unuse(&[ColumnMeaning::Temperature], "another column is named in [columns]");
             self.assign(name, ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))?;
         }
+        self.choose_clock();
         Ok(())
+    }
+
+    /// Takes another clock where no column of sample times says its unit: one of numbers before one of texts, one of a known unit before others.
+    fn choose_clock(&mut self) {
+        let is_text = |k: usize| self.texts.iter().any(|(column, _)| *column == k);
+        let rank = |k: usize| {
+            let column = &self.columns[k];
+            match column.meaning {
+                _ if is_text(k) => 1,
+                ColumnMeaning::Time | ColumnMeaning::Clock if column.unit.is_some() => 0,
+                ColumnMeaning::Time => 2,
+                _ => 3,
+            }
+        };
+        let is_used_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time && column.is_used();
+        let of_times = (0..self.columns.len()).filter(|&k| is_used_time(&self.columns[k])).map(rank).min();
+        let clocks = (0..self.columns.len()).filter(|&k| self.columns[k].meaning == ColumnMeaning::Clock);
+        if let Some(best) =
+            clocks.min_by_key(|&k| rank(k)).filter(|&k| of_times.is_none_or(|least| rank(k) < least))
+        {
+            self.unuse(&[ColumnMeaning::Time], "another clock says its unit");
+            (self.columns[best].meaning, self.columns[best].unused) = (ColumnMeaning::Time, None);
+        }
+        for (k, wraps_at) in &self.texts {
+            let column = &mut self.columns[*k];
+            if column.meaning == ColumnMeaning::Time && column.is_used() {
+                column.unit = Some(ColumnUnit::Time(TimeUnit::Nanosecond));
+                self.time_wraps_at = *wraps_at;
+            }
+        }
+    }
+
+    /// Is the used column of times one of texts?
+    pub(super) fn has_text_times(&self) -> bool {
+        self.texts
+            .iter()
+            .any(|(k, _)| self.columns[*k].meaning == ColumnMeaning::Time && self.columns[*k].is_used())
     }
 
     fn unuse(&mut self, meanings: &[ColumnMeaning], why: &str) {

@@ -86,7 +86,7 @@ impl ImuFile {
             sha256,
             second: None,
             counted_from_ns: None,
-            rate_is_nominal: false,
+            rate_sd_ppm: None,
             recording,
         }
     }

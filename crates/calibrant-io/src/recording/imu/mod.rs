@@ -28,6 +28,7 @@ mod euroc;
 mod even_times;
 mod file;
 mod file_layout;
+mod first_rows;
 mod format;
 mod headerless_text;
 #[cfg(feature = "mcap")]
@@ -35,6 +36,7 @@ mod imu_message;
 mod imu_tk;
 mod imucal;
 mod in_memory;
+mod instances;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod movella_dot;
@@ -59,7 +61,7 @@ pub use even_times::SampleTimes;
 pub use file::{ImuFile, SecondFile};
 pub use format::FileFormat;
 pub use in_memory::{imu_from_columns, imu_pair_of};
-pub use options::{AccelerometerOnly, ColumnMapping, ImuReadOptions, USUAL_RATE_SD_PPM};
+pub use options::{AccelerometerOnly, ColumnMapping, ImuReadOptions, TYPED_RATE_SD_PPM, USUAL_RATE_SD_PPM};
 pub use read::{parse_imu_recording, read_imu_recording, read_imu_sensor};
 pub use two_files::{parse_imu_pair, read_imu_pair};
 pub use unit::{ColumnUnit, ImuUnit};

@@ -7,8 +7,12 @@ use crate::recording::time_unit::TimeUnit;
 use calibrant_core::budget::Budget;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
-/// Standard deviation of a nominal sample rate, ppm: that of a crystal which was not measured. An RC oscillator has about 2000.
+/// Standard deviation of a sample rate that a logger writes to its file, ppm: that of a crystal which was not measured. An RC oscillator has about 2000.
 pub const USUAL_RATE_SD_PPM: f64 = 100.0;
+
+/// Standard deviation of a sample rate that was set or typed, ppm: that of what was asked for. A loop that waits 10 ms and works for 0.9 ms is 8 % slower
+/// than its delay says, and the oscillators of MEMS sensors are off by some per cent.
+pub const TYPED_RATE_SD_PPM: f64 = 50_000.0;
 
 /// Options for reading a recording of an IMU: everything that the file does not state itself. `[columns]` of
 /// an experiment file gives the same.
@@ -51,8 +55,11 @@ pub struct ImuReadOptions {
     pub rate_hz: Option<f64>,
     /// Even times or the logged ones; `None`: even ones where the logged times are steps of a coarse clock about them.
     pub times: Option<SampleTimes>,
-    /// Standard deviation of that rate, or of the one that the file states, ppm; `None` for [`USUAL_RATE_SD_PPM`].
+    /// Standard deviation of that rate, or of the one that the file states, ppm; `None` for [`TYPED_RATE_SD_PPM`], or for [`USUAL_RATE_SD_PPM`] of one that a
+    /// logger states.
     pub rate_sd_ppm: Option<f64>,
+    /// Which sensor to read of a text whose rows are those of several: its value in the column that numbers them.
+    pub instance: Option<String>,
     /// Topic of a bag that has more than one of `sensor_msgs/msg/Imu`.
     pub topic: Option<String>,
     /// The recording is one of an accelerometer, or is read for its accelerometer alone.
@@ -122,6 +129,7 @@ impl ImuReadOptions {
             rate_hz: self.rate_hz.or(other.rate_hz),
             times: self.times.or(other.times),
             rate_sd_ppm: self.rate_sd_ppm.or(other.rate_sd_ppm),
+            instance: self.instance.or(other.instance),
             topic: self.topic.or(other.topic),
             accelerometer_only: self.accelerometer_only.or(other.accelerometer_only),
             budget: self.budget.or(other.budget),

@@ -6,6 +6,8 @@
 //! times.
 
 use super::column_values::Samples;
+use super::options::USUAL_RATE_SD_PPM;
+use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::{counted, plain};
 use calibrant_core::sensor::SensorKind;
@@ -25,6 +27,8 @@ pub(super) struct Packets {
     samples: usize,
     same: usize,
     rate_hz: f64,
+    /// The longest step over the duration: the rate is known to this share of it.
+    rate_share: f64,
 }
 
 impl Packets {
@@ -46,17 +50,33 @@ impl Packets {
         }
         let (first, last) = (found.first()?, found.last()?);
         let mean = (last - first) / (found.len() - 1).max(1) as f64;
-        let (mut within, mut between) = (0, 0);
+        let (mut within, mut between, mut longest) = (0, 0, 0.0_f64);
         for [one, next] in found.array_windows() {
             within += usize::from(next - one < WITHIN * mean);
             between += usize::from(next - one > mean);
+            longest = longest.max(next - one);
         }
         let burst = 2 * within > found.len() && LONGEST_PACKET * between > found.len();
         (found.len() >= FEWEST && mean > 0.0 && (burst || SAME * same > found.len())).then(|| Self {
             samples: found.len(),
             same,
             rate_hz: 1.0 / mean,
+            rate_share: longest / (last - first),
         })
+    }
+
+    /// Standard deviation, ppm, of a given rate, which the times must confirm; an error where they do not.
+    pub(super) fn rate_sd_ppm(&self, given_hz: f64) -> Checked<f64> {
+        let (off, least) = ((given_hz / self.rate_hz - 1.0).abs(), 1e-6 * USUAL_RATE_SD_PPM);
+        if off > self.rate_share.max(least) {
+            let [given, by_times] = [given_hz, self.rate_hz].map(|rate_hz| plain(rate_hz, 6));
+            let message = format!(
+                "the rate was given as {given} Hz, but the samples and their times show {by_times} Hz"
+            );
+            let help = format!("say option `rate_hz` {by_times}, or cut the recording where it pauses");
+            return refuse(Refusal::RateContradicted, message, help);
+        }
+        Ok(1e6 * self.rate_share.max(least))
     }
 
     /// The question to the user about them.

@@ -5,6 +5,7 @@ use super::accelerometer_only::{only, plain};
 use super::column_values::{READINGS, SampleReader, Samples};
 use super::file::ImuFile;
 use super::file_layout::Draft;
+use super::first_rows::FirstRows;
 use super::format::{FileFormat, LEAVE_AWAY};
 #[cfg(feature = "mcap")]
 use super::mcap;
@@ -12,7 +13,7 @@ use super::options::ImuReadOptions;
 #[cfg(feature = "parquet")]
 use super::parquet;
 use super::recording_assembly::assemble;
-use super::{csv, euroc, headerless_text, imu_tk, imucal, movella_dot, mt_manager};
+use super::{csv, euroc, headerless_text, imu_tk, imucal, instances, movella_dot, mt_manager};
 use crate::recording::checksum::hex_sha256;
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::row_parser::Layout;
@@ -190,8 +191,13 @@ pub(super) fn rows(
     let line = head.line();
     draft.line = Some(line);
     let at_header = |input_error: Box<InputError>| Box::new(input_error.at_line(line));
+    let first_rows = FirstRows::of(&head);
+    if draft.format == FileFormat::Csv {
+        first_rows.find_clocks(&mut draft);
+    }
     draft.map(options).map_err(at_header)?;
     draft.set_time_unit(options).map_err(at_header)?;
+    let only = instances::chosen(&mut draft, &first_rows, options).map_err(at_header)?;
     let slots = draft.slots().map_err(at_header)?;
     let layout = Layout {
         delimiter: head.delimiter,
@@ -199,6 +205,8 @@ pub(super) fn rows(
         names: head.names.iter().map(|name| (*name).to_owned()).collect(),
         has_header: !head.names.is_empty(),
         ticks: draft.time_unit() != Some(TimeUnit::Second),
+        text_times: draft.has_text_times(),
+        only,
         may_be_invalid: READINGS,
     };
     let mut reader = SampleReader::new(&layout, source.estimated_rows(&head));
@@ -220,7 +228,7 @@ pub(super) fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOp
         sha256: Vec::new(),
         second: None,
         counted_from_ns: samples.counted_from_ns,
-        rate_is_nominal: samples.rate_is_nominal,
+        rate_sd_ppm: samples.rate_sd_ppm,
     };
     only(file, &draft, options)
 }

@@ -17,12 +17,12 @@ use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{
-    ClockSource, ClockSourceKind, LineTruncated, MissingValue, RowsRepeated, TemperatureDoubt,
-    TemperatureDoubtful, TemperatureGaps, TimesFromFirst, TimesRepeated, ValuesMissing,
+    ClockSource, LineTruncated, MissingValue, RowsRepeated, TemperatureDoubt, TemperatureDoubtful,
+    TemperatureGaps, TimesFromFirst, TimesRepeated, ValuesMissing,
 };
 use calibrant_core::error::{Answer, Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
-use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated, rate_hz};
 use nalgebra::Vector3;
 use std::iter::once;
 
@@ -52,6 +52,7 @@ pub(super) fn assemble(
         .iter()
         .map(|&sensor_kind| stated_unit(draft, options, sensor_kind))
         .collect::<Checked<Vec<_>>>()?;
+    sample_clock::leave_no_clock(draft, samples, options);
     let has_times = sample_clock::are_recorded(samples);
     let times = sample_clock::times(draft, samples, options, &mut findings);
     // all questions come at once
@@ -77,10 +78,13 @@ pub(super) fn assemble(
         let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
             return Err(packets.question(sensor_kind).into());
         };
-        times = sample_clock::of_rows(samples, rate, &mut findings);
+        let by_times_ppm = packets.rate_sd_ppm(rate)?;
+        let sd_ppm = options.rate_sd_ppm.unwrap_or(by_times_ppm);
+        times = sample_clock::of_rows(samples, (rate, sd_ppm), &mut findings);
         (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
-    } else if has_times && options.rate_hz.is_some() {
-        findings.push(ClockSource { clock: ClockSourceKind::RateUnused }.into());
+    } else if let Some(given_hz) = options.rate_hz.filter(|_| has_times) {
+        let kept_s: Vec<f64> = kept.rows().map(|row| times[row]).collect();
+        findings.push(sample_clock::not_used(given_hz, rate_hz(&kept_s)));
     }
     findings.append(&mut of_rows);
     let mut recording = ImuRecording::default();

@@ -1,19 +1,41 @@
 //! Sample times in seconds: from a column of times, or from a counter and the sample rate.
 
 use super::column::ColumnMeaning;
+use super::column_names;
 use super::column_values::Samples;
 use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
-use super::options::ImuReadOptions;
+use super::options::{ImuReadOptions, TYPED_RATE_SD_PPM, USUAL_RATE_SD_PPM};
 use crate::recording::clock_column::{ClockColumn, unwrap};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind};
+use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, RateUnlikeTimes, quoted};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
 
+/// Key of a rate that a comment states.
+pub(super) const COMMENT: &str = "rate in a comment";
+/// A given rate is another one than that of the times if it differs by this share.
+const UNLIKE: f64 = 0.01;
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
+
+/// Fewer times are not judged.
+const FEWEST: usize = 20;
+
+/// Takes out a column that its name alone makes a time: `T` may be a temperature. A clock goes forward: hardly a step in three goes back,
+/// and not all times are the same.
+pub(super) fn leave_no_clock(draft: &mut Draft, samples: &mut Samples, options: &ImuReadOptions) {
+    let Some(column) = draft.column(ColumnMeaning::Time) else { return };
+    let is_stated = column_names::column(&column.name).unit.is_some() || options.columns.time.is_some();
+    let known: Vec<f64> = samples.times.iter().copied().filter(|t| t.is_finite()).collect();
+    let count = |is: fn(f64) -> bool| known.array_windows().filter(|[one, next]| is(next - one)).count();
+    let (forward, back) = (count(|step| step > 0.0), count(|step| step < 0.0));
+    if !is_stated && known.len() >= FEWEST && (forward == 0 || 3 * back > forward) {
+        draft.leave_aside(ColumnMeaning::Time, "its values go back and forth, or stay: it is no clock");
+        samples.times.clear();
+    }
+}
 
 /// Are there sample times? A clock that most rows lack does not count, where there is a counter.
 pub(super) fn are_recorded(samples: &Samples) -> bool {
@@ -38,17 +60,14 @@ pub(super) fn times(
     let is_empty = !times.is_empty();
     draft.leave_aside(ColumnMeaning::Time, "most of its values are missing");
     let Some((rate_hz, stated_by)) = rate else {
-        let empty = if is_empty { "its sample times are missing" } else { "the file has no sample times" };
-        let rate =
-            ", or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made";
-        let answer = Answer::new(TaskOption::RateHz, []).and(rate);
-        let message = format!("{empty}, and nothing in it says the sample rate");
-        return Err(InputError::question(Refusal::RateUnknown, message, vec![answer]).into());
+        return Err(question(draft, is_empty).into());
     };
     let counter = has_counter
         .then(|| draft.column(ColumnMeaning::Counter).map_or_else(String::new, |column| column.name.clone()));
-    samples.rate_is_nominal = true;
-    let clock = ClockSourceKind::Derived { is_empty, counter, rate_hz, stated_by };
+    let is_logged = stated_by.is_some_and(|key| key != COMMENT);
+    let sd_ppm = options.rate_sd_ppm.unwrap_or(if is_logged { USUAL_RATE_SD_PPM } else { TYPED_RATE_SD_PPM });
+    samples.rate_sd_ppm = Some(sd_ppm);
+    let clock = ClockSourceKind::Derived { is_empty, counter, rate_hz, stated_by, sd_ppm };
     findings.push(ClockSource { clock }.into());
     match has_counter {
         true => of_counter(draft, samples, rate_hz),
@@ -56,11 +75,52 @@ pub(super) fn times(
     }
 }
 
+/// The question about the clock: which column it is, or else the rate.
+fn question(draft: &Draft, is_empty: bool) -> InputError {
+    if let Some(name) = draft.may_be_clocks.first() {
+        let message = format!(
+            "no column is known to be the sample times, but {} may be: its values only go up",
+            quoted(&draft.may_be_clocks, 3)
+        );
+        let answer = Answer::new(TaskOption::Columns, []).and(format!(
+            " FILE with time = \"{name}\" and time_unit (s, ms, us, ns; samples of a counter, with rate_hz), or these in [columns] of the experiment file"
+        ));
+        return InputError::question(Refusal::RateUnknown, message, vec![answer]);
+    }
+    let none = draft.columns.iter().find(|column| {
+        let by_name = column_names::column(&column.name).meaning;
+        by_name == ColumnMeaning::Time && !column.is_used()
+    });
+    let empty = match none {
+        Some(column) if !is_empty => {
+            format!("`{}` is no clock, and the file has no other sample times", column.name)
+        }
+        _ if is_empty => "its sample times are missing".to_owned(),
+        _ => "the file has no sample times".to_owned(),
+    };
+    let rate = ", or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`";
+    let answer = Answer::new(TaskOption::RateHz, []).and(rate);
+    let message = format!("{empty}, and nothing in it says the sample rate");
+    InputError::question(Refusal::RateUnknown, message, vec![answer])
+}
+
 /// Times of the rows from the given rate. They replace those in the file, which are not times of samples.
-pub(super) fn of_rows(samples: &mut Samples, rate_hz: f64, findings: &mut Vec<Diagnostic>) -> Vec<f64> {
-    samples.rate_is_nominal = true;
-    findings.push(ClockSource { clock: ClockSourceKind::Packets(rate_hz) }.into());
+pub(super) fn of_rows(
+    samples: &mut Samples,
+    (rate_hz, sd_ppm): (f64, f64),
+    findings: &mut Vec<Diagnostic>,
+) -> Vec<f64> {
+    samples.rate_sd_ppm = Some(sd_ppm);
+    findings.push(ClockSource { clock: ClockSourceKind::Packets { rate_hz, sd_ppm } }.into());
     (0..samples.rows).map(|row| row as f64 / rate_hz).collect()
+}
+
+/// What there is to say of a given rate where the samples have times: it is not used.
+pub(super) fn not_used(given_hz: f64, found_hz: f64) -> Diagnostic {
+    match (given_hz / found_hz - 1.0).abs() > UNLIKE {
+        true => RateUnlikeTimes { given_hz, found_hz }.into(),
+        false => ClockSource { clock: ClockSourceKind::RateUnused }.into(),
+    }
 }
 
 /// Puts samples at even times, where these are asked for, or where the logged times are steps of a coarse clock.

@@ -160,7 +160,7 @@ pub(super) fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
         findings,
         sha256: [first.sha256, second.sha256].concat(),
         second: Some(of_gyroscope),
-        rate_is_nominal: first.rate_is_nominal || second.rate_is_nominal,
+        rate_sd_ppm: first.rate_sd_ppm.into_iter().chain(second.rate_sd_ppm).reduce(f64::max),
         ..first
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::{
-    axis_order, changes, chi_squared, coarse_steps, convergence, extrapolation, gains, gyroscope_noise,
-    hold_intervals, holds_left_out, lost_samples, motion_in_hold, rotations_left_out, time_offset,
-    turns_of_known_angle,
+    axis_order, changes, chi_squared, coarse_steps, common_factor, convergence, extrapolation, gains,
+    gyroscope_noise, hold_intervals, holds_left_out, lost_samples, motion_in_hold, rotations_left_out,
+    scatter, time_offset, turns_of_known_angle,
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 16] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 20] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,
@@ -18,9 +18,13 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 16] = [
     convergence::check,
     axis_order::check,
     rotations_left_out::check,
+    scatter::of_rotations,
+    scatter::at_rest,
+    scatter::of_gains,
     lost_samples::check,
     turns_of_known_angle::check,
     chi_squared::check,
+    common_factor::of_fit,
     gains::check,
     gyroscope_noise::check,
     coarse_steps::check,

@@ -3,7 +3,7 @@
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
-use crate::estimate::imu::checks::{axes_without_rotation, gyroscope_unit};
+use crate::estimate::imu::checks::{axes_without_rotation, common_factor, gyroscope_unit};
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::sensor::ReadingUnit;
 
@@ -27,6 +27,7 @@ pub(crate) fn check(
     );
     if unit == ReadingUnit::RadianPerSecond {
         gyroscope_unit::check(model, state, median_rad)?;
+        common_factor::check(model, state)?;
     }
     axes_without_rotation::check(model, state)?;
     let scatter = holds.between_holds_sd_mps2;

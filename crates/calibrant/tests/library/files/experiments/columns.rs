@@ -85,6 +85,7 @@ accelerometer_unit = "g"
 gyroscope = ["gyr_x", "gyr_y", "gyr_z"]
 gyroscope_unit = "dps"
 temperature = "T"
+instance = "0"
 topic = "/imu"
 "#;
     let names = |of: &str| ["x", "y", "z"].map(|axis| format!("{of}_{axis}"));
@@ -102,6 +103,7 @@ topic = "/imu"
         rate_hz: Some(102.4),
         rate_sd_ppm: Some(50.0),
         times: Some(SampleTimes::AsLogged),
+        instance: Some("0".into()),
         topic: Some("/imu".into()),
         counts_unless_stated: [false; 2],
         accelerometer_only: None,

@@ -239,7 +239,7 @@ const CASES: &[Case] = &[
     (
         "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,1,2,3,0,0,9.8\n1,1,360,3,0,0,9.8\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`)",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
@@ -255,17 +255,17 @@ const CASES: &[Case] = &[
     (
         "// DeviceId: 1\nPacketCounter\tGyr_X\tGyr_Y\tGyr_Z\n1\t1\t2\t3\n2\t1\t2\t3\n",
         plain,
-        "the file has no sample times, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the file has no sample times, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`)",
     ),
     (
         "// DeviceId: 1\nPacketCounter\tSampleTimeFine\tGyr_X\tGyr_Y\tGyr_Z\n1\t\t1\t2\t3\n2\tNaN\t1\t2\t3\n",
         plain,
-        "its sample times are missing, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "its sample times are missing, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`)",
     ),
     (
         "gx_radps,gy_radps,gz_radps\n0,1,2\n1,2,3\n",
         plain,
-        "the file has no sample times, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the file has no sample times, and nothing in it says the sample rate (say option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`)",
     ),
     // contradictions
     (

@@ -19,6 +19,7 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
     rate_hz: None,
     rate_sd_ppm: None,
     times: None,
+    instance: None,
     topic: None,
     accelerometer_only: None,
     budget: None,
@@ -63,7 +64,7 @@ fn mt_manager_reads_the_same_with_every_delimiter_and_comment() {
             assert_eq!(file.recording.gyroscope.as_ref(), Some(&expected), "{delimiter:?}");
             assert_eq!(
                 findings(&file)[0],
-                "its sample times are missing: they are computed from the counter `PacketCounter` and 50 Hz (its `Update Rate`); rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
+                "its sample times are missing: they are computed from the counter `PacketCounter` and 50 Hz (its `Update Rate`); its uncertainty is 100 ppm (option `rate_sd_ppm`, or rate_sd_ppm in [columns])"
             );
         }
     }
@@ -257,7 +258,7 @@ fn rows_without_times_take_the_given_rate() {
     assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.25, 0.5]);
     assert_eq!(
         findings(&file)[0],
-        "the file has no sample times and no counter: each row is taken as one sample at 4 Hz (as given), so lost samples do not show; rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
+        "the file has no sample times and no counter: each row is taken as one sample at 4 Hz (as given), so lost samples do not show; its uncertainty is 5 % (option `rate_sd_ppm`, or rate_sd_ppm in [columns])"
     );
 }
 

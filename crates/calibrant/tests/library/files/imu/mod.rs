@@ -2,6 +2,7 @@
 
 mod accelerometer_only;
 mod broken;
+mod clocks;
 mod good;
 mod host_times;
 mod invalid_samples;

@@ -55,7 +55,7 @@ fn the_ferraris_session_of_imucal_asks_for_units_and_rate() {
     assert_eq!(gyroscope.len(), file.rows);
     assert_eq!(
         findings(&file)[0],
-        "the file has no sample times: they are computed from the counter `n_samples` and 102.4 Hz (as given); rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
+        "the file has no sample times: they are computed from the counter `n_samples` and 102.4 Hz (as given); its uncertainty is 5 % (option `rate_sd_ppm`, or rate_sd_ppm in [columns])"
     );
 }
 

@@ -1,0 +1,85 @@
+//! The first rows of a text: the content of its columns before its rows are read.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::file_layout::Draft;
+use super::unit::ColumnUnit;
+use crate::recording::text_header::Head;
+use crate::recording::text_times::{DAY_NS, TextTime};
+use crate::recording::time_unit::TimeUnit;
+
+/// Number of rows that are looked at.
+const MOST: usize = 400;
+/// Fewer rows show nothing of a column.
+const FEWEST: usize = 20;
+
+/// The first rows, field by field.
+pub(super) struct FirstRows<'t> {
+    rows: Vec<Vec<&'t str>>,
+}
+
+impl<'t> FirstRows<'t> {
+    pub(super) fn of(head: &Head<'t>) -> Self {
+        let lines = head.first_row.into_iter().chain(head.rest.clone()).filter(|line| !line.is_void());
+        let fields = |line: crate::text::delimited::Line<'t>| {
+            line.fields(head.delimiter).map(|(_, field)| field.trim()).collect()
+        };
+        // the last line may be cut off
+        let mut rows: Vec<Vec<&str>> = lines.take(MOST).map(fields).collect();
+        if rows.len() > FEWEST {
+            rows.pop();
+        }
+        Self { rows }
+    }
+
+    /// The fields of a column; of short rows none.
+    pub(super) fn column(&self, column: usize) -> impl Iterator<Item = &'t str> {
+        self.rows.iter().filter_map(move |row| row.get(column).copied())
+    }
+
+    /// Are these enough rows to know a column by them?
+    pub(super) fn are_enough(&self) -> bool {
+        self.rows.len() >= FEWEST
+    }
+
+    /// The times of a column in its own ticks, those of a text in ns; NaN where there is none.
+    pub(super) fn times(&self, column: usize) -> Vec<f64> {
+        let time = |field: &str| {
+            let of_text = || TextTime::parse(field).map(|time| time.ns as f64);
+            field.parse().ok().or_else(of_text).unwrap_or(f64::NAN)
+        };
+        self.column(column).map(time).collect()
+    }
+
+    /// May a column of numbers be a clock or a counter? It only goes up, in most rows.
+    fn goes_up(&self, column: usize) -> bool {
+        let times = self.times(column);
+        let steps = || times.array_windows().map(|[one, next]| next - one);
+        self.are_enough()
+            && steps().all(|step| step >= 0.0)
+            && 2 * steps().filter(|step| *step > 0.0).count() > times.len()
+    }
+
+    /// Finds clocks by the content of the columns: times that are given as text, and numbers that only go up.
+    pub(super) fn find_clocks(&self, draft: &mut Draft) {
+        for k in 0..draft.columns.len() {
+            let column = &mut draft.columns[k];
+            let may_be = [ColumnMeaning::Time, ColumnMeaning::Clock, ColumnMeaning::Other];
+            let Some(first) = self.column(k).find(|field| !field.is_empty()) else { continue };
+            if !may_be.contains(&column.meaning) {
+                continue;
+            }
+            if first.parse::<f64>().is_ok() {
+                if column.meaning == ColumnMeaning::Other && self.goes_up(k) {
+                    draft.may_be_clocks.push(column.name.clone());
+                }
+            } else if let Some(time) = TextTime::parse(first) {
+                let meaning =
+                    if column.meaning == ColumnMeaning::Time { column.meaning } else { ColumnMeaning::Clock };
+                *column = ImuColumn::new(&column.name, meaning, Some(ColumnUnit::Time(TimeUnit::Nanosecond)));
+                draft.texts.push((k, (!time.has_date).then_some(DAY_NS)));
+            } else if column.meaning == ColumnMeaning::Clock {
+                *column = ImuColumn::new(&column.name, ColumnMeaning::Calendar, None);
+            }
+        }
+    }
+}
