@@ -130,7 +130,7 @@ fn guide_to_the_design_of_poses() {
     let bench = Bench::new();
     copy(&bench, &root.join("examples/10_best_poses"), "");
     let guide = std::fs::read_to_string(root.join("docs/design-poses.md")).expect("the guide");
-    bench.preset("static-poses", "static.toml", &[("# gravity_mps2", "gravity_mps2")]);
+    bench.preset("static-poses", "static.toml", &[]);
     follow_text(&bench, "design-poses.md", &guide, 6);
 }
 
