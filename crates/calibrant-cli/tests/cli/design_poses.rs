@@ -157,7 +157,7 @@ fn an_imu_and_gravity_from_the_latitude_are_designed_for() {
     let bench = Bench::new();
     let edits = [
         ("unit = \"mps2\" ", "noise_mps2 = 0.01\nunit = \"mps2\" "),
-        ("# gravity_mps2 = 9.80665 ", "latitude_deg = 45.0\nheight_m = 10.0 #"),
+        ("gravity_mps2 = 9.80665 ", "latitude_deg = 45.0\nheight_m = 10.0 #"),
     ];
     bench.preset("imu", "imu.toml", &edits);
     let outcome = bench.run(&format!("design imu.toml {QUICK} -o d")).done();

@@ -72,7 +72,9 @@ fn design_in_words(design: &PoseDesign, efficiency: f64) -> String {
     );
     for UsualPoses { name, information_over } in &design.usual {
         sentence.push_str(&match information_over {
-            Some(times) => format!(" They have {} times the information of {name}.", significant(*times, 3)),
+            Some(times) => {
+                format!(" The designed ones have {} times the information of {name}.", significant(*times, 3))
+            }
             None => format!(" {} leave parameters undetermined.", capitalised(name)),
         });
     }

@@ -53,9 +53,10 @@ pub(crate) fn unfeeling_gyroscope() -> Gyroscope {
     Gyroscope { g_sensitivity: false, ..Gyroscope::default() }
 }
 
-/// Holds of a sensor whose biases do not drift, in the upper gauge.
+/// Holds of a sensor whose biases do not drift, under known gravity, in the upper gauge.
 pub(crate) fn steady_holds() -> HoldsSetup {
-    HoldsSetup { bias_drift_sd_mps2: 0.0, gauge: Gauge::Upper, ..HoldsSetup::default() }
+    let gravity = Gravity { magnitude_mps2: 9.806_65, sd_mps2: 0.0 };
+    HoldsSetup { gravity, bias_drift_sd_mps2: 0.0, gauge: Gauge::Upper, ..HoldsSetup::default() }
 }
 
 /// A recording of an IMU whose biases do not drift, in the upper gauge.
