@@ -16,6 +16,9 @@ const SAMPLES: usize = 1000;
 /// Nearer knots leave this part of the residuals at most, or they follow noise.
 const LEFT: f64 = 0.95;
 
+/// Residuals about the smoothed log that are this many times the noise are of another motion: what smoothing leaves of a log's noise is less.
+const OTHER_MOTION: f64 = 100.0;
+
 /// Largest number of intervals from which residuals and budget are computed.
 const INTERVALS: usize = 3000;
 
@@ -61,7 +64,7 @@ fn as_given(problem: &MachineProblem<'_>, settings: &MachineSettings) -> Result<
     undetermined::check(&model, &state)?;
     trusted(&mut model, &mut state, STEPS, SAMPLES).ok_or_else(unsolved)?;
     // what is another motion is not worth the search for its noise
-    if residual_excess(&model, &state) > checks::REFUSED
+    if residual_excess(&model, &state) > OTHER_MOTION
         && let Some(found) = suspect(problem)
     {
         return Err(refused("recording and log do not fit together", &found.sentence()));

@@ -76,8 +76,8 @@ fn of_blocks(
         let ratios: Vec<f64> = alike.map(|k| moved[*k] / of_data(*k)).collect();
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
         if mean > limit {
-            // its own ratio scatters, and the class's mean is that of others: half of each
-            let wider = 0.5 * (of_data(*k) * mean + moved[*k]).max(2.0 * of_data(*k));
+            // its own ratio scatters: where it is less than the class's mean, this counts
+            let wider = moved[*k].max(of_data(*k) * mean);
             factors[*k] = ((wider + by_prior[(*k, *k)]) / all(*k)).sqrt();
         }
     }
