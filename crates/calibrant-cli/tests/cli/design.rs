@@ -41,7 +41,7 @@ fn a_design_leaves_a_motion_and_everything_needed_to_judge_it() {
     let outcome = bench.run(&format!("design arm.toml {QUICK} --sample-rate 20 -o d")).done();
     for word in [
         "criterion A (trace C, in SI units)",
-        "sd initial",
+        "sd shuttle",
         "sd optimal",
         "scale.z",
         "6 starts",

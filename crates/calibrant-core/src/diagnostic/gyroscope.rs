@@ -152,7 +152,7 @@ checks! {
         each by its own."
     remedy "Check the sample rate, the range of the gyroscope (its sensitivity), and its unit."
     says format!(
-        "the gyroscope reads {factor:.2} times the turns that gravity shows, on all three axes. Is the sample rate {factor:.2} times the one that was used, or was the \
+        "the gyroscope reads {factor:.3} times the turns that gravity shows, on all three axes. Is the sample rate {factor:.3} times the one that was used, or was the \
          sensitivity of another range used, or another unit?"
     );
 

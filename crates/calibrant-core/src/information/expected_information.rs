@@ -6,7 +6,7 @@
 //! motion.
 
 use super::chain_model::FULL_SLOTS;
-use super::clock_marginal::marginal;
+use super::clock_response::marginal;
 use super::motion_information::PartInformation;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, MotionClock, Trust};

@@ -3,6 +3,7 @@
 
 pub(crate) mod chain_model;
 mod clock_marginal;
+mod clock_response;
 pub mod criterion;
 mod expected_information;
 pub(crate) mod gravity_marginal;

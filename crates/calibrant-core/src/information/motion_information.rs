@@ -26,7 +26,7 @@
 //! `O(N)` for the factorisation, and again for each derivative.
 
 use super::chain_model as model;
-use super::clock_marginal::ClockResponse;
+use super::clock_response::ClockResponse;
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::error::{Error, Result, UndeterminedGroup};
 use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, MotionClock, Trust};

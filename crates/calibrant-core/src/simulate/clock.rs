@@ -2,7 +2,6 @@
 
 use super::recording::normal;
 use super::{Rng, sample_times};
-use crate::estimate::RecoveredClock;
 use crate::motion::{JerkControlledMotion, MotionClock};
 use crate::sensor::Recording;
 use schemars::JsonSchema;
@@ -42,17 +41,12 @@ impl ClockedTimes {
         let (start, end) = (motion.times_s()[0], motion.times_s()[motion.intervals()]);
         let delay_s = given.delay_s + given.delay_sd_s * normal(rng);
         let rate = given.rate_sd * normal(rng);
-        let clock = RecoveredClock {
-            delay_s,
-            rate,
-            at_s: 0.5 * (start + end) - delay_s,
-            ..RecoveredClock::default()
-        };
+        let middle_s = 0.5 * (start + end) - delay_s;
         let lead = (LEAD * given.delay_sd_s * rate_hz).ceil();
         let first = start - given.delay_s - lead / rate_hz;
         let samples = motion_s.len() + 2 * lead as usize;
         let recording_s: Vec<f64> = (0..samples).map(|k| first + k as f64 / rate_hz).collect();
-        motion_s = recording_s.iter().map(|time| clock.motion_time_s(*time)).collect();
+        motion_s = recording_s.iter().map(|time| time + delay_s + rate * (time - middle_s)).collect();
         Self { recording_s, motion_s, clock: Some(TrueClock { delay_s, rate_ppm: 1e6 * rate }) }
     }
 

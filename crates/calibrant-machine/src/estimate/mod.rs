@@ -4,7 +4,7 @@ mod begin;
 mod calibrate;
 mod covariance;
 #[cfg(test)]
-mod hard_logs;
+mod hard_log_tests;
 mod least_squares;
 mod noise;
 mod problem;

@@ -17,7 +17,8 @@ fn a_design_shows_every_number_of_the_result() {
     let design = design(&Sensor::memsic_mxd2020u(), 30);
     let html = design_sheet(&design, &about()).html();
     assert_sound(&html);
-    for ((parameter, old), new) in design.parameters.iter().zip(design.initial.sd()).zip(design.optimal.sd())
+    for ((parameter, old), new) in
+        design.parameters.iter().zip(design.baseline().1.sd()).zip(design.optimal.sd())
     {
         assert!(html.contains(&format!("<th scope=\"row\">{}</th>", parameter.name)), "{}", parameter.name);
         for sd in [old, new] {
@@ -29,7 +30,7 @@ fn a_design_shows_every_number_of_the_result() {
         }
     }
     let certificate = design.certificate.as_ref().expect("made up");
-    for value in [design.initial.value, design.optimal.value, certificate.lower_bound] {
+    for value in [design.baseline().1.value, design.optimal.value, certificate.lower_bound] {
         assert!(html.contains(&number_format::significant(value, 6)), "{value}");
     }
     for start in &design.starts {
@@ -108,7 +109,7 @@ fn every_shape_of_problem_makes_a_sound_page() {
         sd_lower_bound: Vec::new(),
         explanation: String::new(),
     });
-    bare.initial.covariance = None;
+    (bare.shuttle, bare.initial.covariance) = (None, None);
     let html = design_sheet(&bare, &about()).html();
     assert_sound(&html);
     assert!(html.contains("state xᵢ (m/s²)") && html.contains("undetermined"));

@@ -374,6 +374,11 @@ fn the_keys_of_gravity_are_read_and_their_errors_point_at_the_line() {
     assert!((named.force_mps2 - Vector3::new(-9.806_197_769, 0.0, 0.0)).amax() < 1e-8);
     assert_eq!((named.sd_mps2, named.tilt_sd_rad), (calibrant::motion::Gravity::ANOMALY_SD_MPS2, 0.0));
     assert_eq!(force("gravity = \"z\"\ngravity_mps2 = 9.80665"), upright());
+    assert_eq!(
+        force("gravity = \"z\"").sd_mps2,
+        calibrant::motion::Gravity::SOMEWHERE.sd_mps2,
+        "nobody gave it"
+    );
     for (lines, message) in [
         ("gravity_mps2 = 9.80665", "nothing says which axis is up"),
         ("gravity_mps2 = [0.0, 9.8]", "a force has three numbers, this has 2"),
@@ -381,7 +386,6 @@ fn the_keys_of_gravity_are_read_and_their_errors_point_at_the_line() {
         ("gravity_mps2 = [0.0, 0.0, 0.0]", "a force of 0 m/s² is out of range"),
         ("gravity_mps2 = [0.0, 0.0, nan]", "a finite number is needed here"),
         ("gravity = \"up\"\ngravity_mps2 = 9.8", "\"up\" is no direction"),
-        ("gravity = \"z\"", "this required key is missing"),
         ("gravity = \"z\"\ngravity_mps2 = [0.0, 0.0, 9.8]", "the direction of gravity is given twice"),
         ("gravity_mps2 = [0.0, 0.0, 9.8]\nlatitude_deg = 45.0", "gravity is given twice"),
         ("tilt_sd_deg = 0.5", "no gravity is given to which this belongs"),

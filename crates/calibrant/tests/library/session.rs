@@ -62,7 +62,7 @@ fn an_accelerometer_is_calibrated_from_holds_and_validated() {
     let calibration = outcome.calibration().expect("of sensors");
 
     let setup = HoldsSetup {
-        gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
+        gravity: Gravity::SOMEWHERE,
         gauge: Gauge::Upper,
         bias_drift_sd_mps2: 0.02,
         ..steady_holds()
@@ -164,7 +164,7 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
 
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let holds = HoldsSetup {
-        gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
+        gravity: Gravity::SOMEWHERE,
         gauge: Gauge::Lower,
         bias_drift_sd_mps2: 0.02,
         ..steady_holds()

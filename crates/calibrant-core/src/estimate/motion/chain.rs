@@ -1,6 +1,6 @@
 //! The solution of one chain.
 
-use super::clock::ClockEquations;
+use super::clock_equations::ClockEquations;
 use super::context::Context;
 use super::fit::{Chain, Fit, State};
 use super::sample_pairs::PairSums;

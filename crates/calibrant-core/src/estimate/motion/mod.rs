@@ -6,12 +6,14 @@
 
 mod chain;
 mod clock;
+mod clock_equations;
 mod context;
 mod contradicted_gravity;
 mod fit;
 mod gravity;
 mod interval_moments;
 mod sample_pairs;
+mod solution;
 mod undetermined;
 mod verdict;
 
@@ -19,13 +21,13 @@ use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
     RecoveredClock, RecoveredGravity, RecoveredMotion, statistics,
 };
-use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
-use crate::information::chain_model::FULL_SLOTS;
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
-use crate::sensor::{Axis, ImuParameters, SensorModel, SensorParameters};
-use chain::{Solved, solve};
+use crate::sensor::{Axis, ImuParameters, SensorParameters};
+use chain::Solved;
 use context::Context;
 use nalgebra::{DMatrix, Matrix3, Vector3};
+use solution::solve_at;
 
 /// Calibrates from a motion.
 pub(super) fn calibrate(
@@ -48,35 +50,6 @@ pub(super) fn calibrate(
     let mut calibration = assemble(&context, solved, (gravity, clock), first)?;
     calibration.warnings.extend(delayed);
     Ok(calibration)
-}
-
-/// The solution for a given clock.
-fn solve_at(context: &Context<'_>) -> Result<Solved> {
-    match context.problem.sensor.model {
-        SensorModel::ScaleBias => solve_axes(context),
-        SensorModel::Full => {
-            let whole = solve::<3, 12, 14>(context, [0, 1, 2], FULL_SLOTS).map_err(not_identifiable)?;
-            Ok(Solved::merge(vec![whole]))
-        }
-    }
-}
-
-fn not_identifiable(groups: Vec<crate::error::UndeterminedGroup>) -> Error {
-    Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
-}
-
-/// The scale-bias model: one chain per axis. Undetermined parameters of all axes are collected in one error.
-fn solve_axes(context: &Context<'_>) -> Result<Solved> {
-    let axes = context.problem.sensor.axes;
-    let mut parts = Vec::with_capacity(axes);
-    let mut undetermined = Vec::new();
-    for axis in 0..axes {
-        match solve::<1, 2, 4>(context, [axis], [axis, axes + axis]) {
-            Ok(part) => parts.push(part),
-            Err(groups) => undetermined.extend(groups),
-        }
-    }
-    if undetermined.is_empty() { Ok(Solved::merge(parts)) } else { Err(not_identifiable(undetermined)) }
 }
 
 /// Assembles the result: residuals, statistics, warnings.

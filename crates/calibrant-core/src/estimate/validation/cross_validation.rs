@@ -164,6 +164,7 @@ fn converged(status: CalibrationStatus) -> Result<()> {
 mod tests {
     use super::*;
     use crate::estimate::{CovarianceVerdict, ErrorKind, Gyroscope, Recovered};
+    use crate::motion::Gravity;
     use crate::sensor::{ImuParameters, Sensor, SensorModel};
     use crate::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
     use nalgebra::Vector3;
@@ -195,6 +196,7 @@ mod tests {
                 holds: HoldsSetup {
                     intervals_s: Some(intervals),
                     bias_drift_sd_mps2: 0.0,
+                    gravity: Gravity { sd_mps2: 0.0, ..Gravity::SOMEWHERE },
                     ..HoldsSetup::default()
                 },
                 ..ImuSetup::default()

@@ -43,6 +43,8 @@ const MOST_TICKS: f64 = 3.0;
 /// would move them all by a sample.
 const BLOCK: usize = 50;
 const EARLIEST_TICKS: f64 = 1.25;
+/// The share of a step that such a tick is. Where it is less, the samples come in packets; where it is more, it is the step itself, and samples are lost.
+const TICK: std::ops::RangeInclusive<f64> = 0.25..=0.7;
 /// A coarser tick, in even steps, may be that of packets, and a lost packet would not show.
 const COARSEST: f64 = 2.0;
 /// A logged step longer than this number of even steps is a gap.
@@ -66,7 +68,8 @@ impl EvenTimes {
         let longest_s = steps(times).fold(0.0, f64::max);
         let is_even = tick_s <= COARSEST * line.step_s
             && (most - least <= (MOST_TICKS * tick_s).min(2.0 * line.step_s.max(tick_s))
-                || line.earliest_range_s(times) <= EARLIEST_TICKS * tick_s && tick_s <= line.step_s)
+                || line.earliest_range_s(times) <= EARLIEST_TICKS * tick_s
+                    && (TICK.start() * line.step_s..=TICK.end() * line.step_s).contains(&tick_s))
             && longest_s <= GAP * line.step_s.max(tick_s);
         is_even.then_some(line)
     }
@@ -184,8 +187,13 @@ mod tests {
     fn a_host_that_is_late_now_and_then_is_seen_by_its_earliest_times() {
         // steps of 1, 2 or 3 ticks of 5.12 ms, and seldom of more
         let late = |k: usize| 0.001 * (k * 7919 % 11) as f64 / 11.0 + if k % 487 == 3 { 0.021 } else { 0.0 };
-        let times: Vec<f64> =
-            (0..5000).map(|k| ((k as f64 / 104.0 + late(k)) / 0.00512).ceil() * 0.00512).collect();
+        let logged = |k: usize| ((k as f64 / 104.0 + late(k)) / 0.00512).ceil() * 0.00512;
+        // a sample that is late keeps those behind it waiting
+        let wait = |last: &mut f64, k: usize| {
+            *last = last.max(logged(k));
+            Some(*last)
+        };
+        let times: Vec<f64> = (0..5000).scan(0.0, wait).collect();
         let even = EvenTimes::found(&times).expect("even");
         assert!(
             (even.step_s * 104.0 - 1.0).abs() < 2e-5 && (even.tick_s.expect("found") - 0.00512).abs() < 1e-9

@@ -37,9 +37,9 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
         .map_or(factor, |(_, factor)| factor);
     Err(Error::recording(InputError::new(
         Refusal::GyroscopeScaled,
-        format!("the gyroscope reads {factor:.2} times the turns that gravity shows"),
+        format!("the gyroscope reads {factor:.3} times the turns that gravity shows"),
         format!(
-            "is the sample rate {factor:.2} times the one that was used, or was the sensitivity of another range used, or another unit?"
+            "is the sample rate {factor:.3} times the one that was used, or was the sensitivity of another range used, or another unit?"
         ),
     )))
 }

@@ -150,7 +150,6 @@ fn contradictions_point_at_their_line() {
         (("model = \"full\"", "model = \"scale-bias\"\n"), "an unknown mounting needs the full model"),
         (("axes = 3", "axes = 1"), ""),
         (("noise_mps2 = 0.01\n", ""), "\"datasheet\" needs noise_mps2"),
-        (("gravity_mps2 = 9.81", ""), "`machine.gravity_mps2`"),
     ] {
         let more = "sensor_noise = \"datasheet\"\n[machine.mount]\nrotation = \"unknown\"\n";
         let text = format!("{LEAST}{more}").replacen(change.0, change.1, 1);

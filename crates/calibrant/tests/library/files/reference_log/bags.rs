@@ -258,7 +258,7 @@ fn broken_bags_say_why() {
     );
     is(
         &joints(vec![joint_state(0, &["a"], &[], &[1.0]), joint_state(1, &["a"], &[], &[1.0])]),
-        "no row has a position: every value is NaN (a log needs two rows with a time and a position at least)",
+        "the messages of JointState have no positions (record a topic whose messages have them: velocities and efforts are no reference)",
     );
     is(
         &joints(Vec::new()),

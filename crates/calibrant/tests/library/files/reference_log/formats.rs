@@ -138,7 +138,7 @@ fn poses_are_read_by_the_names_of_their_columns() {
 #[test]
 fn joints_are_read_in_their_units() {
     let file = read(
-        "t_ms,lift_mm,wrist_deg,wrist_velocity_degps,shoulder_rad,lift_mps,note_v\n0,100,180,90,0.5,2,7\n10,200,-180,45,nan,3,7\n",
+        "t_ms,lift_mm,wrist_deg,wrist_velocity_degps,shoulder_rad,lift_mps,note_v\n0,100,180,90,0.5,2,7\n10,200,170,45,nan,3,7\n",
     );
     assert_eq!(file.format, ReferenceFormat::Joints);
     let log = file.joints().expect("joints");
