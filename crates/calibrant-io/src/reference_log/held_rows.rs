@@ -22,12 +22,10 @@ pub(super) fn leave_out_held(log: &mut ReferenceLog) -> Option<Diagnostic> {
     match log {
         ReferenceLog::Joints(log) => {
             let width = log.names.len();
-            let rows = |values: &[f64]| -> Vec<f64> {
+            for values in std::iter::once(&mut log.positions).chain(&mut log.velocities) {
                 let kept = values.chunks_exact(width).zip(&held).filter(|(_, held)| !**held);
-                kept.flat_map(|(row, _)| row).copied().collect()
-            };
-            log.positions = rows(&log.positions);
-            log.velocities = log.velocities.as_deref().map(rows);
+                *values = kept.flat_map(|(row, _)| row).copied().collect();
+            }
             keep(&mut log.times_s, &held);
         }
         ReferenceLog::Poses(log) => {

@@ -55,7 +55,7 @@ impl ReferenceLogFile {
             (Some(chain), _) => {
                 let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
                 let joints = self.joints_in_order(&names).map_err(|error| error.in_recording(path))?;
-                self.check_units(chain).map_err(|error| Error::recording(error).in_recording(path))?;
+                self.check_units(chain).map_err(|error| error.in_recording(path))?;
                 Ok(ReferenceLog::Joints(joints))
             }
             (None, Some(poses)) => Ok(ReferenceLog::Poses(poses.clone())),
@@ -69,7 +69,7 @@ impl ReferenceLogFile {
     }
 
     /// A joint that turns is logged in an angle, one that slides in a length.
-    fn check_units(&self, chain: &KinematicChain) -> std::result::Result<(), InputError> {
+    fn check_units(&self, chain: &KinematicChain) -> Result<()> {
         let names = self.joints().map_or(&[][..], |log| &log.names);
         for (name, turns) in names.iter().zip(&self.turns) {
             let Some(joint) = chain.joints.iter().find(|joint| joint.name == *name) else { continue };
@@ -80,7 +80,7 @@ impl ReferenceLogFile {
             if turns.is_some_and(|turns| turns != joint.kind.turns()) {
                 let message = format!("the joint `{name}` {kind}, and its column is not in {units}");
                 let help = "correct the unit in the name of the column, or the type of the joint in the URDF";
-                return Err(InputError::new(Refusal::UnitContradicted, message, help));
+                return Err(Error::recording(InputError::new(Refusal::UnitContradicted, message, help)));
             }
         }
         Ok(())

@@ -128,7 +128,8 @@ fn the_usual_other_conventions_of_poses_are_named() {
     let swapped = |of: &UnitQuaternion<f64>| {
         UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(of.i, of.j, of.k, of.w))
     };
-    let mistakes: [(&str, &dyn Fn(&UnitQuaternion<f64>) -> UnitQuaternion<f64>); 2] = [
+    type Mistake<'a> = (&'a str, &'a dyn Fn(&UnitQuaternion<f64>) -> UnitQuaternion<f64>);
+    let mistakes: [Mistake<'_>; 2] = [
         ("x, y, z, w, not w, x, y, z", &swapped),
         ("turn the world into the body", &UnitQuaternion::inverse),
     ];

@@ -22,7 +22,7 @@ use calibrant_core::diagnostic::reader::{
 };
 use calibrant_core::error::{Answer, Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
-use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind, WORKING_C, interpolated, rate_hz};
 use nalgebra::Vector3;
 use std::iter::once;
 
@@ -84,7 +84,7 @@ pub(super) fn assemble(
         (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
     } else if let Some(given_hz) = options.rate_hz.filter(|_| has_times) {
         let kept_s: Vec<f64> = kept.rows().map(|row| times[row]).collect();
-        findings.push(sample_clock::not_used(given_hz, &kept_s));
+        findings.push(sample_clock::not_used(given_hz, rate_hz(&kept_s)));
     }
     findings.append(&mut of_rows);
     let mut recording = ImuRecording::default();

@@ -12,7 +12,6 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, RateUnlikeTimes, quoted};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
-use calibrant_core::sensor::rate_hz;
 
 /// Key of a rate that a comment states.
 pub(super) const COMMENT: &str = "rate in a comment";
@@ -117,17 +116,8 @@ pub(super) fn of_rows(
 }
 
 /// What there is to say of a given rate where the samples have times: it is not used.
-pub(super) fn not_used(given_hz: f64, times_s: &[f64]) -> Diagnostic {
-    // where samples are lost, most steps still have the rate
-    let mut steps: Vec<f64> = times_s.array_windows().map(|[one, next]| next - one).collect();
-    let middle = steps.len() / 2;
-    let usual_hz = match steps.is_empty() {
-        true => given_hz,
-        false => steps.select_nth_unstable_by(middle, f64::total_cmp).1.recip(),
-    };
-    let found_hz = rate_hz(times_s);
-    let is_unlike = |hz: f64| (given_hz / hz - 1.0).abs() > UNLIKE;
-    match is_unlike(found_hz) && is_unlike(usual_hz) {
+pub(super) fn not_used(given_hz: f64, found_hz: f64) -> Diagnostic {
+    match (given_hz / found_hz - 1.0).abs() > UNLIKE {
         true => RateUnlikeTimes { given_hz, found_hz }.into(),
         false => ClockSource { clock: ClockSourceKind::RateUnused }.into(),
     }
