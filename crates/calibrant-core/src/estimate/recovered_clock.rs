@@ -28,13 +28,6 @@ impl RecoveredClock {
         time_s + self.delay_s + self.rate * (time_s - self.at_s)
     }
 
-    /// The recording's time at a time of the motion, s.
-    #[must_use]
-    pub fn recording_time_s(&self, motion_time_s: f64) -> f64 {
-        let from_middle = (motion_time_s - self.delay_s - self.at_s) / (1.0 + self.rate);
-        self.at_s + from_middle
-    }
-
     /// A recording on the clock of the motion.
     #[must_use]
     pub fn on_motion_clock<'a>(&self, recording: &'a Recording) -> Cow<'a, Recording> {

@@ -109,9 +109,12 @@ fn sample_step_s(problem: &CalibrationProblem<'_>) -> f64 {
     (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64
 }
 
-/// Puts the covariance with the clock marginalised into a solution, and the clock's part into χ².
+/// Puts the covariance with the clock marginalised into a solution, and the clock's part into χ². An exact clock has none.
 pub(super) fn marginalise(solved: &mut Solved, clock: &RecoveredClock) {
     let given = clock.given;
+    if given.is_exact() {
+        return;
+    }
     let Some(step) = solved.clock.as_ref().and_then(|equations| equations.step(clock, &given)) else {
         return;
     };
