@@ -239,6 +239,38 @@ fn a_gantry_calibrates_an_accelerometer() {
     );
 }
 
+/// What one axis does not move is refused by name, and the remedy leads to a result: the moved column from the data, the rest from the datasheet.
+#[test]
+fn a_gantry_of_one_axis_takes_the_rest_from_the_datasheet() {
+    let bench = Bench::new();
+    bench.preset("gantry", "bare.toml", &[("# tip = ", "tip = ")]);
+    let urdf = Urdf::parse(machine_preset("gantry").expect("built in").as_bytes()).expect("a machine");
+    let chain = urdf.chain(None, Some("bridge")).expect("a chain");
+    Rig { chain, ..Rig::preset("gantry", 0.1) }.record(&bench, false);
+    let calibrate = |file: &str| format!("calibrate {file} recording.csv --motion joints.csv -o out");
+    bench.refuses(&calibrate("bare.toml"), 4, &["not-identifiable", "prior = \"datasheet\" in [calibrate]"]);
+    let spreads = "unit = \"mps2\"\nbias_sd_mps2 = 0.1\nscale_sd = 0.005\ncross_axis_sd = 0.01";
+    let text = bench.read("bare.toml").replace("unit = \"mps2\"", spreads);
+    bench.write("prior.toml", text + "\n[calibrate]\nprior = \"datasheet\"\n");
+    bench.run(&calibrate("prior.toml")).done();
+    finds(
+        &bench,
+        "out/calibration.json",
+        &[
+            ("accelerometer.scale.x", 1.0, 1e-3),
+            ("accelerometer.matrix.yx", 0.0, 1e-3),
+            ("accelerometer.scale.z", 1.002, 0.006),
+        ],
+    );
+    let calibration = bench.json("out/calibration.json");
+    assert!((estimate(&calibration, "accelerometer.scale.y").1 / 0.005 - 1.0).abs() < 1e-3);
+    // rows and columns of the budget: scale.y is the fifth parameter, what was known of the sensor the last source
+    let budget = &calibration["machine"]["budget"];
+    assert_eq!(budget["sources"].as_array().and_then(|of| of.last()?.as_str()), Some("sensor_prior"));
+    let share = budget["shares"][4].as_array().and_then(|of| of.last()?.as_f64());
+    assert!(share.is_some_and(|share| share > 0.99), "{share:?}");
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let bench = two_joint_bench();

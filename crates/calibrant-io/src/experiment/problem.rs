@@ -3,6 +3,7 @@
 use super::{CriterionLetter, Experiment, Plan, Prior, ScaleBy};
 use crate::EarlierCalibration;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::KnownTerm;
 use calibrant_core::information::criterion::{
     AOptimality, COptimality, Criterion, DOptimality, EOptimality, IOptimality, MOptimality,
 };
@@ -106,6 +107,20 @@ impl Experiment {
             at,
             prior,
         })
+    }
+
+    /// What the datasheet says of each parameter of the accelerometer, where it is the prior.
+    #[must_use]
+    pub fn datasheet_terms(&self) -> Vec<KnownTerm> {
+        let nominal = self.sensor.nominal().filter(|_| self.calibrate.prior == Prior::Datasheet);
+        let Some(nominal) = nominal else { return Vec::new() };
+        let list = self.sensor.parameter_list();
+        let described = list.describe(&self.sensor, &nominal).into_iter().zip(list.of_accelerometer());
+        described
+            .filter_map(|(of, quantity)| {
+                Some(KnownTerm { quantity, value: of.nominal?, sd: Some(of.spread?) })
+            })
+            .collect()
     }
 
     /// The sensor at which a design begins, and the information that is there already.

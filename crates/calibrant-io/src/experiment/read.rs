@@ -196,10 +196,6 @@ impl ExperimentFile {
         }
         if let Some(machine) = &self.machine {
             machine.check_noise(&sensor, imu.as_ref())?;
-            if calibrate.prior == Prior::Datasheet {
-                let help = "take prior = \"datasheet\" out of [calibrate]";
-                return Err(refused("machine", "a prior of the sensor is not used with [machine]", help));
-            }
         }
         let list = match &plan {
             Plan::Motion(_) | Plan::Machine(_) => sensor.parameter_list(),

@@ -107,14 +107,14 @@ pub(crate) fn budget(
     let sigma = &posterior.covariance;
     let of_source = |source: Source| -> DMatrix<f64> {
         let places: Vec<usize> =
-            (0..layout.len()).filter(|k| layout.quantities[*k].source() == Some(source)).collect();
+            (0..layout.len()).filter(|k| layout.quantities[*k].source() == source).collect();
         let columns = sigma.select_columns(&places);
         let prior = layout.prior.select_columns(&places).select_rows(&places);
         let by_prior = &columns * prior;
         DMatrix::from_fn(layout.len(), 1, |i, _| by_prior.row(i).dot(&columns.row(i)))
     };
     let priors: Vec<(Source, DMatrix<f64>)> =
-        [Source::Geometry, Source::Mounting, Source::Timing, Source::Gravity]
+        [Source::Geometry, Source::Mounting, Source::Timing, Source::Gravity, Source::SensorPrior]
             .map(|s| (s, of_source(s)))
             .into();
     (layout.quantities.iter().enumerate())

@@ -128,7 +128,14 @@ impl<'e> MachineTask<'e> {
     /// What is known beforehand.
     fn setup(&self) -> Result<MachineSetup> {
         let joints = self.chain.map_or(0, |chain| chain.joints.len());
-        self.plan.setup(&self.experiment.sensor, self.experiment.imu.as_ref(), joints)
+        let mut setup = self.plan.setup(&self.experiment.sensor, self.experiment.imu.as_ref(), joints)?;
+        for term in self.experiment.datasheet_terms() {
+            // what [known] says of a parameter is nearer than the datasheet
+            if setup.known.iter().all(|known| known.quantity != term.quantity) {
+                setup.known.push(term);
+            }
+        }
+        Ok(setup)
     }
 
     /// A recording beside its log: the given one, or that in its own file. An option gives it.

@@ -40,17 +40,20 @@ pub enum Source {
     Timing,
     /// Magnitude of gravity and tilt of the base.
     Gravity,
+    /// What is known of the sensor beforehand: its datasheet, or `[known]`.
+    SensorPrior,
 }
 
 impl Source {
     /// All, in the order of tables.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::SensorNoise,
         Self::ReferenceNoise,
         Self::Geometry,
         Self::Mounting,
         Self::Timing,
         Self::Gravity,
+        Self::SensorPrior,
     ];
 
     /// As written in tables and files.
@@ -63,6 +66,7 @@ impl Source {
             Self::Mounting => "mounting",
             Self::Timing => "timing",
             Self::Gravity => "gravity",
+            Self::SensorPrior => "sensor_prior",
         }
     }
 }
@@ -112,15 +116,15 @@ impl MachineQuantity {
         })
     }
 
-    /// The source whose prior knowledge it has; the sensor's parameters have none.
+    /// The source whose prior knowledge it has.
     #[must_use]
-    pub fn source(self) -> Option<Source> {
+    pub fn source(self) -> Source {
         match self {
-            Self::Imu(_) => None,
-            Self::Lever(_) | Self::Mounting(_) => Some(Source::Mounting),
-            Self::Tilt(_) | Self::Gravity => Some(Source::Gravity),
-            Self::Delay(_) | Self::ClockRate => Some(Source::Timing),
-            Self::Zero(_) | Self::Geometry(..) => Some(Source::Geometry),
+            Self::Imu(_) => Source::SensorPrior,
+            Self::Lever(_) | Self::Mounting(_) => Source::Mounting,
+            Self::Tilt(_) | Self::Gravity => Source::Gravity,
+            Self::Delay(_) | Self::ClockRate => Source::Timing,
+            Self::Zero(_) | Self::Geometry(..) => Source::Geometry,
         }
     }
 }

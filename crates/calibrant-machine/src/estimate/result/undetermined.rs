@@ -105,7 +105,9 @@ fn reason(model: &Model<'_>, state: &State, named: &[MachineQuantity]) -> (Strin
         let axes = words(&no_change);
         return (
             format!("the specific force along {axes} of the sensor does not change"),
-            format!("turn {axes} up and down, or accelerate along {axes}"),
+            format!(
+                "turn {axes} up and down, accelerate along {axes}, or take the datasheet for what is not felt: prior = \"datasheet\" in [calibrate]"
+            ),
         );
     }
     (

@@ -19,6 +19,7 @@ fn colours(source: Source) -> (&'static str, &'static str) {
         Source::Mounting => (colour::SKY, "#1b1f24"),
         Source::Timing => (colour::VERMILLION, "#fff"),
         Source::Gravity => (colour::GREY, "#fff"),
+        Source::SensorPrior => (colour::PURPLE, "#1b1f24"),
     }
 }
 
