@@ -22,5 +22,5 @@ pub use result::{
 pub use search::SoFar;
 pub use task::{
     ShortestMotion, SurfaceSettings, Sweep, SweepPoint, SweepVariable, TraceSurface, design, shortest_motion,
-    sweep, sweep_work, trace_surface,
+    sweep, sweep_work, trace_surface, usual_motion,
 };

@@ -17,6 +17,16 @@ use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::SensorModel;
 use nalgebra::Vector3;
 
+/// What an engineer would command: the best shuttle at the limits. `None` where the intervals are too few for one, the limits want another beginning or
+/// end, or a shuttle determines too little.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn usual_motion(problem: &DesignProblem<'_>) -> Result<Option<JerkControlledMotion>> {
+    let best = best_shuttle(problem, &problem.effective_limits())?;
+    Ok(best.filter(|best| best.covariance.is_some()).map(|best| best.motion))
+}
+
 /// The best shuttle at the limits. `None` where the intervals are too few for one, or the limits want another beginning or end.
 ///
 /// # Errors

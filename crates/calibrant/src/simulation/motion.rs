@@ -11,7 +11,7 @@ use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::simulate::{
     ClockedTimes, Purpose, draw_gravity, draw_sensor, perturb, simulate_recording, stream,
 };
-use calibrant_design::initial_motion;
+use calibrant_design::{initial_motion, usual_motion};
 use calibrant_io::{Experiment, MotionPlan, Truth};
 use nalgebra::Vector3;
 
@@ -55,6 +55,8 @@ pub fn commanded_motion(
     drawn(first)
 }
 
+/// Simulates a recording of the given motion. Without one the machine makes what an engineer would command, the best shuttle at its limits, or, without
+/// room for one, the random initial motion.
 pub(super) fn simulate(
     experiment: &Experiment,
     plan: &MotionPlan,
@@ -65,7 +67,15 @@ pub(super) fn simulate(
     let limits = experiment.limits.within_range(plan.range_left(sensor));
     let given = options.motion.as_ref();
     let notes = rest_remark(&limits).filter(|_| given.is_none());
-    let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
+    let usual = match given {
+        // an unknown motion determines something only where its ends differ, which those of a shuttle do not
+        None if plan.trust != Trust::Unknown => usual_motion(&experiment.design_problem(&[])?)?,
+        _ => None,
+    };
+    let motion = match usual {
+        Some(usual) => usual,
+        None => commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?,
+    };
     length::check_motion(&motion, plan.rate_hz, options.budget)?;
     let mut rng = random.sensor();
     let truth = draw_sensor(sensor, &mut rng);
