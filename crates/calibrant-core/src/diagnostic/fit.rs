@@ -63,6 +63,18 @@ checks! {
          the standard deviations are too small. Check fixed terms and priors in [known], directions, turns and noise."
     );
 
+    /// The data refute a given value: the result is of another sensor, or of another procedure.
+    GivenRefuted "given-refuted" Error {
+        chi2: f64,
+        /// Degrees of freedom.
+        degrees_of_freedom: f64,
+    }
+    decided "χ² exceeds a hundred times its degrees of freedom: the residuals are ten times as large as what is given admits."
+    remedy "Correct terms in [known], directions, turns or noise."
+    says format!(
+        "χ² is {chi2:.0} with {degrees_of_freedom:.0} degrees of freedom: the data refute a given value. Correct terms in [known], directions, turns or noise."
+    );
+
     /// The fit is worse than the noise explains. The standard deviations are too small.
     FitWorseThanNoise "fit-worse-than-noise" Warning {
         /// p-value of χ².
