@@ -28,7 +28,7 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
     pub(super) experiment: PathBuf,
-    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: the best shuttle at the limits; without room for one, a random motion). On a machine: a log of its joints or poses.
+    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: a random motion; a shuttle at the limits, where a random one would say less than the datasheet). On a machine: a log of its joints or poses.
     #[arg(long, value_name = "CSV")]
     pub(super) motion: Option<PathBuf>,
     /// The poses of an accelerometer that is held by hand, such as those of `design`: columns up_x, up_y, up_z (default: spread over the sphere, turned at random).

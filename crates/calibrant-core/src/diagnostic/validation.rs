@@ -24,6 +24,20 @@ checks! {
         significant(*factor, 3)
     );
 
+    /// The residuals exceed the noise, and a validation finds the stated standard deviations right all the same.
+    ResidualsConfirmed "residuals-confirmed" Note {
+        /// The codes that a validation answers.
+        codes: Vec<String>,
+        /// Movements of the parameters over prediction.
+        factor: f64,
+    }
+    decided "With other data, or without each block of time, the parameters of every sensor move as far as predicted."
+    says format!(
+        "with other data the parameters move {} times as far as predicted. So the standard deviations hold, whatever {} say of the residuals.",
+        significant(*factor, 2),
+        codes.join(", ")
+    );
+
     /// The calibration is not validated by folds.
     FoldsImpossible "folds-impossible" Warning {
         why: Phrase,

@@ -17,14 +17,26 @@ use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::SensorModel;
 use nalgebra::Vector3;
 
-/// What an engineer would command: the best shuttle at the limits. `None` where the intervals are too few for one, the limits want another beginning or
-/// end, or a shuttle determines too little.
+/// What an engineer would command: of each axis the best shuttle at its limits. Axes that would move together do so differently, so that swapped ones are
+/// noticed: the second one begins the other way, the third one has the next best shuttle. `None` where the intervals are too few, the limits want another
+/// beginning or end, or such shuttles determine too little.
 ///
 /// # Errors
 /// As [`evaluate`].
 pub fn usual_motion(problem: &DesignProblem<'_>) -> Result<Option<JerkControlledMotion>> {
-    let best = best_shuttle(problem, &problem.effective_limits())?;
-    Ok(best.filter(|best| best.covariance.is_some()).map(|best| best.motion))
+    let mut found = shuttles(problem, &problem.effective_limits())?;
+    found.sort_by(|one, other| one.value.total_cmp(&other.value));
+    let Some(best) = found.first() else { return Ok(None) };
+    if problem.sensor.model == SensorModel::Full || problem.sensor.axes == 1 {
+        return Ok(best.covariance.is_some().then(|| best.motion.clone()));
+    }
+    let first = best.motion.acceleration_mps2();
+    let is_other = |motion: &&Evaluation| motion.motion.acceleration_mps2() != first;
+    let Some(next) = found.iter().find(is_other) else { return Ok(None) };
+    let next = next.motion.acceleration_mps2();
+    let nodes = first.iter().zip(next).map(|(a, b)| Vector3::new(a.x, -a.y, b.z)).collect();
+    let mixed = evaluate(problem, &JerkControlledMotion::uniform(problem.interval_s, nodes)?)?;
+    Ok(mixed.covariance.is_some().then_some(mixed.motion))
 }
 
 /// The best shuttle at the limits. `None` where the intervals are too few for one, or the limits want another beginning or end.
@@ -32,17 +44,22 @@ pub fn usual_motion(problem: &DesignProblem<'_>) -> Result<Option<JerkControlled
 /// # Errors
 /// As [`evaluate`].
 pub(super) fn best_shuttle(problem: &DesignProblem<'_>, limits: &Limits) -> Result<Option<Evaluation>> {
-    let mut best: Option<Evaluation> = None;
+    // the first of equals
+    let better = |best: Evaluation, found: Evaluation| if found.value < best.value { found } else { best };
+    Ok(shuttles(problem, limits)?.into_iter().reduce(better))
+}
+
+/// Shuttles of many ramps and holds.
+fn shuttles(problem: &DesignProblem<'_>, limits: &Limits) -> Result<Vec<Evaluation>> {
+    let mut found = Vec::new();
     for ramp in lengths(1, problem.intervals / 4) {
         for hold in lengths(0, problem.intervals / 2) {
-            let Some(motion) = shuttle(problem, limits, ramp, hold)? else { continue };
-            let found = evaluate(problem, &motion)?;
-            if best.as_ref().is_none_or(|best| found.value < best.value) {
-                best = Some(found);
+            if let Some(motion) = shuttle(problem, limits, ramp, hold)? {
+                found.push(evaluate(problem, &motion)?);
             }
         }
     }
-    Ok(best)
+    Ok(found)
 }
 
 /// Numbers from `least` to `most`: all of the small ones, and some of the large.

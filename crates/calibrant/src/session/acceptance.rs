@@ -4,14 +4,20 @@ use super::calibrated::Calibrated;
 use super::figures::figures;
 use super::outcome::Outcome;
 use calibrant_core::acceptance::{AcceptanceLimit, CheckedLimit, checked};
-use calibrant_core::diagnostic::validation::ValidationDoubts;
-use calibrant_core::diagnostic::{Code, Diagnostic};
+use calibrant_core::diagnostic::machine::{LogOutliers, MachineResiduals, ReferenceUndermodelled};
+use calibrant_core::diagnostic::samples::Spikes;
+use calibrant_core::diagnostic::validation::{ResidualsConfirmed, ValidationDoubts};
+use calibrant_core::diagnostic::{Check, Code, Diagnostic};
 use calibrant_core::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
 
 /// Adds the limits, and the diagnostics of validations and limits, to an outcome. `findings`: what the reader noticed in its recording.
 pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings: Vec<Code>) {
     let limits = checked(limits, &figures(&outcome.calibrated, &outcome.validations));
     let mut found = doubts(outcome);
+    if let Some((note, codes)) = confirmed(outcome) {
+        found.push(note);
+        outcome.allowed.extend(codes);
+    }
     found.extend(limits.iter().filter_map(CheckedLimit::diagnostic));
     match &mut outcome.calibrated {
         Calibrated::Sensors(calibration) => calibration.warnings.extend(found),
@@ -51,4 +57,28 @@ fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
                 .collect()
         }
     }
+}
+
+/// What is left in the residuals, or was taken out, says that the standard deviations may not hold; they are widened by it, and a validation that finds them large
+/// enough answers it.
+const ANSWERED: [Code; 4] =
+    [MachineResiduals::CODE, ReferenceUndermodelled::CODE, LogOutliers::CODE, Spikes::CODE];
+
+/// The warnings that the validations of a sensor on a machine answer, and the note that says so.
+fn confirmed(outcome: &Outcome) -> Option<(Diagnostic, Vec<Code>)> {
+    let Calibrated::OnMachine(machine) = &outcome.calibrated else { return None };
+    let shifts: Vec<_> = machine.validations.iter().flat_map(|of| &of.shifts).collect();
+    let factor = shifts.iter().map(|shift| shift.factor).fold(0.0, f64::max);
+    let codes: Vec<Code> = ANSWERED
+        .into_iter()
+        .filter(|code| machine.calibration.warnings.iter().any(|found| found.code() == *code))
+        .collect();
+    let is_large_enough = |of: CovarianceVerdict| {
+        matches!(of, CovarianceVerdict::Believed | CovarianceVerdict::LargerThanNeeded)
+    };
+    let is_confirmed = shifts.iter().all(|shift| is_large_enough(shift.verdict));
+    (is_confirmed && !shifts.is_empty() && !codes.is_empty()).then(|| {
+        let names = codes.iter().map(ToString::to_string).collect();
+        (ResidualsConfirmed { codes: names, factor }.into(), codes)
+    })
 }

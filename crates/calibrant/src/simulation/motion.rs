@@ -11,7 +11,7 @@ use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::simulate::{
     ClockedTimes, Purpose, draw_gravity, draw_sensor, perturb, simulate_recording, stream,
 };
-use calibrant_design::{initial_motion, usual_motion};
+use calibrant_design::{DesignProblem, evaluate, initial_motion, usual_motion};
 use calibrant_io::{Experiment, MotionPlan, Truth};
 use nalgebra::Vector3;
 
@@ -55,8 +55,17 @@ pub fn commanded_motion(
     drawn(first)
 }
 
-/// Simulates a recording of the given motion. Without one the machine makes what an engineer would command, the best shuttle at its limits, or, without
-/// room for one, the random initial motion.
+/// Would a recording of this motion determine a parameter less well than the datasheet?
+fn says_less_than_the_datasheet(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<bool> {
+    let Some(covariance) = evaluate(problem, motion)?.covariance else { return Ok(true) };
+    let parameters = problem.sensor.parameter_list().describe(problem.sensor, &problem.at);
+    let spreads = parameters.iter().map(|parameter| parameter.spread);
+    let mut pairs = spreads.zip(covariance.diagonal().iter());
+    Ok(pairs.any(|(spread, variance)| spread.is_some_and(|spread| variance.sqrt() > spread)))
+}
+
+/// Simulates a recording of the given motion. Without one the machine makes the random initial motion, or, where this would say less than the datasheet,
+/// what an engineer would command.
 pub(super) fn simulate(
     experiment: &Experiment,
     plan: &MotionPlan,
@@ -67,15 +76,14 @@ pub(super) fn simulate(
     let limits = experiment.limits.within_range(plan.range_left(sensor));
     let given = options.motion.as_ref();
     let notes = rest_remark(&limits).filter(|_| given.is_none());
-    let usual = match given {
-        // an unknown motion determines something only where its ends differ, which those of a shuttle do not
-        None if plan.trust != Trust::Unknown => usual_motion(&experiment.design_problem(&[])?)?,
-        _ => None,
-    };
-    let motion = match usual {
-        Some(usual) => usual,
-        None => commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?,
-    };
+    let mut motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
+    // an unknown motion determines something only where its ends differ, which those of a shuttle do not
+    if given.is_none() && plan.trust != Trust::Unknown {
+        let problem = experiment.design_problem(&[])?;
+        if says_less_than_the_datasheet(&problem, &motion)? {
+            motion = usual_motion(&problem)?.unwrap_or(motion);
+        }
+    }
     length::check_motion(&motion, plan.rate_hz, options.budget)?;
     let mut rng = random.sensor();
     let truth = draw_sensor(sensor, &mut rng);

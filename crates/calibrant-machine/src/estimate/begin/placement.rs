@@ -2,13 +2,13 @@
 
 use crate::chain::{ChainCorrections, SensorMount};
 use crate::estimate::problem::{place, refused};
-use crate::estimate::{MachineParameters, MachineProblem};
+use crate::estimate::{MachineParameters, MachineProblem, MountingPrior};
 use crate::reference::{Carrier, Motion};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{Recording, SensorKind};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-/// Correlation of the magnitudes of rate (or force) below which recording and log are of different motions.
+/// Correlation of the rates' magnitudes, or of the forces, below which recording and log are of different motions.
 const SAME_MOTION: f64 = 0.5;
 /// A gyroscope that reads more than this many times the rate of the motion, or less than the inverse, has another unit: degrees are 57 times radians.
 const OTHER_UNIT: f64 = 5.0;
@@ -67,7 +67,14 @@ impl<'a> Placement<'a> {
             return Ok(setup.delay_s);
         };
         let range_s = SEARCHED * setup.delay_sd_s;
-        let found = delay(&recording, &|time_s| self.at(time_s), setup.delay_s, range_s);
+        let at = |time_s| self.at(time_s);
+        // a force that nothing turns hardly changes its magnitude; rates are compared by theirs, so that a mounting that was given wrongly is found out
+        let is_force = self.sensor == SensorKind::Accelerometer && setup.mounting != MountingPrior::Unknown;
+        let turned = |v: &Vector3<f64>| setup.tip_from_sensor * v;
+        let found = match is_force {
+            true => delay((&recording, &turned), (&at, &|v| *v), setup.delay_s, range_s),
+            false => delay((&recording, &magnitude), (&at, &magnitude), setup.delay_s, range_s),
+        };
         let Some((delay_s, correlation)) = found else {
             let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
             let message = format!(
@@ -130,29 +137,38 @@ const STEP_S: f64 = 0.01;
 pub(crate) trait At: Fn(f64) -> Option<Vector3<f64>> {}
 impl<F: Fn(f64) -> Option<Vector3<f64>>> At for F {}
 
-/// The delay at which the magnitudes of readings and reference agree best: motion time less sensor time, s; and the correlation there.
+/// What is compared of a vector.
+type View<'v> = &'v dyn Fn(&Vector3<f64>) -> Vector3<f64>;
+
+/// The magnitude, which does not depend on the mounting.
+pub(crate) fn magnitude(v: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::x() * v.norm()
+}
+
+/// The delay at which the readings and the reference, each as it is compared, agree best: motion time less sensor time, s; and the correlation there.
 ///
-/// Magnitudes do not depend on the mounting. The maximum is searched between `−range_s` and `range_s` about `around_s`.
+/// The maximum is searched between `−range_s` and `range_s` about `around_s`.
 pub(crate) fn delay(
-    recording: &Recording,
-    reference: &impl At,
+    (recording, of_reading): (&Recording, View<'_>),
+    (reference, of_reference): (&impl At, View<'_>),
     around_s: f64,
     range_s: f64,
 ) -> Option<(f64, f64)> {
     let (first, last) = (*recording.times_s().first()?, *recording.times_s().last()?);
     let count = ((last - first) / STEP_S) as usize + 1;
-    // the mean magnitude of the readings in each step
-    let mut sums = vec![(0.0, 0_usize); count];
+    // the mean of the readings in each step
+    let mut sums = vec![(Vector3::zeros(), 0_usize); count];
     for (time, reading) in recording.times_s().iter().zip(recording.readings()) {
         let place = (((time - first) / STEP_S).round() as usize).min(count - 1);
-        sums[place].0 += reading.norm();
+        sums[place].0 += of_reading(reading);
         sums[place].1 += 1;
     }
-    let sensor: Vec<Option<f64>> = sums.iter().map(|(sum, n)| (*n > 0).then(|| sum / *n as f64)).collect();
+    let sensor: Vec<Option<Vector3<f64>>> =
+        sums.iter().map(|(sum, n)| (*n > 0).then(|| sum / *n as f64)).collect();
     let lags = (range_s / STEP_S).ceil() as usize;
     let start = first + around_s - lags as f64 * STEP_S;
-    let of = |k: usize| reference(start + k as f64 * STEP_S).map(|v| v.norm());
-    let reference: Vec<Option<f64>> = (0..count + 2 * lags).map(of).collect();
+    let of = |k: usize| reference(start + k as f64 * STEP_S).map(|v| of_reference(&v));
+    let reference: Vec<Option<Vector3<f64>>> = (0..count + 2 * lags).map(of).collect();
     let scores: Vec<Option<f64>> =
         (0..=2 * lags).map(|lag| correlation(&sensor, &reference[lag..])).collect();
     let best = (0..scores.len())
@@ -169,19 +185,20 @@ pub(crate) fn delay(
 }
 
 /// Correlation coefficient where both have values; `None` for fewer than 50 of them, or no variation.
-fn correlation(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
+fn correlation(one: &[Option<Vector3<f64>>], other: &[Option<Vector3<f64>>]) -> Option<f64> {
     const FEWEST: usize = 50;
-    let pairs: Vec<(f64, f64)> = one.iter().zip(other).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
+    let pairs: Vec<_> = one.iter().zip(other).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
     if pairs.len() < FEWEST {
         return None;
     }
     let n = pairs.len() as f64;
-    let (mean_a, mean_b) = pairs.iter().fold((0.0, 0.0), |(a, b), p| (a + p.0 / n, b + p.1 / n));
+    let zero = (Vector3::zeros(), Vector3::zeros());
+    let (mean_a, mean_b) = pairs.iter().fold(zero, |(a, b), p| (a + p.0 / n, b + p.1 / n));
     let (mut aa, mut bb, mut ab) = (0.0, 0.0, 0.0);
     for (a, b) in pairs {
-        aa += (a - mean_a).powi(2);
-        bb += (b - mean_b).powi(2);
-        ab += (a - mean_a) * (b - mean_b);
+        aa += (a - mean_a).norm_squared();
+        bb += (b - mean_b).norm_squared();
+        ab += (a - mean_a).dot(&(b - mean_b));
     }
     (aa * bb > 0.0).then(|| ab / (aa * bb).sqrt())
 }
@@ -219,7 +236,9 @@ mod tests {
         let unit = ReadingUnit::RadianPerSecond;
         let recording =
             Recording::new(times_s.clone(), readings.collect(), 3, unit).expect("samples in order");
-        let (found, score) = delay(&recording, &|t| Some(motion(t)), 0.0, 1.0).expect("it moves");
+        let at = |t| Some(motion(t));
+        let found = delay((&recording, &magnitude), (&at, &magnitude), 0.0, 1.0);
+        let (found, score) = found.expect("it moves");
         // half a sample: the coarse delay is where the iteration begins
         assert!((found - 0.1234).abs() < 4e-3 && score > 0.99, "{found} {score}");
         let pairs: Vec<_> =
