@@ -69,11 +69,7 @@ fn motion_presets_go_from_init_to_calibration() {
         let command =
             "calibrate experiment.toml simulated/recording.csv --motion simulated/motion.csv -o result";
         let outcome = bench.run(command).done();
-        if preset == "report-noisy" {
-            outcome.says("warning: the recording determines accelerometer.scale.x, accelerometer.scale.y");
-        } else {
-            assert_eq!(outcome.stderr, "", "{preset}");
-        }
+        assert_eq!(outcome.stderr, "", "{preset}");
         for word in SCALE_BIAS.iter().chain(&["estimate ± sd", "converged", "result/report.html"]) {
             assert!(outcome.printed().contains(word), "{preset}: {word}\n{}", outcome.stdout);
         }

@@ -50,7 +50,9 @@ fn recordings_of_one_seed_are_of_one_sensor() {
             assert_eq!(bench.read(&format!("default/{file}")), bench.read(&format!("1/{file}")));
             for (one, two) in [(1, 2), (1, 3), (2, 3)] {
                 let [one, two] = [one, two].map(|number| bench.read(&format!("{number}/{file}")));
-                assert!(one != two && one.len() > 100, "{experiment} {file}");
+                // a shuttle is the same for all
+                let may_agree = (experiment, *file) == ("noisy.toml", "motion.csv");
+                assert!((one != two || may_agree) && one.len() > 100, "{experiment} {file}");
             }
         }
     }

@@ -162,6 +162,25 @@ mod tests {
         assert!(v.abs() < 1e-12 && d.abs() < 1e-12, "{v} {d}");
     }
 
+    /// Readings of swapped or reversed axes then contradict the motion.
+    #[test]
+    fn axes_that_move_together_move_differently() {
+        let sensor = Sensor::memsic_mxd2020u();
+        let limits = Limits {
+            acceleration_mps2: Some(Vector3::repeat(20.0)),
+            jerk_mps3: Some(Vector3::repeat(20.0)),
+            ..Limits::default()
+        };
+        let problem = DesignProblem::new(&sensor, &limits, 10.0).expect("nominal");
+        let motion = usual_motion(&problem).expect("valid").expect("room");
+        let nodes = motion.acceleration_mps2();
+        for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+            let largest = nodes.iter().map(|a| (a[one] - a[other]).abs()).fold(0.0, f64::max);
+            assert!(largest > 10.0, "{one} {other}: {largest}");
+        }
+        assert!(limit_use(&limits, 3, &motion).iter().all(|found| found.violation < 1e-9));
+    }
+
     /// On three axes with cross-axis sensitivities one axis moves at a time, which determines all of them.
     #[test]
     fn a_shuttle_determines_a_full_sensor() {

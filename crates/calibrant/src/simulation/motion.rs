@@ -77,6 +77,7 @@ pub(super) fn simulate(
     let given = options.motion.as_ref();
     let notes = rest_remark(&limits).filter(|_| given.is_none());
     let mut motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
+    length::check_motion(&motion, plan.rate_hz, options.budget)?;
     // an unknown motion determines something only where its ends differ, which those of a shuttle do not
     if given.is_none() && plan.trust != Trust::Unknown {
         let problem = experiment.design_problem(&[])?;
@@ -84,7 +85,6 @@ pub(super) fn simulate(
             motion = usual_motion(&problem)?.unwrap_or(motion);
         }
     }
-    length::check_motion(&motion, plan.rate_hz, options.budget)?;
     let mut rng = random.sensor();
     let truth = draw_sensor(sensor, &mut rng);
     let mut rng = random.happening(rng);
