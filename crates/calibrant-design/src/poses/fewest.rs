@@ -6,7 +6,7 @@
 //! number. That number is found by bisection, for each goal alone and for all together.
 //!
 //! The number that suffices is found from designs by the criterion of the problem. The variances of the holds
-//! fall about as 1/n, which gives the next n to try; bisection then ends the search. A drift and the grid of
+//! fall about as 1/n, which gives the next n to try, at most twice as many; bisection then ends the search. A drift and the grid of
 //! n make the variances of designs not quite monotone, so that a smaller number may do: the bound says from
 //! where on.
 
@@ -86,7 +86,8 @@ pub fn fewest_poses(
             return Err(by_this_criterion());
         }
         low = high;
-        high = ((high as f64 * needed).ceil() as usize).clamp(high + 1, MOST);
+        // hardly enough poses determine little, and say nothing of how many more are needed
+        high = ((high as f64 * needed.min(2.0)).ceil() as usize).clamp(high + 1, MOST);
     }
     first_that_passes(low, high, |poses| used(poses).map(|used| used <= 1.0))?;
     let design = best.ok_or_else(singular)?;

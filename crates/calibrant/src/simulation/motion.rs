@@ -59,9 +59,9 @@ pub fn commanded_motion(
 fn says_less_than_the_datasheet(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<bool> {
     let Some(covariance) = evaluate(problem, motion)?.covariance else { return Ok(true) };
     let parameters = problem.sensor.parameter_list().describe(problem.sensor, &problem.at);
-    let spreads = parameters.iter().map(|parameter| parameter.spread);
-    let mut pairs = spreads.zip(covariance.diagonal().iter());
-    Ok(pairs.any(|(spread, variance)| spread.is_some_and(|spread| variance.sqrt() > spread)))
+    let weaker =
+        |(k, spread): (usize, Option<f64>)| spread.is_some_and(|spread| covariance[(k, k)].sqrt() > spread);
+    Ok(parameters.iter().map(|parameter| parameter.spread).enumerate().any(weaker))
 }
 
 /// Simulates a recording of the given motion. Without one the machine makes the random initial motion, or, where this would say less than the datasheet,
