@@ -1,9 +1,9 @@
 //! The check for a sensor that changes within a recording: what changes, when, and by how much.
 
 use super::check::checks;
-use super::parts::{Part, Parts, listed};
-use crate::number_format::fixed;
-use crate::sensor::{Axis, SensorKind};
+use super::parts::{Part, Parts, listed, neither};
+use crate::number_format::{fixed, significant};
+use crate::sensor::{Axis, ReadingUnit, SensorKind};
 use nalgebra::Vector3;
 use std::fmt;
 
@@ -23,6 +23,63 @@ checks! {
     decided "A score test of the residuals in the order of time finds a step, a drift or an episode."
     remedy "Calibrate the parts separately (holds.intervals_s) and compare. Let the sensor warm up."
     says change.in_words(coldest_c.zip(*hottest_c));
+
+    /// The accelerometer's bias drifts by more than was allowed for. The biases are those in the middle of the recording.
+    BiasDrifts "bias-drifts" Warning {
+        /// The drift from the first hold to the last, in the unit of the readings.
+        drift: Vector3<f64>,
+        unit: ReadingUnit,
+        /// That of the worst axis, in the standard deviations that were expected.
+        deviations: f64,
+        /// Middle of the first hold, s.
+        start_s: f64,
+        /// Middle of the last hold, s.
+        end_s: f64,
+        /// The time of which the biases are, s.
+        biases_at_s: f64,
+    }
+    decided "The drift of an axis is more than three times holds.bias_drift_sd_mps2."
+    remedy "Let the sensor warm up, and record again. To use this recording, take the biases as those of the middle of the \
+        recording, or set holds.bias_drift_sd_mps2 to the drift that is usual for this sensor."
+    says {
+        let amounts: Vec<String> = drift.iter().map(|value| significant(*value, 2)).collect();
+        format!(
+            "the accelerometer's bias drifts by {} {} from the first hold to the last, {deviations:.0} times what \
+             holds.bias_drift_sd_mps2 expects. The biases are those at {biases_at_s:.0} s, and half the drift away at the \
+             ends. Let the sensor warm up, or set that key to what is usual for it.",
+            amounts.join(", "),
+            unit.symbol()
+        )
+    };
+
+    /// A sensor on a machine drifts through the recording. The estimates are a mean over it.
+    SensorDrifts "sensor-drifts" Warning {
+        sensor_kind: SensorKind,
+        /// What drifts: its bias or its gains.
+        of: Changed,
+        /// By how much from begin to end, per axis: in the unit of the readings, or as a share.
+        drift: Vector3<f64>,
+        unit: ReadingUnit,
+        /// p-value of no drift.
+        p_value: f64,
+    }
+    decided "Residuals follow the time, or the readings times the time (p below 0.0001, from the scatter of blocks), and half \
+        the drift is more than three standard deviations of the parameter. It is beyond what is usual, or the result is \
+        doubtful anyway."
+    remedy "Let the sensor and the machine warm up. Split the recording, and compare the halves."
+    says {
+        let share = *of == Changed::Gain;
+        let amounts: Vec<String> =
+            drift.iter().map(|value| significant(if share { 100.0 * value } else { *value }, 2)).collect();
+        format!(
+            "the {sensor_kind} drifts through the recording: its {of} {} from begin to end by {} {}. The estimates are \
+             those of the middle. Or the log drifts against it. Let both warm up; split the recording, and compare the \
+             halves.",
+            if share { "change" } else { "changes" },
+            amounts.join(", "),
+            if share { "%" } else { unit.symbol() }
+        )
+    };
 }
 
 /// A sensor that changes within a recording.
@@ -200,6 +257,8 @@ impl Change {
         )
     }
 }
+
+neither!(Changed);
 
 impl fmt::Display for Changed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -21,6 +21,18 @@ checks! {
          of the recording, gravity, and the order and direction of the axes."
     );
 
+    /// The bias of an accelerometer of readings in SI is more than half of gravity. It is gravity, not a bias.
+    BiasImplausible "bias-implausible" Error {
+        /// Its magnitude, m/s².
+        bias_mps2: f64,
+    }
+    decided "It is above 4.9 m/s², and the datasheet does not allow for it."
+    remedy "Check the direction of gravity (`up`), its magnitude, and the unit of the recording."
+    says format!(
+        "the bias of the accelerometer is {bias_mps2:.1} m/s². More than half of gravity is gravity that was taken for a \
+         bias. Check the direction of gravity (`up`), its magnitude, and the unit of the recording."
+    );
+
     /// A gain of readings in SI is far from 1.
     GainImplausible "gain-implausible" Error {
         sensor_kind: SensorKind,

@@ -113,6 +113,58 @@ checks! {
         convention.0
     );
 
+    /// Recording and log fit where another direction is up.
+    UpOtherwise "up-otherwise" Error {
+        /// The value of `up` with which they fit.
+        up: Phrase,
+    }
+    decided "With another axis as `up` the residuals are less than half as large; or they are the same, and the bias of \
+        the accelerometer is less than half of gravity and not more."
+    remedy "Correct `up` in [machine]."
+    says format!(
+        "recording and log fit if the direction up is \"{}\". Correct `up` in [machine].",
+        up.0
+    );
+
+    /// All gains of a sensor are off by one factor: it is of the machine's description, not of the sensor.
+    GainsShareFactor "gains-share-factor" Warning {
+        sensor_kind: SensorKind,
+        /// The factor.
+        factor: f64,
+    }
+    decided "All three gains are more than 5 % off, and differ from each other by less than a third of that. Gains of one \
+        sensor are off by per cents, each by its own."
+    remedy "Check lever_m in [machine.mount], gravity, the scale of the log, and the unit of the recording."
+    says format!(
+        "all gains of the {sensor_kind} are {factor:.3} times what they should be: one cause, which is not the sensor. {}, \
+         and the unit of the recording.",
+        match sensor_kind {
+            SensorKind::Accelerometer => "Check lever_m in [machine.mount], gravity, the scale of the log",
+            SensorKind::Gyroscope => "Check the scale of the log, the clock's rate",
+        }
+    );
+
+    /// The matrices of the sensors are turned as a mounting that is wrong would turn them.
+    MountingOtherwise "mounting-otherwise" Warning {
+        /// Angle between the mounting that was given and the one of the data, rad.
+        angle_rad: f64,
+        /// The rotation with which the matrices are not turned, as [machine.mount] writes it.
+        rotation: Phrase,
+        /// Do both sensors show it?
+        is_of_both: bool,
+    }
+    decided "The turn that the matrices share exceeds what the other misalignments of the axes, or the usual ones of 1 %, and \
+        the stated mounting explain (p below 0.001)."
+    remedy "Correct rotation in [machine.mount], or its rotation_sd_deg. Or give rotation = \"unknown\"."
+    says format!(
+        "{} turned by {:.2}° against the mounting in [machine.mount], as a wrong mounting turns {}. With rotation = {} \
+         it is not. Correct it, or give rotation = \"unknown\".",
+        if *is_of_both { "both sensors are" } else { "the sensor is" },
+        angle_rad.to_degrees(),
+        if *is_of_both { "both" } else { "it" },
+        rotation.0
+    );
+
     /// The poses of a log are interpolated. The measured ones take their place.
     PosesInterpolated "poses-interpolated" Note {
         /// Rate of the measured poses, Hz.

@@ -37,6 +37,22 @@ checks! {
         with_sd(1e3 * delay_s, 1e3 * sd_s)
     );
 
+    /// The recording follows the commanded motion up to a time, and another one from then on.
+    MotionChanges "motion-changes" Warning {
+        /// The time of the motion at which it changes, s.
+        change_s: f64,
+        /// What it does from then on, where that was found.
+        what: Option<Phrase>,
+    }
+    decided "Noise explains the samples before that time, and right behind it the residuals are more than three times the \
+        noise. What the motion does then is named where it leaves half of the residuals or less."
+    remedy "Look at what the machine did then, and record again. Or take the samples behind that time out of the recording."
+    says format!(
+        "the recording follows the motion up to {change_s:.1} s, and not from then on{}. Look at what the machine did \
+         then, and record again. Or take the samples behind that time out of the recording.",
+        what.as_ref().map_or_else(String::new, |what| format!(": {}", what.0))
+    );
+
     /// The motion was found far from where it was expected.
     DelayUnexpected "delay-unexpected" Warning {
         /// Delay that was found: motion time less recording time, s.

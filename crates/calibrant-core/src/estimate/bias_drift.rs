@@ -1,7 +1,9 @@
 //! The drift of the accelerometer's bias over a recording.
 
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::change::BiasDrifts;
 use crate::motion::Hold;
-use crate::sensor::Recording;
+use crate::sensor::{ReadingUnit, Recording};
 use nalgebra::{Matrix3, Vector3};
 
 /// The drift of the accelerometer's bias from the first hold to the last, in the unit of its readings.
@@ -15,13 +17,31 @@ pub struct BiasDrift {
     pub degrees_of_freedom: f64,
     /// Middle of the first hold and of the last, s.
     pub span_s: (f64, f64),
+    /// Standard deviation that was expected of it, per axis.
+    pub expected_sd: Vector3<f64>,
 }
+
+/// A drift of more than this many expected standard deviations is not the one that was allowed for.
+const FAR: f64 = 3.0;
 
 impl BiasDrift {
     /// Standard deviation per axis.
     #[must_use]
     pub fn sd(&self) -> Vector3<f64> {
         self.covariance.diagonal().map(|variance| variance.max(0.0).sqrt())
+    }
+
+    /// The time of which the biases are, s.
+    #[must_use]
+    pub fn biases_at_s(&self) -> f64 {
+        0.5 * (self.span_s.0 + self.span_s.1)
+    }
+
+    /// The warning about a drift beyond what was expected.
+    pub(in crate::estimate) fn beyond_expected(&self, unit: ReadingUnit) -> Option<Diagnostic> {
+        let deviations = self.value.abs().component_div(&self.expected_sd).max();
+        let (drift, (start_s, end_s), biases_at_s) = (self.value, self.span_s, self.biases_at_s());
+        (deviations > FAR).then(|| BiasDrifts { drift, unit, deviations, start_s, end_s, biases_at_s }.into())
     }
 
     /// `τ` at a time: −½ in the first hold, ½ in the last.
@@ -57,4 +77,24 @@ fn middle(hold: &Hold) -> f64 {
 /// Middle of the first hold and of the last, s.
 pub(in crate::estimate) fn span(holds: &[Hold]) -> (f64, f64) {
     (holds.first().map_or(0.0, middle), holds.last().map_or(0.0, middle))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drift_of_more_than_three_expected_ones_is_a_warning_with_the_time_of_the_biases() {
+        let of = |z: f64| BiasDrift {
+            value: Vector3::new(0.01, -0.02, z),
+            covariance: Matrix3::identity() * 1e-8,
+            degrees_of_freedom: 3.0,
+            span_s: (10.0, 110.0),
+            expected_sd: Vector3::repeat(0.02),
+        };
+        let unit = ReadingUnit::MetrePerSecondSquared;
+        assert_eq!(of(0.059).beyond_expected(unit), None);
+        let found = of(-0.1).beyond_expected(unit).expect("five times what was expected");
+        assert!(found.is_warning() && found.message().contains("are those at 60 s"), "{found}");
+    }
 }

@@ -1,7 +1,7 @@
 //! A result beside the datasheet: parameters, gains and noise that no sensor of the type has.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::datasheet::{GainImplausible, ParameterImplausible};
+use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, ParameterImplausible};
 use crate::diagnostic::fit::{NoiseImplausible, NoiseNotAsGiven};
 use crate::sensor::{Axis, Parameter, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
@@ -10,6 +10,12 @@ use nalgebra::{Matrix3, Vector3};
 pub const ALLOWED_SPREADS: f64 = 6.0;
 /// Gains of readings in SI that are plausible.
 const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// A bias of an accelerometer beyond this is gravity that was taken for a bias: half of it. Accelerometers are delivered within a tenth of gravity.
+const LARGEST_BIAS_MPS2: f64 = 0.5 * 9.806_65;
+/// Logarithm of a factor that is not that of a sensor: sensors are off by 1 to 5 %.
+const FACTOR: f64 = 0.05;
+/// The gains differ from a common factor by less than this share of its logarithm. Those of a sensor would differ by as much as they are off.
+const ALIKE: f64 = 1.0 / 3.0;
 /// A noise beyond this multiple of the given one, or below its inverse, is not as given.
 const NOT_AS_GIVEN: f64 = 2.0;
 /// A noise beyond this multiple of the given one is a fault.
@@ -44,12 +50,40 @@ pub fn implausible_gains(
     far.map(|axis| Diagnostic::from(GainImplausible { sensor_kind, axis, gain: along(axis), unit })).collect()
 }
 
+/// The bias of an accelerometer of SI readings that is more than half of gravity. `allowed`: does the datasheet allow for the bias of this axis?
+pub fn implausible_bias(
+    unit: ReadingUnit,
+    bias: &Vector3<f64>,
+    allowed: impl Fn(Axis) -> bool,
+) -> Option<Diagnostic> {
+    let own = Vector3::from_fn(|k, _| if allowed(Axis::ALL[k]) { 0.0 } else { bias[k] });
+    let is_far = unit == ReadingUnit::MetrePerSecondSquared && own.norm() > LARGEST_BIAS_MPS2;
+    is_far.then(|| BiasImplausible { bias_mps2: bias.norm() }.into())
+}
+
+/// The one factor by which all three gains are off, where they are: a sensor's own differ from each other. `nominal`: the gains of its datasheet.
+#[must_use]
+pub fn common_factor(matrix: &Matrix3<f64>, nominal: &Vector3<f64>) -> Option<f64> {
+    let logarithms = Axis::ALL.map(|axis| (matrix.row(axis.index()).norm() / nominal[axis.index()]).ln());
+    let mean = logarithms.iter().sum::<f64>() / 3.0;
+    let is_common = logarithms.iter().all(|of_axis| (of_axis - mean).abs() < ALIKE * mean.abs());
+    (is_common && mean.abs() > FACTOR).then(|| mean.exp())
+}
+
 /// Does the datasheet allow for the gain of an axis, from a list that ends in the scale factors' names?
 #[must_use]
 pub fn allows_gain(parameters: &[Parameter], values: &[f64], sd: &[f64], axis: Axis) -> bool {
-    let ending = format!("scale.{axis}");
+    allows(&format!("scale.{axis}"), parameters, values, sd)
+}
+
+/// The same of the accelerometer's bias.
+pub(crate) fn allows_bias(parameters: &[Parameter], values: &[f64], sd: &[f64], axis: Axis) -> bool {
+    allows(&format!("accelerometer.bias.{axis}"), parameters, values, sd)
+}
+
+fn allows(ending: &str, parameters: &[Parameter], values: &[f64], sd: &[f64]) -> bool {
     (parameters.iter().zip(values).zip(sd))
-        .filter(|((parameter, _), _)| parameter.name.ends_with(&ending))
+        .filter(|((parameter, _), _)| parameter.name.ends_with(ending))
         .filter_map(|((parameter, value), sd)| deviations(parameter, *value, *sd))
         .any(|times| times <= ALLOWED_SPREADS)
 }

@@ -51,7 +51,10 @@ pub use crate::diagnostic::{Change, Changed, Course};
 pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
-pub use datasheet::{ALLOWED_SPREADS, allows_gain, beyond_datasheet, implausible_gains, noise_not_as_given};
+pub use datasheet::{
+    ALLOWED_SPREADS, allows_gain, beyond_datasheet, common_factor, implausible_bias, implausible_gains,
+    noise_not_as_given,
+};
 pub use effective_degrees::degrees_of_sum;
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{

@@ -89,14 +89,17 @@ impl Calibration {
         self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
     }
 
-    /// What of the accelerometer the datasheet does not allow: a parameter, and gains of readings in SI that are far from one.
+    /// What of the accelerometer the datasheet does not allow: a parameter, and bias and gains of readings in SI that no sensor has.
     pub(crate) fn beyond_datasheet(&self) -> Vec<Diagnostic> {
         let (parameters, values, sd) = (&self.parameters, &self.values, self.sd());
         let allowed =
             |axis: Axis| axis.index() >= self.axes() || datasheet::allows_gain(parameters, values, &sd, axis);
         let (kind, matrix) = (SensorKind::Accelerometer, &self.imu.accelerometer.matrix);
         let gains = datasheet::implausible_gains(kind, self.accelerometer_unit, matrix, allowed);
-        datasheet::beyond_datasheet(parameters, values, &sd).into_iter().chain(gains).collect()
+        let allowed = |axis: Axis| datasheet::allows_bias(parameters, values, &sd, axis);
+        let bias =
+            datasheet::implausible_bias(self.accelerometer_unit, &self.imu.accelerometer.bias, allowed);
+        datasheet::beyond_datasheet(parameters, values, &sd).into_iter().chain(bias).chain(gains).collect()
     }
 
     /// Correlation matrix of the estimates.

@@ -1,7 +1,7 @@
 //! How the clock takes part in a change of the parameters: `U Bᵀ` of [`clock_marginal`](super::clock_marginal).
 
 use crate::motion::MotionClock;
-use nalgebra::{DMatrix, DVector, Matrix2, RowVector2, SMatrix, SVector};
+use nalgebra::{DMatrix, Matrix2, RowVector2, SMatrix, SVector};
 
 /// Parameters and clock of the largest part: a border of one size for all.
 pub(super) const BORDER: usize = 14;
@@ -43,22 +43,27 @@ impl<const D: usize, const P: usize> ClockResponse<D, P> {
     }
 }
 
+/// The information of parameters and clock, with the clock last, with what is known of it. What is exact has no part: its variance is 1, and shared with nothing.
+pub(crate) fn with_known_clock(mut joint: DMatrix<f64>, clock: &MotionClock) -> DMatrix<f64> {
+    let p = joint.nrows() - 2;
+    for (k, sd) in [(p, clock.delay_sd_s), (p + 1, clock.rate_sd)] {
+        if sd > 0.0 {
+            joint[(k, k)] += sd.powi(-2);
+        } else {
+            joint.row_mut(k).fill(0.0);
+            joint.column_mut(k).fill(0.0);
+            joint[(k, k)] = 1.0;
+        }
+    }
+    joint
+}
+
 /// The information of the parameters with the clock marginalised, from that of both with the clock last.
 pub(super) fn marginal(joint: &DMatrix<f64>, clock: &MotionClock) -> (DMatrix<f64>, DMatrix<f64>) {
     let p = joint.nrows() - 2;
-    let mut own = Matrix2::from_fn(|i, j| joint[(p + i, p + j)]);
-    let mut cross = DMatrix::from_fn(p, 2, |i, k| joint[(i, p + k)]);
-    for (k, sd) in [clock.delay_sd_s, clock.rate_sd].into_iter().enumerate() {
-        if sd > 0.0 {
-            own[(k, k)] += sd.powi(-2);
-        } else {
-            // what is exact has no part
-            own.set_row(k, &RowVector2::zeros());
-            own.set_column(k, &nalgebra::Vector2::zeros());
-            own[(k, k)] = 1.0;
-            cross.set_column(k, &DVector::zeros(p));
-        }
-    }
+    let joint = with_known_clock(joint.clone(), clock);
+    let own = Matrix2::from_fn(|i, j| joint[(p + i, p + j)]);
+    let cross = joint.view((0, p), (p, 2)).into_owned();
     let inverse = own.try_inverse().unwrap_or_else(Matrix2::zeros);
     let regression = &cross * DMatrix::from_fn(2, 2, |i, j| inverse[(i, j)]);
     let information = joint.view((0, 0), (p, p)) - &regression * cross.transpose();

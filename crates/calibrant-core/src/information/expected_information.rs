@@ -172,8 +172,8 @@ impl MotionInformation {
     }
 }
 
-/// Blocks of parameters, each with the clock behind them, in the places of the whole.
-fn spread(blocks: &[(DMatrix<f64>, Vec<usize>)], size: usize) -> DMatrix<f64> {
+/// Blocks of parameters, each with the clock behind them, in the places of the whole. The chains of a motion share only the clock.
+pub(crate) fn spread(blocks: &[(DMatrix<f64>, Vec<usize>)], size: usize) -> DMatrix<f64> {
     let mut whole = DMatrix::zeros(size + 2, size + 2);
     for (block, slots) in blocks {
         let places: Vec<usize> = slots.iter().copied().chain([size, size + 1]).collect();

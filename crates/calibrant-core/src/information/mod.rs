@@ -12,8 +12,10 @@ mod motion_information;
 mod second_derivative;
 mod undetermined_explanation;
 
+pub(crate) use clock_response::with_known_clock;
 pub use criterion::Criterion;
 pub use expected_information::MotionInformation;
+pub(crate) use expected_information::spread;
 pub use gravity_marginal::{GravityMarginal, with_biases};
 pub use identifiability::{Undetermined, covariance, undetermined};
 pub use motion_information::{InformationDerivative, Linearised, PartInformation};

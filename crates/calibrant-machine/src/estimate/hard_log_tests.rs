@@ -20,17 +20,18 @@ use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 /// An IMU on something that moves, and the log of that.
-struct Simulated {
-    setup: MachineSetup,
+pub(super) struct Simulated {
+    pub(super) setup: MachineSetup,
+    pub(super) model: SensorModel,
     chain: Option<KinematicChain>,
     truth: MachineParameters,
-    recording: ImuRecording,
+    pub(super) recording: ImuRecording,
     log: ReferenceLog,
 }
 
 impl Simulated {
     /// In a hand, or on a chain, for a third of a minute.
-    fn new(chain: Option<KinematicChain>, setup: MachineSetup, errors: &LogErrors) -> Self {
+    pub(super) fn new(chain: Option<KinematicChain>, setup: MachineSetup, errors: &LogErrors) -> Self {
         let mut rng = stream(3, Purpose::Motion, 0);
         let wanted = MotionToDraw { duration_s: 20.0, rest_s: 1.0, acceleration: 5.0, knot_step_s: None };
         let motion = match &chain {
@@ -55,7 +56,7 @@ impl Simulated {
             record_sensors(&motion, &truth, &setup, &sampling, &sensors, &mut rng).expect("recorded");
         let log = record_log(&motion, errors, &mut rng);
         assert_eq!(matches!(motion, Motion::Joints(_)), chain.is_some());
-        Self { setup, chain, truth, recording, log }
+        Self { setup, model: SensorModel::Full, chain, truth, recording, log }
     }
 
     fn in_a_hand() -> Self {
@@ -65,8 +66,8 @@ impl Simulated {
         Self::new(None, setup, &LogErrors { rate_hz: 30.0, noise, resolution: 0.0 })
     }
 
-    fn calibrated(&self) -> Result<MachineCalibration> {
-        let list = ParameterList::new(3, SensorModel::Full);
+    pub(super) fn calibrated(&self) -> Result<MachineCalibration> {
+        let list = ParameterList::new(3, self.model);
         let of = |kind: &SensorKind| {
             let kind = *kind;
             list.quantities().iter().map(move |of| ImuQuantity::Of(kind, *of)).collect::<Vec<_>>()
@@ -103,7 +104,7 @@ impl Simulated {
     }
 }
 
-fn codes(calibration: &MachineCalibration) -> Vec<&'static str> {
+pub(super) fn codes(calibration: &MachineCalibration) -> Vec<&'static str> {
     calibration.warnings.iter().map(|found| found.code().name()).collect()
 }
 
@@ -150,7 +151,7 @@ fn the_usual_other_conventions_of_poses_are_named() {
 }
 
 /// Three joints that turn, one after the other about other axes.
-fn wrist() -> KinematicChain {
+pub(super) fn wrist() -> KinematicChain {
     let axes = [Vector3::z_axis(), Vector3::x_axis(), Vector3::y_axis()];
     let joint = |(k, axis): (usize, &nalgebra::Unit<Vector3<f64>>)| Joint {
         name: format!("wrist_{k}"),

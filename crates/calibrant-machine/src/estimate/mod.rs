@@ -6,6 +6,8 @@ mod covariance;
 #[cfg(test)]
 mod hard_log_tests;
 mod least_squares;
+#[cfg(test)]
+mod mistake_tests;
 mod noise;
 mod problem;
 mod result;
@@ -21,7 +23,8 @@ pub use problem::{
     MountingPrior, Source,
 };
 pub use result::{
-    BudgetRow, MachineCalibration, ReferenceNoise, ResidualSpectrum, SampleResidual, SensorResidual,
+    BudgetRow, MachineCalibration, ReferenceNoise, ResidualSpectrum, SampleResidual, SensorDrift,
+    SensorResidual,
 };
 pub use validation::{
     FailedBlock, LargestShift, MachineValidation, MachineValidationSource, ParameterShift, check_folds,

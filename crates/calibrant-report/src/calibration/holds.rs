@@ -77,7 +77,8 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
         table.explain(
             "bias drift (x, y, z)",
             format!("{drift} {unit}"),
-            "From the first hold to the last. The holds are freed from it, and its uncertainty is part of the standard deviations.",
+            "From the first hold to the last. The holds are freed from it: the biases are those of the middle between both. Its uncertainty is part of the \
+             standard deviations.",
         );
     }
     table.explain(

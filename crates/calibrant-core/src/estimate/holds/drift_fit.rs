@@ -53,6 +53,7 @@ pub(super) fn fit<const P: usize>(
         covariance: Matrix3::zeros(),
         degrees_of_freedom: 0.0,
         span_s: span(&holds),
+        expected_sd: Vector3::zeros(),
     };
     let parts: Vec<f64> = holds.iter().map(|hold| none.part_of(hold)).collect();
     let of = |robust: &Robust, used: &[bool], drift: &BiasDrift| {
@@ -111,8 +112,8 @@ struct Posterior {
 impl Posterior {
     /// `drift` was taken out of the holds before the fit.
     fn of(robust: &Robust, (used, parts): (&[bool], &[f64]), sd_mps2: f64, drift: &BiasDrift) -> Self {
-        let gain = |axis: usize| robust.sensor.matrix.row(axis).norm();
-        let known = Vector3::from_fn(|axis, _| (sd_mps2 * gain(axis)).powi(-2));
+        let expected_sd = Vector3::from_fn(|axis, _| sd_mps2 * robust.sensor.matrix.row(axis).norm());
+        let known = expected_sd.map(|sd| sd.powi(-2));
         let (mut information, mut rhs) = (Matrix3::from_diagonal(&known), -known.component_mul(&drift.value));
         let mut common = DMatrix::zeros(robust.covariance.nrows(), 3);
         let used = robust.magnitudes.iter().zip(parts).zip(used).filter(|(_, used)| **used);
@@ -135,6 +136,7 @@ impl Posterior {
                 value: drift.value + covariance * rhs,
                 covariance,
                 degrees_of_freedom,
+                expected_sd,
                 ..*drift
             },
             slope,

@@ -103,6 +103,8 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
         warnings.push(NotConverged { status: calibration.status.name() }.into());
     }
     warnings.extend(gravity_off_earth(&holds.gravity));
+    let drift = holds.drift.as_ref();
+    warnings.extend(drift.and_then(|drift| drift.beyond_expected(calibration.accelerometer_unit)));
     warnings.extend(left_out(holds));
     warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.used().collect();

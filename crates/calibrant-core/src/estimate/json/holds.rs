@@ -32,6 +32,8 @@ json_object! {
         /// Drift of the bias from the first hold to the last, which was subtracted.
         bias_drift: if_some(of.holds.drift.as_ref().map(|drift| with_ending(of.unit.suffix(), per_axis(&drift.value, 3)))),
         bias_drift_sd: if_some(of.holds.drift.as_ref().map(|drift| with_ending(of.unit.suffix(), per_axis(&drift.sd(), 3)))),
+        /// The time of which the biases are, where a drift was subtracted.
+        biases_at_s: if_some(of.holds.drift.as_ref().map(|drift| drift.biases_at_s())),
         faces: if_some(of.holds.tilt),
         /// Of the magnitudes of the used holds. With 0, the fit to them is exact and checks nothing.
         degrees_of_freedom: of.holds.degrees_of_freedom,

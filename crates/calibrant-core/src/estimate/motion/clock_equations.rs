@@ -21,39 +21,30 @@ pub(super) struct ClockStep {
 impl ClockEquations {
     /// The equations of several chains, which share only the clock.
     pub(super) fn sum(size: usize, parts: impl Iterator<Item = (Vec<usize>, Self)>) -> Self {
-        let mut whole =
-            Self { information: DMatrix::zeros(size + 2, size + 2), rhs: DVector::zeros(size + 2) };
-        for (mut slots, part) in parts {
-            slots.extend([size, size + 1]);
-            for (i, &row) in slots.iter().enumerate() {
-                whole.rhs[row] += part.rhs[i];
-                for (j, &column) in slots.iter().enumerate() {
-                    whole.information[(row, column)] += part.information[(i, j)];
-                }
+        let mut rhs = DVector::zeros(size + 2);
+        let mut blocks = Vec::new();
+        for (slots, part) in parts {
+            for (place, value) in slots.iter().chain(&[size, size + 1]).zip(part.rhs.iter()) {
+                rhs[*place] += value;
             }
+            blocks.push((part.information, slots));
         }
-        whole
+        Self { information: information::spread(&blocks, size), rhs }
     }
 
     /// The step from this clock, with what is known of it. What is known exactly makes none. `None` where something is not determined.
     pub(super) fn step(&self, now: &RecoveredClock, given: &MotionClock) -> Option<ClockStep> {
         let size = self.rhs.len();
+        let mut rhs = self.rhs.clone();
+        let mut covariance =
+            information::covariance(&information::with_known_clock(self.information.clone(), given))?;
         let known =
             [(size - 2, given.delay_sd_s, given.delay_s - now.delay_s), (size - 1, given.rate_sd, -now.rate)];
-        let (mut equations, mut rhs) = (self.information.clone(), self.rhs.clone());
         for (place, sd, less) in known {
             if sd > 0.0 {
-                equations[(place, place)] += sd.powi(-2);
                 rhs[place] += less / (sd * sd);
-            }
-        }
-        let free: Vec<usize> =
-            (0..size).filter(|k| known.iter().all(|(place, sd, _)| place != k || *sd > 0.0)).collect();
-        let own = information::covariance(&equations.select_rows(&free).select_columns(&free))?;
-        let mut covariance = DMatrix::zeros(size, size);
-        for (i, &row) in free.iter().enumerate() {
-            for (j, &column) in free.iter().enumerate() {
-                covariance[(row, column)] = own[(i, j)];
+            } else {
+                covariance[(place, place)] = 0.0;
             }
         }
         let step = &covariance * rhs;

@@ -1,10 +1,11 @@
 //! Calibration from a commanded motion: the chain problem for each axis (scale-bias) or for all at once (full).
 //!
 //! With a diagonal `S` the axes are independent, and the scale-bias model is three chains of scalars. The full model is one chain of 3×3
-//! blocks. The result is assembled from [`Solved`] chains. The [`clock`] of the recording is estimated about them. Where gravity is given, the chains solve for the reading at rest, from which [`gravity`]
+//! blocks. The result is assembled from [`Solved`] chains. The [`clock`] of the recording is estimated about them. Where the fit is bad, [`changed_half_way`] looks for the reason. Where gravity is given, the chains solve for the reading at rest, from which [`gravity`]
 //! makes biases.
 
 mod chain;
+mod changed_half_way;
 mod clock;
 mod clock_equations;
 mod context;
@@ -36,7 +37,7 @@ pub(super) fn calibrate(
     settings: &CalibrationSettings,
 ) -> Result<Calibration> {
     let (clock, used, is_found) = clock::find(problem, command, settings)?;
-    let recording = clock.on_motion_clock(problem.recording);
+    let (recording, given) = (clock.on_motion_clock(problem.recording), problem);
     let problem = CalibrationProblem { recording: &recording, ..*problem };
     let first = used.start;
     let context = Context::new(&problem, command, settings, used)?;
@@ -49,6 +50,9 @@ pub(super) fn calibrate(
     let gravity = command.gravity.map(|gravity| gravity::take_out(&context, &gravity, &mut solved));
     let mut calibration = assemble(&context, solved, (gravity, clock), first)?;
     calibration.warnings.extend(delayed);
+    if calibration.warnings.iter().any(verdict::is_of_another_motion) {
+        calibration.warnings.splice(0..0, changed_half_way::check(given, command, settings));
+    }
     Ok(calibration)
 }
 

@@ -74,6 +74,11 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &
     warnings
 }
 
+/// Does a warning say that the motion was not the commanded one?
+pub(super) fn is_of_another_motion(found: &Diagnostic) -> bool {
+    [FitWorseThanNoise::CODE, ModelContradicted::CODE, ResidualsNotWhite::CODE].contains(&found.code())
+}
+
 /// Residuals that are more than ten times the given noise: of the noise itself if they are white, otherwise of the model.
 fn far_beyond_noise(found: &Vector3<f64>, given: &Vector3<f64>, is_white: bool) -> Option<Diagnostic> {
     let sensor_kind = SensorKind::Accelerometer;

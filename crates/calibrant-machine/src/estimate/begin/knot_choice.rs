@@ -80,7 +80,7 @@ pub(super) struct Candidate {
     pub(super) score: f64,
     /// Number of the residuals' components: three for each sensor.
     pub(super) components: usize,
-    parameters: MachineParameters,
+    pub(super) parameters: MachineParameters,
 }
 
 /// What is found with knots of this distance, from these parameters if they are known already. `None` where nothing is determined.

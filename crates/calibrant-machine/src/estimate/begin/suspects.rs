@@ -5,49 +5,78 @@
 
 use super::knot_choice::{Candidate, candidate};
 use crate::chain::KinematicChain;
+use crate::estimate::result::plausible;
 use crate::estimate::{MachineProblem, MachineSetup};
 use crate::log::{PoseLog, ReferenceLog};
-use calibrant_core::diagnostic::machine::{JointReversed, PosesOtherwise};
+use calibrant_core::diagnostic::machine::{JointReversed, PosesOtherwise, UpOtherwise};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
-use calibrant_core::sensor::Axis;
+use calibrant_core::sensor::{Axis, Recording};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
 /// A distance of knots that follows hands and machines well enough to compare, s.
 const STEP_S: f64 = 0.1;
 /// A mistake is named where the residuals without it are this many times smaller, in the geometric mean.
 const TELLING: f64 = 2.0;
+/// Residuals that differ by less than this factor are the same.
+const ALIKE: f64 = 1.05;
 
 type Turned = Box<dyn Fn(&UnitQuaternion<f64>) -> UnitQuaternion<f64>>;
 type Placed = Box<dyn Fn(&Vector3<f64>, &UnitQuaternion<f64>) -> Vector3<f64>>;
 
 /// The mistake without which recording and log fit; `None` where none of those that are tried is it.
 pub(crate) fn suspect(problem: &MachineProblem<'_>) -> Option<Diagnostic> {
-    let score = |problem: &MachineProblem<'_>| {
-        let Candidate { score, components, .. } = candidate(problem, STEP_S, None).ok().flatten()?;
-        Some(score / components as f64)
-    };
-    let as_given = score(problem).unwrap_or(f64::INFINITY);
-    let tried: Vec<(Diagnostic, Option<f64>)> = match problem.log {
+    let as_given = Tried::of(problem);
+    // of two that fit alike, the simpler one stands first
+    let upwards = other_directions_up(problem.setup).map(|(found, setup)| {
+        let tried = Tried::of(&MachineProblem { setup: &setup, ..*problem });
+        (Diagnostic::from(found), tried)
+    });
+    let upwards: Vec<_> = upwards.collect();
+    if let Some(found) = gravity_for_bias(&as_given, &upwards) {
+        return Some(found);
+    }
+    let others: Vec<(Diagnostic, Tried)> = match problem.log {
         ReferenceLog::Joints(_) => reversed(problem.chain?)
-            .map(|(found, chain)| (found, score(&MachineProblem { chain: Some(&chain), ..*problem })))
+            .map(|(found, chain)| (found, Tried::of(&MachineProblem { chain: Some(&chain), ..*problem })))
             .collect(),
-        ReferenceLog::Poses(log) => {
-            let convention = |(found, turned, placed): (Diagnostic, Turned, Placed)| {
+        ReferenceLog::Poses(log) => conventions()
+            .map(|(found, turned, placed)| {
                 let log = ReferenceLog::Poses(otherwise(log, &turned, &placed));
-                (found, score(&MachineProblem { log: &log, ..*problem }))
-            };
-            let upwards = |(found, setup): (Diagnostic, MachineSetup)| {
-                (found, score(&MachineProblem { setup: &setup, ..*problem }))
-            };
-            // of two that fit alike, the simpler one stands first
-            other_directions_up(problem.setup).map(upwards).chain(conventions().map(convention)).collect()
-        }
+                (found, Tried::of(&MachineProblem { log: &log, ..*problem }))
+            })
+            .collect(),
     };
-    let (found, least) = tried
-        .into_iter()
-        .filter_map(|(found, score)| Some((found, score?)))
-        .min_by(|one, other| one.1.total_cmp(&other.1))?;
-    (least < as_given - TELLING.ln()).then_some(found)
+    let all = upwards.into_iter().chain(others);
+    let (found, least) = all.min_by(|(_, one), (_, other)| one.score.total_cmp(&other.score))?;
+    (least.score < as_given.score - TELLING.ln()).then_some(found)
+}
+
+/// The direction up with which the biases are those of a sensor, where the residuals are the same: the machine does not turn gravity.
+fn gravity_for_bias(as_given: &Tried, upwards: &[(Diagnostic, Tried)]) -> Option<Diagnostic> {
+    let is_it = |tried: &Tried| !tried.is_biased && (tried.score - as_given.score).abs() < ALIKE.ln();
+    let fitting = upwards.iter().filter(|(_, tried)| as_given.is_biased && is_it(tried));
+    let (found, _) = fitting.min_by(|(_, one), (_, other)| one.score.total_cmp(&other.score))?;
+    Some(found.clone())
+}
+
+/// What a mistake makes of the fit.
+struct Tried {
+    /// Mean logarithm of the residuals; infinite where nothing fits.
+    score: f64,
+    /// Is half of gravity a bias?
+    is_biased: bool,
+}
+
+impl Tried {
+    fn of(problem: &MachineProblem<'_>) -> Self {
+        let Some(found) = candidate(problem, STEP_S, None).ok().flatten() else {
+            return Self { score: f64::INFINITY, is_biased: false };
+        };
+        let Candidate { score, components, parameters, .. } = found;
+        let unit = problem.recording.accelerometer.as_ref().map(Recording::unit);
+        let bias = unit.and_then(|unit| plausible::bias(problem.setup, &parameters.imu, unit));
+        Self { score: score / components as f64, is_biased: bias.is_some() }
+    }
 }
 
 /// The chain with each joint in turn the other way.
@@ -60,16 +89,14 @@ fn reversed(chain: &KinematicChain) -> impl Iterator<Item = (Diagnostic, Kinemat
 }
 
 /// The other axes of the world as the direction up.
-fn other_directions_up(setup: &MachineSetup) -> impl Iterator<Item = (Diagnostic, MachineSetup)> + '_ {
+fn other_directions_up(setup: &MachineSetup) -> impl Iterator<Item = (UpOtherwise, MachineSetup)> + '_ {
     let directions = Axis::ALL.into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]);
     directions.filter_map(|(axis, sign)| {
         let mut up = Vector3::zeros();
         up[axis.index()] = sign;
-        let words = format!("`up` in [machine] is \"{}{axis}\"", if sign < 0.0 { "-" } else { "" });
+        let name = format!("{}{axis}", if sign < 0.0 { "-" } else { "" });
         let is_other = up.dot(&setup.up.normalize()) < 0.7;
-        is_other.then(|| {
-            (PosesOtherwise { convention: Phrase(words) }.into(), MachineSetup { up, ..setup.clone() })
-        })
+        is_other.then(|| (UpOtherwise { up: Phrase(name) }, MachineSetup { up, ..setup.clone() }))
     })
 }
 

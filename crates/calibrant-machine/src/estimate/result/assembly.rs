@@ -1,5 +1,6 @@
 //! Puts the result together.
 
+use super::drift;
 use crate::chain::JointKind;
 use crate::estimate::covariance::{budget, inflation, of_mounting};
 use crate::estimate::least_squares::{Minimum, Model, Pass, white_noise};
@@ -33,20 +34,21 @@ pub(crate) fn assembled(
             let stream = &model.streams[s];
             let residuals = model.residuals(state, s, Pass::all(model.trust));
             let squares: Vector3<f64> = residuals.iter().map(|of| of.value.map(|r| r * r)).sum();
+            let values: Vec<SampleResidual> = residuals
+                .iter()
+                .map(|of| SampleResidual { time_s: of.time_s, value: of.value, sd: stream.sd_of(of.sample) })
+                .collect();
+            let bias = state.parameters.imu.sensor(stream.sensor).bias;
+            let without_bias: Vec<Vector3<f64>> =
+                residuals.iter().map(|of| stream.recording.readings()[of.sample] - bias).collect();
             SensorResidual {
                 sensor: stream.sensor,
                 noise: stream.sd,
                 white_noise: white_noise(stream.recording),
                 growth: growths.streams[s],
                 rms: (squares / (residuals.len() as f64).max(1.0)).map(f64::sqrt),
-                residuals: residuals
-                    .iter()
-                    .map(|of| SampleResidual {
-                        time_s: of.time_s,
-                        value: of.value,
-                        sd: stream.sd_of(of.sample),
-                    })
-                    .collect(),
+                drift: drift::find(&values, &without_bias),
+                residuals: values,
             }
         })
         .collect();

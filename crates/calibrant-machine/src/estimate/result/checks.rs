@@ -1,16 +1,20 @@
 //! What a user should know of a result on a machine.
 
+use super::plausible;
 use crate::estimate::problem::{Layout, place};
-use crate::estimate::{MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, SensorResidual};
+use crate::estimate::{
+    MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, SensorDrift, SensorResidual,
+};
+use calibrant_core::diagnostic::change::SensorDrifts;
 use calibrant_core::diagnostic::datasheet::ScaleNegative;
 use calibrant_core::diagnostic::fit::{ModelContradicted, NotConverged};
 use calibrant_core::diagnostic::machine::{
     LogCoversPart, LogOutliers, MachineResiduals, PriorContradicted, PriorRefuted, ReferenceUndermodelled,
     ResidualsCorrelated,
 };
-use calibrant_core::diagnostic::{Check, Diagnostic, Severity};
-use calibrant_core::estimate::{CalibrationStatus, implausible_gains};
-use calibrant_core::sensor::{Axis, ReadingUnit};
+use calibrant_core::diagnostic::{Changed, Check, Diagnostic, Severity};
+use calibrant_core::estimate::{CalibrationStatus, HoldsSetup, implausible_gains};
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, ReadingUnit, SensorKind};
 
 /// Largest usual ratio of the residuals to the noise between neighbouring samples, with noisy trust,
 pub(crate) const LARGEST_EXCESS: f64 = 1.1;
@@ -26,6 +30,13 @@ const LARGE: f64 = 2.0;
 pub(crate) const REFUSED: f64 = 10.0;
 /// From this factor on, nine tenths of a variance are of errors that the model does not have.
 const UNDERMODELLED: f64 = 3.0;
+/// A drift of this p-value is no chance.
+const NO_CHANCE: f64 = 1e-4;
+/// Usual drifts of a gyroscope's bias, rad/s, and of gains, over a recording: 0.005 °/s and 0.01 % per kelvin (MEMS), ten kelvin.
+const USUAL_DRIFT_RADPS: f64 = 8.7e-4;
+const USUAL_DRIFT_OF_GAINS: f64 = 1e-3;
+/// A drift beyond this many usual ones, or whose half is beyond this many standard deviations of the parameter, is not covered by what is stated.
+const FAR: f64 = 3.0;
 /// Largest usual share of outliers in the log.
 pub(crate) const OUTLIERS: f64 = 1e-3;
 /// Least usual share of the sensor's samples that are used.
@@ -49,6 +60,7 @@ pub(crate) fn all(
         implausible_gains(of.sensor, unit, matrix, |_| false)
     }));
     found.extend(reversed_axes(calibration));
+    found.extend(plausible::check(setup, calibration));
     found.extend(contradicted(setup, layout, calibration));
     let (outliers, samples) = (calibration.reference_noise.iter())
         .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
@@ -58,6 +70,8 @@ pub(crate) fn all(
     if calibration.used_share < USED {
         found.push(LogCoversPart { used_share: calibration.used_share }.into());
     }
+    let is_doubtful = found.iter().any(Diagnostic::is_warning);
+    found.extend(calibration.noise.iter().filter_map(|of| drifts(of, calibration, is_doubtful)));
     found
 }
 
@@ -103,6 +117,38 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
 /// The residuals of a sensor in parts of the noise that neighbouring samples do not share.
 fn excess(of: &SensorResidual) -> f64 {
     (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt()
+}
+
+/// The drift of a sensor: beyond what is usual, or the reason of other warnings.
+fn drifts(of: &SensorResidual, calibration: &MachineCalibration, is_doubtful: bool) -> Option<Diagnostic> {
+    let (sensor_kind, drift) = (of.sensor, of.drift.filter(|drift| drift.p_value < NO_CHANCE)?);
+    let unit = calibration.units[place(sensor_kind)]?;
+    let matrix = calibration.parameters.imu.sensor(sensor_kind).matrix;
+    let gain = |axis: Axis| matrix[(axis.index(), axis.index())].abs();
+    let usual = |axis: Axis| match (drift.of, sensor_kind) {
+        (Changed::Bias, SensorKind::Accelerometer) => HoldsSetup::USUAL_DRIFT_SD_MPS2 * gain(axis),
+        (Changed::Bias, SensorKind::Gyroscope) => USUAL_DRIFT_RADPS * gain(axis),
+        _ => USUAL_DRIFT_OF_GAINS,
+    };
+    let of_noise = |axis: Axis| {
+        let (quantity, size) = match drift.of {
+            Changed::Bias => (Quantity::Bias(axis), 1.0),
+            _ => (Quantity::Scale(axis), gain(axis)),
+        };
+        let place = calibration.position(MachineQuantity::Imu(ImuQuantity::Of(sensor_kind, quantity)))?;
+        // a drift widens the stated standard deviation as errors of the reference do
+        let sd = calibration.linear_covariance[(place, place)].sqrt();
+        Some(sd / size)
+    };
+    let counts = |axis: Axis| {
+        let k = axis.index();
+        let is_wide = is_doubtful || drift.amount[k].abs() > FAR * usual(axis);
+        let refutes = of_noise(axis).is_some_and(|sd| 0.5 * drift.amount[k].abs() > FAR * sd);
+        is_wide && refutes && drift.amount[k].abs() > CONTRADICTED * drift.sd[k]
+    };
+    let SensorDrift { of, amount, p_value, .. } = drift;
+    let is_one = Axis::ALL.into_iter().any(counts);
+    is_one.then(|| SensorDrifts { sensor_kind, of, drift: amount, unit, p_value }.into())
 }
 
 /// The parameter of the sensor whose standard deviation correlation widens most.

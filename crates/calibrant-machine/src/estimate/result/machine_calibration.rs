@@ -1,5 +1,6 @@
 //! The result of a calibration on a machine.
 
+use super::drift::SensorDrift;
 use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::huber;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
@@ -74,6 +75,8 @@ pub struct SensorResidual {
     pub rms: Vector3<f64>,
     /// Residuals of the samples used, in the order of time.
     pub residuals: Vec<SampleResidual>,
+    /// The drift through the recording that explains them best; `None` with too few of them.
+    pub drift: Option<SensorDrift>,
 }
 
 /// The residual of one sample, in the unit of the readings.

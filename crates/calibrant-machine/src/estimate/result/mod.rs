@@ -2,11 +2,14 @@
 
 mod assembly;
 pub(crate) mod checks;
+mod drift;
 mod machine_calibration;
+pub(crate) mod plausible;
 mod spectrum;
 pub(crate) mod undetermined;
 
 pub(crate) use assembly::assembled;
+pub use drift::SensorDrift;
 pub use machine_calibration::{
     BudgetRow, MachineCalibration, ReferenceNoise, SampleResidual, SensorResidual,
 };

@@ -7,6 +7,7 @@
 use crate::estimate::imu::alignment::axes::{Axes, axis_names, orders};
 use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, Judged, WRONG_RAD};
 use crate::estimate::imu::alignment::mounting::find_mounting;
+use crate::estimate::imu::checks::common_factor;
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::sensor::{ImuParameters, ReadingUnit};
 use nalgebra::Matrix3;
@@ -98,7 +99,14 @@ pub(crate) fn find_alignment(
                     axes: Some(Axes::InOrder(axis_names(&found))),
                 });
             }
-            return Some(turned(&[matrix], false).unwrap_or(as_it_is));
+            let Some(turned) = turned(&[matrix], false) else { return Some(as_it_is) };
+            // where one factor of all gains fits better, nothing is turned
+            let scaled = common_factor::best(&look).filter(|(median_rad, _)| *median_rad < turned.median_rad);
+            return Some(scaled.map_or(turned, |(median_rad, factor)| Alignment {
+                imu: with(matrix * factor),
+                median_rad,
+                axes: None,
+            }));
         }
     }
     let largest = gain_bound(model, state)?;

@@ -2,14 +2,17 @@
 
 use crate::diagnostic::Check;
 use crate::diagnostic::Code;
-use crate::diagnostic::datasheet::{GainImplausible, ParameterImplausible};
-use crate::estimate::datasheet::{allows_gain, beyond_datasheet, implausible_gains};
+use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, ParameterImplausible};
+use crate::estimate::datasheet::{
+    allows_bias, allows_gain, beyond_datasheet, implausible_bias, implausible_gains,
+};
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::sensor::{Axis, ImuQuantity, Parameter, ParameterList, Quantity, SensorKind};
 
 /// What these checks say. The accelerometer's own fit says it of an accelerometer that is not final.
-pub(crate) const CODES: [Code; 2] = [ParameterImplausible::CODE, GainImplausible::CODE];
+pub(crate) const CODES: [Code; 3] =
+    [ParameterImplausible::CODE, BiasImplausible::CODE, GainImplausible::CODE];
 
 /// Parameters and gains that are not plausible.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
@@ -17,6 +20,17 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let (parameters, sd) = (described(evidence), calibration.sd());
     let mut warnings: Diagnostics =
         beyond_datasheet(&parameters, &calibration.values, &sd).into_iter().collect();
+    let is_known =
+        |quantity: ImuQuantity| evidence.problem.setup.known.iter().any(|known| known.quantity == quantity);
+    let accelerometer = calibration.imu.accelerometer;
+    warnings.extend(implausible_bias(
+        calibration.unit(SensorKind::Accelerometer),
+        &accelerometer.bias,
+        |axis| {
+            is_known(ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(axis)))
+                || allows_bias(&parameters, &calibration.values, &sd, axis)
+        },
+    ));
     for &sensor_kind in calibration.sensor_kinds() {
         let matrix = &calibration.imu.sensor(sensor_kind).matrix;
         let reordered = sensor_kind == SensorKind::Gyroscope && evidence.axes.is_some();
@@ -25,10 +39,9 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
             continue;
         }
         let allowed = |axis: Axis| {
-            let scale = ImuQuantity::Of(sensor_kind, Quantity::Scale(axis));
-            let is_known = evidence.problem.setup.known.iter().any(|known| known.quantity == scale);
             let is_accelerometer = sensor_kind == SensorKind::Accelerometer;
-            is_known || is_accelerometer && allows_gain(&parameters, &calibration.values, &sd, axis)
+            is_known(ImuQuantity::Of(sensor_kind, Quantity::Scale(axis)))
+                || is_accelerometer && allows_gain(&parameters, &calibration.values, &sd, axis)
         };
         warnings.extend(implausible_gains(sensor_kind, calibration.unit(sensor_kind), matrix, allowed));
     }
