@@ -63,9 +63,9 @@ checks! {
         /// p-value of no drift.
         p_value: f64,
     }
-    decided "Residuals follow the time, or the readings times the time (p below 0.0001, from the scatter of blocks), and half \
-        the drift is more than three standard deviations of the parameter. It is beyond what is usual, or the result is \
-        doubtful anyway."
+    decided "Residuals follow the time, or the readings times the time (p below 0.0001, from the scatter of blocks). The \
+        result is doubtful and the drift larger than usual; or it is three times the usual one, and half of it is more than \
+        three standard deviations of the parameter."
     remedy "Let the sensor and the machine warm up. Split the recording, and compare the halves."
     says {
         let share = *of == Changed::Gain;

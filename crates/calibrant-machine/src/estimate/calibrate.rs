@@ -64,10 +64,9 @@ fn as_given(problem: &MachineProblem<'_>, settings: &MachineSettings) -> Result<
     undetermined::check(&model, &state)?;
     trusted(&mut model, &mut state, STEPS, SAMPLES).ok_or_else(unsolved)?;
     // what is another motion is not worth the search for its noise
-    if residual_excess(&model, &state) > OTHER_MOTION
-        && let Some(found) = suspect(problem)
-    {
-        return Err(refused("recording and log do not fit together", &found.sentence()));
+    if residual_excess(&model, &state) > OTHER_MOTION && suspect(problem).is_some() {
+        // the refusal is worded with the suspect
+        return Err(refused("recording and log do not fit together", "correct it, and calibrate again"));
     }
     for stream in &mut model.streams {
         match problem.setup.noise_of(stream.sensor) {

@@ -80,7 +80,7 @@ pub(super) fn check(
             .map(|(left, pause_s)| (left, format!("it stops, and goes on {pause_s:.2} s later"))),
     );
     let (left, words) = tried.into_iter().min_by(|one, other| one.0.total_cmp(&other.0))?;
-    let what = (left < TELLING * misfit(&as_commanded)).then(|| Phrase(words));
+    let what = (left < TELLING * misfit(&as_commanded)).then_some(Phrase(words));
     // process noise leads away from the command as well
     if what.is_none() && command.trust != Trust::Known {
         return None;

@@ -141,10 +141,10 @@ fn drifts(of: &SensorResidual, calibration: &MachineCalibration, is_doubtful: bo
         Some(sd / size)
     };
     let counts = |axis: Axis| {
-        let k = axis.index();
-        let is_wide = is_doubtful || drift.amount[k].abs() > FAR * usual(axis);
-        let refutes = of_noise(axis).is_some_and(|sd| 0.5 * drift.amount[k].abs() > FAR * sd);
-        is_wide && refutes && drift.amount[k].abs() > CONTRADICTED * drift.sd[k]
+        let size = drift.amount[axis.index()].abs();
+        let refutes = of_noise(axis).is_some_and(|sd| 0.5 * size > FAR * sd);
+        let is_reason = is_doubtful && size > usual(axis);
+        (is_reason || refutes && size > FAR * usual(axis)) && size > CONTRADICTED * drift.sd[axis.index()]
     };
     let SensorDrift { of, amount, p_value, .. } = drift;
     let is_one = Axis::ALL.into_iter().any(counts);
