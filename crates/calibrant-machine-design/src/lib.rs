@@ -1,0 +1,1 @@
+//! The best trajectory of a kinematic chain for calibrating the inertial sensor that it carries.
