@@ -188,7 +188,7 @@ pub(crate) fn bound(
     };
     // axes whose third is the last joint's
     let axis = moments.last_axis.normalize();
-    let first = axis.cross(&Vector3::ith((axis.iamin() + 0) % 3, 1.0)).normalize();
+    let first = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
     let axes = Matrix3::from_columns(&[first, axis.cross(&first), axis]);
     let at = |along: f64, before: f64| {
         let rate =

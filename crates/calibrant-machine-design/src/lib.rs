@@ -1,4 +1,16 @@
 //! The best trajectory of a kinematic chain for calibrating the inertial sensor that it carries.
+//!
+//! # Problem
+//! The positions of the joints are uniform cubic B-splines from rest to rest. Their control points `c` minimise a criterion of the covariance of the sensor's parameters,
+//! with everything else that is not known exactly marginalised under its prior, subject to the limits of the joints, the range of the sensor, speeds and distances, for
+//! all times.
+//!
+//! # Way
+//! ```text
+//! random admissible starts → interior point on knots 0.8 → 0.4 → 0.2 s, nuisances known → polish, nuisances marginalised → certificate → evaluation, bound
+//! ```
+//!
+//! Each module has its derivation at its head: `motion`, `recursion`, `information`, `limits`, `search`, `certificate`, `bound`.
 
 mod bound;
 mod certificate;

@@ -135,11 +135,12 @@ impl<'a> Pointwise<'a> {
         let (ranges, others) = others.split_at_mut(self.ranges.len());
         let (speeds, near_ends) = others.split_at_mut(self.points.len());
         let width = 3 * self.links.len();
-        let (of_ranges, rest) = by_state.split_at_mut(ranges.len() * width);
-        let (of_speeds, of_near_ends) = rest.split_at_mut(speeds.len() * width);
+        let part = |rows: usize| if with_slopes { rows * width } else { 0 };
+        let (of_ranges, rest) = by_state.split_at_mut(part(ranges.len()));
+        let (of_speeds, of_near_ends) = rest.split_at_mut(part(speeds.len()));
         self.ranges(work, ranges, of_ranges, with_slopes);
         self.speeds(work, speeds, of_speeds, with_slopes);
-        self.near_ends(work, near_ends, of_near_ends);
+        self.near_ends(work, near_ends, of_near_ends, with_slopes);
     }
 
     fn distances(&self, work: &mut PointWork, values: &mut [f64], slopes: &mut [f64], with_slopes: bool) {
@@ -226,7 +227,7 @@ impl<'a> Pointwise<'a> {
         }
     }
 
-    fn near_ends(&self, work: &mut PointWork, values: &mut [f64], slopes: &mut [f64]) {
+    fn near_ends(&self, work: &mut PointWork, values: &mut [f64], slopes: &mut [f64], with_slopes: bool) {
         let n = self.links.len();
         for (place, &j) in self.near_ends.iter().enumerate() {
             let Some(limit) = self.problem.joints[j].near_ends else { continue };
@@ -236,7 +237,7 @@ impl<'a> Pointwise<'a> {
             for (side, [room, by_position, by_speed]) in rooms.into_iter().enumerate() {
                 let row = 2 * place + side;
                 values[row] = room * scale;
-                if !slopes.is_empty() {
+                if with_slopes {
                     slopes[row * 3 * n + j] = by_position * scale;
                     slopes[row * 3 * n + n + j] = by_speed * scale / self.share;
                 }

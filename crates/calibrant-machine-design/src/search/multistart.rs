@@ -85,7 +85,7 @@ pub(crate) fn search(
     // dwells are free to go, and the nuisances count
     let kept = (settings.kept / 2).clamp(1, candidates.len());
     left_behind.extend(candidates.split_off(kept).iter().map(|one| one.outcome(false)));
-    let polish = polish(settings.polish, HELD_BACK, interruption);
+    let polish = polish(knob("I3", settings.polish as f64) as usize, held_back(), interruption);
     candidates = candidates
         .into_par_iter()
         .map(|one| shared.improve(Candidate { dwells: Vec::new(), ..one }, &polish))
@@ -120,13 +120,13 @@ pub(crate) fn repaired(
 fn polish(iterations: usize, held_back: HeldBack, interruption: &Interruption) -> Level {
     Level {
         points: POINTS[2],
-        times: TIMES[2],
+        times: knob("T2", TIMES[2] as f64) as usize,
         kind: Kind::Full,
         held_back,
         steps: Steps {
-            barrier: (0.005, 0.002),
+            barrier: (knob("A3", 0.005), knob("B3", 0.002)),
             max_iterations: iterations,
-            stall: 0.003,
+            stall: knob("S3", 0.003),
             interruption: interruption.clone(),
         },
     }
@@ -150,14 +150,17 @@ fn no_start(problem: &TrajectoryProblem<'_>) -> Error {
 
 fn level(place: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {
     Level {
-        points: POINTS[place],
-        times: TIMES[place],
+        points: knob(&format!("P{place}"), POINTS[place] as f64) as usize,
+        times: knob(&format!("T{place}"), TIMES[place] as f64) as usize,
         kind: Kind::Plain,
-        held_back: HELD_BACK,
+        held_back: held_back(),
         steps: Steps {
-            barrier: BARRIERS[place],
-            max_iterations: settings.max_iterations,
-            stall: STALLS[place],
+            barrier: (
+                knob(&format!("A{place}"), BARRIERS[place].0),
+                knob(&format!("B{place}"), BARRIERS[place].1),
+            ),
+            max_iterations: knob(&format!("I{place}"), settings.max_iterations as f64) as usize,
+            stall: knob(&format!("S{place}"), STALLS[place]),
             interruption: interruption.clone(),
         },
     }
@@ -187,7 +190,7 @@ fn drawn(shared: Shared<'_>, settings: &TrajectorySettings, knots: Knots) -> Vec
         };
         let ties = shared.ties(&candidate);
         let mut rng = stream(settings.seed, Purpose::Start, start as u64);
-        let mut starts = Starts::new(shared.pointwise(HELD_BACK), knots, &candidate.dwells);
+        let mut starts = Starts::new(shared.pointwise(held_back()), knots, &candidate.dwells);
         candidate.controls = starts.draw(&ties, &mut rng)?;
         Some(candidate)
     };
@@ -229,3 +232,12 @@ fn sizes(problem: &TrajectoryProblem<'_>) -> Vec<f64> {
 }
 
 const _: () = assert!(RUN > REST);
+
+fn held_back() -> HeldBack {
+    HeldBack { clearance_m: knob("HC", HELD_BACK.clearance_m), share: knob("HS", HELD_BACK.share) }
+}
+
+// KNOBS
+fn knob(name: &str, otherwise: f64) -> f64 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(otherwise)
+}

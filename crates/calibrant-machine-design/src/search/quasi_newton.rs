@@ -83,7 +83,8 @@ impl QuasiNewton {
     /// `B x`.
     fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut product: Vec<f64> = x.iter().map(|x| self.sigma * x).collect();
-        if let Some(inner) = self.middle().lu().solve(&self.transposed(x)) {
+        let inner = if self.is_new() { None } else { self.middle().lu().solve(&self.transposed(x)) };
+        if let Some(inner) = inner {
             for (k, factor) in inner.iter().enumerate() {
                 for (product, u) in product.iter_mut().zip(self.column(k)) {
                     *product -= factor * u;
