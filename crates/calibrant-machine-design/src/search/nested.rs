@@ -94,15 +94,8 @@ impl<'a> Shared<'a> {
         let linear = Linear::new(&problem.joints, &knots, &ties);
         let mut run =
             InteriorPoint { objective: &mut objective, rows: &mut rows, linear: &linear, ties: &ties };
-        let begun = std::time::Instant::now(); // TRACE
         let Reached { x, value, iterations, status, relax } =
             run.run(ties.unknowns_of(&candidate.controls), &level.steps);
-        if std::env::var("TRACE").is_ok() {
-            eprintln!(
-                "start {} h {} {:?}: {:.3} -> {value:.3} relax {relax:.1e} {iterations} iterations {status:?} {:.2} s",
-                candidate.start, knots.step_s, level.kind, candidate.value, begun.elapsed().as_secs_f64()
-            ); // TRACE
-        }
         Candidate {
             controls: ties.controls_of(&x),
             value,
