@@ -17,10 +17,9 @@ pub use begin::MotionOfLog;
 pub(crate) use begin::fitted;
 pub use calibrate::calibrate_on_machine;
 pub(crate) use least_squares::predicted;
-pub(crate) use problem::TiltedGravity;
 pub use problem::{
-    MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
-    MountingPrior, Source,
+    Layout, MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
+    MountingPrior, Source, TiltedGravity,
 };
 pub use result::{
     BudgetRow, MachineCalibration, ReferenceNoise, ResidualSpectrum, SampleResidual, SensorDrift,

@@ -7,6 +7,6 @@ mod work;
 
 pub use machine_problem::{MachineProblem, MachineSettings, MachineSetup, MachineTrust, MountingPrior};
 pub(crate) use machine_problem::{refused, unsolved};
-pub use parameters::MachineParameters;
-pub(crate) use parameters::{Layout, TiltedGravity, place};
+pub(crate) use parameters::place;
+pub use parameters::{Layout, MachineParameters, TiltedGravity};
 pub use quantity::{MachineQuantity, Source};

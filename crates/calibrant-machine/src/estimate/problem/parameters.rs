@@ -33,8 +33,9 @@ pub(crate) fn place(sensor: SensorKind) -> usize {
 }
 
 impl MachineParameters {
-    /// What is known beforehand.
-    pub(crate) fn nominal(setup: &MachineSetup, mut imu: ImuParameters, joints: usize) -> Self {
+    /// What is known beforehand, with this sensor.
+    #[must_use]
+    pub fn nominal(setup: &MachineSetup, mut imu: ImuParameters, joints: usize) -> Self {
         for known in &setup.known {
             let away = known.value - known.quantity.value(&imu);
             known.quantity.add_to(&mut imu, away);
@@ -101,7 +102,7 @@ impl MachineParameters {
 
 /// Gravity in the base frame, tilted about two axes perpendicular to the direction up.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct TiltedGravity {
+pub struct TiltedGravity {
     up: Vector3<f64>,
     /// The axes of the tilt.
     axes: Matrix3x2<f64>,
@@ -109,7 +110,8 @@ pub(crate) struct TiltedGravity {
 
 impl TiltedGravity {
     /// For this direction up. Tilts are about the axes of the base where up is one of them.
-    pub(crate) fn new(up: &Vector3<f64>) -> Self {
+    #[must_use]
+    pub fn new(up: &Vector3<f64>) -> Self {
         let up = up.normalize();
         let largest = up.iamax();
         let mut first = Vector3::zeros();
@@ -119,7 +121,8 @@ impl TiltedGravity {
     }
 
     /// `γ = −g exp(tilt) up`.
-    pub(crate) fn vector(&self, parameters: &MachineParameters) -> Vector3<f64> {
+    #[must_use]
+    pub fn vector(&self, parameters: &MachineParameters) -> Vector3<f64> {
         self.direction(parameters) * -parameters.gravity_mps2
     }
 
@@ -128,7 +131,8 @@ impl TiltedGravity {
     }
 
     /// Derivative of `γ` by the two tilts (exact at none, and of second order in them otherwise) and by the magnitude.
-    pub(crate) fn derivatives(&self, parameters: &MachineParameters) -> [Vector3<f64>; 3] {
+    #[must_use]
+    pub fn derivatives(&self, parameters: &MachineParameters) -> [Vector3<f64>; 3] {
         let gravity = self.vector(parameters);
         let tilt = self.axes * parameters.tilt_rad;
         let left = crate::spline::right_jacobian(&tilt).transpose();
@@ -137,19 +141,21 @@ impl TiltedGravity {
     }
 }
 
-/// The unknowns, and the information of their priors.
+/// The unknowns in their order, and the information of their priors. A quantity that is known exactly is none of them.
 #[derive(Debug, Clone)]
-pub(crate) struct Layout {
-    pub(crate) quantities: Vec<MachineQuantity>,
+pub struct Layout {
+    /// The unknowns: those of the sensor, then those of the machine.
+    pub quantities: Vec<MachineQuantity>,
     /// Information of the priors.
-    pub(crate) prior: DMatrix<f64>,
+    pub prior: DMatrix<f64>,
     /// What is expected beforehand.
-    pub(crate) nominal: MachineParameters,
+    pub nominal: MachineParameters,
 }
 
 impl Layout {
     /// The unknowns of these sensors on this machine.
-    pub(crate) fn new(
+    #[must_use]
+    pub fn new(
         setup: &MachineSetup,
         sensors: &[SensorKind],
         imu: &[ImuQuantity],

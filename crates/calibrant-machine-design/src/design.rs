@@ -1,0 +1,121 @@
+//! The stages of a design: check → search → certify (repair) → evaluate → bound.
+
+use crate::bound::bound;
+use crate::certificate::certify;
+use crate::evaluate::evaluated;
+use crate::information::Sensing;
+use crate::problem::check;
+use crate::search::{Candidate, Found, repaired, search};
+use crate::{Kept, TrajectoryBound, TrajectoryEvaluation, TrajectoryProblem, TrajectorySettings};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_design::DesignStatus;
+use std::time::{Duration, Instant};
+
+/// The best trajectory found.
+#[derive(Debug, Clone)]
+pub struct TrajectoryDesign {
+    /// How the search ended.
+    pub status: DesignStatus,
+    /// The trajectory. All its limits are proved.
+    pub optimal: TrajectoryEvaluation,
+    /// A random admissible motion: the first start.
+    pub random: TrajectoryEvaluation,
+    /// Every start that was searched to the end of its last level, the best first.
+    pub starts: Vec<TrajectoryStart>,
+    /// Iterations of all starts.
+    pub iterations: usize,
+    /// Times at which the machine stands still, from and to, s.
+    pub dwells_s: Vec<(f64, f64)>,
+    /// What no trajectory can beat; `None` where there is no bound for this criterion or these parameters.
+    pub bound: Option<TrajectoryBound>,
+}
+
+/// One start of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrajectoryStart {
+    /// Its number.
+    pub number: usize,
+    /// Distance of the knots that it reached, s.
+    pub knot_s: f64,
+    /// Value of the criterion there, in nats: with the nuisances known, except for those that were polished.
+    pub value: f64,
+    /// Did it reach the last stage?
+    pub polished: bool,
+    /// Iterations.
+    pub iterations: usize,
+    /// How it ended.
+    pub status: DesignStatus,
+}
+
+/// Finds the best trajectory, and proves its limits.
+///
+/// # Errors
+/// - [`Error::Experiment`]: the problem makes no sense, or it was interrupted before there was a trajectory.
+/// - [`Error::Infeasible`]: no motion is found that keeps the limits.
+pub fn design_trajectory(
+    problem: &TrajectoryProblem<'_>,
+    settings: &TrajectorySettings,
+) -> Result<TrajectoryDesign> {
+    check(problem)?;
+    let sensing = Sensing::new(problem)?;
+    let deadline = settings.seconds.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
+    let interruption = settings.interruption.or_at(deadline);
+    let Found { candidates, first, starts, iterations } = search(problem, &sensing, settings, &interruption)?;
+    let best = proved(problem, &sensing, &candidates)?;
+    let optimal = evaluated(problem, &sensing, best.knots, &best.controls)?;
+    let random = evaluated(problem, &sensing, first.knots, &first.controls)?;
+    Ok(TrajectoryDesign {
+        status: if interruption.is_asked() { DesignStatus::Interrupted } else { best.status },
+        dwells_s: dwells(problem, &best),
+        bound: bound(problem, &sensing, optimal.value),
+        optimal,
+        random,
+        starts,
+        iterations,
+    })
+}
+
+/// The best candidate whose limits are proved, repaired where they are not.
+fn proved(problem: &TrajectoryProblem<'_>, sensing: &Sensing, candidates: &[Candidate]) -> Result<Candidate> {
+    let is_proved = |candidate: &Candidate| {
+        let proofs = certify(problem, candidate.knots, &candidate.controls);
+        proofs.iter().all(|proof| proof.kept == Kept::Proved)
+    };
+    for candidate in candidates {
+        if is_proved(candidate) {
+            return Ok(candidate.clone());
+        }
+        if let Some(repaired) = repaired(problem, sensing, candidate).into_iter().find(is_proved) {
+            return Ok(repaired);
+        }
+    }
+    Err(Error::infeasible(InputError::new(
+        Refusal::MotionInfeasible,
+        "no trajectory was found whose limits hold between the times that were looked at",
+        "allow more time (`machine.design.duration_s`), or give the machine more room",
+    )))
+}
+
+/// Where all control points of an interval are equal but for this part of the top speed.
+const STILL: f64 = 0.01;
+
+fn dwells(problem: &TrajectoryProblem<'_>, candidate: &Candidate) -> Vec<(f64, f64)> {
+    let h = candidate.knots.step_s;
+    let rests = |i: usize| {
+        problem.joints.iter().enumerate().all(|(j, limit)| {
+            (0..3).all(|r| {
+                let step = candidate.controls[(i + r + 1, j)] - candidate.controls[(i + r, j)];
+                step.abs() <= STILL * limit.velocity * h
+            })
+        })
+    };
+    let mut dwells: Vec<(f64, f64)> = Vec::new();
+    for i in (0..candidate.knots.intervals).filter(|i| rests(*i)) {
+        let (from, to) = (i as f64 * h, (i + 1) as f64 * h);
+        match dwells.last_mut() {
+            Some(last) if from - last.1 < h / 2.0 => last.1 = to,
+            _ => dwells.push((from, to)),
+        }
+    }
+    dwells
+}

@@ -1,0 +1,151 @@
+//! What a trajectory determines, and which limits it keeps.
+//!
+//! # Formula
+//! With the information `F` of sensor and nuisances and that of the priors `P` the joint covariance is `Σ = (F + P)⁻¹`. With the marginal covariance `C` of the sensor's
+//! parameters and the gain `K` its blocks are `C`, `−C Kᵀ` and `(F_ηη + P_ηη)⁻¹ + K C Kᵀ`. A source of uncertainty has the part `Σ P_s Σ` of it; what is left is the
+//! sensor's noise.
+
+use crate::certificate::certify;
+use crate::information::{FullInformation, Marginalised, Sensing, solved};
+use crate::motion::Knots;
+use crate::{LimitProof, TrajectoryProblem};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::ImuQuantity;
+use calibrant_machine::estimate::{BudgetRow, MachineQuantity, Source};
+use calibrant_machine::spline::{Degree, VectorSpline};
+use nalgebra::DMatrix;
+
+/// Quadrature points in an interval.
+const POINTS: usize = 5;
+
+/// A trajectory with what it determines and its limits.
+#[derive(Debug, Clone)]
+pub struct TrajectoryEvaluation {
+    /// Positions of the joints.
+    pub motion: VectorSpline,
+    /// Value of the criterion, in nats; infinite where the parameters are not determined.
+    pub value: f64,
+    /// The parameters of the sensor.
+    pub quantities: Vec<ImuQuantity>,
+    /// Information on them, with all else marginalised and what is known beforehand.
+    pub information: DMatrix<f64>,
+    /// Their covariance; `None` where they are not determined.
+    pub covariance: Option<DMatrix<f64>>,
+    /// Where the variance of each of them comes from.
+    pub budget: Vec<BudgetRow>,
+    /// What else is found, and its standard deviation afterwards.
+    pub machine: Vec<(MachineQuantity, f64)>,
+    /// Every limit.
+    pub limits: Vec<LimitProof>,
+}
+
+impl TrajectoryEvaluation {
+    /// Is every limit proved?
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        self.limits.iter().all(|limit| limit.kept == crate::Kept::Proved)
+    }
+}
+
+/// Evaluates a trajectory of the problem's chain: a cubic spline on any uniform knots.
+///
+/// # Errors
+/// The spline is of another degree, or of another number of joints.
+pub fn evaluate_trajectory(
+    problem: &TrajectoryProblem<'_>,
+    motion: &VectorSpline,
+) -> Result<TrajectoryEvaluation> {
+    let joints = problem.chain.joints.len();
+    if motion.knots.degree != Degree::Cubic || motion.dimension != joints {
+        return Err(Error::experiment(InputError::new(
+            Refusal::ValueInvalid,
+            format!(
+                "the trajectory has {} joints, and the machine {joints}; trajectories are cubic splines",
+                motion.dimension
+            ),
+            "give a trajectory of this machine, with positions and velocities at its knots",
+        )));
+    }
+    let knots = Knots { step_s: motion.knots.step_s, intervals: motion.knots.intervals };
+    let controls = DMatrix::from_row_slice(knots.controls(), joints, &motion.controls);
+    evaluated(problem, &Sensing::new(problem)?, knots, &controls)
+}
+
+/// The same for control points.
+pub(crate) fn evaluated(
+    problem: &TrajectoryProblem<'_>,
+    sensing: &Sensing,
+    knots: Knots,
+    controls: &DMatrix<f64>,
+) -> Result<TrajectoryEvaluation> {
+    let mut full = FullInformation::new(sensing, problem.chain, knots, POINTS);
+    let marginalised = full.at(controls);
+    let quantities = sensing.quantities();
+    let (information, solved) = match marginalised {
+        Some(of) => {
+            let found = posterior(sensing, &of);
+            (of.information, found.map(|found| (of.valued.value, of.valued.covariance, found)))
+        }
+        None => {
+            (full.information().unwrap_or_else(|| DMatrix::zeros(quantities.len(), quantities.len())), None)
+        }
+    };
+    let (value, covariance, Posterior { budget, machine }) = match solved {
+        Some((value, covariance, posterior)) => (value, Some(covariance), posterior),
+        None => (f64::INFINITY, None, Posterior::default()),
+    };
+    Ok(TrajectoryEvaluation {
+        motion: knots.spline(controls),
+        value,
+        quantities,
+        information,
+        covariance,
+        budget,
+        machine,
+        limits: certify(problem, knots, controls),
+    })
+}
+
+/// Budget, and what is known of the nuisances afterwards.
+#[derive(Default)]
+struct Posterior {
+    budget: Vec<BudgetRow>,
+    machine: Vec<(MachineQuantity, f64)>,
+}
+
+fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
+    let p = sensing.columns.len();
+    let layout = &sensing.layout;
+    let size = layout.quantities.len() - p;
+    let prior = layout.prior.view((p, p), (size, size)).into_owned();
+    let covariance = &of.valued.covariance;
+    let gain = &of.gain * &sensing.columns.entries;
+    let cross = -(covariance * gain.transpose());
+    let own = solved(&(&of.nuisances + &prior), &DMatrix::identity(size, size))?;
+    let own = own - &gain * &cross;
+    let sources: Vec<Option<Source>> =
+        layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
+    let quantities = sensing.quantities();
+    let row = |(i, quantity): (usize, &ImuQuantity)| {
+        let variance = covariance[(i, i)];
+        let mut parts = Source::ALL.map(|source| {
+            let inside = |k: &usize| sources[*k] == Some(source);
+            let places: Vec<usize> = (0..size).filter(inside).collect();
+            let pairs = places.iter().flat_map(|a| places.iter().map(move |b| (*a, *b)));
+            pairs.map(|(a, b)| cross[(i, a)] * prior[(a, b)] * cross[(i, b)]).sum::<f64>()
+        });
+        let others: f64 = parts.iter().sum();
+        for (part, source) in parts.iter_mut().zip(Source::ALL) {
+            if source == Source::SensorNoise {
+                *part = (variance - others).max(0.0);
+            }
+        }
+        BudgetRow { quantity: *quantity, variance, parts }
+    };
+    Some(Posterior {
+        budget: quantities.iter().enumerate().map(row).collect(),
+        machine: (layout.quantities[p..].iter().enumerate())
+            .map(|(k, quantity)| (*quantity, own[(k, k)].max(0.0).sqrt()))
+            .collect(),
+    })
+}

@@ -1,0 +1,64 @@
+//! The sensor's parameters as combinations of the 24 entries of two full sensors.
+
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use nalgebra::DMatrix;
+
+/// Number of entries: for each sensor and row, the bias and three of the matrix.
+pub(crate) const ENTRIES: usize = 24;
+
+/// The place of an entry: sensor (0, 1), row, and 0 for the bias or 1 + column.
+pub(crate) fn entry(sensor: usize, row: usize, column: usize) -> usize {
+    12 * sensor + 4 * row + column
+}
+
+/// The map from parameters to entries.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SensorColumns {
+    /// 24 × p.
+    pub(crate) entries: DMatrix<f64>,
+}
+
+impl SensorColumns {
+    /// # Errors
+    /// A quantity that no motion of a machine determines: a temperature coefficient, or the g-sensitivity, which is not designed for.
+    pub(crate) fn new(quantities: &[ImuQuantity]) -> Result<Self> {
+        let mut entries = DMatrix::zeros(ENTRIES, quantities.len());
+        for (k, quantity) in quantities.iter().enumerate() {
+            let ImuQuantity::Of(kind, of) = *quantity else {
+                return Err(Error::experiment(InputError::new(
+                    Refusal::ValueInvalid,
+                    format!("a trajectory cannot be designed for {}", quantity.name()),
+                    "leave it out of the parameters of the design",
+                )));
+            };
+            let sensor = usize::from(kind == SensorKind::Gyroscope);
+            let mut set = |row: Axis, column: usize| entries[(entry(sensor, row.index(), column), k)] = 1.0;
+            match of {
+                Quantity::Bias(axis) => set(axis, 0),
+                Quantity::Scale(axis) => set(axis, 1 + axis.index()),
+                Quantity::CrossAxis(row, column) => set(row, 1 + column.index()),
+                Quantity::Symmetric(row, column) => {
+                    set(row, 1 + column.index());
+                    set(column, 1 + row.index());
+                }
+            }
+        }
+        Ok(Self { entries })
+    }
+
+    /// Number of parameters.
+    pub(crate) fn len(&self) -> usize {
+        self.entries.ncols()
+    }
+
+    /// `Lᵀ F L`: the information on the parameters from that on the entries.
+    pub(crate) fn of_parameters(&self, entries: &DMatrix<f64>) -> DMatrix<f64> {
+        self.entries.tr_mul(&(entries * &self.entries))
+    }
+
+    /// `L Ω Lᵀ`.
+    pub(crate) fn of_entries(&self, parameters: &DMatrix<f64>) -> DMatrix<f64> {
+        &self.entries * parameters * self.entries.transpose()
+    }
+}
