@@ -6,6 +6,7 @@
 //! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`InspectionFile`] |
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
 //! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`MachineFile`] |
+//! | shapes of its links (STL), pairs that may touch (SRDF), MoveIt's `joint_limits.yaml` | [`Urdf::bodies`], [`read_srdf`], [`read_joint_limits`] | |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -64,7 +65,11 @@ pub use inspection::reference_log::{
     inspect_reference_log,
 };
 pub use inspection::sampling::Sampling;
-pub use machine::{MACHINE_PRESETS, MachineFile, MissingMesh, Urdf, machine_preset, missing_limits};
+pub use machine::{
+    FileJointLimits, LinkInChain, LinkWithoutMesh, MACHINE_PRESETS, MachineBodies, MachineFile, MissingMesh,
+    Urdf, machine_preset, missing_limits, parse_joint_limits, parse_srdf, parse_stl, read_joint_limits,
+    read_srdf,
+};
 pub use motion::commanded::{parse_motion, read_motion, write_motion};
 pub use motion::dense::write_dense_motion;
 pub use motion::poses::{read_poses, write_poses};
