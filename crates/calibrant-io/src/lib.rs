@@ -6,6 +6,9 @@
 //! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`InspectionFile`] |
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
 //! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`MachineFile`] |
+//! | shapes of its links (STL), pairs that may touch (SRDF), MoveIt's `joint_limits.yaml` | [`Urdf::bodies`], [`read_srdf`], [`read_joint_limits`] | |
+//! | `trajectory.csv` | [`read_trajectory`], [`read_reference_log`] | [`write_trajectory`] |
+//! | `follow_joint_trajectory.yaml`, `trajectory.script` | | [`write_goal`], [`write_urscript`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -36,6 +39,7 @@ mod reference_log;
 mod results;
 mod table;
 mod text;
+mod trajectory;
 mod truth;
 
 pub use convention::{
@@ -45,10 +49,10 @@ pub use convention::{
 };
 pub use experiment::presets::{PRESETS, Preset, preset};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
-    MachinePlan, MachineSimulation, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions,
-    UnknownVariant, UrdfSource, experiment_keys, nearest, read_acceptance, read_columns,
-    sections as experiment_sections,
+    CalibrateOptions, CriterionLetter, DesignOptions, Dwells, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
+    JointMotionLimits, LinksKnown, MachineDesignPlan, MachineLimits, MachinePlan, MachineSimulation,
+    MachineWorld, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, UrdfSource,
+    experiment_keys, nearest, read_acceptance, read_columns, sections as experiment_sections,
 };
 pub use files::atomic_output::{remove_unfinished, write_atomically, write_text};
 pub use files::finished::Finished;
@@ -64,7 +68,11 @@ pub use inspection::reference_log::{
     inspect_reference_log,
 };
 pub use inspection::sampling::Sampling;
-pub use machine::{MACHINE_PRESETS, MachineFile, MissingMesh, Urdf, machine_preset, missing_limits};
+pub use machine::{
+    FileJointLimits, LinkInChain, LinkWithoutMesh, MACHINE_PRESETS, MachineBodies, MachineFile, MissingMesh,
+    Urdf, machine_preset, missing_limits, parse_joint_limits, parse_srdf, parse_stl, read_joint_limits,
+    read_srdf,
+};
 pub use motion::commanded::{parse_motion, read_motion, write_motion};
 pub use motion::dense::write_dense_motion;
 pub use motion::poses::{read_poses, write_poses};
@@ -103,5 +111,9 @@ pub use results::summary::{
 pub use results::sweep::write_sweep_csv;
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text::decoding::{Checked, open_file, read_text};
+pub use trajectory::{
+    MOST_POINTS, Trajectory, goal_text, read_trajectory, urscript_text, write_goal, write_trajectory,
+    write_urscript,
+};
 pub use truth::machine::TrueMachine;
 pub use truth::sensors::Truth;

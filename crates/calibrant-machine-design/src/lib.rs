@@ -26,6 +26,7 @@ mod recursion;
 mod search;
 #[cfg(test)]
 mod spheres_for_tests;
+pub mod world;
 
 pub use bound::TrajectoryBound;
 pub use certificate::{Kept, LimitProof, TrajectoryLimit};

@@ -180,6 +180,7 @@ pub use calibrant_core::{
 pub use calibrant_design as design;
 pub use calibrant_io as io;
 pub use calibrant_machine as machine;
+pub use calibrant_machine_design as machine_design;
 #[cfg(feature = "records")]
 pub use calibrant_records as records;
 pub use calibrant_report as report;

@@ -3,7 +3,9 @@
 use super::HoldsPlan;
 use super::direction::Direction;
 use super::number::{Either, PerAxis, Within};
-use super::ranges::{GyroscopeGain, NoiseCounts, NoiseRadps, PriorSd, Time, TurnAngle, TurnSd, Value};
+use super::ranges::{
+    GyroscopeGain, NoiseCounts, NoiseRadps, PriorSd, RangeDegps, RangeRadps, Time, TurnAngle, TurnSd, Value,
+};
 use super::refused_key::refused;
 use super::remedies::remedy;
 use super::sensor::per_axis;
@@ -13,6 +15,7 @@ use crate::ImuUnit;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, Turn};
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -30,6 +33,10 @@ pub struct GyroscopeSection {
     pub noise_radps: Option<PerAxis<NoiseRadps>>,
     /// Noise of one sample, counts.
     pub noise_counts: Option<PerAxis<NoiseCounts>>,
+    /// Largest rate that the sensor can report.
+    pub range_radps: Option<PerAxis<RangeRadps>>,
+    /// The same in deg/s.
+    pub range_degps: Option<PerAxis<RangeDegps>>,
     /// Is the g-sensitivity estimated? Not without it.
     pub g_sensitivity: Option<bool>,
     /// Turns of known angle.
@@ -103,6 +110,8 @@ const TURN_SD_DEG: f64 = 0.5;
 pub struct ImuPlan {
     /// The datasheet.
     pub gyroscope: Gyroscope,
+    /// Largest rate that the gyroscope can report on each axis, rad/s.
+    pub gyroscope_range_radps: Option<Vector3<f64>>,
     /// Unit of the readings in the file, where the file does not state it.
     pub file_unit: Option<ImuUnit>,
     /// Turns of known angle.
@@ -170,6 +179,7 @@ impl GyroscopeSection {
                 noise,
                 g_sensitivity: self.g_sensitivity.unwrap_or(false),
             },
+            gyroscope_range_radps: self.range_radps()?,
             file_unit,
             turns: self.turns()?,
             section_angle_rad: angle.transpose()?.unwrap_or_else(|| (-360.0_f64).to_radians()),
@@ -177,6 +187,16 @@ impl GyroscopeSection {
             known: known.map_or(Ok(Vec::new()), |section| known_terms(section, &thermal))?,
             thermal,
         })
+    }
+
+    /// The range in rad/s, whichever unit it is given in.
+    fn range_radps(&self) -> Result<Option<Vector3<f64>>> {
+        let in_radps = per_axis("gyroscope.range_radps", self.range_radps.as_ref(), 3)?;
+        let in_degps = per_axis("gyroscope.range_degps", self.range_degps.as_ref(), 3)?;
+        if in_radps.is_some() && in_degps.is_some() {
+            return Err(refused("gyroscope.range_degps", "the range is given twice", "keep one of the two"));
+        }
+        Ok(in_radps.or(in_degps.map(|range| range.map(f64::to_radians))))
     }
 
     /// The keys about turns by hand, and which are there.

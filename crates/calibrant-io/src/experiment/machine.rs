@@ -3,21 +3,25 @@
 use super::ImuPlan;
 use super::direction::Direction;
 use super::gravity::gravity_of;
+use super::machine_design::MachineDesignSection;
+use super::machine_limits::MachineLimitsSection;
 use super::machine_mount::MountSection;
 use super::machine_simulation::MachineSimulation;
 use super::machine_source::UrdfSource;
+use super::machine_world::{MachineWorld, WorldSection};
 use super::number::{Either, Within, set};
 use super::ranges::{
     BaseTilt, Delay, DelaySd, GravityMps2, GravitySd, Height, JointRotationSd, JointTranslationSd,
     JointZeroSd, KnotStep, Latitude, RateSd, SampleOfLog,
 };
 use super::refused_key::{missing, refused};
+use crate::machine::MachineBodies;
 use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{Sensor, SensorModel};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{MachineSetup, MachineTrust, MountingPrior};
-use nalgebra::Vector3;
+use nalgebra::{Unit, Vector3};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -63,6 +67,12 @@ pub struct MachinePlan {
     /// What only a simulation needs.
     #[serde(rename = "simulate")]
     pub simulation: MachineSimulation,
+    /// What joints and tip may do in a design.
+    pub limits: Option<MachineLimitsSection>,
+    /// What the machine must not touch.
+    pub world: Option<WorldSection>,
+    /// The trajectory that is designed.
+    pub design: Option<MachineDesignSection>,
 }
 
 /// Where the noise of sensors is from.
@@ -131,6 +141,21 @@ impl MachinePlan {
         }
     }
 
+    /// What the machine must not touch, with the shapes of its links.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment) as [`Urdf::bodies`](crate::Urdf::bodies) and [`WorldSection::of`].
+    pub fn world(&self, chain: &KinematicChain) -> Result<MachineWorld> {
+        let found = match (&self.chain, &self.urdf) {
+            (None, Some(urdf)) => {
+                urdf.read()?.bodies(self.base.as_deref(), self.tip.as_deref(), &self.packages)?
+            }
+            _ => MachineBodies::of_joints(chain),
+        };
+        let up = self.up.as_ref().map_or(MachineSetup::default().up, Direction::unit);
+        self.world.clone().unwrap_or_default().of(chain, found, Unit::new_normalize(up))
+    }
+
     /// Has the machine joints? Otherwise the reference is a log of poses.
     #[must_use]
     pub fn has_joints(&self) -> bool {
@@ -188,7 +213,12 @@ impl MachinePlan {
     /// The same machine, its paths in the directory of the experiment file.
     pub(super) fn beside(mut self, directory: Option<&Path>) -> Self {
         if let Some(directory) = directory {
-            self.packages.iter_mut().for_each(|path| *path = directory.join(&*path));
+            let files = [
+                self.limits.as_mut().and_then(|limits| limits.joint_limits.as_mut()),
+                self.world.as_mut().and_then(|world| world.srdf.as_mut()),
+            ];
+            let paths = self.packages.iter_mut().chain(files.into_iter().flatten());
+            paths.for_each(|path| *path = directory.join(&*path));
             if let Some(UrdfSource::File(path)) = &mut self.urdf {
                 *path = directory.join(&*path);
             }
@@ -214,8 +244,14 @@ impl MachinePlan {
             return Err(refused("machine.mount.rotation", message, help));
         }
         let help = "take it out, or name the machine: urdf = … in [machine]";
-        if self.geometry.is_some() && !self.has_joints() {
-            return Err(refused("machine.geometry", "without a urdf there are no joints", help));
+        let of_joints = [
+            ("machine.geometry", self.geometry.is_some()),
+            ("machine.limits", self.limits.is_some()),
+            ("machine.world", self.world.is_some()),
+            ("machine.design", self.design.is_some()),
+        ];
+        if let Some((key, _)) = of_joints.into_iter().find(|(_, is_there)| *is_there && !self.has_joints()) {
+            return Err(refused(key, "without a urdf there are no joints", help));
         }
         if self.simulation.resolution != 0.0 && !self.has_joints() {
             let message = "without a urdf there are no encoders";

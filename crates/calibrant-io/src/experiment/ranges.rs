@@ -123,6 +123,32 @@ ranges! {
     pub struct MachineDuration: Bounds::from(10.0, 1e5, "s");
     /// Acceleration of a joint.
     pub struct JointAcceleration: Bounds::above(0.0, 1e3, "rad/s² or m/s²");
+    /// Position of a joint.
+    pub struct JointPosition: Bounds::from(-1e3, 1e3, "rad or m");
+    /// Speed of a joint.
+    pub struct JointSpeed: Bounds::above(0.0, 1e3, "rad/s or m/s");
+    /// Jerk of a joint.
+    pub struct JointJerk: Bounds::above(0.0, 1e6, "rad/s³ or m/s³");
+    /// Speed of a tip.
+    pub struct TipSpeed: Bounds::above(0.0, 100.0, "m/s");
+    /// A coordinate near a machine. A larger one is hardly in m.
+    pub struct Coordinate: Bounds::from(-100.0, 100.0, "m");
+    /// Half of an edge of a box.
+    pub struct BoxHalf: Bounds::above(0.0, 100.0, "m");
+    /// Radius of a body.
+    pub struct BodyRadius: Bounds::above(0.0, 5.0, "m");
+    /// A distance that is kept. The design looks no farther than 0.3 m.
+    pub struct Clearance: Bounds::from(0.0, 0.2, "m");
+    /// Noise in motion over noise at rest.
+    pub struct MovingNoise: Bounds::from(1.0, 1e3, "");
+    /// Duration of a trajectory of a machine.
+    pub struct TrajectoryDuration: Bounds::from(1.0, 3600.0, "s");
+    /// Distance of its knots. Shorter ones are smoothed by the controllers of arms.
+    pub struct TrajectoryKnot: Bounds::from(0.01, 10.0, "s");
+    /// Range of a gyroscope.
+    pub struct RangeRadps: Bounds::above(0.0, 1e4, "rad/s");
+    /// Range of a gyroscope in degrees.
+    pub struct RangeDegps: Bounds::above(0.0, 1e6, "deg/s");
     /// Step of an encoder.
     pub struct Resolution: Bounds::from(0.0, 0.1, "rad or m");
     /// Noise by vibration over the noise at rest.

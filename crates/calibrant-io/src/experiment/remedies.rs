@@ -28,6 +28,26 @@ pub(super) fn remedy(key: &str) -> &'static str {
             "the name of a link, in quotes; `calibrant inspect arm.urdf` lists the joints"
         }
         "machine.packages" => "a list of directories: [\"description\"]",
+        "machine.limits.joint_limits" => "the path of MoveIt's file: \"joint_limits.yaml\"",
+        "machine.world.srdf" => "the path of MoveIt's file: \"arm.srdf\"",
+        "machine.world.boxes" => {
+            "[{ center_m = [0.45, 0.35, 0.2], half_m = [0.15, 0.15, 0.2] }], in the axes of the base"
+        }
+        "machine.world.sensor_body" => {
+            "{ center_m = [0.0, 0.0, 0.025], radius_m = 0.05 }, in the axes of the tip"
+        }
+        "machine.world.capsules" => {
+            "by link: { forearm = { from_m = [0.0, 0.0, 0.03], to_m = [-0.39, 0.0, 0.01], radius_m = 0.07 } }"
+        }
+        "machine.design.home" => {
+            "one position for each joint, rad or m: [0.0, -1.57, -1.57, -1.57, 1.57, 0.0]"
+        }
+        _ if key.starts_with("machine.world.") && key.ends_with("_m") => {
+            "three coordinates, m: [0.0, 0.0, 0.025]"
+        }
+        _ if key.starts_with("machine.limits.") => {
+            "a number that no joint exceeds, or a table by joint: { elbow_joint = 3.1 }"
+        }
         "machine.mount.lever_m" => {
             "from the tip to the sensor in the axes of the tip, m: [0.02, -0.03, 0.04]"
         }

@@ -1,10 +1,11 @@
 //! The joints of a URDF file.
 
 use super::element::{Element, Place};
+use super::franka::near_ends_of_fr3;
 use crate::experiment::shorten;
 use crate::text::decoding::Checked;
 use calibrant_core::error::Refusal;
-use calibrant_machine::chain::{Joint, JointKind, JointLimits};
+use calibrant_machine::chain::{Joint, JointKind, JointLimits, SpeedNearEnds};
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// Shortest axis.
@@ -49,6 +50,12 @@ impl UrdfJoint {
             axis.numbers("xyz")
         });
         let limits = element.child("limit")?.map(limits).transpose()?;
+        let near_ends = element.child("position_based_velocity_limits")?;
+        let limits = match (limits, near_ends) {
+            (Some(limits), Some(of)) => Some(JointLimits { near_ends: near_ends_of(of, &limits)?, ..limits }),
+            (Some(limits), None) => Some(JointLimits { near_ends: near_ends_of_fr3(&name), ..limits }),
+            (None, _) => None,
+        };
         let mimic = element.child("mimic")?;
         Ok(Self {
             name,
@@ -64,6 +71,11 @@ impl UrdfJoint {
             mimic: mimic.map(|of| (of.attribute("joint").unwrap_or("another").to_owned(), of.place())),
             place: element.place(),
         })
+    }
+
+    /// Its transform, where it does not move.
+    pub(super) fn fixed(&self) -> Option<Isometry3<f64>> {
+        (self.kind == "fixed").then_some(self.origin)
     }
 
     /// The joint as a part of a chain.
@@ -114,7 +126,7 @@ impl UrdfJoint {
 }
 
 /// An `<origin>`: URDF's roll, pitch and yaw are about fixed axes.
-fn origin(element: Element) -> Checked<Isometry3<f64>> {
+pub(super) fn origin(element: Element) -> Checked<Isometry3<f64>> {
     let [x, y, z] = element.numbers("xyz")?.unwrap_or_default();
     let rotation = match (element.numbers("quat_xyzw")?, element.numbers("rpy")?) {
         (Some(_), Some(_)) => {
@@ -135,6 +147,25 @@ fn origin(element: Element) -> Checked<Isometry3<f64>> {
     Ok(Isometry3::from_parts(Translation3::new(x, y, z), rotation))
 }
 
+/// A `<position_based_velocity_limits>`, as Franka's files have it: the speed at which the joint can still stop before its end.
+fn near_ends_of(element: Element, limits: &JointLimits) -> Checked<Option<SpeedNearEnds>> {
+    let need = |key: &str| {
+        element.need(key)?;
+        match element.number(key)? {
+            Some(value) if value >= 0.0 => Ok(value),
+            _ => Err(element.error(
+                Refusal::ValueInvalid,
+                format!("`{key}` is negative"),
+                "write its magnitude",
+            )),
+        }
+    };
+    let (offset, deceleration) = (need("velocity_offset")?, need("deceleration_limit")?);
+    let (lower, upper) = (limits.lower.unwrap_or(f64::NEG_INFINITY), limits.upper.unwrap_or(f64::INFINITY));
+    let of = SpeedNearEnds { lower, upper, slope: 2.0 * deceleration, offset };
+    Ok((deceleration > 0.0 && lower.is_finite() && upper.is_finite()).then_some(of))
+}
+
 /// A `<limit>`. A velocity or effort of 0 stands for an unknown one, as exporters write it.
 fn limits(element: Element) -> Checked<JointLimits> {
     let positive = |key: &str| -> Checked<Option<f64>> {
@@ -151,6 +182,7 @@ fn limits(element: Element) -> Checked<JointLimits> {
         upper: element.number("upper")?,
         velocity: positive("velocity")?,
         effort: positive("effort")?,
+        near_ends: None,
     };
     if let (Some(lower), Some(upper)) = (limits.lower, limits.upper)
         && lower > upper

@@ -97,6 +97,34 @@ impl LinkTree {
         &self.names[self.root]
     }
 
+    /// Number of links.
+    pub(super) fn links(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Name of a link.
+    pub(super) fn name(&self, link: usize) -> &str {
+        &self.names[link]
+    }
+
+    /// Place of a link that is there.
+    pub(super) fn place(&self, name: &str) -> usize {
+        self.index.get(name).copied().unwrap_or(self.root)
+    }
+
+    /// The joints whose parent a link is, and their children.
+    pub(super) fn joints_behind(&self, link: usize) -> impl Iterator<Item = (usize, usize)> {
+        let children = self.joint_to.iter().enumerate();
+        children.filter_map(move |(child, joint)| {
+            joint.filter(|of| self.parent[*of] == link).map(|of| (of, child))
+        })
+    }
+
+    /// The joint whose child a link is, and its parent.
+    pub(super) fn joint_before(&self, link: usize) -> Option<(usize, usize)> {
+        self.joint_to[link].map(|joint| (joint, self.parent[joint]))
+    }
+
     /// The joints from a link to another, in this order.
     pub(super) fn path(&self, base: &str, tip: &str) -> Checked<Vec<usize>> {
         let (base, tip) = (self.link(base)?, self.link(tip)?);

@@ -44,14 +44,28 @@ impl fmt::Display for MissingMesh {
     }
 }
 
+/// How far above the URDF file its packages are looked for: in ROS it lies in `PACKAGE/urdf/`, or one deeper.
+const ABOVE: usize = 4;
+
+/// Where a mesh of this name may lie: a package in one of these directories, or in one of those above the URDF file.
+pub(super) fn places(name: &str, packages: &[PathBuf], beside: Option<&Path>) -> Vec<PathBuf> {
+    let above = beside.into_iter().flat_map(Path::ancestors).take(ABOVE);
+    match name.split_once("://") {
+        Some(("package", within)) => packages
+            .iter()
+            .map(PathBuf::as_path)
+            .chain(above)
+            .map(|directory| directory.join(within))
+            .collect(),
+        Some(("file", path)) => vec![PathBuf::from(path)],
+        _ => vec![beside.unwrap_or(Path::new("")).join(name)],
+    }
+}
+
 /// The meshes that are in none of the directories.
 pub(super) fn missing(meshes: &[Mesh], packages: &[PathBuf], beside: Option<&Path>) -> Vec<MissingMesh> {
     let look = |mesh: &Mesh| {
-        let places: Vec<PathBuf> = match mesh.name.split_once("://") {
-            Some(("package", within)) => packages.iter().map(|directory| directory.join(within)).collect(),
-            Some(("file", path)) => vec![PathBuf::from(path)],
-            _ => vec![beside.unwrap_or(Path::new("")).join(&mesh.name)],
-        };
+        let places = places(&mesh.name, packages, beside);
         let missing = !places.iter().any(|place| place.is_file());
         missing.then(|| MissingMesh { link: mesh.link.clone(), mesh: mesh.name.clone(), places })
     };

@@ -1,24 +1,18 @@
 //! A machine as its URDF file describes it.
 
-use super::element::{Element, Place};
+use super::collision::{MachineBodies, bodies};
+use super::element::Place;
 use super::joint::{ChainJoint, UrdfJoint};
+use super::link_frames::link_frames;
 use super::link_tree::LinkTree;
 use super::meshes::{Mesh, MissingMesh, missing};
-use crate::experiment::shorten;
-use crate::text::decoding::{Checked, as_text, parsed, refuse, too_large};
-use crate::text::excerpt::error_at;
+use super::xml;
+use crate::text::decoding::{Checked, parsed, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
 use nalgebra::Isometry3;
-use roxmltree::{Document, ParsingOptions};
 use std::path::{Path, PathBuf};
 
-/// Largest file, bytes.
-const LARGEST_BYTES: u64 = 16 << 20;
-/// Largest number of elements, attributes and texts.
-const MOST_NODES: u32 = 1 << 20;
-/// Largest number of attributes of an element: XML compares each with all others.
-const MOST_ATTRIBUTES: usize = 1000;
 /// Largest number of joints that move between base and tip: the work grows with their cube.
 const MOST_JOINTS: usize = 100;
 
@@ -41,7 +35,7 @@ impl Urdf {
     /// # Errors
     /// [`Error::Experiment`] with line and element: see [`Self::parse`]. The file cannot be read, or is larger than 16 MiB.
     pub fn read(path: &Path) -> Result<Self> {
-        let read = parsed(path, (LARGEST_BYTES, "a URDF file"), read)?;
+        let read = parsed(path, (xml::LARGEST_BYTES, "a URDF file"), read)?;
         Ok(Self { file: Some(path.to_path_buf()), ..read })
     }
 
@@ -71,12 +65,47 @@ impl Urdf {
     /// [`Error::Experiment`]: no such link, no joints lead from base to tip, the machine has several ends, or a joint on the way is not
     /// supported, has no limit, or a zero axis.
     pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<KinematicChain> {
-        self.checked_chain(base, tip).map_err(|error| {
-            Error::experiment(match &self.file {
-                Some(file) => error.in_file(file),
-                None => *error,
-            })
+        self.checked_chain(base, tip).map_err(|error| self.in_file(*error))
+    }
+
+    fn in_file(&self, error: InputError) -> Error {
+        Error::experiment(match &self.file {
+            Some(file) if error.file.is_none() => error.in_file(file),
+            _ => error,
         })
+    }
+
+    /// The shapes of the links (`<collision>`) as capsules, by the frames of [`Self::chain`] of the same base and tip.
+    ///
+    /// A link belongs to a frame where fixed joints join them. A link of which a mesh is not found, or is in a format that is not read, gets a capsule from its joint to the
+    /// next; so do all links of a machine that turns, where no shape is known of any.
+    ///
+    /// # Errors
+    /// As [`Self::chain`]. [`Error::Experiment`] with line and element for a shape that makes no sense, or with the file of a mesh that is broken.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant_io::{Urdf, machine_preset};
+    /// let arm = Urdf::parse(machine_preset("arm").expect("known").as_bytes())?;
+    /// let found = arm.bodies(None, None, &[])?;
+    /// assert_eq!((found.bodies[0].name.as_str(), found.bodies[0].frame), ("base", 0));
+    /// assert!(found.without_mesh.is_empty());
+    /// # Ok::<(), calibrant_core::Error>(())
+    /// ```
+    pub fn bodies(
+        &self,
+        base: Option<&str>,
+        tip: Option<&str>,
+        packages: &[PathBuf],
+    ) -> Result<MachineBodies> {
+        let chain = self.chain(base, tip)?;
+        let beside = self.file.as_deref().and_then(Path::parent);
+        let read = || {
+            let path = self.tree.path(&chain.base, &chain.tip)?;
+            let frames = link_frames(&self.tree, &self.joints, &path, &chain.base);
+            bodies(&self.text, frames, &chain, (packages, beside))
+        };
+        read().map_err(|error| self.in_file(*error))
     }
 
     fn checked_chain(&self, base: Option<&str>, tip: Option<&str>) -> Checked<KinematicChain> {
@@ -118,19 +147,8 @@ impl Urdf {
 }
 
 fn read(bytes: &[u8]) -> Checked<Urdf> {
-    if bytes.len() as u64 > LARGEST_BYTES {
-        return Err(too_large("a URDF file", LARGEST_BYTES).into());
-    }
-    let text = as_text(bytes)?;
-    // no attribute has this sign in its value
-    let attributes = |element: &str| element.bytes().filter(|byte| *byte == b'=').count();
-    if text.split('<').any(|element| !element.starts_with('!') && attributes(element) > MOST_ATTRIBUTES) {
-        let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
-        return refuse(Refusal::FileUnreadable, message, "this is hardly the file that you mean");
-    }
-    let options = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(|error| syntax(text, &error))?;
-    let robot = robot(&document)?;
+    let (text, document) = xml::parse(bytes, "URDF")?;
+    let robot = xml::robot(&document, "URDF")?;
     let links: Vec<(String, Place)> = robot
         .children("link")
         .map(|link| Ok((link.need("name")?.to_owned(), link.place())))
@@ -148,65 +166,4 @@ fn read(bytes: &[u8]) -> Checked<Urdf> {
     let meshes = robot.children("link").flat_map(Mesh::of).collect();
     let name = robot.attribute("name").unwrap_or_default().to_owned();
     Ok(Urdf { name, text: text.to_owned(), file: None, links, joints, tree, meshes })
-}
-
-/// The `<robot>` of a URDF file. Other files of robots are named.
-fn robot<'a>(document: &'a Document<'a>) -> Checked<Element<'a>> {
-    let root = Element(document.root_element());
-    let name = root.0.tag_name().name();
-    if name != "robot" {
-        let (message, help) = match name {
-            "sdf" => ("this is an SDF file, not URDF", "convert it, or take the URDF that it was made from"),
-            "mujoco" => ("this is a MuJoCo model, not URDF", "take the URDF that it was made from"),
-            _ => ("this is no URDF file: its first element is not <robot>", "give the URDF of the machine"),
-        };
-        return Err(root.error(Refusal::FormatUnknown, message, help));
-    }
-    let of_xacro =
-        |node: &roxmltree::Node| node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"));
-    if let Some(node) = document.descendants().find(of_xacro) {
-        return Err(Element(node).error(
-            Refusal::FormatUnsupported,
-            "this is a xacro file, not URDF",
-            XACRO_HELP,
-        ));
-    }
-    Ok(root)
-}
-
-const XACRO_HELP: &str = "expand it first: `xacro FILE > machine.urdf`";
-
-fn syntax(text: &str, error: &roxmltree::Error) -> Box<InputError> {
-    let (code, message, help) = match error {
-        roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro" => {
-            (Refusal::FormatUnsupported, "this is a xacro file, not URDF".to_owned(), XACRO_HELP)
-        }
-        roxmltree::Error::NodesLimitReached => {
-            let message = format!("the file has more than {MOST_NODES} elements");
-            (Refusal::FileUnreadable, message, "this is hardly the file that you mean")
-        }
-        roxmltree::Error::DtdDetected => (
-            Refusal::FormatUnsupported,
-            "the file declares a document type (DTD)".to_owned(),
-            "remove <!DOCTYPE …>",
-        ),
-        _ => {
-            let words = error.to_string();
-            // the place is said before the message
-            let words = words.split(" at ").next().unwrap_or(&words);
-            (Refusal::SyntaxInvalid, format!("not valid XML: {}", shorten(words)), "correct it at this place")
-        }
-    };
-    use roxmltree::Error::{UnclosedRootNode, UnexpectedEndOfStream};
-    let at = match error {
-        // they know no place
-        UnclosedRootNode | UnexpectedEndOfStream => text.trim_end().len(),
-        _ => {
-            let position = error.pos();
-            let before = |count: u32| count.saturating_sub(1) as usize;
-            let line: usize = text.split_inclusive('\n').take(before(position.row)).map(str::len).sum();
-            line + text[line..].chars().take(before(position.col)).map(char::len_utf8).sum::<usize>()
-        }
-    };
-    error_at(text, at..at + 1, InputError::new(code, message, help)).into()
 }

@@ -48,6 +48,23 @@ pub struct JointLimits {
     pub velocity: Option<f64>,
     /// Largest torque or force, N·m or N.
     pub effort: Option<f64>,
+    /// A speed that falls towards its ends.
+    pub near_ends: Option<SpeedNearEnds>,
+}
+
+/// A speed that falls towards the ends of a joint, so that it can stop there, as Franka's arms have it:
+///
+/// `−√(k (q − lower)) + o ≤ q̇ ≤ √(k (upper − q)) − o`. Where the right side is negative or the left one positive, the joint may not move that way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedNearEnds {
+    /// `lower`, rad or m.
+    pub lower: f64,
+    /// `upper`, rad or m.
+    pub upper: f64,
+    /// `k`, twice the deceleration, rad/s² or m/s².
+    pub slope: f64,
+    /// `o`, rad/s or m/s.
+    pub offset: f64,
 }
 
 /// A joint that moves, and the fixed transform before it.

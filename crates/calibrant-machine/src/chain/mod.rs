@@ -35,7 +35,7 @@ mod sensitivity;
 mod sensor_mount;
 
 pub use frame_motion::{FrameMotion, SensorGain};
-pub use joint::{ChainCorrections, Joint, JointCorrection, JointKind, JointLimits};
+pub use joint::{ChainCorrections, Joint, JointCorrection, JointKind, JointLimits, SpeedNearEnds};
 pub use joint_motion::JointState;
 pub use kinematic_chain::{CorrectedChain, KinematicChain, TipVelocity};
 pub use reach::reach_m;

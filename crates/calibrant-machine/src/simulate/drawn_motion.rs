@@ -69,7 +69,7 @@ impl MotionToDraw {
 ///     kind: JointKind::Prismatic,
 ///     axis: Vector3::x_axis(),
 ///     origin: Isometry3::identity(),
-///     limits: JointLimits { lower: Some(-0.5), upper: Some(0.5), velocity: Some(1.0), effort: None },
+///     limits: JointLimits { lower: Some(-0.5), upper: Some(0.5), velocity: Some(1.0), ..JointLimits::default() },
 /// };
 /// let (base, tip) = ("base".into(), "carriage".into());
 /// let chain = KinematicChain { base, tip, joints: vec![slide], tip_transform: Isometry3::identity() };
