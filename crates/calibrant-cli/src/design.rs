@@ -11,6 +11,7 @@ mod reach;
 mod reach_request;
 mod sweep;
 mod sweep_request;
+mod trajectory;
 
 pub(crate) use arguments::Arguments;
 
@@ -35,6 +36,9 @@ impl crate::run::Run for Arguments {
             "sweep.json",
             "sweep.csv",
             "report.html",
+            "trajectory.csv",
+            "follow_joint_trajectory.yaml",
+            "trajectory.script",
         ];
         ResultPlaces {
             directory: Some(self.output.clone()),
@@ -57,6 +61,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if matches!(job.experiment.plan, Plan::Holds(_)) {
         return poses::run(arguments, &job);
     }
+    if matches!(job.experiment.plan, Plan::Machine(_)) {
+        return trajectory::run(arguments, job.experiment);
+    }
+    trajectory::refuse_its_options(arguments)?;
     if arguments.add.is_some() {
         let help = "--add is of poses, in a [holds] experiment";
         let message = "this experiment has no poses to add to";

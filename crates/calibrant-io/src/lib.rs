@@ -50,7 +50,7 @@ pub use convention::{
 pub use experiment::presets::{PRESETS, Preset, preset};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Dwells, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
-    JointMotionLimits, LinksKnown, MachineDesignPlan, MachineLimits, MachinePlan, MachineSimulation,
+    LinksKnown, MachineDesignPlan, MachineLimits, MachinePlan, MachineSimulation,
     MachineWorld, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, UrdfSource,
     experiment_keys, nearest, read_acceptance, read_columns, sections as experiment_sections,
 };
@@ -109,6 +109,7 @@ pub use results::summary::{
     Failure, Summary, SummaryParameter, SummaryRow, spreadsheet_text, unit_ending, write_summary,
 };
 pub use results::sweep::write_sweep_csv;
+pub use results::trajectory_design::{TrajectoryEvaluationFile, TrajectoryFile};
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text::decoding::{Checked, open_file, read_text};
 pub use trajectory::{

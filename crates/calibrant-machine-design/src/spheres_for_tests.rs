@@ -1,6 +1,7 @@
 //! Balls on the links, which must not meet.
 
-use crate::{BodyPair, Proximity, Surroundings};
+use crate::Surroundings;
+use crate::world::{BodyPair, Proximity};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// A ball: frame, centre in it, radius.

@@ -20,6 +20,7 @@ mod sheet;
 #[cfg(feature = "study")]
 mod study;
 mod sweep;
+mod trajectory;
 mod validation;
 
 pub use calibrant_core::number_format;
@@ -42,4 +43,5 @@ pub use sheet::{
 #[cfg(feature = "study")]
 pub use study::study_sheet;
 pub use sweep::sweep_sheet;
+pub use trajectory::{trajectory_evaluation_sheet, trajectory_sheet};
 pub use validation::validation_sentences;

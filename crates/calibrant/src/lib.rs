@@ -172,6 +172,7 @@ pub mod session;
 mod simulation;
 #[cfg(feature = "study")]
 mod study_plan;
+mod trajectory_plan;
 
 pub use calibrant_core::{
     Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, interruption,
@@ -197,3 +198,4 @@ pub use session::{Outcome, Readings, Session, SessionOptions, Source};
 pub use simulation::{Simulation, SimulationOptions, commanded_motion, simulate};
 #[cfg(feature = "study")]
 pub use study_plan::{StudyChoice, StudyPlan};
+pub use trajectory_plan::TrajectoryPlan;

@@ -9,12 +9,15 @@ use std::path::PathBuf;
 /// With [holds] in the experiment it finds the best poses, and writes design.json, poses.csv and report.html, a checklist to print. --evaluate RECORDING says how
 /// efficient recorded holds were. --from calibration.json --add 3 says which poses to record next. [design] says what is known of directions, and which are allowed.
 ///
+/// With joints in [machine] it finds the best trajectory of the machine, proves its limits for all times, and writes trajectory.csv, follow_joint_trajectory.yaml (ROS 2),
+/// trajectory.script (Universal Robots), design.json and report.html. `simulate` and `calibrate` take trajectory.csv as --motion.
+///
 /// With [motion] it finds the best motion.
 /// Writes design.json, motion.csv and report.html into DIR. `simulate` and `calibrate` take motion.csv as --motion. --evaluate adds evaluation.json and
 /// evaluation.html. --sweep writes sweep.json, sweep.csv and report.html instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The experiment file, with a [motion] or [holds] (see `calibrant init`).
+    /// The experiment file, with a [motion], [holds] or [machine] (see `calibrant init`).
     pub(super) experiment: PathBuf,
     /// An earlier calibration.json of this sensor. The design starts at its estimate, and uses its information. Repeatable: the information adds up, and the last file gives the estimate.
     #[arg(long, value_name = "JSON")]
@@ -22,7 +25,7 @@ pub(crate) struct Arguments {
     /// Also write motion_dense.csv: position, velocity, acceleration and jerk at this rate.
     #[arg(long, value_name = "HZ", value_parser = rate, conflicts_with = "sweep")]
     pub(super) sample_rate: Option<f64>,
-    /// Evaluate this motion, or this recording of holds: its information against that of the best, and the limits that a motion breaks.
+    /// Evaluate this motion, this trajectory.csv of a machine, or this recording of holds: its information against that of the best, and the limits that a motion breaks.
     #[arg(long, value_name = "CSV", conflicts_with_all = ["sweep", "reach"])]
     pub(super) evaluate: Option<PathBuf>,
     /// Design for several values of one quantity: duration=5,10,20, or duration=FROM:TO:COUNT (geometric), or FROM:TO:COUNT:linear. Other quantities:
@@ -54,6 +57,9 @@ pub(crate) struct Arguments {
     /// End the search once the motion is proved to be this close to the bound, such as 1%. For criterion D, 1% is 0.01 nats. The bound is then found first.
     #[arg(long, value_name = "SHARE", value_parser = gap, conflicts_with_all = ["no_certificate", "sweep", "reach"])]
     pub(super) gap: Option<f64>,
+    /// On a machine: the same path this many times slower, for the first run. What it then determines is said.
+    #[arg(long, value_name = "TIMES", value_parser = slow, conflicts_with = "evaluate")]
+    pub(super) slow: Option<f64>,
     /// Print design.json on stdout instead of the tables.
     #[arg(long)]
     pub(super) json: bool,
@@ -71,6 +77,10 @@ fn letter(text: &str) -> Result<CriterionLetter, String> {
 
 fn rate(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0).ok_or("a number above 0".into())
+}
+
+fn slow(text: &str) -> Result<f64, String> {
+    rate(text).ok().filter(|times| (1.0..=1000.0).contains(times)).ok_or("a number from 1 to 1000".into())
 }
 
 /// Reads `1%` or `0.01`.

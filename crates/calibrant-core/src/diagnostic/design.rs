@@ -24,6 +24,26 @@ checks! {
         false => "the search was interrupted. The motion is the best so far, and a better one may be near",
     };
 
+    /// The shape of links is not known. Capsules from joint to joint stand for them, and the machine may be wider.
+    LinksWithoutShapes "links-without-shapes" Warning {
+        /// The links; empty: all.
+        links: Vec<String>,
+    }
+    decided "The URDF file has no shape of a link, or its mesh is not found or not read."
+    remedy "Give the meshes (`packages` in [machine]), or capsules of the links (`capsules` in [machine.world])."
+    says format!(
+        "the shape of {} is not known: a capsule from joint to joint stands for each, and the machine may be wider. Give the meshes \
+         (`packages` in [machine]) or capsules (`capsules` in [machine.world]), or watch the first run closely",
+        if links.is_empty() { "the links".to_owned() } else { links.join(", ") }
+    );
+
+    /// Nothing keeps the machine from itself.
+    CollisionsUnknown "collisions-unknown" Warning {}
+    decided "No shape of any link is known, and no capsules stand for them."
+    remedy "Give the meshes (`packages` in [machine]), or capsules of the links (`capsules` in [machine.world])."
+    says "nothing is known of the machine's links, so that nothing keeps it from itself and from its surroundings, but for the \
+        sensor's body. Watch the first run closely, slowed down (option `slow`)";
+
     /// The search ended before it converged. A better motion may be near.
     SearchNotConverged "search-not-converged" Warning {
         /// The value of a sweep, where it is one.

@@ -7,6 +7,7 @@ use super::similar_word::{nearest, shorten};
 use crate::machine::{FileJointLimits, read_joint_limits};
 use calibrant_core::error::Result;
 use calibrant_machine::chain::{Joint, JointKind, KinematicChain, SpeedNearEnds};
+use calibrant_machine_design::JointLimit;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -83,26 +84,9 @@ const RANGES: &str = "[-2.6, 2.6] for all joints, or { elbow_joint = [-2.6, 2.6]
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineLimits {
     /// Of each joint of the chain.
-    pub joints: Vec<JointMotionLimits>,
+    pub joints: Vec<JointLimit>,
     /// Largest speed of the tip and of the sensor's body, m/s.
     pub tip_speed_mps: Option<f64>,
-}
-
-/// What a joint may do, rad or m and seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointMotionLimits {
-    /// Smallest position.
-    pub lower: f64,
-    /// Largest position.
-    pub upper: f64,
-    /// Largest speed.
-    pub velocity: f64,
-    /// Largest acceleration.
-    pub acceleration: f64,
-    /// Largest jerk; infinite where none is given.
-    pub jerk: f64,
-    /// A speed that falls towards the ends.
-    pub near_ends: Option<SpeedNearEnds>,
 }
 
 impl MachineLimitsSection {
@@ -190,7 +174,7 @@ impl MachineLimitsSection {
         Err(missing("machine.limits.acceleration", help))
     }
 
-    fn of_joint(&self, joint: &Joint, in_file: &FileJointLimits) -> Result<JointMotionLimits> {
+    fn of_joint(&self, joint: &Joint, in_file: &FileJointLimits) -> Result<JointLimit> {
         let [lower, upper] = self.ends(joint, in_file)?;
         let nominal = joint.limits;
         let least = |of: Option<Given>, usual: Option<f64>| match (of, usual) {
@@ -212,7 +196,7 @@ impl MachineLimitsSection {
             }
             None => nominal.near_ends,
         };
-        Ok(JointMotionLimits {
+        Ok(JointLimit {
             lower,
             upper,
             velocity,

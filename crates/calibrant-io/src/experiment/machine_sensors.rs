@@ -34,16 +34,22 @@ impl Experiment {
     /// The parameters of those sensors that were recorded: what a calibration on a machine estimates of them.
     #[must_use]
     pub fn quantities(&self, recording: &ImuRecording) -> Vec<ImuQuantity> {
+        self.quantities_of(|kind| recording.sensor(kind).is_some())
+    }
+
+    /// The parameters of those sensors that there are.
+    #[must_use]
+    pub fn quantities_of(&self, is_there: impl Fn(SensorKind) -> bool) -> Vec<ImuQuantity> {
         let of = |kind: SensorKind, model: SensorModel| {
             let list = ParameterList::new(3, model);
             let quantities = list.quantities().iter().map(|quantity| ImuQuantity::Of(kind, *quantity));
             quantities.collect::<Vec<_>>()
         };
         let mut quantities = Vec::new();
-        if recording.accelerometer.is_some() {
+        if is_there(SensorKind::Accelerometer) {
             quantities.extend(of(SensorKind::Accelerometer, self.sensor.model));
         }
-        if let (Some(imu), Some(_)) = (&self.imu, &recording.gyroscope) {
+        if let Some(imu) = self.imu.as_ref().filter(|_| is_there(SensorKind::Gyroscope)) {
             quantities.extend(of(SensorKind::Gyroscope, imu.gyroscope.model));
             if imu.gyroscope.g_sensitivity {
                 let entries = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));

@@ -21,3 +21,4 @@ pub(crate) mod reach;
 pub(crate) mod study;
 pub(crate) mod summary;
 pub(crate) mod sweep;
+pub(crate) mod trajectory_design;

@@ -2,7 +2,8 @@
 
 use super::{LimitProof, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
-use crate::limits::{BodyPair, Posture, Proximity, Surroundings};
+use crate::limits::{Posture, Surroundings};
+use crate::world::{BodyPair, Proximity};
 use crate::motion::{Knots, derivative, rows_at};
 use nalgebra::DMatrix;
 

@@ -2,7 +2,7 @@
 
 use super::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
 use crate::TrajectoryProblem;
-use crate::limits::SpeedNearEnds;
+use calibrant_machine::chain::SpeedNearEnds;
 use crate::motion::Knots;
 use nalgebra::DMatrix;
 

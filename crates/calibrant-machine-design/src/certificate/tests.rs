@@ -4,7 +4,8 @@ use super::*;
 use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
 use crate::information::Sensing;
 use crate::spheres_for_tests::Spheres;
-use crate::{SensorBody, SpeedNearEnds};
+use crate::SensorBody;
+use calibrant_machine::chain::SpeedNearEnds;
 use calibrant_machine::chain::JointState;
 use nalgebra::Vector3;
 
@@ -34,7 +35,7 @@ fn limits_beyond_the_peaks_are_proved_and_limits_within_them_are_broken() {
     let nominal = chain.nominal();
     let (mut force, mut rate, mut tip, mut least) =
         (Vector3::<f64>::zeros(), Vector3::<f64>::zeros(), 0.0_f64, vec![f64::INFINITY; 3]);
-    let mut near = vec![crate::Proximity::far(); 3];
+    let mut near = vec![crate::world::Proximity::far(); 3];
     for k in 0..=40_000 {
         let t = 4.0 * f64::from(k) / 40_000.0;
         let [q, qd, qdd] = [0, 1, 2].map(|d| spline.at(t, d));

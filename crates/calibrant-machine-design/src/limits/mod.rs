@@ -9,9 +9,9 @@ mod surroundings;
 #[cfg(test)]
 mod tests;
 
-pub use joint_limit::{JointLimit, SpeedNearEnds};
+pub use joint_limit::JointLimit;
 pub(crate) use kinematics::Posture;
 pub(crate) use linear::{Linear, least_slack};
 pub(crate) use pointwise::{PointRows, PointWork, Pointwise};
 pub use sensor_body::SensorBody;
-pub use surroundings::{BodyPair, Proximity, Surroundings};
+pub use surroundings::Surroundings;

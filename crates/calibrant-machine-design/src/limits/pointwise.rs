@@ -14,7 +14,8 @@
 //! A distance beyond `d_min + D` says nothing: its row is constant.
 
 use super::kinematics::Posture;
-use super::{Proximity, SensorBody, Surroundings};
+use super::{SensorBody, Surroundings};
+use crate::world::Proximity;
 use crate::TrajectoryProblem;
 use crate::motion::{Grid, derivative};
 use crate::recursion::{JointAt, JointBars, Links, Moving, Sweep};

@@ -67,6 +67,19 @@ pub struct SpeedNearEnds {
     pub offset: f64,
 }
 
+impl SpeedNearEnds {
+    /// `k (upper − q) − max(q̇ + o, 0)²`, and the same at the other end: not negative where the limit is kept. Towards an end it is that limit; away from it, it is weaker.
+    /// With its derivatives by `q` and `q̇`.
+    #[must_use]
+    pub fn rooms(&self, q: f64, qd: f64) -> [[f64; 3]; 2] {
+        let [up, down] = [(qd + self.offset).max(0.0), (self.offset - qd).max(0.0)];
+        [
+            [self.slope * (self.upper - q) - up * up, -self.slope, -2.0 * up],
+            [self.slope * (q - self.lower) - down * down, self.slope, 2.0 * down],
+        ]
+    }
+}
+
 /// A joint that moves, and the fixed transform before it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {

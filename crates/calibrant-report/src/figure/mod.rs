@@ -53,8 +53,8 @@ pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use machine::{
-    PLAYER_SCRIPT, Scene, budget_bars, correction_bars, player, residual_coherence, residual_densities,
-    residuals_and_speed, sensor_on_tip, source_in_words, three_views,
+    PLAYER_SCRIPT, Scene, budget_bars, correction_bars, joint_figure, player, residual_coherence,
+    residual_densities, residuals_and_speed, sensor_on_tip, source_in_words, three_views,
 };
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
 pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};

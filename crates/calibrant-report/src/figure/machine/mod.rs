@@ -4,6 +4,7 @@
 
 mod budget;
 mod geometry;
+mod joints;
 mod mount;
 mod player;
 mod residuals;
@@ -13,6 +14,7 @@ mod views;
 
 pub(crate) use budget::{budget_bars, source_in_words};
 pub(crate) use geometry::correction_bars;
+pub(crate) use joints::joint_figure;
 pub(crate) use mount::sensor_on_tip;
 pub(crate) use player::{PLAYER_SCRIPT, player};
 pub(crate) use residuals::residuals_and_speed;

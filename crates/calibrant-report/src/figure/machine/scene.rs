@@ -1,8 +1,9 @@
 //! What pictures of a machine show: its postures over time, and the sensor on its tip.
 
-use calibrant_machine::chain::SensorMount;
-use calibrant_machine::estimate::MachineCalibration;
+use calibrant_machine::chain::{KinematicChain, SensorMount};
+use calibrant_machine::estimate::{MachineCalibration, MachineSetup};
 use calibrant_machine::reference::{Motion, Posture};
+use calibrant_machine::spline::VectorSpline;
 use nalgebra::Vector3;
 
 /// Largest number of postures along the path.
@@ -87,6 +88,39 @@ impl Scene {
         };
         scene.frame();
         Some(scene)
+    }
+
+    /// Of a trajectory of a chain.
+    pub(crate) fn of_trajectory(motion: &VectorSpline, chain: &KinematicChain, setup: &MachineSetup) -> Self {
+        let nominal = chain.nominal();
+        let knots = motion.knots;
+        let duration_s = knots.step_s * knots.intervals as f64;
+        let postures = |count: usize| -> Vec<Posture> {
+            let at = |k: usize| {
+                let time_s = knots.start_s + duration_s * k as f64 / (count - 1) as f64;
+                let positions = motion.at(time_s, 0);
+                let velocity = nominal.tip_velocity(&positions, &motion.at(time_s, 1));
+                Posture {
+                    time_s,
+                    frames: nominal.frames(&positions),
+                    speed_mps: velocity.linear_mps.norm(),
+                    rate_radps: velocity.rate_radps.norm(),
+                }
+            };
+            (0..count).map(at).collect()
+        };
+        let mount = SensorMount { lever_m: setup.lever_m, tip_from_sensor: setup.tip_from_sensor };
+        let mut scene = Self {
+            path: postures(((duration_s / PATH_STEP_S) as usize + 1).clamp(2, PATH)),
+            played: postures(PLAYED),
+            played_path: postures(PLAYED_PATH),
+            mount,
+            is_chain: true,
+            centre: Vector3::zeros(),
+            half: Vector3::repeat(1.0),
+        };
+        scene.frame();
+        scene
     }
 
     /// Centre and extent of all that is drawn.

@@ -1,0 +1,191 @@
+//! The sections of a trajectory, in their order.
+
+use super::limits::{broken, limit_table, nearest_pair};
+use super::predicted::{bars, promised_table, shares};
+use crate::About;
+use crate::figure::{PLAYER_SCRIPT, Scene, joint_figure, player, three_views};
+use crate::number_format::{counted, short, significant};
+use crate::sheet::{Grade, Section, Sheet, SheetVerdict, Shown};
+use calibrant_machine_design::{Kept, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem};
+
+/// What a reading is.
+const MODEL: &str = "Readings are y = S f + b of the accelerometer and y = S ω + b of the gyroscope; sd is the standard deviation that a calibration from a recording of \
+    the trajectory will state.";
+
+/// Values within this of the best are called equal, nats: 1 % in each of two dozen standard deviations.
+const EQUAL: f64 = 0.5;
+
+/// The best trajectory of a machine as a sheet.
+#[must_use]
+pub fn trajectory_sheet<'a>(
+    design: &'a TrajectoryDesign,
+    problem: &'a TrajectoryProblem<'a>,
+    about: &'a About,
+) -> Sheet<'a> {
+    let best = &design.optimal;
+    let (random, optimal) = (("random motion", &design.random), ("optimal", best));
+    let proved = best.limits.iter().all(|proof| proof.kept == Kept::Proved);
+    let (grade, word) =
+        if proved { (Grade::Good, "✓ Found.") } else { (Grade::Caution, "! Not all limits are proved.") };
+    let mut verdict = SheetVerdict::new(grade, word, in_words(design, problem));
+    verdict = verdict.with("Findings", about.findings.clone());
+    let mut predicted = Section::new("Predicted standard deviations").lead(
+        "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. The random motion is \
+         admissible, and moves at full speed: the first start of the search.",
+    );
+    predicted.table(promised_table(random, Some(optimal)));
+    predicted.line(values(design, problem));
+    let sections = vec![
+        predicted,
+        budget(best),
+        path(best, problem),
+        limits(best, problem),
+        motion(best, problem),
+        search(design),
+    ];
+    about.sheet("Trajectory of a machine", verdict, sections, MODEL)
+}
+
+/// The evaluation of a trajectory as a sheet, beside the best one where it was sought.
+#[must_use]
+pub fn trajectory_evaluation_sheet<'a>(
+    evaluation: &'a TrajectoryEvaluation,
+    best: Option<&'a TrajectoryEvaluation>,
+    problem: &'a TrajectoryProblem<'a>,
+    about: &'a About,
+) -> Sheet<'a> {
+    let broken = broken(evaluation, problem);
+    let verdict = match (broken.is_empty(), evaluation.is_proved()) {
+        (true, true) => {
+            SheetVerdict::new(Grade::Good, "✓ All limits are kept.", "It is proved for all times.")
+        }
+        (true, false) => SheetVerdict::new(
+            Grade::Caution,
+            "! Not all limits are proved.",
+            "None is broken at the times that were looked at.",
+        ),
+        (false, _) => SheetVerdict::new(
+            Grade::Bad,
+            "✗ Limits are broken.",
+            format!(
+                "{} broken. Do not run it.",
+                if broken.len() == 1 {
+                    "One limit is".into()
+                } else {
+                    format!("{} limits are", broken.len())
+                }
+            ),
+        ),
+    };
+    let mut predicted = Section::new("Predicted standard deviations");
+    predicted.table(promised_table(("of this trajectory", evaluation), best.map(|best| ("optimal", best))));
+    let mut sections =
+        vec![predicted, budget(evaluation), path(evaluation, problem), limits(evaluation, problem)];
+    if !broken.is_empty() {
+        let mut section = Section::new("Broken limits");
+        section.list(broken);
+        sections.insert(0, section);
+    }
+    sections.push(motion(evaluation, problem));
+    about.sheet("Evaluation of a trajectory", verdict, sections, MODEL)
+}
+
+fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> String {
+    let knots = design.optimal.motion.knots;
+    let duration = short(knots.step_s * knots.intervals as f64);
+    let numbers = design.optimal.quantities.len() as f64;
+    let better = ((design.random.value - design.optimal.value) / (2.0 * numbers)).exp();
+    let mut sentence =
+        format!("A trajectory of {duration} s for {}.", counted(problem.chain.joints.len(), "joint"));
+    if better.is_finite() {
+        sentence += &format!(
+            " Its standard deviations are {} times smaller in the mean than those of a random motion at full speed.",
+            significant(better, 3)
+        );
+    }
+    if let Some(bound) = &design.bound {
+        sentence += &format!(
+            " No trajectory can have standard deviations more than {} times smaller; this bound is loose.",
+            significant(bound.times_better, 3)
+        );
+    }
+    sentence
+}
+
+fn values(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> String {
+    let bound = design
+        .bound
+        .map_or_else(String::new, |bound| format!(", no trajectory below {}", significant(bound.value, 5)));
+    format!(
+        "{} (nats): {} random, {} optimal{bound}",
+        problem.criterion.letter(),
+        significant(design.random.value, 5),
+        significant(design.optimal.value, 5)
+    )
+}
+
+fn budget(of: &TrajectoryEvaluation) -> Section<'_> {
+    let mut section =
+        Section::new("Budget").lead("Where the variance of each parameter comes from: what to improve.");
+    if !of.budget.is_empty() {
+        section.table(shares(of).shown(Shown::OnTerminal));
+        section.drawn(|| bars(of));
+    }
+    section
+}
+
+/// The posture to begin with, and the dwells.
+fn path<'a>(of: &TrajectoryEvaluation, problem: &TrajectoryProblem<'_>) -> Section<'a> {
+    let mut section = Section::new("The way");
+    let knots = of.motion.knots;
+    let start = of.motion.at(knots.start_s, 0);
+    let joints = problem.chain.joints.iter().zip(start);
+    let posture: Vec<String> = joints
+        .map(|(joint, position)| match joint.kind.turns() {
+            true => format!("{} {}°", joint.name, significant(position.to_degrees(), 4)),
+            false => format!("{} {} m", joint.name, significant(position, 4)),
+        })
+        .collect();
+    section.paragraph(format!("Begin at rest at: {}. Go there slowly, and watch the surroundings: the way to this posture is not part of the design.", posture.join(", ")));
+    section.paragraph(format!("{} of {} s.", counted(knots.intervals, "interval"), short(knots.step_s)));
+    section
+}
+
+fn limits<'a>(of: &TrajectoryEvaluation, problem: &TrajectoryProblem<'_>) -> Section<'a> {
+    let mut section = Section::new("Limits")
+        .lead("Each limit with its largest use. They hold between the samples, too: that is proved.");
+    section.table(limit_table(of, problem));
+    nearest_pair(of, problem).into_iter().for_each(|line| section.line(line));
+    section
+}
+
+fn motion<'a>(of: &'a TrajectoryEvaluation, problem: &'a TrajectoryProblem<'a>) -> Section<'a> {
+    let mut section = Section::on_page("The machine in motion").lead("To turn and to play.");
+    section.drawn(|| {
+        let scene = Scene::of_trajectory(&of.motion, problem.chain, problem.setup);
+        let script = format!("<script>\n{PLAYER_SCRIPT}</script>");
+        [player(&scene), three_views(&scene), script].join("\n")
+    });
+    section.figure(|| Some(joint_figure(&of.motion, problem)));
+    section
+}
+
+fn search<'a>(design: &TrajectoryDesign) -> Section<'a> {
+    let mut section = Section::new("The search");
+    let polished = design.starts.iter().filter(|start| start.polished);
+    let at_best = polished.clone().filter(|start| start.value - design.optimal.value < EQUAL).count();
+    section.line(format!(
+        "{} of {} that were searched to the end came within {EQUAL} nats of the best (1 % of a standard deviation).",
+        at_best,
+        counted(polished.count(), "start")
+    ));
+    if !design.dwells_s.is_empty() {
+        let each: Vec<String> = design
+            .dwells_s
+            .iter()
+            .map(|(from, to)| format!("{} to {} s", short(*from), short(*to)))
+            .collect();
+        section.line(format!("The machine stands still at {}.", each.join(", ")));
+    }
+    section
+}

@@ -1,0 +1,250 @@
+//! The trajectory of a machine that an experiment describes.
+
+use crate::design_plan::DesignChoice;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::design::{
+    CollisionsUnknown, LinksWithoutShapes, SearchInterrupted, SearchNotConverged, SearchOutOfTime,
+};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::progress::Progress;
+use calibrant_core::sensor::{ImuQuantity, SensorKind};
+use calibrant_design::DesignStatus;
+use calibrant_io::{
+    CriterionLetter, Experiment, LinksKnown, MachineDesignPlan, Plan, Trajectory, TrajectoryFile,
+    read_trajectory, write_goal, write_json, write_trajectory, write_urscript,
+};
+use calibrant_machine::estimate::MachineSetup;
+use calibrant_machine_design::world::World;
+use calibrant_machine_design::{
+    Dwells, SensorBody, TrajectoryCriterion, TrajectoryDesign, TrajectoryEvaluation, TrajectoryNoise,
+    TrajectoryProblem, TrajectorySettings, design_trajectory, evaluate_trajectory,
+};
+use std::path::{Path, PathBuf};
+
+/// The design of a machine's trajectory, as an experiment describes it.
+///
+/// # Examples
+/// ```no_run
+/// use calibrant::io::{Experiment, preset};
+/// use calibrant::{DesignChoice, TrajectoryPlan};
+///
+/// let arm = Experiment::parse(preset("arm").expect("built in"), None)?;
+/// let plan = TrajectoryPlan::new(arm, &DesignChoice::default())?;
+/// let best = plan.design()?;
+/// plan.write(&best, "best".as_ref())?;
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct TrajectoryPlan {
+    /// The experiment.
+    pub experiment: Experiment,
+    /// Chain, limits, noise and duration.
+    pub machine: MachineDesignPlan,
+    /// What is known of mount, clocks, gravity and geometry.
+    pub setup: MachineSetup,
+    /// The sensor's parameters that a recording is to determine.
+    pub quantities: Vec<ImuQuantity>,
+    /// What the machine must not touch.
+    pub world: World,
+    /// What is minimised.
+    pub criterion: TrajectoryCriterion,
+    /// How the search goes.
+    pub settings: TrajectorySettings,
+}
+
+impl TrajectoryPlan {
+    /// The design of an experiment with `[machine]`.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] as [`Experiment::machine_design`]; and for a criterion that trajectories do not have, E or M.
+    pub fn new(experiment: Experiment, choice: &DesignChoice) -> Result<Self> {
+        let machine = experiment.machine_design()?;
+        let Plan::Machine(plan) = &experiment.plan else {
+            let help = "see `calibrant init arm`";
+            let message = "the trajectory of a machine needs [machine]";
+            return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+        };
+        let setup = plan.setup(&experiment.sensor, experiment.imu.as_ref(), machine.chain.joints.len())?;
+        let quantities = experiment
+            .quantities_of(|kind| kind == SensorKind::Accelerometer || machine.rate_density.is_some());
+        let ranges: Vec<(f64, f64)> =
+            machine.limits.joints.iter().map(|limit| (limit.lower, limit.upper)).collect();
+        let world = World::new(&machine.chain, &ranges, machine.world.scene.clone());
+        let letter = choice.criterion.unwrap_or(experiment.design.criterion);
+        let criterion = criterion(letter, &experiment, &machine, &quantities)?;
+        let settings = TrajectorySettings {
+            starts: choice.starts.unwrap_or(experiment.design.starts),
+            seconds: choice.seconds,
+            seed: choice.seed.unwrap_or(experiment.design.seed),
+            interruption: choice.interruption.clone(),
+            ..TrajectorySettings::default()
+        };
+        Ok(Self { experiment, machine, setup, quantities, world, criterion, settings })
+    }
+
+    /// Tells of the stages of the search.
+    #[must_use]
+    pub fn with_progress(mut self, progress: Progress) -> Self {
+        self.settings.progress = progress;
+        self
+    }
+
+    /// The problem that is solved.
+    #[must_use]
+    pub fn problem(&self) -> TrajectoryProblem<'_> {
+        let of = &self.machine;
+        TrajectoryProblem {
+            chain: &of.chain,
+            setup: &self.setup,
+            quantities: &self.quantities,
+            noise: TrajectoryNoise {
+                force_density: Some(of.force_density),
+                rate_density: of.rate_density,
+                moving: of.moving_noise,
+            },
+            joints: of.limits.joints.clone(),
+            force_range_mps2: of.force_range_mps2,
+            rate_range_radps: of.rate_range_radps,
+            tip_speed_mps: of.limits.tip_speed_mps,
+            sensor_body: of.world.sensor_body.map(|(center_m, radius_m)| SensorBody { center_m, radius_m }),
+            surroundings: Some(&self.world),
+            clearance_m: of.world.clearance_m,
+            duration_s: of.duration_s,
+            knot_s: of.knot_s,
+            home: of.home.clone(),
+            criterion: self.criterion.clone(),
+            dwells: match of.dwells {
+                calibrant_io::Dwells::None => Dwells::None,
+                calibrant_io::Dwells::Auto => Dwells::Auto,
+                calibrant_io::Dwells::Number(number) => Dwells::Number(number),
+            },
+        }
+    }
+
+    /// Finds the best trajectory.
+    ///
+    /// # Errors
+    /// As [`design_trajectory`].
+    pub fn design(&self) -> Result<TrajectoryDesign> {
+        design_trajectory(&self.problem(), &self.settings)
+    }
+
+    /// Evaluates a trajectory: what it determines, and which limits it keeps.
+    ///
+    /// # Errors
+    /// As [`read_trajectory`] and [`evaluate_trajectory`].
+    pub fn evaluate(&self, path: &Path) -> Result<TrajectoryEvaluation> {
+        let trajectory = read_trajectory(path, &self.machine.chain)?;
+        evaluate_trajectory(&self.problem(), &trajectory.spline)
+    }
+
+    /// The same path, so many times slower: for the first run on the machine.
+    ///
+    /// # Errors
+    /// As [`evaluate_trajectory`].
+    pub fn slowed(&self, of: &TrajectoryEvaluation, times: f64) -> Result<TrajectoryEvaluation> {
+        let mut motion = of.motion.clone();
+        motion.knots.step_s *= times;
+        evaluate_trajectory(&self.problem(), &motion)
+    }
+
+    /// Writes `trajectory.csv`, `follow_joint_trajectory.yaml`, `trajectory.script` for an arm of Universal Robots, and `design.json`. Returns their paths.
+    ///
+    /// # Errors
+    /// [`Error::Output`] where one cannot be written.
+    pub fn write(&self, design: &TrajectoryDesign, directory: &Path) -> Result<Vec<PathBuf>> {
+        let at = |name: &str| directory.join(name);
+        let mut written = self.write_motion(&design.optimal, directory)?;
+        let problem = self.problem();
+        write_json(
+            &at("design.json"),
+            &TrajectoryFile { design, problem: &problem, plan: &self.machine, world: &self.world },
+        )?;
+        written.push(at("design.json"));
+        Ok(written)
+    }
+
+    /// Writes the trajectory alone, in the files that controllers take.
+    ///
+    /// # Errors
+    /// [`Error::Output`] where one cannot be written.
+    pub fn write_motion(&self, of: &TrajectoryEvaluation, directory: &Path) -> Result<Vec<PathBuf>> {
+        let at = |name: &str| directory.join(name);
+        let trajectory = Trajectory::of(&self.machine.chain, of.motion.clone());
+        write_trajectory(&at("trajectory.csv"), &trajectory)?;
+        write_goal(&at("follow_joint_trajectory.yaml"), &trajectory)?;
+        let mut written = vec![at("trajectory.csv"), at("follow_joint_trajectory.yaml")];
+        if write_urscript(&at("trajectory.script"), &trajectory)? {
+            written.push(at("trajectory.script"));
+        }
+        Ok(written)
+    }
+
+    /// What is not known of the machine's shape.
+    #[must_use]
+    pub fn notes(&self) -> Vec<Diagnostic> {
+        let world = &self.machine.world;
+        match world.links {
+            LinksKnown::Nothing => vec![CollisionsUnknown {}.into()],
+            LinksKnown::Joints => vec![LinksWithoutShapes { links: Vec::new() }.into()],
+            LinksKnown::Shapes if world.without_mesh.is_empty() => Vec::new(),
+            LinksKnown::Shapes => {
+                let links = world.without_mesh.iter().map(|of| of.link.clone()).collect();
+                vec![LinksWithoutShapes { links }.into()]
+            }
+        }
+    }
+
+    /// Why the search of a design ended before it converged.
+    #[must_use]
+    pub fn remarks(&self, design: &TrajectoryDesign) -> Vec<Diagnostic> {
+        match design.status {
+            DesignStatus::Converged => Vec::new(),
+            DesignStatus::Interrupted if self.settings.interruption.is_asked() => {
+                vec![SearchInterrupted { are_poses: false }.into()]
+            }
+            DesignStatus::Interrupted => vec![SearchOutOfTime {}.into()],
+            status => vec![SearchNotConverged { at: None, status: status.name() }.into()],
+        }
+    }
+}
+
+/// Range of a criterion where the sensor's is not given: ±2 g and ±500 °/s.
+const USUAL_RANGE: [f64; 2] = [19.613_3, 8.726_646];
+
+fn criterion(
+    letter: CriterionLetter,
+    experiment: &Experiment,
+    machine: &MachineDesignPlan,
+    quantities: &[ImuQuantity],
+) -> Result<TrajectoryCriterion> {
+    let finite = |range: f64, usual: f64| if range.is_finite() { range } else { usual };
+    let force = experiment.design.range_mps2.map(f64::from);
+    let range = [
+        force.unwrap_or_else(|| finite(machine.force_range_mps2.min(), USUAL_RANGE[0])),
+        finite(machine.rate_range_radps.min(), USUAL_RANGE[1]),
+    ];
+    let refused = |key: &str, message: &str, help: &str| {
+        Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help).about_key(key)))
+    };
+    Ok(match letter {
+        CriterionLetter::D => TrajectoryCriterion::D,
+        CriterionLetter::A => TrajectoryCriterion::A { range },
+        CriterionLetter::I => TrajectoryCriterion::I { range },
+        CriterionLetter::C => {
+            let weight = |quantity: &ImuQuantity| {
+                experiment.design.weights.get(&quantity.name()).map_or(0.0, |weight| weight.get())
+            };
+            let weights: Vec<f64> = quantities.iter().map(weight).collect();
+            if weights.iter().all(|weight| *weight == 0.0) {
+                let help = "weights = { \"accelerometer.scale.x\" = 1.0 } in [design]";
+                return refused("design.weights", "criterion c needs a weight above 0", help);
+            }
+            TrajectoryCriterion::C { weights }
+        }
+        CriterionLetter::E | CriterionLetter::M => {
+            let message = "trajectories of machines have the criteria D, A, c and I";
+            return refused("design.criterion", message, "criterion = \"D\" in [design]");
+        }
+    })
+}
