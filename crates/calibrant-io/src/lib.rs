@@ -50,9 +50,9 @@ pub use convention::{
 pub use experiment::presets::{PRESETS, Preset, preset};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Dwells, Experiment, ExperimentFile, HoldsPlan, ImuPlan,
-    LinksKnown, MachineDesignPlan, MachineLimits, MachinePlan, MachineSimulation,
-    MachineWorld, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, UrdfSource,
-    experiment_keys, nearest, read_acceptance, read_columns, sections as experiment_sections,
+    LinksKnown, MachineDesignPlan, MachineLimits, MachinePlan, MachineSimulation, MachineWorld, MotionPlan,
+    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, UrdfSource, experiment_keys, nearest,
+    read_acceptance, read_columns, sections as experiment_sections,
 };
 pub use files::atomic_output::{remove_unfinished, write_atomically, write_text};
 pub use files::finished::Finished;

@@ -123,13 +123,12 @@ fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
     let cross = -(covariance * gain.transpose());
     let own = solved(&(&of.nuisances + &prior), &DMatrix::identity(size, size))?;
     let own = own - &gain * &cross;
-    let sources: Vec<Option<Source>> =
-        layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
+    let sources: Vec<Source> = layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
     let quantities = sensing.quantities();
     let row = |(i, quantity): (usize, &ImuQuantity)| {
         let variance = covariance[(i, i)];
         let mut parts = Source::ALL.map(|source| {
-            let inside = |k: &usize| sources[*k] == Some(source);
+            let inside = |k: &usize| sources[*k] == source;
             let places: Vec<usize> = (0..size).filter(inside).collect();
             let pairs = places.iter().flat_map(|a| places.iter().map(move |b| (*a, *b)));
             pairs.map(|(a, b)| cross[(i, a)] * prior[(a, b)] * cross[(i, b)]).sum::<f64>()

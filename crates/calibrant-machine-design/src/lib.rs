@@ -25,9 +25,9 @@ mod motion;
 mod problem;
 mod recursion;
 mod search;
-pub mod world;
 #[cfg(test)]
 mod spheres_for_tests;
+pub mod world;
 pub mod world;
 
 pub use bound::TrajectoryBound;

@@ -31,7 +31,9 @@ impl TrajectoryProblem<'_> {
             | TrajectoryLimit::Acceleration(j)
             | TrajectoryLimit::Jerk(j)
             | TrajectoryLimit::SpeedNearEnds(j) => self.chain.joints[j].name.clone(),
-            TrajectoryLimit::Force(axis) | TrajectoryLimit::Rate(axis) => format!("sensor {}", Axis::ALL[axis]),
+            TrajectoryLimit::Force(axis) | TrajectoryLimit::Rate(axis) => {
+                format!("sensor {}", Axis::ALL[axis])
+            }
             TrajectoryLimit::TipSpeed => "tip".into(),
             TrajectoryLimit::SensorSpeed => "sensor body".into(),
             TrajectoryLimit::Clearance(row) => {

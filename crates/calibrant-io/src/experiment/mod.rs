@@ -59,7 +59,7 @@ pub use holds::HoldsPlan;
 pub use known_keys::sections as experiment_keys;
 pub use machine::MachinePlan;
 pub use machine_design::{Dwells, MachineDesignPlan};
-pub use machine_limits::{MachineLimits};
+pub use machine_limits::MachineLimits;
 pub use machine_simulation::MachineSimulation;
 pub use machine_source::UrdfSource;
 pub use machine_world::{LinksKnown, MachineWorld};

@@ -8,7 +8,8 @@ use calibrant_core::json_object;
 use calibrant_machine::estimate::{BudgetRow, Source};
 use calibrant_machine_design::world::{Body, Capsule, LeftOutPair, Reason, World};
 use calibrant_machine_design::{
-    Kept, LimitProof, TrajectoryBound, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem, TrajectoryStart,
+    Kept, LimitProof, TrajectoryBound, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem,
+    TrajectoryStart,
 };
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -3,8 +3,8 @@
 use super::{LimitProof, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::limits::{Posture, Surroundings};
-use crate::world::{BodyPair, Proximity};
 use crate::motion::{Knots, derivative, rows_at};
+use crate::world::{BodyPair, Proximity};
 use nalgebra::DMatrix;
 
 /// A distance may be smaller by this, m: rounding.

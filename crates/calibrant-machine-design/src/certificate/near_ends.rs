@@ -2,8 +2,8 @@
 
 use super::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
 use crate::TrajectoryProblem;
-use calibrant_machine::chain::SpeedNearEnds;
 use crate::motion::Knots;
+use calibrant_machine::chain::SpeedNearEnds;
 use nalgebra::DMatrix;
 
 /// Halvings of an interval at most.

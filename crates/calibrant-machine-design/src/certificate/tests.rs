@@ -1,12 +1,12 @@
 //! The certificate against dense samples, and motions that break one limit.
 
 use super::*;
+use crate::SensorBody;
 use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
 use crate::information::Sensing;
 use crate::spheres_for_tests::Spheres;
-use crate::SensorBody;
-use calibrant_machine::chain::SpeedNearEnds;
 use calibrant_machine::chain::JointState;
+use calibrant_machine::chain::SpeedNearEnds;
 use nalgebra::Vector3;
 
 /// Peaks of everything on dense samples of a motion, with the limits set a little beyond them and a little within.

@@ -15,10 +15,10 @@
 
 use super::kinematics::Posture;
 use super::{SensorBody, Surroundings};
-use crate::world::Proximity;
 use crate::TrajectoryProblem;
 use crate::motion::{Grid, derivative};
 use crate::recursion::{JointAt, JointBars, Links, Moving, Sweep};
+use crate::world::Proximity;
 use nalgebra::{DMatrix, Vector3};
 
 /// `D`: distances that matter, m. An arm at 2 m/s covers it in a tenth of a second, about the distance of two times at which limits are taken.

@@ -17,7 +17,7 @@ use modules::Modules;
 const LAYERS: &[&[&str]] = &[
     &["calibrant-core"],
     &["calibrant-design", "calibrant-machine"],
-    &["calibrant-study"],
+    &["calibrant-machine-design", "calibrant-study"],
     &["calibrant-io", "calibrant-report"],
     &["calibrant-records"],
     &["calibrant"],
