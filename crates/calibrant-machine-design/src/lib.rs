@@ -28,7 +28,6 @@ mod search;
 #[cfg(test)]
 mod spheres_for_tests;
 pub mod world;
-pub mod world;
 
 pub use bound::TrajectoryBound;
 pub use certificate::{Kept, LimitProof, TrajectoryLimit};
