@@ -11,6 +11,7 @@ mod conventions;
 #[path = "../../../calibrant/tests/library/common/data.rs"]
 mod data;
 mod design;
+mod design_machine;
 mod design_poses;
 mod determinism;
 mod diagnostics;
