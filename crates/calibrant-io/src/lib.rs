@@ -7,6 +7,8 @@
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
 //! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`MachineFile`] |
 //! | shapes of its links (STL), pairs that may touch (SRDF), MoveIt's `joint_limits.yaml` | [`Urdf::bodies`], [`read_srdf`], [`read_joint_limits`] | |
+//! | `trajectory.csv` | [`read_trajectory`], [`read_reference_log`] | [`write_trajectory`] |
+//! | `follow_joint_trajectory.yaml`, `trajectory.script` | | [`write_goal`], [`write_urscript`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -37,6 +39,7 @@ mod reference_log;
 mod results;
 mod table;
 mod text;
+mod trajectory;
 mod truth;
 
 pub use convention::{
@@ -108,5 +111,9 @@ pub use results::summary::{
 pub use results::sweep::write_sweep_csv;
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text::decoding::{Checked, open_file, read_text};
+pub use trajectory::{
+    MOST_POINTS, Trajectory, goal_text, read_trajectory, urscript_text, write_goal, write_trajectory,
+    write_urscript,
+};
 pub use truth::machine::TrueMachine;
 pub use truth::sensors::Truth;

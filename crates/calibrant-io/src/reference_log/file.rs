@@ -3,6 +3,7 @@
 use super::format::ReferenceFormat;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
+use calibrant_machine::spline::VectorSpline;
 
 /// A log of a machine's motion as it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,10 @@ pub struct ReferenceLogFile {
     pub sha256: String,
     /// The time from which the times count, ns, where they count from their first and the file has another.
     pub counted_from_ns: Option<i128>,
+    /// Distance of the knots of its cubic splines, s, where the file states it: a trajectory does, and the log of a simulation of one.
+    pub knot_step_s: Option<f64>,
+    /// The trajectory through the knots, where the rows are those of one. The log has its positions at and between the knots then.
+    pub trajectory: Option<VectorSpline>,
 }
 
 impl ReferenceLogFile {

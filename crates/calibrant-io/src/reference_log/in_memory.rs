@@ -69,6 +69,8 @@ impl ReferenceLogFile {
             rows,
             sha256,
             counted_from_ns: None,
+            knot_step_s: None,
+            trajectory: None,
         };
         file.turns = vec![None; file.joints().map_or(0, |log| log.names.len())];
         Ok(file)

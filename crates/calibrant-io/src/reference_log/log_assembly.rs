@@ -13,6 +13,7 @@ use crate::recording::line_map::LineMap;
 use crate::recording::tally::Tally;
 use crate::recording::{TimeUnit, recording_quality};
 use crate::text::decoding::{Checked, refuse};
+use crate::trajectory::{between_knots, spline_through};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::log::QuaternionNorm;
 use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, ValuesMissing};
@@ -53,11 +54,27 @@ pub(super) fn assemble(
     let times_s: Vec<f64> = kept.iter().map(|&row| rows.times[row]).collect();
     let (mut log, turns) = match content {
         Content::Poses => (ReferenceLog::Poses(poses(times_s, &kept, &rows, &mut findings)?), Vec::new()),
-        Content::Joints { names, turns, has_velocities } => {
+        Content::Joints { names, turns, has_velocities, derivatives } => {
             let joints = names.len();
+            if derivatives == 2 {
+                let all: Vec<f64> = kept.iter().flat_map(|&row| value(row)).copied().collect();
+                if let Some(trajectory) = spline_through(&times_s, &all, joints) {
+                    return Ok(ReferenceLogFile {
+                        log: ReferenceLog::Joints(between_knots(&trajectory, names)),
+                        turns,
+                        format,
+                        findings,
+                        rows: number_of_rows,
+                        sha256: String::new(),
+                        counted_from_ns: clock.counted_from_ns,
+                        knot_step_s: Some(trajectory.knots.step_s),
+                        trajectory: Some(trajectory),
+                    });
+                }
+            }
             let positions = kept.iter().flat_map(|&row| &value(row)[..joints]).copied().collect();
-            let velocities =
-                has_velocities.then(|| kept.iter().flat_map(|&row| &value(row)[joints..]).copied().collect());
+            let velocities = has_velocities
+                .then(|| kept.iter().flat_map(|&row| &value(row)[joints..2 * joints]).copied().collect());
             let mut log = JointLog { names, times_s, positions, velocities };
             findings.extend(unwrap_angles(&mut log, &turns));
             (ReferenceLog::Joints(log), turns)
@@ -77,6 +94,8 @@ pub(super) fn assemble(
         rows: number_of_rows,
         sha256: String::new(),
         counted_from_ns: clock.counted_from_ns,
+        knot_step_s: None,
+        trajectory: None,
     })
 }
 

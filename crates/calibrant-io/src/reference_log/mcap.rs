@@ -102,7 +102,7 @@ fn of_joints(messages: &[JointState]) -> (Content, Rows) {
         }
     }
     let turns = vec![None; names.len()];
-    (Content::Joints { names, turns, has_velocities }, rows)
+    (Content::Joints { names, turns, has_velocities, derivatives: usize::from(has_velocities) }, rows)
 }
 
 /// Rows with these times and no values yet.

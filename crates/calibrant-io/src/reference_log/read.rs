@@ -72,9 +72,13 @@ fn with_checksum((file, sha256): (ReferenceLogFile, String)) -> ReferenceLogFile
     ReferenceLogFile { sha256, ..file }
 }
 
+/// The comment of a log that states the distance of the knots.
+pub(super) const KNOT_STEP: &str = "knot_step_s";
+
 fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
     let head = Head::find(source.text).map_err(without_table)?;
     let line = head.line();
+    let knot_step_s = head.number(KNOT_STEP);
     let columns = TextColumns::find(&head, options)?;
     let layout = columns.layout(head.delimiter);
     let mut reader = LogReader::new(&layout, &columns.factors, source.estimated_rows(&head));
@@ -88,7 +92,9 @@ fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<Refe
         findings.push(Diagnostic::from(found).at_line(Some(line)));
     }
     let clock = (columns.time_name(), columns.time_unit);
-    assemble(columns.format, columns.content, (&clock.0, clock.1), rows, findings)
+    let mut file = assemble(columns.format, columns.content, (&clock.0, clock.1), rows, findings)?;
+    file.knot_step_s = file.knot_step_s.or(knot_step_s);
+    Ok(file)
 }
 
 /// The error about a text without a table, with the remedy for a log.

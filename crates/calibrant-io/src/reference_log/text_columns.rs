@@ -92,7 +92,7 @@ impl TextColumns {
             let joint = |number: usize| format!("actual_q_{number}");
             let column = |(number, is_velocity)| JointColumn {
                 joint: joint(number),
-                is_velocity,
+                derivative: usize::from(is_velocity),
                 turns: true,
                 factor: 1.0,
             };
@@ -108,7 +108,7 @@ impl TextColumns {
         } else {
             let columns: Vec<_> = names.iter().map(|name| joint_column(name)).collect();
             let mut joints: Vec<String> = Vec::new();
-            for column in columns.iter().flatten().filter(|column| !column.is_velocity) {
+            for column in columns.iter().flatten().filter(|column| column.derivative == 0) {
                 if !joints.contains(&column.joint) {
                     joints.push(column.joint.clone());
                 }
@@ -173,23 +173,24 @@ impl TextColumns {
         columns: &[Option<JointColumn>],
     ) -> Checked<Self> {
         let mut slots = vec![None; names.len()];
-        let mut factors = vec![1.0; 2 * joints.len()];
-        let mut has_velocities = false;
+        let mut factors = vec![1.0; 3 * joints.len()];
+        let mut has = [true, false, false];
         let mut turning = vec![None; joints.len()];
         for (k, column) in columns.iter().enumerate() {
-            let Some(JointColumn { joint, is_velocity, turns, factor }) = column else { continue };
+            let Some(JointColumn { joint, derivative, turns, factor }) = column else { continue };
             let Some(number) = joints.iter().position(|known| known == joint) else { continue };
-            let value = if *is_velocity { joints.len() + number } else { number };
+            let value = derivative * joints.len() + number;
             check_repeated(&slots, 1 + value, k, &names)?;
             slots[k] = Some(1 + value);
             factors[value] = *factor;
-            has_velocities |= is_velocity;
-            if !is_velocity {
+            has[*derivative] = true;
+            if *derivative == 0 {
                 turning[number] = Some(*turns);
             }
         }
-        factors.truncate(if has_velocities { 2 } else { 1 } * joints.len());
-        let content = Content::Joints { names: joints, turns: turning, has_velocities };
+        let derivatives = has.iter().rposition(|has| *has).unwrap_or(0);
+        factors.truncate((1 + derivatives) * joints.len());
+        let content = Content::Joints { names: joints, turns: turning, has_velocities: has[1], derivatives };
         Ok(Self { format, content, names, slots, factors, time_unit: None })
     }
 

@@ -42,6 +42,8 @@ struct Moved {
     outliers: Vec<Diagnostic>,
     log: ReferenceLog,
     log_input: MachineLogInput,
+    /// Distance of the knots, s, where the log states it.
+    knot_step_s: Option<f64>,
 }
 
 fn calibrated(
@@ -72,6 +74,11 @@ impl<'e> MachineTask<'e> {
         let recorded = self.reader.read(source)?;
         let setup = self.setup()?;
         let moved = self.moved(source, recorded, (self.log, TaskOption::Motion), notes)?;
+        let on_knots_of = |moved: &Moved| MachineSetup {
+            knot_step_s: setup.knot_step_s.or(moved.knot_step_s),
+            ..setup.clone()
+        };
+        let (setup_of_other, setup) = (&on_knots_of, on_knots_of(&moved));
         let nominal = self.experiment.nominal()?;
         let quantities = self.experiment.quantities(&moved.recorded.recording);
         let settings = &options.machine_settings();
@@ -94,6 +101,7 @@ impl<'e> MachineTask<'e> {
         calibration.warnings.extend(beyond_limits(&moved.log, self.chain));
         let mut validations = Vec::new();
         if let Some((other, second)) = &other {
+            let setup = setup_of_other(second);
             let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), settings, other)?;
             let name = file_name(other.path());
             let source = MachineValidationSource::Recording { name };
@@ -149,8 +157,9 @@ impl<'e> MachineTask<'e> {
                 &beside
             }
         };
+        let knot_step_s = log.knot_step_s();
         let (log, log_input) = log.for_recording(self.chain, recorded.counted_from_ns, notes)?;
-        Ok(Moved { recorded, outliers, log, log_input })
+        Ok(Moved { recorded, outliers, log, log_input, knot_step_s })
     }
 
     /// The other recording of the sensor beside its log.

@@ -50,6 +50,11 @@ impl LogFile {
         Err(Error::experiment(InputError::new(Refusal::KeyMissing, message, help).answered_by(option, [])))
     }
 
+    /// Distance of the knots of its splines, s, where the file states it.
+    pub(crate) fn knot_step_s(&self) -> Option<f64> {
+        self.file.knot_step_s
+    }
+
     /// The log on the clock of a recording: the joints of the chain in their order, or poses that were measured.
     pub(crate) fn for_recording(
         &self,

@@ -17,6 +17,7 @@ use calibrant_machine::estimate::{MachineSetup, MountingPrior};
 use calibrant_machine::simulate::{
     LogErrors, SensorErrors, SensorSampling, draw_machine, record_log, record_sensors,
 };
+use calibrant_machine::spline::Degree;
 use nalgebra::Vector3;
 
 /// Noise of a joint's encoder where none is given, rad or m.
@@ -73,7 +74,12 @@ pub(super) fn simulate(
     let (quantities, units) = (of_experiment.quantities(), of_experiment.units());
     let truth = Truth::of_imu(random.seed, &quantities, units, &machine.parameters.imu)
         .on_machine(TrueMachine::new(&machine, chain.as_ref(), &sensors, &log_errors));
-    Ok(Simulation { log: Some((log, log_units)), notes, ..Simulation::new(random.seed, recording, truth) })
+    Ok(Simulation {
+        log: Some((log, log_units)),
+        knot_step_s: (knots.degree == Degree::Cubic).then_some(knots.step_s),
+        notes,
+        ..Simulation::new(random.seed, recording, truth)
+    })
 }
 
 /// The noise of each component of the log: what the experiment states, or what is usual.

@@ -75,7 +75,8 @@ fn given(
     let refused = |message: String, help: &str| {
         Error::recording(InputError::new(Refusal::MachineUnsolved, message, help).in_file(path))
     };
-    let MotionOfLog { motion, sd, .. } = motion_of_log(&log, chain, setup.knot_step_s).ok_or_else(|| {
+    let MotionOfLog { motion, sd, .. } = motion_of_log(&log, chain, setup.knot_step_s.or(file.knot_step_s))
+        .ok_or_else(|| {
         refused("the log has fewer than 8 samples".into(), "give a log of the whole motion")
     })?;
     let knots = motion.knots();

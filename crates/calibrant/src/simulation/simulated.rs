@@ -25,6 +25,8 @@ pub struct Simulation {
     pub true_motion: Option<JerkControlledMotion>,
     /// The log of a machine, with the unit of each joint.
     pub log: Option<(ReferenceLog, Vec<&'static str>)>,
+    /// Distance of the knots, s, where the machine moved on cubic splines.
+    pub knot_step_s: Option<f64>,
     /// What was noticed.
     pub notes: Vec<Diagnostic>,
 }
@@ -33,7 +35,16 @@ impl Simulation {
     /// One of a recording without a motion or a log.
     pub(super) fn new(seed: u64, recording: impl Into<ImuRecording>, truth: Truth) -> Self {
         let recording = recording.into();
-        Self { seed, recording, truth, motion: None, true_motion: None, log: None, notes: Vec::new() }
+        Self {
+            seed,
+            recording,
+            truth,
+            motion: None,
+            true_motion: None,
+            log: None,
+            knot_step_s: None,
+            notes: Vec::new(),
+        }
     }
 
     /// Number of samples.
@@ -57,7 +68,9 @@ impl Simulation {
         }
         write_json(&path("truth.json"), &self.truth)?;
         match &self.log {
-            Some((ReferenceLog::Joints(log), units)) => write_joint_log(&path("joints.csv"), log, units)?,
+            Some((ReferenceLog::Joints(log), units)) => {
+                write_joint_log(&path("joints.csv"), log, units, self.knot_step_s)?;
+            }
             Some((ReferenceLog::Poses(log), _)) => write_pose_log(&path("poses.csv"), log)?,
             None => {}
         }
