@@ -108,7 +108,7 @@ fn no_sampled_points_of_two_bodies_are_nearer_than_their_distance() {
             let share = (numbers.next(0.7) + 0.5).clamp(0.0, 1.0);
             capsule.ends_m[0] + along * share + numbers.vector(1.0).normalize() * capsule.radius_m
         };
-        (0..1500).map(point).collect()
+        (0..500).map(point).collect()
     };
     let mut near = 0;
     for (row, found) in distances(&chain, &world, &q).iter().enumerate() {
@@ -121,7 +121,7 @@ fn no_sampled_points_of_two_bodies_are_nearer_than_their_distance() {
         let least = pairs.fold(f64::MAX, f64::min);
         assert!(least >= found.distance_m - 1e-12, "{:?}", world.pair(row));
         if found.distance_m > 0.0 && found.distance_m < FAR_M {
-            assert!(least < found.distance_m + 0.02, "{least} against {found:?}");
+            assert!(least < found.distance_m + 0.03, "{least} against {found:?}");
             near += 1;
         }
     }
