@@ -1,4 +1,4 @@
-//! Designs the trajectory of a case file (`peers/arm/cases`), and writes it: `case CASE.json trajectory.csv [seed] [starts]`.
+//! Designs the trajectory of a case file in JSON, and writes it: `case CASE.json trajectory.csv [seed] [starts]`.
 
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant_machine::chain::{Joint, JointKind, JointLimits, KinematicChain};

@@ -95,7 +95,7 @@ pub struct TrajectorySettings {
 impl Default for TrajectorySettings {
     fn default() -> Self {
         Self {
-            starts: 8,
+            starts: 16,
             kept: 4,
             seconds: None,
             seed: 1,

@@ -194,6 +194,19 @@ impl<'a> FullInformation<'a> {
             }
             self.sampled.sweep(k).reverse(&sensing.links, joints, bar, &mut bars);
 
+            if p == 0 {
+                for (j, bar) in bars.iter().enumerate() {
+                    let of_growth = told * sensing.growth.slope(joints, j);
+                    scatter(
+                        &mut gradient,
+                        &self.quadrature.grid,
+                        k,
+                        j,
+                        [bar.q, bar.qd + of_growth, bar.qdd, 0.0],
+                    );
+                }
+                continue;
+            }
             let after_middle_s = self.quadrature.grid.time_s(k) - self.quadrature.middle_s;
             let combination = |place: usize| {
                 Six(std::array::from_fn(|row| -2.0 * weights[row / 3] * g[row][ENTRIES + place]))

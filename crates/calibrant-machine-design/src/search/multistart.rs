@@ -19,9 +19,15 @@ const COARSE: usize = 10;
 const POINTS: [usize; 3] = [5, 4, 3];
 const TIMES: [usize; 3] = [5, 4, 3];
 /// First and last barrier parameter on each level, in nats.
-const BARRIERS: [(f64, f64); 3] = [(0.3, 0.02), (0.1, 0.01), (0.05, 0.002)];
+const BARRIERS: [(f64, f64); 3] = [(0.3, 0.02), (0.1, 0.01), (0.05, 5e-4)];
 /// A step that lowers the barrier function by less than this is small, on each level.
-const STALLS: [f64; 3] = [0.05, 0.02, 0.005];
+const STALLS: [f64; 3] = [0.05, 0.02, 0.003];
+/// Iterations at most. The last stage goes on from the finest knots, so their optimum need not be exact.
+const ITERATIONS: [usize; 3] = [usize::MAX, usize::MAX, 80];
+/// Where there are dwells, the last stage begins with this many times its iterations in which they are held: near rest, noise that grows makes steps short.
+const HELD: usize = 2;
+/// The same of the last stage, with the full information.
+const POLISH: ((f64, f64), f64) = ((1e-3, 4e-4), 0.002);
 /// What the search holds back.
 pub(crate) const HELD_BACK: HeldBack = HeldBack { clearance_m: 0.0025, share: 0.008 };
 
@@ -77,17 +83,22 @@ pub(crate) fn search(
             candidates = candidates.into_iter().map(Candidate::halved).collect();
         }
         let level = level(place + 3 - levels.len(), settings, interruption);
-        candidates = candidates.into_par_iter().map(|one| shared.improve(one, &level)).collect();
+        candidates = candidates
+            .into_par_iter()
+            .map(|one| shared.with_full_value(shared.improve(one, &level), level.points))
+            .collect();
         sort(&mut candidates);
         fallbacks.push(candidates[0].clone());
         settings.progress.tell("search", place as u64 + 1, stages);
     }
-    // dwells are free to go, and the nuisances count
+    // the nuisances count; then dwells are free to go
     let kept = (settings.kept / 2).clamp(1, candidates.len());
     left_behind.extend(candidates.split_off(kept).iter().map(|one| one.outcome(false)));
-    let polish = polish(knob("I3", settings.polish as f64) as usize, held_back(), interruption);
+    let polish = polish(settings.polish, HELD_BACK, interruption);
+    let held = self::polish(HELD * settings.polish, HELD_BACK, interruption);
     candidates = candidates
         .into_par_iter()
+        .map(|one| if one.dwells.is_empty() { one } else { shared.improve(one, &held) })
         .map(|one| shared.improve(Candidate { dwells: Vec::new(), ..one }, &polish))
         .collect();
     sort(&mut candidates);
@@ -120,13 +131,13 @@ pub(crate) fn repaired(
 fn polish(iterations: usize, held_back: HeldBack, interruption: &Interruption) -> Level {
     Level {
         points: POINTS[2],
-        times: knob("T2", TIMES[2] as f64) as usize,
+        times: TIMES[2],
         kind: Kind::Full,
         held_back,
         steps: Steps {
-            barrier: (knob("A3", 0.005), knob("B3", 0.002)),
+            barrier: POLISH.0,
             max_iterations: iterations,
-            stall: knob("S3", 0.003),
+            stall: POLISH.1,
             interruption: interruption.clone(),
         },
     }
@@ -150,17 +161,14 @@ fn no_start(problem: &TrajectoryProblem<'_>) -> Error {
 
 fn level(place: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {
     Level {
-        points: knob(&format!("P{place}"), POINTS[place] as f64) as usize,
-        times: knob(&format!("T{place}"), TIMES[place] as f64) as usize,
+        points: POINTS[place],
+        times: TIMES[place],
         kind: Kind::Plain,
-        held_back: held_back(),
+        held_back: HELD_BACK,
         steps: Steps {
-            barrier: (
-                knob(&format!("A{place}"), BARRIERS[place].0),
-                knob(&format!("B{place}"), BARRIERS[place].1),
-            ),
-            max_iterations: knob(&format!("I{place}"), settings.max_iterations as f64) as usize,
-            stall: knob(&format!("S{place}"), STALLS[place]),
+            barrier: BARRIERS[place],
+            max_iterations: settings.max_iterations.min(ITERATIONS[place]),
+            stall: STALLS[place],
             interruption: interruption.clone(),
         },
     }
@@ -190,7 +198,7 @@ fn drawn(shared: Shared<'_>, settings: &TrajectorySettings, knots: Knots) -> Vec
         };
         let ties = shared.ties(&candidate);
         let mut rng = stream(settings.seed, Purpose::Start, start as u64);
-        let mut starts = Starts::new(shared.pointwise(held_back()), knots, &candidate.dwells);
+        let mut starts = Starts::new(shared.pointwise(HELD_BACK), knots, &candidate.dwells);
         candidate.controls = starts.draw(&ties, &mut rng)?;
         Some(candidate)
     };
@@ -232,12 +240,3 @@ fn sizes(problem: &TrajectoryProblem<'_>) -> Vec<f64> {
 }
 
 const _: () = assert!(RUN > REST);
-
-fn held_back() -> HeldBack {
-    HeldBack { clearance_m: knob("HC", HELD_BACK.clearance_m), share: knob("HS", HELD_BACK.share) }
-}
-
-// KNOBS
-fn knob(name: &str, otherwise: f64) -> f64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(otherwise)
-}

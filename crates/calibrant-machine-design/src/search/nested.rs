@@ -85,6 +85,12 @@ impl<'a> Shared<'a> {
         Ties::new(candidate.knots.controls(), self.problem.home.as_deref(), self.sizes, &candidate.dwells)
     }
 
+    /// With the value at the full information: by it candidates are compared.
+    pub(crate) fn with_full_value(&self, candidate: Candidate, points: usize) -> Candidate {
+        let mut full = Objective::new(self.problem, self.sensing, Kind::Full, candidate.knots, points);
+        Candidate { value: full.value(&candidate.controls), ..candidate }
+    }
+
     /// Improves a motion on its knots.
     pub(crate) fn improve(&self, candidate: Candidate, level: &Level) -> Candidate {
         let (problem, knots) = (self.problem, candidate.knots);
@@ -94,15 +100,8 @@ impl<'a> Shared<'a> {
         let linear = Linear::new(&problem.joints, &knots, &ties);
         let mut run =
             InteriorPoint { objective: &mut objective, rows: &mut rows, linear: &linear, ties: &ties };
-        let begun = std::time::Instant::now(); // TRACE
         let Reached { x, value, iterations, status, relax } =
             run.run(ties.unknowns_of(&candidate.controls), &level.steps);
-        if std::env::var("TRACE").is_ok() {
-            eprintln!(
-                "start {} h {} {:?}: {:.3} -> {value:.3} relax {relax:.1e} {iterations} iterations {status:?} {:.2} s",
-                candidate.start, knots.step_s, level.kind, candidate.value, begun.elapsed().as_secs_f64()
-            ); // TRACE
-        }
         Candidate {
             controls: ties.controls_of(&x),
             value,
