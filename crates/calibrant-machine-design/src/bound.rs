@@ -73,7 +73,7 @@ fn cosines(problem: &TrajectoryProblem<'_>) -> DMatrix<f64> {
             rotation *= joints[j].origin.rotation;
             let along = joints[last].axis.dot(&(rotation * joints[j].axis.into_inner()));
             let twist = along.clamp(-1.0, 1.0).acos();
-            if joints[last].kind.turns() {
+            if joints[last].kind.turns() && joints[j].kind.turns() {
                 let fold = |x: f64| (x + twist).min(std::f64::consts::TAU - x - twist);
                 let lower = if low <= twist && twist <= high {
                     0.0
@@ -93,10 +93,8 @@ fn cosines(problem: &TrajectoryProblem<'_>) -> DMatrix<f64> {
                     low.cos().abs().max(high.cos().abs())
                 };
                 (cosines[(i, j)], cosines[(j, i)]) = (most, most);
-                if joints[j].kind.turns() {
-                    rotation = nalgebra::UnitQuaternion::identity();
-                    last = j;
-                }
+                rotation = nalgebra::UnitQuaternion::identity();
+                last = j;
             }
         }
         if !joints[i].kind.turns() {
@@ -108,10 +106,9 @@ fn cosines(problem: &TrajectoryProblem<'_>) -> DMatrix<f64> {
     cosines
 }
 
-/// `E|f|²` and `E|w|²` at most, `E|w|²` without the last joint that turns, its root mean square speed, and its axis in the sensor.
+/// `E|f|²` at most, `E|w|²` without the last joint that turns, its root mean square speed, and its axis in the sensor.
 struct Moments {
     force: f64,
-    rate: f64,
     rate_before: f64,
     last_speed: f64,
     last_axis: Vector3<f64>,
@@ -143,12 +140,12 @@ fn moments(problem: &TrajectoryProblem<'_>, sensing: &Sensing) -> Moments {
             None => Vector3::from(sensing.links.fixed[n].rho.0),
         };
         acceleration += bend(arm.norm(), angular);
-        if let Some(joint) = joints.get(j) {
+        if let (Some(joint), Some(of)) = (joints.get(j), of.get(j)) {
             if joint.kind.turns() {
-                angular += squared.sqrt() * of[j].fourth + of[j].acceleration;
+                angular += squared.sqrt() * of.fourth + of.acceleration;
             } else {
                 acceleration +=
-                    bend(of[j].largest, angular) + 2.0 * squared.sqrt() * of[j].fourth + of[j].acceleration;
+                    bend(of.largest, angular) + 2.0 * squared.sqrt() * of.fourth + of.acceleration;
             }
         }
     }
@@ -161,7 +158,6 @@ fn moments(problem: &TrajectoryProblem<'_>, sensing: &Sensing) -> Moments {
     };
     Moments {
         force: problem.setup.gravity_mps2.powi(2) + acceleration * acceleration,
-        rate: square(n, &second),
         rate_before: last.map_or(0.0, |last| square(last, &second)),
         last_speed: last.map_or(0.0, |last| of[last].second),
         last_axis: last.map_or(Vector3::z(), |last| tip(last).inverse() * joints[last].axis.into_inner()),

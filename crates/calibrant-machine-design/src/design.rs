@@ -37,9 +37,9 @@ pub struct TrajectoryStart {
     pub number: usize,
     /// Distance of the knots that it reached, s.
     pub knot_s: f64,
-    /// Value of the criterion there, in nats: with the nuisances known, except for those that were polished.
+    /// Value of the criterion there, in nats.
     pub value: f64,
-    /// Did it reach the last stage?
+    /// Did it reach the last stage, which minimises this value? Those before take the nuisances as known.
     pub polished: bool,
     /// Iterations.
     pub iterations: usize,

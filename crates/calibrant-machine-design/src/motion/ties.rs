@@ -63,11 +63,6 @@ impl Ties {
         self.sizes.len()
     }
 
-    /// Unknowns of a joint.
-    pub(crate) fn unknowns(&self) -> usize {
-        self.unknowns
-    }
-
     /// Number of all unknowns.
     pub(crate) fn len(&self) -> usize {
         self.unknowns * self.joints()

@@ -114,14 +114,12 @@ impl<T: Number> Sweep<T> {
 
     /// From the base to the sensor.
     pub(crate) fn forward(&mut self, links: &Links<T>, joints: &[JointAt<T>]) {
-        let n = links.len();
         self.motions[0] = Moving { a: links.base, ..Moving::zero() };
-        for k in 0..=n {
-            let before = self.motions[2 * k];
-            let behind = behind_fixed(&links.fixed[k], &before);
+        for (k, fixed) in links.fixed.iter().enumerate() {
+            let behind = behind_fixed(fixed, &self.motions[2 * k]);
             self.motions[2 * k + 1] = behind;
-            if k < n {
-                self.motions[2 * k + 2] = behind_joint(&links.joints[k], &joints[k], &behind);
+            if let (Some(axis), Some(at)) = (links.joints.get(k), joints.get(k)) {
+                self.motions[2 * k + 2] = behind_joint(axis, at, &behind);
             }
         }
     }

@@ -22,6 +22,10 @@ const TIMES: [usize; 3] = [5, 4, 3];
 const BARRIERS: [(f64, f64); 3] = [(0.3, 0.02), (0.1, 0.01), (0.05, 5e-4)];
 /// A step that lowers the barrier function by less than this is small, on each level.
 const STALLS: [f64; 3] = [0.05, 0.02, 0.003];
+/// Iterations at most. The last stage goes on from the finest knots, so their optimum need not be exact.
+const ITERATIONS: [usize; 3] = [usize::MAX, usize::MAX, 80];
+/// Where there are dwells, the last stage begins with this many times its iterations in which they are held: near rest, noise that grows makes steps short.
+const HELD: usize = 2;
 /// The same of the last stage, with the full information.
 const POLISH: ((f64, f64), f64) = ((1e-3, 4e-4), 0.002);
 /// What the search holds back.
@@ -79,7 +83,10 @@ pub(crate) fn search(
             candidates = candidates.into_iter().map(Candidate::halved).collect();
         }
         let level = level(place + 3 - levels.len(), settings, interruption);
-        candidates = candidates.into_par_iter().map(|one| shared.improve(one, &level)).collect();
+        candidates = candidates
+            .into_par_iter()
+            .map(|one| shared.with_full_value(shared.improve(one, &level), level.points))
+            .collect();
         sort(&mut candidates);
         fallbacks.push(candidates[0].clone());
         settings.progress.tell("search", place as u64 + 1, stages);
@@ -88,9 +95,10 @@ pub(crate) fn search(
     let kept = (settings.kept / 2).clamp(1, candidates.len());
     left_behind.extend(candidates.split_off(kept).iter().map(|one| one.outcome(false)));
     let polish = polish(settings.polish, HELD_BACK, interruption);
+    let held = self::polish(HELD * settings.polish, HELD_BACK, interruption);
     candidates = candidates
         .into_par_iter()
-        .map(|one| if one.dwells.is_empty() { one } else { shared.improve(one, &polish) })
+        .map(|one| if one.dwells.is_empty() { one } else { shared.improve(one, &held) })
         .map(|one| shared.improve(Candidate { dwells: Vec::new(), ..one }, &polish))
         .collect();
     sort(&mut candidates);
@@ -159,7 +167,7 @@ fn level(place: usize, settings: &TrajectorySettings, interruption: &Interruptio
         held_back: HELD_BACK,
         steps: Steps {
             barrier: BARRIERS[place],
-            max_iterations: settings.max_iterations,
+            max_iterations: settings.max_iterations.min(ITERATIONS[place]),
             stall: STALLS[place],
             interruption: interruption.clone(),
         },

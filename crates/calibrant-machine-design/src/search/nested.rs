@@ -85,6 +85,12 @@ impl<'a> Shared<'a> {
         Ties::new(candidate.knots.controls(), self.problem.home.as_deref(), self.sizes, &candidate.dwells)
     }
 
+    /// With the value at the full information: by it candidates are compared.
+    pub(crate) fn with_full_value(&self, candidate: Candidate, points: usize) -> Candidate {
+        let mut full = Objective::new(self.problem, self.sensing, Kind::Full, candidate.knots, points);
+        Candidate { value: full.value(&candidate.controls), ..candidate }
+    }
+
     /// Improves a motion on its knots.
     pub(crate) fn improve(&self, candidate: Candidate, level: &Level) -> Candidate {
         let (problem, knots) = (self.problem, candidate.knots);

@@ -140,8 +140,8 @@ impl<'a> Rows<'a> {
                     unknowns[count] = (unknown, [0.0; 3]);
                     count += 1;
                 }
-                for d in 0..3 {
-                    unknowns[count - 1].1[d] += of[d][r];
+                for (sum, of) in unknowns[count - 1].1.iter_mut().zip(of) {
+                    *sum += of[r];
                 }
             }
             for (place, (one, by_one)) in unknowns[..count].iter().enumerate() {

@@ -56,7 +56,7 @@ impl<'a> Starts<'a> {
                 }
             }
         }
-        self.to_and_fro(ties, rng)
+        self.about_a_posture(ties, rng)
     }
 
     /// Does interval `i` keep the pointwise limits?
@@ -183,7 +183,7 @@ impl<'a> Starts<'a> {
     }
 
     /// A posture at rest, and random control points about it, drawn towards it until the limits are kept.
-    fn to_and_fro(&mut self, ties: &Ties, rng: &mut impl Rng) -> Option<DMatrix<f64>> {
+    fn about_a_posture(&mut self, ties: &Ties, rng: &mut impl Rng) -> Option<DMatrix<f64>> {
         let problem = self.problem();
         let n = problem.joints.len();
         let posture = self.posture(rng)?;
