@@ -11,7 +11,7 @@ use crate::motion::Knots;
 use crate::{LimitProof, TrajectoryProblem};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::ImuQuantity;
-use calibrant_machine::estimate::{BudgetRow, MachineQuantity, Source};
+use calibrant_machine::estimate::{BudgetRow, MachineQuantity, Source, of_mounting};
 use calibrant_machine::spline::{Degree, VectorSpline};
 use nalgebra::DMatrix;
 
@@ -23,7 +23,7 @@ const POINTS: usize = 5;
 pub struct TrajectoryEvaluation {
     /// Positions of the joints.
     pub motion: VectorSpline,
-    /// Value of the criterion, in nats; infinite where the parameters are not determined.
+    /// Value of the criterion, in nats, of first order in what is not known; infinite where the parameters are not determined.
     pub value: f64,
     /// The parameters of the sensor.
     pub quantities: Vec<ImuQuantity>,
@@ -84,15 +84,18 @@ pub(crate) fn evaluated(
     let (information, solved) = match marginalised {
         Some(of) => {
             let found = posterior(sensing, &of);
-            (of.information, found.map(|found| (of.valued.value, of.valued.covariance, found)))
+            (
+                of.information,
+                found.map(|found| (of.valued.value, of.valued.covariance + &found.second, found)),
+            )
         }
         None => {
             (full.information().unwrap_or_else(|| DMatrix::zeros(quantities.len(), quantities.len())), None)
         }
     };
-    let (value, covariance, Posterior { budget, machine }) = match solved {
-        Some((value, covariance, posterior)) => (value, Some(covariance), posterior),
-        None => (f64::INFINITY, None, Posterior::default()),
+    let (value, covariance, budget, machine) = match solved {
+        Some((value, covariance, found)) => (value, Some(covariance), found.budget, found.machine),
+        None => (f64::INFINITY, None, Vec::new(), Vec::new()),
     };
     Ok(TrajectoryEvaluation {
         motion: knots.spline(controls),
@@ -107,8 +110,9 @@ pub(crate) fn evaluated(
 }
 
 /// Budget, and what is known of the nuisances afterwards.
-#[derive(Default)]
 struct Posterior {
+    /// What the mounting adds to the covariance beyond first order, as a calibration states it.
+    second: DMatrix<f64>,
     budget: Vec<BudgetRow>,
     machine: Vec<(MachineQuantity, f64)>,
 }
@@ -123,6 +127,9 @@ fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
     let cross = -(covariance * gain.transpose());
     let own = solved(&(&of.nuisances + &prior), &DMatrix::identity(size, size))?;
     let own = own - &gain * &cross;
+    let mut all = DMatrix::zeros(p + size, p + size);
+    all.view_mut((p, p), (size, size)).copy_from(&own);
+    let second = of_mounting(layout, &layout.nominal, &all).view((0, 0), (p, p)).into_owned();
     let sources: Vec<Source> = layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
     let quantities = sensing.quantities();
     let row = |(i, quantity): (usize, &ImuQuantity)| {
@@ -139,12 +146,18 @@ fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
                 *part = (variance - others).max(0.0);
             }
         }
-        BudgetRow { quantity: *quantity, variance, parts }
+        for (part, source) in parts.iter_mut().zip(Source::ALL) {
+            if source == Source::Mounting {
+                *part += second[(i, i)];
+            }
+        }
+        BudgetRow { quantity: *quantity, variance: variance + second[(i, i)], parts }
     };
     Some(Posterior {
         budget: quantities.iter().enumerate().map(row).collect(),
         machine: (layout.quantities[p..].iter().enumerate())
             .map(|(k, quantity)| (*quantity, own[(k, k)].max(0.0).sqrt()))
             .collect(),
+        second,
     })
 }

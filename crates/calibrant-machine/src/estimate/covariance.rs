@@ -149,7 +149,8 @@ pub(crate) fn budget(
 }
 
 /// The mean products of these changes, for all quantities; 0 where the mounting is not estimated. `covariance` is that of the quantities.
-pub(crate) fn of_mounting(
+#[must_use]
+pub fn of_mounting(
     layout: &Layout,
     parameters: &MachineParameters,
     covariance: &DMatrix<f64>,

@@ -16,6 +16,7 @@ mod validation;
 pub use begin::MotionOfLog;
 pub(crate) use begin::fitted;
 pub use calibrate::calibrate_on_machine;
+pub use covariance::of_mounting;
 pub(crate) use least_squares::predicted;
 pub use problem::{
     Layout, MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
