@@ -3,9 +3,10 @@
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant_machine::chain::{Joint, JointKind, JointLimits, KinematicChain};
 use calibrant_machine::estimate::{MachineSetup, MountingPrior};
+use calibrant_machine_design::world::{BodyPair, Proximity};
 use calibrant_machine_design::{
-    BodyPair, Dwells, JointLimit, Proximity, Surroundings, TrajectoryCriterion, TrajectoryNoise,
-    TrajectoryProblem, TrajectorySettings, design_trajectory,
+    Dwells, JointLimit, Surroundings, TrajectoryCriterion, TrajectoryNoise, TrajectoryProblem,
+    TrajectorySettings, design_trajectory,
 };
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use serde_json::Value;
