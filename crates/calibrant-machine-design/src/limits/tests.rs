@@ -5,6 +5,7 @@ use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
 use crate::information::Sensing;
 use crate::motion::{Grid, Knots, Ties};
 use crate::spheres_for_tests::Spheres;
+use calibrant_machine::chain::SpeedNearEnds;
 use nalgebra::{DMatrix, Vector3};
 
 #[test]
