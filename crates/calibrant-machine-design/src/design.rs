@@ -6,7 +6,9 @@ use crate::evaluate::evaluated;
 use crate::information::Sensing;
 use crate::problem::check;
 use crate::search::{Candidate, Found, repaired, search};
-use crate::{Kept, TrajectoryBound, TrajectoryEvaluation, TrajectoryProblem, TrajectorySettings};
+use crate::{
+    Kept, TrajectoryBound, TrajectoryEvaluation, TrajectoryProblem, TrajectorySettings, TrajectoryStart,
+};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_design::DesignStatus;
 use std::time::{Duration, Instant};
@@ -28,23 +30,6 @@ pub struct TrajectoryDesign {
     pub dwells_s: Vec<(f64, f64)>,
     /// What no trajectory can beat; `None` where there is no bound for this criterion or these parameters.
     pub bound: Option<TrajectoryBound>,
-}
-
-/// One start of the search.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TrajectoryStart {
-    /// Its number.
-    pub number: usize,
-    /// Distance of the knots that it reached, s.
-    pub knot_s: f64,
-    /// Value of the criterion there, in nats.
-    pub value: f64,
-    /// Did it reach the last stage, which minimises this value? Those before take the nuisances as known.
-    pub polished: bool,
-    /// Iterations.
-    pub iterations: usize,
-    /// How it ended.
-    pub status: DesignStatus,
 }
 
 /// Finds the best trajectory, and proves its limits.

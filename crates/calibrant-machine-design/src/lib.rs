@@ -27,12 +27,14 @@ mod recursion;
 mod search;
 #[cfg(test)]
 mod spheres_for_tests;
+mod start;
 pub mod world;
 
 pub use bound::TrajectoryBound;
 pub use certificate::{Kept, LimitProof, TrajectoryLimit};
-pub use design::{TrajectoryDesign, TrajectoryStart, design_trajectory};
+pub use design::{TrajectoryDesign, design_trajectory};
 pub use evaluate::{TrajectoryEvaluation, evaluate_trajectory};
 pub use information::TrajectoryCriterion;
 pub use limits::{JointLimit, SensorBody, Surroundings};
 pub use problem::{Dwells, TrajectoryNoise, TrajectoryProblem, TrajectorySettings};
+pub use start::TrajectoryStart;

@@ -24,6 +24,7 @@ mod known_keys;
 mod limits;
 mod machine;
 mod machine_design;
+mod machine_design_plan;
 #[cfg(test)]
 mod machine_design_tests;
 mod machine_limits;
@@ -58,7 +59,8 @@ pub use gyroscope::ImuPlan;
 pub use holds::HoldsPlan;
 pub use known_keys::sections as experiment_keys;
 pub use machine::MachinePlan;
-pub use machine_design::{Dwells, MachineDesignPlan};
+pub use machine_design::Dwells;
+pub use machine_design_plan::MachineDesignPlan;
 pub use machine_limits::MachineLimits;
 pub use machine_simulation::MachineSimulation;
 pub use machine_source::UrdfSource;

@@ -1,6 +1,6 @@
 //! Distances of bodies.
 
-use super::{LimitProof, Running, SHORTEST, TrajectoryLimit};
+use super::limit_proof::{LimitProof, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::limits::{Posture, Surroundings};
 use crate::motion::{Knots, derivative, rows_at};

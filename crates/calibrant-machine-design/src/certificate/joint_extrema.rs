@@ -1,6 +1,6 @@
 //! Extrema of the joints' positions and derivatives.
 
-use super::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
+use super::limit_proof::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::motion::Knots;
 use nalgebra::DMatrix;

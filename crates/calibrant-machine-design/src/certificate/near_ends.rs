@@ -1,6 +1,6 @@
 //! Speeds near the ends of joints: polynomials of degree four.
 
-use super::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
+use super::limit_proof::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::motion::Knots;
 use calibrant_machine::chain::SpeedNearEnds;

@@ -1,7 +1,7 @@
 //! The sensor's range, and the speeds of tip and sensor body.
 
 use super::derivative_bounds::{DerivativeBounds, on_interval};
-use super::{LimitProof, ROUNDING, Running, SHORTEST, TrajectoryLimit};
+use super::limit_proof::{LimitProof, ROUNDING, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::information::Sensing;
 use crate::limits::{Posture, SensorBody};

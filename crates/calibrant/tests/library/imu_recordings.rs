@@ -247,7 +247,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
         message.contains("the recording contradicts gyroscope.bias.x in [known]: the given value is 0.1"),
         "{message}"
     );
-    assert!(message.contains("degrees of freedom. The data contradict"), "{message}");
+    assert!(message.contains("degrees of freedom: the data refute a given value"), "{message}");
 
     // a value far off is refused whatever the fit with it would give; a third of that converges, with a
     // warning

@@ -3,7 +3,7 @@
 //! Both are regressed on the residuals of each axis, with what the fit has taken up already (a constant and the readings) projected out. The standard deviation
 //! is from the scatter of blocks of time (sandwich, `newey1987`), so residuals may be correlated within them.
 
-use super::machine_calibration::SampleResidual;
+use super::sample_residual::SampleResidual;
 use calibrant_core::diagnostic::Changed;
 use nalgebra::{Matrix4, Vector3, Vector4};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};

@@ -1,6 +1,7 @@
 //! The result of a calibration on a machine.
 
 use super::drift::SensorDrift;
+use super::sample_residual::SampleResidual;
 use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::huber;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
@@ -77,17 +78,6 @@ pub struct SensorResidual {
     pub residuals: Vec<SampleResidual>,
     /// The drift through the recording that explains them best; `None` with too few of them.
     pub drift: Option<SensorDrift>,
-}
-
-/// The residual of one sample, in the unit of the readings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SampleResidual {
-    /// Time of the motion, s.
-    pub time_s: f64,
-    /// Reading less what the motion says.
-    pub value: Vector3<f64>,
-    /// Standard deviation of the sample's noise, which may grow with the motion.
-    pub sd: Vector3<f64>,
 }
 
 impl SampleResidual {

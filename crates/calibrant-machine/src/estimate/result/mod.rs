@@ -5,12 +5,12 @@ pub(crate) mod checks;
 mod drift;
 mod machine_calibration;
 pub(crate) mod plausible;
+mod sample_residual;
 mod spectrum;
 pub(crate) mod undetermined;
 
 pub(crate) use assembly::assembled;
 pub use drift::SensorDrift;
-pub use machine_calibration::{
-    BudgetRow, MachineCalibration, ReferenceNoise, SampleResidual, SensorResidual,
-};
+pub use machine_calibration::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
+pub use sample_residual::SampleResidual;
 pub use spectrum::ResidualSpectrum;

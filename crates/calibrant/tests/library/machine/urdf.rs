@@ -74,6 +74,9 @@ fn meshes_are_looked_for_in_packages_and_beside_the_file() {
     let machine = Urdf::read(&path).expect("read");
     let beside = path.parent().map(Path::to_path_buf).expect("a directory");
     assert_eq!(machine.missing_meshes(&[PathBuf::from("/nowhere"), beside]), []);
+    // a package is looked for beside the file, too
+    assert_eq!(machine.missing_meshes(&[]), []);
+    let machine = Urdf::parse(&std::fs::read(&path).expect("read")).expect("a machine");
     let missing = machine.missing_meshes(&[PathBuf::from("/nowhere")]);
     assert_eq!(missing.len(), 7);
     assert_eq!(

@@ -162,6 +162,7 @@ fn contradictions_point_at_their_line() {
         (("[columns]", "[temperature]\n[columns]"), "[temperature] is not read with [machine]"),
         (("\"residuals\"", "\"datasheet\""), "\"datasheet\" needs noise_mps2"),
     ] {
+        let imu = imu.replace("\nnoise_", "\n# noise_");
         let error =
             Experiment::parse(&imu.replacen(change.0, change.1, 1), None).expect_err(says).to_string();
         assert!(error.contains(says), "{says}: {error}");
