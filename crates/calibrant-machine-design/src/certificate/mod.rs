@@ -33,7 +33,6 @@ mod readings;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use limit_proof::ROUNDING;
 pub use limit_proof::{Kept, LimitProof, TrajectoryLimit};
 
 use crate::TrajectoryProblem;
