@@ -30,22 +30,3 @@ impl Random {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn gravity_scatters_as_it_is_known_and_is_that_of_one_place() {
-        let at = |seed: u64, recording: u64, sd_mps2: f64| {
-            Random { seed, recording }.gravity_mps2(&Gravity { magnitude_mps2: 9.8, sd_mps2 })
-        };
-        assert_eq!(at(1, 1, 0.0), 9.8);
-        assert_eq!(at(1, 1, 0.02), at(1, 2, 0.02));
-        let count = 400;
-        let squares: f64 = (0..count).map(|seed| ((at(seed, 1, 0.02) - 9.8) / 0.02).powi(2)).sum();
-        // four standard deviations of a standard deviation
-        let sd = (squares / count as f64).sqrt();
-        assert!((sd - 1.0).abs() < 4.0 / (2.0 * count as f64).sqrt(), "{sd}");
-    }
-}
