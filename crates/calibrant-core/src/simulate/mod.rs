@@ -23,7 +23,7 @@ pub use initial_motion::initial_motion;
 pub use power_law_noise::simulate_noise;
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;
-pub use recording::{TrueGravity, draw_gravity, draw_magnitude, perturb, simulate_recording};
+pub use recording::{TrueGravity, draw_gravity, perturb, simulate_recording};
 pub use table_recording::{TableAction, TableStep, simulate_table};
 
 /// The purpose of a random stream. Streams of different purposes never overlap.
@@ -37,8 +37,6 @@ pub enum Purpose {
     Recording,
     /// A start of the search for the best motion.
     Start,
-    /// The place where a sensor is calibrated: its gravity.
-    Place,
 }
 
 /// The random stream of item `index` for a purpose, under a seed.
@@ -50,7 +48,6 @@ pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Rng {
         Purpose::Sensor => 2 * index + 1,
         Purpose::Recording => (1 << 63) + index,
         Purpose::Start => u64::MAX - index,
-        Purpose::Place => (1 << 62) + index,
     });
     rng
 }

@@ -3,7 +3,7 @@
 
 use super::Rng;
 use crate::form::As;
-use crate::motion::{Gravity, InputNoise, JerkControlledMotion, KnownEnds, MotionGravity};
+use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds, MotionGravity};
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::{Rotation3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -98,12 +98,6 @@ pub struct TrueGravity {
     /// Tilt about each axis, rad.
     #[serde(with = "As::<[f64; 3]>")]
     pub tilt_rad: Vector3<f64>,
-}
-
-/// Draws the magnitude of gravity, m/s².
-#[must_use]
-pub fn draw_magnitude(gravity: &Gravity, rng: &mut Rng) -> f64 {
-    gravity.magnitude_mps2 + gravity.sd_mps2 * normal(rng)
 }
 
 /// Draws a tilt and a magnitude, and turns gravity by the tilt: exactly, not to first order.

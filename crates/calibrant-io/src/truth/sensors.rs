@@ -30,7 +30,6 @@ pub struct Truth {
     reference_c: Option<f64>,
     parameters: Vec<TrueParameter>,
     gravity: Option<TrueGravity>,
-    gravity_mps2: Option<f64>,
     clock: Option<TrueClock>,
     fixed: Vec<TrueParameter>,
     machine: Option<TrueMachine>,
@@ -52,8 +51,6 @@ json_object! {
         parameters: &of.parameters,
         /// What the sensor sensed beside a commanded motion.
         gravity: if_some(of.gravity),
-        /// The magnitude of gravity in the holds.
-        gravity_mps2: if_some(of.gravity_mps2),
         /// The clock of the recording beside that of a commanded motion.
         clock: if_some(of.clock),
         /// Everything else that differs from an ideal sensor: what a calibration of the experiment takes as given.
@@ -82,7 +79,6 @@ impl Truth {
             reference_c: None,
             parameters: list.quantities().iter().map(parameter).collect(),
             gravity: None,
-            gravity_mps2: None,
             clock: None,
             fixed: Vec::new(),
             machine: None,
@@ -93,12 +89,6 @@ impl Truth {
     #[must_use]
     pub fn with_gravity(self, gravity: Option<TrueGravity>) -> Self {
         Self { gravity, ..self }
-    }
-
-    /// The same, with the magnitude of gravity in the holds, m/s².
-    #[must_use]
-    pub fn at_gravity(self, gravity_mps2: f64) -> Self {
-        Self { gravity_mps2: Some(gravity_mps2), ..self }
     }
 
     /// The same, with the clock of the recording.
@@ -150,7 +140,6 @@ impl Truth {
             reference_c,
             parameters,
             gravity: None,
-            gravity_mps2: None,
             clock: None,
             fixed,
             machine: None,

@@ -44,7 +44,6 @@ pub(super) fn simulate(
         g_sensitivity: plan.gyroscope.g_sensitivity,
     };
     let drawn = draw_imu(sensor, &gyroscope, &mut rng);
-    let gravity_mps2 = random.gravity_mps2(&holds.gravity()?);
     let usual = ImuSimulation::default();
     let noise_a = sensor.noise(&gain_a).unwrap_or_else(|| gain_a * usual.accelerometer_noise);
     let noise_g = plan.gyroscope.noise.unwrap_or_else(|| gain_g * usual.gyroscope_noise);
@@ -53,7 +52,7 @@ pub(super) fn simulate(
         hold_s: holds.hold_s,
         turn_s: TURN_S,
         rate_hz: holds.rate_hz,
-        gravity_mps2,
+        gravity_mps2: holds.gravity()?.magnitude_mps2,
         accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise_a, &mut notes),
         between_holds_sd_mps2: holds.between_holds_sd_mps2,
         gyroscope_noise: one_for_all(SensorKind::Gyroscope, &noise_g, &mut notes),
@@ -93,7 +92,7 @@ pub(super) fn simulate(
     if experiment.columns != ImuReadOptions::default() {
         notes.push(ColumnsOfAnother {}.into());
     }
-    let truth = Truth::of_imu(random.seed, &quantities, units, &truth).at_gravity(gravity_mps2);
+    let truth = Truth::of_imu(random.seed, &quantities, units, &truth);
     Ok(Simulation { notes, ..Simulation::new(random.seed, recording, truth) })
 }
 

@@ -22,8 +22,6 @@ pub(super) fn simulate(
     let plan = &HoldsPlan { poses: poses.map_or(plan.poses, Vec::len), ..plan.clone() };
     length::check_holds(plan, options.budget)?;
     let sensor = &experiment.sensor;
-    let gravity_mps2 = random.gravity_mps2(&plan.gravity()?);
-    let by_hand = by_hand(plan, gravity_mps2);
     let mut rng = random.sensor();
     let drawn = draw_sensor(sensor, &mut rng);
     let on_table = table(plan, &[]);
@@ -36,18 +34,15 @@ pub(super) fn simulate(
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let mut notes = unused_motion(options);
     let recording = match (&on_table, poses) {
-        (Some(steps), _) => accelerometer_on_table(
-            sensor,
-            &truth,
-            (plan, gravity_mps2),
-            steps,
-            (options, &mut notes),
-            &mut rng,
-        )?,
-        (None, Some(poses)) => simulate_holds_in(&truth, &noise, sensor.unit, poses, &by_hand, &mut rng).0,
-        (None, None) => simulate_holds(&truth, &noise, sensor.unit, &by_hand, &mut rng).0,
+        (Some(steps), _) => {
+            accelerometer_on_table(sensor, &truth, plan, steps, (options, &mut notes), &mut rng)?
+        }
+        (None, Some(poses)) => {
+            simulate_holds_in(&truth, &noise, sensor.unit, poses, &by_hand(plan)?, &mut rng).0
+        }
+        (None, None) => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan)?, &mut rng).0,
     };
-    let truth = Truth::of_sensor(random.seed, &list, sensor.unit, &truth).at_gravity(gravity_mps2);
+    let truth = Truth::of_sensor(random.seed, &list, sensor.unit, &truth);
     Ok(Simulation { notes, ..Simulation::new(random.seed, recording, truth) })
 }
 
@@ -57,13 +52,13 @@ pub(super) fn unused_motion(options: &SimulationOptions) -> Vec<Diagnostic> {
     options.motion.iter().map(|_| SettingUnused::of(&["option `motion`"], why).into()).collect()
 }
 
-fn by_hand(plan: &HoldsPlan, gravity_mps2: f64) -> HoldsSimulation {
-    HoldsSimulation {
+fn by_hand(plan: &HoldsPlan) -> Result<HoldsSimulation> {
+    Ok(HoldsSimulation {
         poses: plan.poses,
         hold_s: plan.hold_s,
         turn_s: 2.0,
         rate_hz: plan.rate_hz,
-        gravity_mps2,
+        gravity_mps2: plan.gravity()?.magnitude_mps2,
         between_holds_sd_mps2: plan.between_holds_sd_mps2,
-    }
+    })
 }

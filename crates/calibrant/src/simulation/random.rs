@@ -1,7 +1,6 @@
 //! The random streams of a simulation.
 
-use calibrant_core::motion::Gravity;
-use calibrant_core::simulate::{Purpose, Rng, draw_magnitude, stream};
+use calibrant_core::simulate::{Purpose, Rng, stream};
 
 /// The source of everything random.
 #[derive(Clone, Copy)]
@@ -14,11 +13,6 @@ pub(super) struct Random {
 impl Random {
     pub(super) fn sensor(self) -> Rng {
         stream(self.seed, Purpose::Sensor, 0)
-    }
-
-    /// The magnitude of gravity where the sensor is, as uncertain as it is known, m/s². All recordings are of one place.
-    pub(super) fn gravity_mps2(self, known: &Gravity) -> f64 {
-        draw_magnitude(known, &mut stream(self.seed, Purpose::Place, 0))
     }
 
     /// The stream of what happens in the recording, after the sensor has been drawn. The first recording

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 pub(super) fn accelerometer_on_table(
     sensor: &Sensor,
     truth: &SensorParameters,
-    (holds, gravity_mps2): (&HoldsPlan, f64),
+    holds: &HoldsPlan,
     steps: &[TableStep],
     (options, notes): (&SimulationOptions, &mut Vec<Diagnostic>),
     rng: &mut Rng,
@@ -25,7 +25,7 @@ pub(super) fn accelerometer_on_table(
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let setup = ImuSimulation {
         rate_hz: holds.rate_hz,
-        gravity_mps2,
+        gravity_mps2: holds.gravity()?.magnitude_mps2,
         accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise, notes),
         between_holds_sd_mps2: holds.between_holds_sd_mps2,
         accelerometer_unit: sensor.unit,
