@@ -54,7 +54,7 @@ fn a_broken_machine_is_refused_with_its_place() {
     bench.write("arm.urdf", arm().replacen(r#"<axis xyz="0 0 1"/>"#, r#"<axis xyz="0 0 0"/>"#, 1));
     let outcome = bench.run("inspect arm.urdf").ends_with(2);
     for words in
-        ["arm.urdf:17:5: `joint shoulder_pan > axis`: the axis is zero", "value-invalid", "write a direction"]
+        ["arm.urdf:18:5: `joint shoulder_pan > axis`: the axis is zero", "value-invalid", "write a direction"]
     {
         outcome.says(words);
     }
