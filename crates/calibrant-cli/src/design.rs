@@ -62,7 +62,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         return poses::run(arguments, &job);
     }
     if matches!(job.experiment.plan, Plan::Machine(_)) {
-        return trajectory::run(arguments, job.experiment);
+        return trajectory::run(arguments, job);
     }
     trajectory::refuse_its_options(arguments)?;
     if arguments.add.is_some() {

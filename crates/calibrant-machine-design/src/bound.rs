@@ -13,7 +13,8 @@
 //!   `[ω̇]× + [ω]×²`; rms values add up at most (Minkowski).
 //! - No reading exceeds the sensor's range.
 //!
-//! The bound is valid and loose: all joints cannot be at their best at once, and the nuisances are not known.
+//! The bound is loose: all joints cannot be at their best at once, and the nuisances are not known. Its minimum over the two numbers that share the moments out is
+//! looked for on grids that become finer, and is not proved.
 
 use crate::TrajectoryProblem;
 use crate::information::{ENTRIES, Sensing, entry};
@@ -23,7 +24,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 /// Bound of the criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrajectoryBound {
-    /// No admissible trajectory has a smaller value of the criterion, in nats.
+    /// The smallest value of the criterion that the bound leaves, in nats.
     pub value: f64,
     /// How many times smaller the standard deviations of the optimum may be than those of the design, as their geometric mean (D) or root mean square.
     pub times_better: f64,

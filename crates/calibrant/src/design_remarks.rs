@@ -5,7 +5,7 @@ use calibrant_core::diagnostic::design::{
     MotionUndetermined, RestAssumed, SearchInterrupted, SearchNotConverged, SearchOutOfTime,
     SweepValueFailed, SweepValueRounded,
 };
-use calibrant_core::diagnostic::{Diagnostic, Phrase};
+use calibrant_core::diagnostic::{Check, Diagnostic, Phrase};
 use calibrant_core::error::UndeterminedGroup;
 use calibrant_core::motion::{Limits, Rest};
 use calibrant_core::number_format::short;
@@ -21,15 +21,19 @@ impl DesignPlan {
     /// Why the search of a design ended before it converged, and what its motion leaves undetermined.
     #[must_use]
     pub fn remarks(&self, design: &Design) -> Vec<Diagnostic> {
-        let status = design.status;
-        let ended: Option<Diagnostic> = match status {
-            DesignStatus::Converged => None,
-            DesignStatus::Interrupted if self.is_out_of_time(design) => Some(SearchOutOfTime {}.into()),
-            DesignStatus::Interrupted => Some(SearchInterrupted { are_poses: false }.into()),
-            _ if design.optimal.covariance.is_none() => None,
-            _ => Some(SearchNotConverged { at: None, status: status.name() }.into()),
-        };
+        let ended = search_ended(design.status, self.is_out_of_time(design))
+            .filter(|found| found.code() != SearchNotConverged::CODE || design.optimal.covariance.is_some());
         ended.into_iter().chain(undetermined_by("the motion", &design.optimal.undetermined)).collect()
+    }
+}
+
+/// Why a search ended before it converged.
+pub(crate) fn search_ended(status: DesignStatus, is_out_of_time: bool) -> Option<Diagnostic> {
+    match status {
+        DesignStatus::Converged => None,
+        DesignStatus::Interrupted if is_out_of_time => Some(SearchOutOfTime {}.into()),
+        DesignStatus::Interrupted => Some(SearchInterrupted { are_poses: false }.into()),
+        _ => Some(SearchNotConverged { at: None, status: status.name() }.into()),
     }
 }
 

@@ -1,14 +1,12 @@
 //! The trajectory of a machine that an experiment describes.
 
 use crate::design_plan::DesignChoice;
+use crate::design_remarks::search_ended;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::design::{
-    CollisionsUnknown, LinksWithoutShapes, SearchInterrupted, SearchNotConverged, SearchOutOfTime,
-};
+use calibrant_core::diagnostic::design::{CollisionsUnknown, LinksWithoutShapes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{ImuQuantity, SensorKind};
-use calibrant_design::DesignStatus;
 use calibrant_io::{
     CriterionLetter, Experiment, LinksKnown, MachineDesignPlan, Plan, Trajectory, TrajectoryFile,
     read_trajectory, write_goal, write_json, write_trajectory, write_urscript,
@@ -82,7 +80,7 @@ impl TrajectoryPlan {
         Ok(Self { experiment, machine, setup, quantities, world, criterion, settings })
     }
 
-    /// Tells of the stages of the search.
+    /// The same plan, whose search reports its stages to this listener.
     #[must_use]
     pub fn with_progress(mut self, progress: Progress) -> Self {
         self.settings.progress = progress;
@@ -198,14 +196,7 @@ impl TrajectoryPlan {
     /// Why the search of a design ended before it converged.
     #[must_use]
     pub fn remarks(&self, design: &TrajectoryDesign) -> Vec<Diagnostic> {
-        match design.status {
-            DesignStatus::Converged => Vec::new(),
-            DesignStatus::Interrupted if self.settings.interruption.is_asked() => {
-                vec![SearchInterrupted { are_poses: false }.into()]
-            }
-            DesignStatus::Interrupted => vec![SearchOutOfTime {}.into()],
-            status => vec![SearchNotConverged { at: None, status: status.name() }.into()],
-        }
+        search_ended(design.status, !self.settings.interruption.is_asked()).into_iter().collect()
     }
 }
 

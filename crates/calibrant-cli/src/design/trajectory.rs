@@ -1,18 +1,17 @@
 //! `calibrant design` of a machine: the best trajectory of its joints.
 
 use super::Arguments;
-use crate::budget::budget;
+use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use crate::{console, interruption};
 use calibrant::design::DesignStatus;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{Experiment, TrajectoryEvaluationFile, TrajectoryFile, to_json, write_json, write_text};
+use calibrant::io::{TrajectoryEvaluationFile, TrajectoryFile, to_json, write_json, write_text};
 use calibrant::machine_design::{TrajectoryDesign, TrajectoryEvaluation};
 use calibrant::progress::Progress;
 use calibrant::report::number_format::short;
 use calibrant::report::{About, trajectory_evaluation_sheet, trajectory_sheet};
-use calibrant::{DesignChoice, TrajectoryPlan};
+use calibrant::{DesignChoice, DesignPlan, TrajectoryPlan};
 use std::path::Path;
 
 /// Refuses what only the trajectory of a machine takes.
@@ -23,15 +22,14 @@ pub(super) fn refuse_its_options(arguments: &Arguments) -> calibrant::Result<()>
     }
 }
 
-pub(super) fn run(arguments: &Arguments, experiment: Experiment) -> calibrant::Result<Exit> {
+pub(super) fn run(arguments: &Arguments, job: DesignPlan) -> calibrant::Result<Exit> {
     refuse_others_options(arguments)?;
+    // the experiment has the criterion that was chosen
     let choice = DesignChoice {
-        criterion: arguments.criterion,
-        starts: arguments.starts.map(|starts| starts as usize),
-        seconds: arguments.seconds,
-        seed: arguments.seed,
-        budget: budget(),
-        interruption: interruption::keeping_the_best(),
+        starts: Some(job.settings.starts),
+        seconds: job.settings.seconds,
+        seed: Some(job.settings.seed),
+        interruption: job.settings.interruption,
         ..DesignChoice::default()
     };
     let placed = |error: Error| error.in_experiment(&arguments.experiment);
@@ -43,10 +41,13 @@ pub(super) fn run(arguments: &Arguments, experiment: Experiment) -> calibrant::R
         shown.set_position(step.done);
         shown.set_message(step.what);
     });
-    let plan = TrajectoryPlan::new(experiment, &choice).map_err(placed)?.with_progress(progress);
+    let plan = TrajectoryPlan::new(job.experiment, &choice).map_err(placed)?.with_progress(progress);
     tell_all(&plan.notes());
     if let Some(path) = &arguments.evaluate {
-        return evaluate(arguments, &plan, path);
+        let evaluation = plan.evaluate(path)?;
+        let design = plan.design();
+        bar.finish_and_clear();
+        return judge(arguments, &plan, (path, &evaluation), design.ok());
     }
     let design = plan.design().map_err(placed);
     bar.finish_and_clear();
@@ -78,14 +79,17 @@ fn finish(
     Ok(if done && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
 }
 
-fn evaluate(arguments: &Arguments, plan: &TrajectoryPlan, path: &Path) -> calibrant::Result<Exit> {
-    let evaluation: TrajectoryEvaluation = plan.evaluate(path)?;
-    let design = plan.design();
+fn judge(
+    arguments: &Arguments,
+    plan: &TrajectoryPlan,
+    (path, evaluation): (&Path, &TrajectoryEvaluation),
+    design: Option<TrajectoryDesign>,
+) -> calibrant::Result<Exit> {
     let problem = plan.problem();
-    let best = design.as_ref().ok();
+    let best = design.as_ref();
     let output = &arguments.output;
     let file = TrajectoryEvaluationFile {
-        evaluation: &evaluation,
+        evaluation,
         design: best,
         problem: &problem,
         plan: &plan.machine,
@@ -94,7 +98,7 @@ fn evaluate(arguments: &Arguments, plan: &TrajectoryPlan, path: &Path) -> calibr
     write_json(&output.join("evaluation.json"), &file)?;
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let about = about(arguments, plan, format!("Assessment of {name}"));
-    let sheet = trajectory_evaluation_sheet(&evaluation, best.map(|best| &best.optimal), &problem, &about);
+    let sheet = trajectory_evaluation_sheet(evaluation, best.map(|best| &best.optimal), &problem, &about);
     let page = output.join("evaluation.html");
     write_text(&page, &sheet.html())?;
     console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);

@@ -55,7 +55,7 @@ json_object! {
         random: Value { of: &file.design.random, problem: file.problem },
         /// Times at which the machine stands still, from and to, s.
         dwells_s: file.design.dwells_s.iter().map(|(from, to)| [*from, *to]).collect::<Vec<_>>(),
-        /// What no admissible trajectory can beat; it is loose.
+        /// A bound on what admissible trajectories can reach; it is loose, and its minimum was looked for on a grid.
         bound: if_some(file.design.bound.map(Bound::of)),
         /// The starts of the search, the best first.
         starts: file.design.starts.iter().map(Start::of).collect::<Vec<_>>(),
@@ -203,9 +203,9 @@ struct LimitUsed {
 /// The bound.
 #[derive(Serialize, JsonSchema)]
 struct Bound {
-    /// No admissible trajectory has a smaller value, nats.
+    /// The smallest value that the bound leaves, nats.
     value: f64,
-    /// The standard deviations may be at most so many times smaller.
+    /// By the bound, standard deviations are at most so many times smaller than those of the design.
     times_better: f64,
 }
 

@@ -107,7 +107,7 @@ fn inside_optimum(p: &Vector3<f64>, along: &Vector3<f64>, half: &Vector3<f64>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::numbers_for_tests::Numbers;
+    use crate::chains_for_tests::Numbers;
 
     #[test]
     fn the_distance_of_a_segment_to_a_box_is_that_of_a_search() {

@@ -179,7 +179,7 @@ fn simplex_search(value: &impl Fn(&Ends) -> f64, from: Ends, edge: f64) -> Ends 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::numbers_for_tests::Numbers;
+    use crate::chains_for_tests::Numbers;
 
     /// A box whose edges are h, h and long: the best capsule has its axis in the middle, so only half-length and radius are open.
     fn best_by_grid(half: &Vector3<f64>) -> f64 {

@@ -20,8 +20,6 @@ mod body;
 mod capsule;
 mod cuboid;
 mod fit;
-#[cfg(test)]
-pub(crate) mod numbers_for_tests;
 mod pairs;
 mod proximity;
 mod scene;

@@ -34,7 +34,7 @@ pub(super) fn segment_segment(one: &[Vector3<f64>; 2], other: &[Vector3<f64>; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world::numbers_for_tests::Numbers;
+    use crate::chains_for_tests::Numbers;
 
     /// Squared distance of a point to a segment.
     fn to_segment(point: &Vector3<f64>, of: &[Vector3<f64>; 2]) -> f64 {

@@ -1,7 +1,7 @@
 //! Distances of a whole machine, against differences and sampled surfaces.
 
-use super::numbers_for_tests::Numbers;
 use super::*;
+use crate::chains_for_tests::Numbers;
 use calibrant_machine::chain::{Joint, JointKind, JointLimits, KinematicChain};
 use nalgebra::{Isometry3, Unit, Vector3};
 

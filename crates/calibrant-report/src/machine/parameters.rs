@@ -1,8 +1,9 @@
 //! Tables of the sensor's parameters, of mount and clock, and of the budget.
 
+use super::budget::{bars, shares};
 use super::quantity::{expected, machine_unit, of_mount};
-use crate::figure::{budget_bars, source_in_words};
-use crate::number_format::{short, significant, uncertainty};
+use crate::figure::source_in_words;
+use crate::number_format::{short, significant};
 use crate::sheet::{Cell, Column, Section, Shown, Table};
 use calibrant_core::sensor::{ImuQuantity, SensorKind};
 use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, Source};
@@ -87,44 +88,16 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
 
 /// The part of each source: as bars and in standard deviations on a page, in per cent on a terminal.
 pub(super) fn budget<'a>(section: &mut Section<'a>, calibration: &'a MachineCalibration) {
-    section.table(shares(calibration).shown(Shown::OnTerminal));
-    section.drawn(|| bars(calibration));
+    section.table(shares(&calibration.budget).shown(Shown::OnTerminal));
+    section.drawn(|| bars(&calibration.budget, |quantity| unit_of(calibration, quantity)));
     let mut within = Section::default();
     within.table(deviations(calibration));
     within.paragraph("Each number is a standard deviation. Their squares add up to that of the sd.");
     section.folded("Table of the budget", within);
 }
 
-/// Per cent of the variance from each source that has a part worth a number.
-fn shares(calibration: &MachineCalibration) -> Table {
-    let is_used =
-        |source: &usize| calibration.budget.iter().any(|row| row.parts[*source] >= 0.005 * row.variance);
-    let used: Vec<usize> = (0..Source::ALL.len()).filter(is_used).collect();
-    let names = used.iter().map(|source| source_in_words(Source::ALL[*source]));
-    let mut table = Table::new(std::iter::once("variance from, %".to_owned()).chain(names));
-    for row in &calibration.budget {
-        let percent = |source: &usize| Cell::fixed(100.0 * row.parts[*source] / row.variance, 0);
-        table.row(std::iter::once(Cell::Name(row.quantity.name())).chain(used.iter().map(percent)).collect());
-    }
-    table
-}
-
 fn unit_of(calibration: &MachineCalibration, quantity: ImuQuantity) -> &'static str {
     machine_unit(calibration, MachineQuantity::Imu(quantity)).1
-}
-
-fn bars(calibration: &MachineCalibration) -> String {
-    let rows: Vec<(String, String, [f64; Source::ALL.len()])> = calibration
-        .budget
-        .iter()
-        .map(|row| {
-            let unit = unit_of(calibration, row.quantity);
-            let sd = uncertainty(row.variance.sqrt());
-            let sd = if unit == "1" { sd } else { format!("{sd} {unit}") };
-            (row.quantity.name(), sd, row.parts.map(|part| part / row.variance))
-        })
-        .collect();
-    budget_bars(rows)
 }
 
 fn deviations(calibration: &MachineCalibration) -> Table {

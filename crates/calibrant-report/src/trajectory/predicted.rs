@@ -1,11 +1,9 @@
-//! Predicted standard deviations of trajectories, and where they come from.
+//! Predicted standard deviations of trajectories.
 
 use crate::design::times;
-use crate::figure::{DisplayUnit, budget_bars, source_in_words};
-use crate::number_format::uncertainty;
+use crate::figure::DisplayUnit;
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::sensor::ImuQuantity;
-use calibrant_machine::estimate::Source;
 use calibrant_machine_design::TrajectoryEvaluation;
 
 /// Standard deviations of the parameters; infinite where they are not determined.
@@ -17,7 +15,7 @@ fn sds(of: &TrajectoryEvaluation) -> Vec<f64> {
 }
 
 /// The unit of a parameter whose readings are in SI units.
-fn unit(quantity: ImuQuantity) -> &'static str {
+pub(super) fn unit(quantity: ImuQuantity) -> &'static str {
     quantity.unit(quantity.sensor_kind().stimulus_unit())
 }
 
@@ -43,28 +41,4 @@ pub(super) fn promised_table(
         table.row(row);
     }
     table
-}
-
-/// Per cent of each variance from each source that has a part worth a number.
-pub(super) fn shares(of: &TrajectoryEvaluation) -> Table {
-    let is_used = |source: &usize| of.budget.iter().any(|row| row.parts[*source] >= 0.005 * row.variance);
-    let used: Vec<usize> = (0..Source::ALL.len()).filter(is_used).collect();
-    let names = used.iter().map(|source| source_in_words(Source::ALL[*source]));
-    let mut table = Table::new(std::iter::once("variance from, %".to_owned()).chain(names));
-    for row in &of.budget {
-        let percent = |source: &usize| Cell::fixed(100.0 * row.parts[*source] / row.variance, 0);
-        table.row(std::iter::once(Cell::Name(row.quantity.name())).chain(used.iter().map(percent)).collect());
-    }
-    table
-}
-
-/// The same as bars.
-pub(super) fn bars(of: &TrajectoryEvaluation) -> String {
-    let row = |row: &calibrant_machine::estimate::BudgetRow| {
-        let unit = unit(row.quantity);
-        let sd = uncertainty(row.variance.sqrt());
-        let sd = if unit == "1" { sd } else { format!("{sd} {unit}") };
-        (row.quantity.name(), sd, row.parts.map(|part| part / row.variance))
-    };
-    budget_bars(of.budget.iter().map(row).collect())
 }

@@ -1,9 +1,10 @@
 //! The sections of a trajectory, in their order.
 
 use super::limits::{broken, limit_table, nearest_pair};
-use super::predicted::{bars, promised_table, shares};
+use super::predicted::{promised_table, unit};
 use crate::About;
 use crate::figure::{PLAYER_SCRIPT, Scene, joint_figure, player, three_views};
+use crate::machine::{bars, shares};
 use crate::number_format::{counted, short, significant};
 use crate::sheet::{Grade, Section, Sheet, SheetVerdict, Shown};
 use calibrant_machine_design::{Kept, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem};
@@ -105,7 +106,7 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
     }
     if let Some(bound) = &design.bound {
         sentence += &format!(
-            " No trajectory can have standard deviations more than {} times smaller; this bound is loose.",
+            " A bound, whose minimum was looked for on a grid, leaves at most a factor of {}; it is loose.",
             significant(bound.times_better, 3)
         );
     }
@@ -113,9 +114,8 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
 }
 
 fn values(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> String {
-    let bound = design
-        .bound
-        .map_or_else(String::new, |bound| format!(", no trajectory below {}", significant(bound.value, 5)));
+    let bound =
+        design.bound.map_or_else(String::new, |bound| format!(", bound {}", significant(bound.value, 5)));
     format!(
         "{} (nats): {} random, {} optimal{bound}",
         problem.criterion.letter(),
@@ -128,8 +128,8 @@ fn budget(of: &TrajectoryEvaluation) -> Section<'_> {
     let mut section =
         Section::new("Budget").lead("Where the variance of each parameter comes from: what to improve.");
     if !of.budget.is_empty() {
-        section.table(shares(of).shown(Shown::OnTerminal));
-        section.drawn(|| bars(of));
+        section.table(shares(&of.budget).shown(Shown::OnTerminal));
+        section.drawn(|| bars(&of.budget, unit));
     }
     section
 }
@@ -152,8 +152,8 @@ fn path<'a>(of: &TrajectoryEvaluation, problem: &TrajectoryProblem<'_>) -> Secti
 }
 
 fn limits<'a>(of: &TrajectoryEvaluation, problem: &TrajectoryProblem<'_>) -> Section<'a> {
-    let mut section = Section::new("Limits")
-        .lead("Each limit with its largest use. They hold between the samples, too: that is proved.");
+    let proof = "What is called proved holds between the samples, too.";
+    let mut section = Section::new("Limits").lead(format!("Each limit with its largest use. {proof}"));
     section.table(limit_table(of, problem));
     nearest_pair(of, problem).into_iter().for_each(|line| section.line(line));
     section
