@@ -14,9 +14,9 @@ fn slopes_of_the_rows_are_those_of_differences() {
     let chain = arm_of_all_kinds(4, &mut numbers);
     let near_ends = SpeedNearEnds { lower: -2.0, upper: 2.0, slope: 12.0, offset: 0.3 };
     let spheres = Spheres(vec![
-        (0, Vector3::zeros(), 0.1),
-        (2, numbers.vector(0.1), 0.3),
-        (4, numbers.vector(0.1), 0.3),
+        (0, Vector3::zeros(), 0.8),
+        (2, numbers.vector(0.1), 0.8),
+        (4, numbers.vector(0.1), 0.8),
     ]);
     let mut problem = problem_of(&chain);
     problem.surroundings = Some(&spheres);
