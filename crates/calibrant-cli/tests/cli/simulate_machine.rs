@@ -198,7 +198,12 @@ fn what_cannot_be_simulated_is_refused() {
         ),
         ("brief", "duration_s = 60.0", "duration_s = 1.0", "a number from 10 s"),
         ("unknown", "vibration = 0.0", "vibrations = 0.0", "did you mean `vibration`?"),
-        ("endless", "rate_hz = 200.0", "rate_hz = 1e6", "add --force"),
+        (
+            "endless",
+            "rate_hz = 200.0              # sample rate of the IMU, Hz (default 200)\nlog",
+            "rate_hz = 1e6\nlog",
+            "add --force",
+        ),
     ];
     for (name, from, to, says) in edits {
         let file = format!("{name}.toml");

@@ -155,7 +155,7 @@ fn of_an_imu() {
 #[test]
 fn of_a_sensor_on_a_machine() {
     let datasheet = "noise_mps2 = 5e-3\nbias_sd_mps2 = 0.1\nscale_sd = 0.005\n#";
-    let edits = [("# noise_mps2", datasheet), ("duration_s = 60.0", "duration_s = 15.0")];
+    let edits = [("noise_mps2", datasheet), ("duration_s = 60.0", "duration_s = 15.0")];
     let bench = bench("arm", &edits);
     let cases = [
         (Fault::None, "ok"),
