@@ -4,10 +4,12 @@ use crate::budget::budget;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use crate::{console, interruption};
-use calibrant::io::{Experiment, ResultPlaces, StudyFile, preset, to_json, write_json, write_text};
+use calibrant::error::{Error, InputError, Refusal};
+use calibrant::io::{Experiment, Plan, ResultPlaces, StudyFile, preset, to_json, write_json, write_text};
 use calibrant::report::{About, study_sheet};
 use calibrant::session::MotionSource;
-use calibrant::{StudyChoice, StudyPlan};
+use calibrant::study::Studies;
+use calibrant::{DesignChoice, RehearsalPlan, StudyChoice, StudyPlan, TrajectoryPlan};
 use std::path::PathBuf;
 
 /// The experiment without a file: the thesis's chapters 3 and 4.
@@ -16,7 +18,8 @@ const DEFAULT: &str = "report";
 /// Simulate many sensors. Compare predicted and realised errors of their calibrations, and the optimal motion with a random one.
 ///
 /// Each sensor is calibrated on a random motion. The best motion is designed at this estimate, and the sensor is calibrated on it. If no motion can be
-/// designed (trust "unknown", or limits that do not bound it), the sensors are calibrated once. Without EXPERIMENT, the command repeats chapters 3 and 4
+/// designed (trust "unknown", or limits that do not bound it), the sensors are calibrated once. With joints in [machine] it rehearses the machine: the best trajectory
+/// is designed, and each simulated sensor is calibrated from a recording of a plain routine and of that trajectory. Without EXPERIMENT, the command repeats chapters 3 and 4
 /// of the thesis (vamvaka2021 in references.bib), which `calibrant init report` describes. Writes study.json and report.html.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -62,19 +65,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => Experiment::read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
     };
-    let choice = StudyChoice {
-        motion: arguments.motion.clone().map(MotionSource::File),
-        sensors: arguments.sensors.map(|sensors| sensors as usize),
-        seed: arguments.seed,
-        starts: arguments.starts.map(|starts| starts as usize),
-        budget: budget(),
-        interruption: interruption::keeping_the_best(),
+    let studies = match experiment.plan {
+        Plan::Machine(_) => rehearsed(arguments, experiment)?,
+        Plan::Motion(_) | Plan::Holds(_) => studied(arguments, &experiment)?,
     };
-    let plan = StudyPlan::new(&experiment, &choice)?;
-    let bar = console::progress(plan.steps(), "sensors");
-    let outcome = plan.run(&|done| bar.inc(done));
-    bar.finish_and_clear();
-    let studies = outcome?;
     tell_all(&studies.notes);
     write_json(&arguments.output.join("study.json"), &StudyFile { studies: &studies })?;
     let report = arguments.output.join("report.html");
@@ -89,4 +83,53 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     write_text(&report, &sheet.html())?;
     console::result(arguments.json, || to_json(&StudyFile { studies: &studies }), &sheet, None, &[report]);
     Ok(Exit::DONE)
+}
+
+/// The studies of a commanded motion.
+fn studied(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Studies> {
+    let choice = StudyChoice {
+        motion: arguments.motion.clone().map(MotionSource::File),
+        sensors: arguments.sensors.map(|sensors| sensors as usize),
+        seed: arguments.seed,
+        starts: arguments.starts.map(|starts| starts as usize),
+        budget: budget(),
+        interruption: interruption::keeping_the_best(),
+    };
+    let plan = StudyPlan::new(experiment, &choice)?;
+    let bar = console::progress(plan.steps(), "sensors");
+    let outcome = plan.run(&|done| bar.inc(done));
+    bar.finish_and_clear();
+    outcome
+}
+
+/// The rehearsal of a machine.
+fn rehearsed(arguments: &Arguments, experiment: Experiment) -> calibrant::Result<Studies> {
+    if arguments.motion.is_some() {
+        let message = "--motion is of the study of a [motion] experiment: a rehearsal designs the motions of its machine";
+        let input_error = InputError::new(Refusal::ExperimentUnsuited, message, "leave it away");
+        return Err(Error::experiment(input_error));
+    }
+    let interruption = interruption::keeping_the_best();
+    let (sensors, seed) = (experiment.study.sensors, experiment.study.seed);
+    let choice = DesignChoice {
+        starts: arguments.starts.map(|starts| starts as usize),
+        interruption: interruption.clone(),
+        ..DesignChoice::default()
+    };
+    let plan = TrajectoryPlan::new(experiment, &choice)?;
+    let bar = console::spinner("design");
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    let design = plan.design();
+    bar.finish_and_clear();
+    let rehearsal = RehearsalPlan {
+        plan: &plan,
+        sensors: arguments.sensors.map_or(sensors, |sensors| sensors as usize),
+        seed: arguments.seed.unwrap_or(seed),
+        interruption,
+        budget: budget(),
+    };
+    let bar = console::progress(rehearsal.sensors as u64, "sensors");
+    let outcome = rehearsal.run(&design?, &|done| bar.inc(done));
+    bar.finish_and_clear();
+    outcome
 }

@@ -4,10 +4,12 @@ use crate::bound::bound;
 use crate::certificate::certify;
 use crate::evaluate::evaluated;
 use crate::information::Sensing;
+use crate::plain::plain;
 use crate::problem::check;
 use crate::search::{Candidate, Found, repaired, search};
 use crate::{
-    Kept, TrajectoryBound, TrajectoryEvaluation, TrajectoryProblem, TrajectorySettings, TrajectoryStart,
+    Kept, PlainTrajectory, TrajectoryBound, TrajectoryEvaluation, TrajectoryProblem, TrajectorySettings,
+    TrajectoryStart,
 };
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_design::DesignStatus;
@@ -22,6 +24,8 @@ pub struct TrajectoryDesign {
     pub optimal: TrajectoryEvaluation,
     /// A random admissible motion: the first start.
     pub random: TrajectoryEvaluation,
+    /// What an engineer would write: a plain routine in the same time. `None` where none was found that keeps the limits.
+    pub plain: Option<PlainTrajectory>,
     /// Every start that was searched to the end of its last level, the best first.
     pub starts: Vec<TrajectoryStart>,
     /// Iterations of all starts.
@@ -53,6 +57,7 @@ pub fn design_trajectory(
         status: if interruption.is_asked() { DesignStatus::Interrupted } else { best.status },
         dwells_s: dwells(problem, &best),
         bound: bound(problem, &sensing, optimal.value),
+        plain: plain(problem, &sensing, settings.seed),
         optimal,
         random,
         starts,

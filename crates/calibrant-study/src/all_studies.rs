@@ -1,7 +1,8 @@
 //! All studies that one experiment file asks for.
 
 use super::{
-    DesignStudy, DesignStudyProblem, Study, StudyProblem, StudySettings, run_design_study, run_study,
+    DesignStudy, DesignStudyProblem, Rehearsal, Study, StudyProblem, StudySettings, run_design_study,
+    run_study,
 };
 use calibrant_core::budget::Budget;
 use calibrant_core::diagnostic::Diagnostic;
@@ -48,6 +49,8 @@ pub struct Studies {
     pub design: Option<DesignStudy>,
     /// The same with process noise, of `[study.noisy]` (Figures 13 and 14).
     pub noisy: Option<DesignStudy>,
+    /// Of a machine: plain routine against best trajectory.
+    pub rehearsal: Option<Rehearsal>,
     /// What a reader should know: studies that were not run although one might expect them, and why.
     pub notes: Vec<Diagnostic>,
 }
@@ -81,6 +84,7 @@ pub fn run_studies(
             .transpose()?,
         design: designed(&problem.design)?,
         noisy: designed(&problem.noisy)?,
+        rehearsal: None,
         notes: problem.notes.clone(),
     };
     if interruption.is_asked() {

@@ -2,7 +2,7 @@
 //! calibrate again.
 
 use super::simulated_recording::record;
-use super::summary::{compare, traces};
+use super::summary::{compare, traces, triples};
 use super::{DesignOutcome, DesignStudy, MotionOutcome, StudySettings};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationProblem, Stimulus, calibrate};
@@ -136,7 +136,11 @@ pub fn run_design_study(
         starts: settings.design.starts,
         seed: settings.seed,
         motions_shown: problem.motions_shown.min(outcomes.len()),
-        summary: compare(&design.parameters, &outcomes),
+        summary: compare(
+            &design.parameters,
+            &triples(&outcomes, |outcome| &outcome.initial),
+            &triples(&outcomes, |outcome| &outcome.optimal),
+        ),
         trace: traces(&outcomes),
         outcomes,
         design,

@@ -29,31 +29,37 @@ pub(super) fn summarise(parameters: &[Parameter], sensors: &[Triple<'_>]) -> Vec
 }
 
 /// The results of both motions for each parameter.
-pub(super) fn compare(parameters: &[Parameter], outcomes: &[DesignOutcome]) -> Vec<Improvement> {
-    fn triple<'a>(outcome: &'a DesignOutcome, motion: &'a MotionOutcome) -> Triple<'a> {
-        (&outcome.truth, &motion.values, &motion.sd)
-    }
-    let initial: Vec<_> = outcomes.iter().map(|outcome| triple(outcome, &outcome.initial)).collect();
-    let optimal: Vec<_> = outcomes.iter().map(|outcome| triple(outcome, &outcome.optimal)).collect();
-    let error = |k: usize| move |(truth, value, _): &Triple<'_>| (value[k] - truth[k]).powi(2);
-    let stated = |k: usize| move |(_, _, sd): &Triple<'_>| sd[k].powi(2);
-    summarise(parameters, &initial)
-        .into_iter()
-        .zip(summarise(parameters, &optimal))
-        .enumerate()
-        .map(|(k, (before, after))| Improvement {
-            initial: before,
-            optimal: after,
-            predicted: factor(
-                &initial.iter().map(stated(k)).collect::<Vec<_>>(),
-                &optimal.iter().map(stated(k)).collect::<Vec<_>>(),
-            ),
-            realised: factor(
-                &initial.iter().map(error(k)).collect::<Vec<_>>(),
-                &optimal.iter().map(error(k)).collect::<Vec<_>>(),
-            ),
-        })
-        .collect()
+pub(super) fn compare(
+    parameters: &[Parameter],
+    before: &[Triple<'_>],
+    after: &[Triple<'_>],
+) -> Vec<Improvement> {
+    let squares =
+        |of: &[Triple<'_>], square: &dyn Fn(&Triple<'_>) -> f64| of.iter().map(square).collect::<Vec<_>>();
+    let summaries = summarise(parameters, before).into_iter().zip(summarise(parameters, after));
+    let one = |(k, (initial, optimal)): (usize, (ParameterSummary, ParameterSummary))| {
+        let error = |(truth, value, _): &Triple<'_>| (value[k] - truth[k]).powi(2);
+        let stated = |(_, _, sd): &Triple<'_>| sd[k].powi(2);
+        Improvement {
+            initial,
+            optimal,
+            predicted: factor(&squares(before, &stated), &squares(after, &stated)),
+            realised: factor(&squares(before, &error), &squares(after, &error)),
+        }
+    };
+    summaries.enumerate().map(one).collect()
+}
+
+/// Truth, estimates and standard deviations of sensors, on one of their motions.
+pub(super) fn triples(
+    outcomes: &[DesignOutcome],
+    motion: fn(&DesignOutcome) -> &MotionOutcome,
+) -> Vec<Triple<'_>> {
+    let one = |outcome| -> Triple<'_> {
+        let of: &MotionOutcome = motion(outcome);
+        (&outcome.truth, &of.values, &of.sd)
+    };
+    outcomes.iter().map(one).collect()
 }
 
 /// The ratio of two root mean squares, from the squares of each sensor.

@@ -168,6 +168,8 @@ mod design_remarks;
 pub mod inspection;
 mod json_files;
 mod noise_at_rest;
+#[cfg(feature = "study")]
+mod rehearsal;
 pub mod session;
 mod simulation;
 #[cfg(feature = "study")]
@@ -194,6 +196,8 @@ pub use json_files::{FileKind, json_page};
 /// The linear algebra in the signatures: vectors and matrices.
 pub use nalgebra;
 pub use noise_at_rest::{NoiseAtRest, NoiseOptions, noise, read_for_noise};
+#[cfg(feature = "study")]
+pub use rehearsal::RehearsalPlan;
 pub use session::{Outcome, Readings, Session, SessionOptions, Source};
 pub use simulation::{Simulation, SimulationOptions, commanded_motion, simulate};
 #[cfg(feature = "study")]

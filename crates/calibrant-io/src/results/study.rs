@@ -25,6 +25,8 @@ json_object! {
         design: &file.studies.design,
         /// The same with process noise.
         noisy: &file.studies.noisy,
+        /// Of a machine: plain routine against best trajectory.
+        rehearsal: &file.studies.rehearsal,
     }
 }
 

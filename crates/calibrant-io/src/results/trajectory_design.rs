@@ -53,6 +53,10 @@ json_object! {
         optimal: Value { of: &file.design.optimal, problem: file.problem },
         /// What a random admissible motion gives: the first start.
         random: Value { of: &file.design.random, problem: file.problem },
+        /// The plain routine that an engineer would write, in the same time: `six poses` or `joints in turn`.
+        plain_routine: if_some(file.design.plain.as_ref().map(|of| of.routine.name())),
+        /// What it gives; missing where none was found that keeps the limits.
+        plain: if_some(file.design.plain.as_ref().map(|of| Value { of: &of.evaluation, problem: file.problem })),
         /// Times at which the machine stands still, from and to, s.
         dwells_s: file.design.dwells_s.iter().map(|(from, to)| [*from, *to]).collect::<Vec<_>>(),
         /// A bound on what admissible trajectories can reach; it is loose, and its minimum was looked for on a grid.

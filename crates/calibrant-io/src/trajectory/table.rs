@@ -1,10 +1,11 @@
 //! `trajectory.csv`: positions, velocities and accelerations of the joints at the knots.
 
-use super::knots::spline_through_velocities;
+use super::knots::{between_knots, spline_through_velocities};
 use crate::reference_log::{ReferenceLogOptions, read_reference_log};
 use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::log::ReferenceLog;
 use calibrant_machine::spline::VectorSpline;
 use std::iter::once;
 use std::path::Path;
@@ -29,6 +30,12 @@ impl Trajectory {
             turns: chain.joints.iter().map(|joint| joint.kind.turns()).collect(),
             spline,
         }
+    }
+
+    /// Its positions at and between the knots, as the log of a machine that follows it.
+    #[must_use]
+    pub fn log(&self) -> ReferenceLog {
+        ReferenceLog::Joints(between_knots(&self.spline, self.names.clone()))
     }
 
     /// Times of the knots, s.

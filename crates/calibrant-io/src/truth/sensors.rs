@@ -85,6 +85,12 @@ impl Truth {
         }
     }
 
+    /// The true value of the parameter of this name.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.value)
+    }
+
     /// The same, with the gravity that the sensor sensed beside a commanded motion.
     #[must_use]
     pub fn with_gravity(self, gravity: Option<TrueGravity>) -> Self {

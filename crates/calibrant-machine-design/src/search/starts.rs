@@ -4,14 +4,13 @@
 //! where a dwell or the end is. An interval that breaks a limit is drawn again; after some tries the walk goes back by two control points. Where no walk ends, the
 //! motion goes a little to and fro about a posture at rest: as little as the limits ask for.
 
+use super::Probe;
 use crate::TrajectoryProblem;
-use crate::limits::{PointRows, PointWork, Pointwise, least_slack};
-use crate::motion::{Grid, Knots, REST, Ties};
+use crate::limits::{Pointwise, least_slack};
+use crate::motion::{Knots, REST, Ties};
 use nalgebra::DMatrix;
 use rand::{Rng, RngExt};
 
-/// Places of an interval at which a walk looks at the limits.
-const PLACES: [f64; 4] = [0.2, 0.5, 0.8, 0.999];
 /// Walks, tries of a control point, and times that a walk goes back.
 const WALKS: usize = 20;
 const TRIES: usize = 60;
@@ -19,31 +18,22 @@ const BACK: usize = 40;
 /// Part of speeds and accelerations that is drawn, and part that is kept.
 const DRAWN: f64 = 0.8;
 const KEPT: f64 = 0.97;
-/// Room of each row. Of a distance it is about 5 mm.
-const ROOM: f64 = 0.05;
 /// Postures that are tried for a start at rest.
 const POSTURES: usize = 2000;
 
 /// Draws starts.
 pub(crate) struct Starts<'a> {
-    pointwise: Pointwise<'a>,
+    problem: &'a TrajectoryProblem<'a>,
+    probe: Probe<'a>,
     knots: Knots,
-    grid: Grid,
-    work: PointWork,
-    values: Vec<f64>,
     /// Runs of control points that are equal: first, number.
     dwells: Vec<(usize, usize)>,
 }
 
 impl<'a> Starts<'a> {
     pub(crate) fn new(pointwise: Pointwise<'a>, knots: Knots, dwells: &[(usize, usize)]) -> Self {
-        let work = pointwise.work();
-        let values = vec![1.0; pointwise.rows()];
-        Self { grid: Grid::at(knots, PLACES), pointwise, knots, work, values, dwells: dwells.to_vec() }
-    }
-
-    fn problem(&self) -> &'a TrajectoryProblem<'a> {
-        self.pointwise.problem
+        let problem = pointwise.problem;
+        Self { problem, probe: Probe::new(pointwise, knots), knots, dwells: dwells.to_vec() }
     }
 
     /// A motion that keeps all limits with some room. `None` if not even a posture at rest is found.
@@ -59,28 +49,14 @@ impl<'a> Starts<'a> {
         self.about_a_posture(ties, rng)
     }
 
-    /// Does interval `i` keep the pointwise limits?
-    fn interval_is_free(&mut self, controls: &DMatrix<f64>, i: usize) -> bool {
-        (0..PLACES.len()).all(|place| {
-            let rows = PointRows {
-                values: &mut self.values,
-                by_position: &mut [],
-                by_state: &mut [],
-                with_slopes: false,
-            };
-            self.pointwise.at(&mut self.work, &self.grid, i * PLACES.len() + place, controls, rows);
-            self.values.iter().all(|value| *value > ROOM)
-        })
-    }
-
     fn is_admissible(&mut self, controls: &DMatrix<f64>) -> bool {
-        least_slack(&self.problem().joints, &self.knots, controls) > 1e-3
-            && (0..self.knots.intervals).all(|i| self.interval_is_free(controls, i))
+        least_slack(&self.problem.joints, &self.knots, controls) > 1e-3
+            && (0..self.knots.intervals).all(|i| self.probe.interval_is_free(controls, i))
     }
 
     /// A posture at which the machine may rest.
     fn posture(&mut self, rng: &mut impl Rng) -> Option<Vec<f64>> {
-        let problem = self.problem();
+        let problem = self.problem;
         let n = problem.joints.len();
         for _ in 0..POSTURES {
             let posture = match &problem.home {
@@ -94,7 +70,7 @@ impl<'a> Starts<'a> {
                     .collect(),
             };
             let rest = DMatrix::from_fn(self.knots.controls(), n, |_, j| posture[j]);
-            if self.interval_is_free(&rest, 0) {
+            if self.probe.interval_is_free(&rest, 0) {
                 return Some(posture);
             }
             if problem.home.is_some() {
@@ -105,7 +81,7 @@ impl<'a> Starts<'a> {
     }
 
     fn walk(&mut self, rng: &mut impl Rng) -> Option<DMatrix<f64>> {
-        let problem = self.problem();
+        let problem = self.problem;
         let (n, number, h) = (problem.joints.len(), self.knots.controls(), self.knots.step_s);
         let posture = self.posture(rng)?;
         let mut controls = DMatrix::from_fn(number, n, |_, j| posture[j]);
@@ -137,7 +113,7 @@ impl<'a> Starts<'a> {
                     }
                     controls[(i, j)] = if run.is_some() { here } else { here + d };
                 }
-                if self.keeps_joint_limits(&controls, i) && self.interval_is_free(&controls, i - 3) {
+                if self.keeps_joint_limits(&controls, i) && self.probe.interval_is_free(&controls, i - 3) {
                     placed = true;
                     break;
                 }
@@ -168,7 +144,7 @@ impl<'a> Starts<'a> {
     /// Do the differences that end at control point `i` keep the joints' limits?
     fn keeps_joint_limits(&self, controls: &DMatrix<f64>, i: usize) -> bool {
         let h = self.knots.step_s;
-        self.problem().joints.iter().enumerate().all(|(j, limit)| {
+        self.problem.joints.iter().enumerate().all(|(j, limit)| {
             let c = |k: usize| controls[(i - k, j)];
             let margin = 0.01 * (limit.upper - limit.lower).min(1.0);
             let first = c(0) - c(1);
@@ -184,7 +160,7 @@ impl<'a> Starts<'a> {
 
     /// A posture at rest, and random control points about it, drawn towards it until the limits are kept.
     fn about_a_posture(&mut self, ties: &Ties, rng: &mut impl Rng) -> Option<DMatrix<f64>> {
-        let problem = self.problem();
+        let problem = self.problem;
         let n = problem.joints.len();
         let posture = self.posture(rng)?;
         let away = DMatrix::from_fn(self.knots.controls(), n, |_, j| {

@@ -1,7 +1,10 @@
 //! A vector over time.
 
-use super::{LARGEST_ORDER, UniformKnots, Weights};
+use super::{Degree, LARGEST_ORDER, UniformKnots, Weights};
 use nalgebra::{UnitQuaternion, Vector3};
+
+/// Control points that differ by less, rad or m, are at rest: files round.
+const AT_REST: f64 = 2e-6;
 
 /// A spline of a vector: the positions of joints, or a position in space.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +31,28 @@ impl VectorSpline {
         for (j, value) in values.iter_mut().enumerate() {
             *value = self.component(weights, derivative, j);
         }
+    }
+
+    /// The same motion with so many intervals of rest before and after it. `None` where a cubic spline does not begin and end at rest.
+    #[must_use]
+    pub fn with_rest(&self, intervals: usize) -> Option<Self> {
+        let rows: Vec<&[f64]> = self.controls.chunks_exact(self.dimension).collect();
+        let alike = |rows: &[&[f64]]| {
+            let near = |pair: &[&[f64]]| pair[0].iter().zip(pair[1]).all(|(a, b)| (a - b).abs() <= AT_REST);
+            rows.windows(2).all(near)
+        };
+        let (first, last) = (rows.get(..3)?, rows.get(rows.len().checked_sub(3)?..)?);
+        if self.knots.degree != Degree::Cubic || !alike(first) || !alike(last) {
+            return None;
+        }
+        let rest = |of: &[f64]| of.repeat(intervals);
+        let knots = UniformKnots {
+            start_s: self.knots.start_s - self.knots.step_s * intervals as f64,
+            intervals: self.knots.intervals + 2 * intervals,
+            ..self.knots
+        };
+        let controls = [rest(first[0]), self.controls.clone(), rest(last[2])].concat();
+        Some(Self { knots, controls, ..*self })
     }
 
     /// A derivative (0 to 3) at a time.

@@ -138,9 +138,22 @@ fn values(pair: &[Points; 2]) -> impl Iterator<Item = f64> {
 }
 
 /// The panel with both motions, their numbers in its unit.
-fn against(panel: Panel, [initial, optimal]: [Points; 2], in_unit: impl Fn(f64) -> f64) -> Panel {
+fn against(panel: Panel, pair: [Points; 2], in_unit: impl Fn(f64) -> f64) -> Panel {
+    named(panel, "initial motion", pair, in_unit)
+}
+
+/// The same, with a name for the first motion.
+pub(super) fn named(
+    panel: Panel,
+    first: &str,
+    [initial, optimal]: [Points; 2],
+    in_unit: impl Fn(f64) -> f64,
+) -> Panel {
     let scaled = |points: Points| points.into_iter().map(|(x, y)| (x, in_unit(y))).collect();
-    panel
-        .with(Series::dots("initial motion", colour::BLUE, (Shape::Circle, 3.0), scaled(initial)))
-        .with(Series::dots("optimal motion", colour::VERMILLION, (Shape::Square, 3.0), scaled(optimal)))
+    panel.with(Series::dots(first, colour::BLUE, (Shape::Circle, 3.0), scaled(initial))).with(Series::dots(
+        "optimal motion",
+        colour::VERMILLION,
+        (Shape::Square, 3.0),
+        scaled(optimal),
+    ))
 }

@@ -27,6 +27,8 @@ mod panel;
 mod point_thinning;
 #[cfg(feature = "study")]
 mod population;
+#[cfg(feature = "study")]
+mod rehearsal;
 mod residuals;
 mod rotations;
 mod sphere;
@@ -60,6 +62,8 @@ pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk
 pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};
 #[cfg(feature = "study")]
 pub(super) use population::{p_values, parameter_errors, parameters_against_truth, standardised_errors};
+#[cfg(feature = "study")]
+pub(super) use rehearsal::{rehearsed_errors, rehearsed_sds};
 pub(super) use residuals::{autocorrelations, histograms, residuals_over_time};
 pub(super) use rotations::rotation_errors;
 pub(super) use sphere::{hold_directions, pose_directions};

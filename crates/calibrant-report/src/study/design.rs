@@ -126,13 +126,15 @@ fn coverage(study: &DesignStudy) -> f64 {
         / study.summary.len().max(1) as f64
 }
 
-fn agrees(entry: &calibrant_study::Improvement) -> bool {
+/// Do predicted and realised factor agree, up to chance?
+pub(super) fn agrees(entry: &calibrant_study::Improvement) -> bool {
     let error = |factor: &Factor| factor.standard_error.unwrap_or(f64::INFINITY);
     let both = error(&entry.predicted).hypot(error(&entry.realised));
     (entry.predicted.value - entry.realised.value).abs() <= CHANCE * both
 }
 
-fn factor(factor: &Factor) -> String {
+/// A factor with its standard error.
+pub(super) fn factor(factor: &Factor) -> String {
     match factor.standard_error {
         Some(error) if error > 5e-4 * factor.value => with_sd(factor.value, error),
         Some(_) => significant(factor.value, 4),

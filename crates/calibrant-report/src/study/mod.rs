@@ -2,6 +2,7 @@
 
 mod calibration;
 mod design;
+mod rehearsal;
 mod settings;
 
 use super::figure::trace_map;
@@ -26,6 +27,7 @@ pub fn study_sheet<'a>(studies: &'a Studies, about: &'a About) -> Sheet<'a> {
     }));
     sections.extend(studies.design.as_ref().map(|study| design::chapter(study, &design::OPTIMAL)));
     sections.extend(studies.noisy.as_ref().map(|study| design::chapter(study, &design::NOISY)));
+    sections.extend(studies.rehearsal.as_ref().map(rehearsal::chapter));
     about.sheet("Study", verdict(studies, about), sections, READINGS)
 }
 
@@ -35,6 +37,7 @@ fn verdict(studies: &Studies, about: &About) -> SheetVerdict {
     judged.extend(studies.calibration.as_ref().map(calibration::judge));
     judged.extend(studies.design.iter().map(|study| design::judge("Optimal motions", study)));
     judged.extend(studies.noisy.iter().map(|study| design::judge("With process noise", study)));
+    judged.extend(studies.rehearsal.as_ref().map(rehearsal::judge));
     let good = !judged.is_empty() && judged.iter().all(|(good, _)| *good);
     let (grade, word) =
         if good { (Grade::Good, "✓ As predicted.") } else { (Grade::Caution, "! Look closer.") };

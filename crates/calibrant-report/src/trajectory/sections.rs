@@ -7,7 +7,9 @@ use crate::figure::{PLAYER_SCRIPT, Scene, joint_figure, player, three_views};
 use crate::machine::{bars, shares};
 use crate::number_format::{counted, short, significant};
 use crate::sheet::{Grade, Section, Sheet, SheetVerdict, Shown};
-use calibrant_machine_design::{Kept, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem};
+use calibrant_machine_design::{
+    Kept, PlainRoutine, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem,
+};
 
 /// What a reading is.
 const MODEL: &str = "Readings are y = S f + b of the accelerometer and y = S ω + b of the gyroscope; sd is the standard deviation that a calibration from a recording of \
@@ -24,17 +26,23 @@ pub fn trajectory_sheet<'a>(
     about: &'a About,
 ) -> Sheet<'a> {
     let best = &design.optimal;
-    let (random, optimal) = (("random motion", &design.random), ("optimal", best));
+    let random = ("random motion", &design.random);
+    let plain = design.plain.as_ref().map(|of| (of.routine.name(), &of.evaluation));
+    let others = plain.map_or_else(Vec::new, |_| vec![random]);
     let proved = best.limits.iter().all(|proof| proof.kept == Kept::Proved);
     let (grade, word) =
         if proved { (Grade::Good, "✓ Found.") } else { (Grade::Caution, "! Not all limits are proved.") };
     let mut verdict = SheetVerdict::new(grade, word, in_words(design, problem));
     verdict = verdict.with("Findings", about.findings.clone());
     let mut predicted = Section::new("Predicted standard deviations").lead(
-        "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. The random motion is \
-         admissible, and moves at full speed: the first start of the search.",
+        "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. All trajectories \
+         last as long and keep the limits. The random motion goes at full speed: it is the first start of the search.",
     );
-    predicted.table(promised_table(random, Some(optimal)));
+    predicted.explanation(match &design.plain {
+        Some(of) => compared_with(of.routine),
+        None => "No plain routine was found that keeps the limits in this duration: six poses, or each joint in turn.",
+    });
+    predicted.table(promised_table(plain.unwrap_or(random), &others, Some(("optimal", best))));
     predicted.line(values(design, problem));
     let sections = vec![
         predicted,
@@ -79,7 +87,8 @@ pub fn trajectory_evaluation_sheet<'a>(
         ),
     };
     let mut predicted = Section::new("Predicted standard deviations");
-    predicted.table(promised_table(("of this trajectory", evaluation), best.map(|best| ("optimal", best))));
+    let given = ("of this trajectory", evaluation);
+    predicted.table(promised_table(given, &[], best.map(|best| ("optimal", best))));
     let mut sections =
         vec![predicted, budget(evaluation), path(evaluation, problem), limits(evaluation, problem)];
     if !broken.is_empty() {
@@ -91,18 +100,35 @@ pub fn trajectory_evaluation_sheet<'a>(
     about.sheet("Evaluation of a trajectory", verdict, sections, MODEL)
 }
 
+/// What a plain routine is.
+fn compared_with(routine: PlainRoutine) -> &'static str {
+    match routine {
+        PlainRoutine::SixPoses => {
+            "Six poses: each axis of the sensor up and down, held at rest, with the quickest straight moves in between; the best of a few such routines."
+        }
+        PlainRoutine::JointsInTurn => {
+            "Joints in turn: each joint to both of its ends and back, as quickly as it may, again and again; the best of a few such routines."
+        }
+    }
+}
+
 fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> String {
     let knots = design.optimal.motion.knots;
     let duration = short(knots.step_s * knots.intervals as f64);
-    let numbers = design.optimal.quantities.len() as f64;
-    let better = ((design.random.value - design.optimal.value) / (2.0 * numbers)).exp();
     let mut sentence =
         format!("A trajectory of {duration} s for {}.", counted(problem.chain.joints.len(), "joint"));
-    if better.is_finite() {
-        sentence += &format!(
-            " Its standard deviations are {} times smaller in the mean than those of a random motion at full speed.",
-            significant(better, 3)
-        );
+    let numbers = design.optimal.quantities.len() as f64;
+    let plain = design.plain.as_ref().map(|of| (of.evaluation.value, of.routine.name()));
+    let random = (design.random.value, "a random motion at full speed");
+    let better = |value: f64| ((value - design.optimal.value) / (2.0 * numbers)).exp();
+    let times: Vec<String> = plain
+        .into_iter()
+        .chain([random])
+        .filter(|(value, _)| value.is_finite())
+        .map(|(value, of)| format!("{} times smaller than those of {of}", significant(better(value), 3)))
+        .collect();
+    if !times.is_empty() {
+        sentence += &format!(" In the mean its standard deviations are {}.", times.join(", and "));
     }
     if let Some(bound) = &design.bound {
         sentence += &format!(
@@ -116,8 +142,11 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
 fn values(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> String {
     let bound =
         design.bound.map_or_else(String::new, |bound| format!(", bound {}", significant(bound.value, 5)));
+    let plain = design.plain.as_ref().map_or_else(String::new, |of| {
+        format!("{} {}, ", significant(of.evaluation.value, 5), of.routine.name())
+    });
     format!(
-        "{} (nats): {} random, {} optimal{bound}",
+        "{} (nats): {plain}{} random, {} optimal{bound}",
         problem.criterion.letter(),
         significant(design.random.value, 5),
         significant(design.optimal.value, 5)

@@ -15,6 +15,8 @@ pub enum MotionSource {
     Commanded(JerkControlledMotion),
     /// A log of a machine's motion.
     Logged(ReferenceLog),
+    /// A log of a machine that moved on cubic splines with knots at this distance, s.
+    OnKnots(ReferenceLog, f64),
 }
 
 impl MotionSource {
@@ -24,7 +26,7 @@ impl MotionSource {
         match self {
             Self::File(path) => path,
             Self::Commanded(_) => Path::new("motion"),
-            Self::Logged(_) => Path::new("log"),
+            Self::Logged(_) | Self::OnKnots(..) => Path::new("log"),
         }
     }
 
@@ -33,7 +35,7 @@ impl MotionSource {
         match self {
             Self::File(path) => read_motion(path, axes),
             Self::Commanded(motion) => Ok(motion.clone()),
-            Self::Logged(_) => Err(Error::experiment(InputError::new(
+            Self::Logged(_) | Self::OnKnots(..) => Err(Error::experiment(InputError::new(
                 Refusal::ExperimentUnsuited,
                 "a log of a machine is given as the commanded motion of a [motion] experiment",
                 "give the nodes of the commanded motion, or describe the machine in [machine]",
@@ -46,6 +48,10 @@ impl MotionSource {
         match self {
             Self::File(path) => read_reference_log(path, options),
             Self::Logged(log) => ReferenceLogFile::of_log(log.clone()),
+            Self::OnKnots(log, knot_step_s) => {
+                let file = ReferenceLogFile::of_log(log.clone())?;
+                Ok(ReferenceLogFile { knot_step_s: Some(*knot_step_s), ..file })
+            }
             Self::Commanded(_) => Err(Error::experiment(InputError::new(
                 Refusal::ExperimentUnsuited,
                 "a commanded motion is given in place of the log of a machine",
@@ -63,7 +69,7 @@ impl MotionSource {
                 let lists = [("t_s", motion.times_s().to_vec()), ("a_mps2", nodes.collect())];
                 Some(HashedFile::of_numbers("motion", &lists))
             }
-            Self::Logged(log) => {
+            Self::Logged(log) | Self::OnKnots(log, _) => {
                 let log = ReferenceLogFile::of_log(log.clone()).ok()?;
                 Some(HashedFile { file: "log".into(), sha256: log.sha256 })
             }

@@ -10,7 +10,7 @@ use calibrant_core::simulate::{Purpose, stream};
 use calibrant_io::{MachinePlan, ReferenceLogOptions, file_name};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::MachineSetup;
-use calibrant_machine::reference::Motion;
+use calibrant_machine::reference::{JointMotion, Motion};
 use calibrant_machine::simulate::{
     MotionOfLog, MotionToDraw, draw_body_motion, draw_joint_motion, motion_of_log,
 };
@@ -80,15 +80,6 @@ fn given(
         refused("the log has fewer than 8 samples".into(), "give a log of the whole motion")
     })?;
     let knots = motion.knots();
-    let (lasts_s, edge_s) = (knots.end_s() - knots.start_s, least_edge_s(setup));
-    if lasts_s < 2.0 * edge_s + SHORTEST_S {
-        let message = format!(
-            "the log lasts {} s, and {} s of it are the room for the delay of the sensor",
-            significant(lasts_s, 3),
-            significant(2.0 * edge_s, 3)
-        );
-        return Err(refused(message, "give a longer log, or a smaller delay_sd_s in [machine.clock]"));
-    }
     notes.push(
         MotionThroughLog {
             file: Phrase(file_name(path)),
@@ -97,5 +88,22 @@ fn given(
         }
         .into(),
     );
+    let (lasts_s, edge_s) = (knots.end_s() - knots.start_s, least_edge_s(setup));
+    // a machine that begins and ends at rest stood there before, and stays: the recording shows the whole motion
+    let rests = (edge_s / knots.step_s).ceil();
+    if let Motion::Joints(joints) = &motion
+        && let Some(positions) = joints.positions.with_rest(rests as usize)
+    {
+        let motion = Motion::Joints(JointMotion { positions, ..joints.clone() });
+        return Ok(TrueMotion { motion, edge_s: rests * knots.step_s });
+    }
+    if lasts_s < 2.0 * edge_s + SHORTEST_S {
+        let message = format!(
+            "the log lasts {} s, and {} s of it are the room for the delay of the sensor",
+            significant(lasts_s, 3),
+            significant(2.0 * edge_s, 3)
+        );
+        return Err(refused(message, "give a longer log, or a smaller delay_sd_s in [machine.clock]"));
+    }
     Ok(TrueMotion { motion, edge_s })
 }
