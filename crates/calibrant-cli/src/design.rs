@@ -12,6 +12,7 @@ mod reach_request;
 mod sweep;
 mod sweep_request;
 mod trajectory;
+mod trajectory_durations;
 
 pub(crate) use arguments::Arguments;
 

@@ -10,7 +10,7 @@
 //! | `trajectory.csv` | [`read_trajectory`], [`read_reference_log`] | [`write_trajectory`] |
 //! | `follow_joint_trajectory.yaml`, `trajectory.script` | | [`write_goal`], [`write_urscript`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
-//! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`CalibrationFile`] |
+//! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`] and [`read_earlier_machine`], as what is known before a design | [`CalibrationFile`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | corrected recordings, comparisons | | [`write_corrected_recording`], [`ComparisonFile`] |
 //! | `design.json`, `motion_dense.csv` | | [`DesignFile`], [`write_dense_motion`] |
@@ -93,6 +93,7 @@ pub use results::calibration::CalibrationFile;
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
+pub use results::earlier_machine::{EarlierMachine, read_earlier_machine};
 pub use results::heading::{Heading, JsonFile, Kind, RECORD_KIND};
 pub use results::input::{Input, file_name};
 pub use results::json::{SCHEMA, to_json, write_json};
@@ -110,6 +111,7 @@ pub use results::summary::{
 };
 pub use results::sweep::write_sweep_csv;
 pub use results::trajectory_design::{TrajectoryEvaluationFile, TrajectoryFile};
+pub use results::trajectory_sweep::{TrajectorySweepFile, write_trajectory_sweep_csv};
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text::decoding::{Checked, open_file, read_text};
 pub use trajectory::{

@@ -17,6 +17,7 @@ mod certificate;
 #[cfg(test)]
 mod chains_for_tests;
 mod design;
+mod durations;
 mod evaluate;
 mod information;
 mod limit_name;
@@ -34,6 +35,10 @@ pub mod world;
 pub use bound::TrajectoryBound;
 pub use certificate::{Kept, LimitProof, TrajectoryLimit};
 pub use design::{TrajectoryDesign, design_trajectory};
+pub use durations::{
+    ShortestTrajectory, TrajectoryGoal, TrajectorySweep, TrajectorySweepPoint, shortest_trajectory,
+    sweep_durations,
+};
 pub use evaluate::{TrajectoryEvaluation, evaluate_trajectory};
 pub use information::TrajectoryCriterion;
 pub use limits::{JointLimit, SensorBody, Surroundings};

@@ -43,5 +43,5 @@ pub use sheet::{
 #[cfg(feature = "study")]
 pub use study::study_sheet;
 pub use sweep::sweep_sheet;
-pub use trajectory::{trajectory_evaluation_sheet, trajectory_sheet};
+pub use trajectory::{trajectory_evaluation_sheet, trajectory_sheet, trajectory_sweep_sheet};
 pub use validation::validation_sentences;

@@ -8,14 +8,14 @@ use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{ImuQuantity, SensorKind};
 use calibrant_io::{
-    CriterionLetter, Experiment, LinksKnown, MachineDesignPlan, Plan, Trajectory, TrajectoryFile,
-    read_trajectory, write_goal, write_json, write_trajectory, write_urscript,
+    CriterionLetter, EarlierMachine, Experiment, LinksKnown, MachineDesignPlan, Plan, Reached, Trajectory,
+    TrajectoryFile, read_trajectory, write_goal, write_json, write_trajectory, write_urscript,
 };
 use calibrant_machine::estimate::MachineSetup;
 use calibrant_machine_design::world::World;
 use calibrant_machine_design::{
-    Dwells, SensorBody, TrajectoryCriterion, TrajectoryDesign, TrajectoryEvaluation, TrajectoryNoise,
-    TrajectoryProblem, TrajectorySettings, design_trajectory, evaluate_trajectory,
+    Dwells, PlainTrajectory, SensorBody, TrajectoryCriterion, TrajectoryDesign, TrajectoryEvaluation,
+    TrajectoryNoise, TrajectoryProblem, TrajectorySettings, design_trajectory, evaluate_trajectory,
 };
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 /// let arm = Experiment::parse(preset("arm").expect("built in"), None)?;
 /// let plan = TrajectoryPlan::new(arm, &DesignChoice::default())?;
 /// let best = plan.design()?;
-/// plan.write(&best, "best".as_ref())?;
+/// plan.write(&best, "best".as_ref(), None)?;
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -56,13 +56,38 @@ impl TrajectoryPlan {
     /// # Errors
     /// [`Error::Experiment`] as [`Experiment::machine_design`]; and for a criterion that trajectories do not have, E or M.
     pub fn new(experiment: Experiment, choice: &DesignChoice) -> Result<Self> {
-        let machine = experiment.machine_design()?;
+        Self::after(experiment, choice, None)
+    }
+
+    /// The same on the machine as an earlier calibration found it: with its zeros and geometry, its mount and delays, and the noise of its sensor. How well all is known
+    /// stays as the experiment says.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); and where the calibration is of another machine.
+    pub fn after(
+        experiment: Experiment,
+        choice: &DesignChoice,
+        earlier: Option<&EarlierMachine>,
+    ) -> Result<Self> {
+        let mut machine = experiment.machine_design()?;
         let Plan::Machine(plan) = &experiment.plan else {
             let help = "see `calibrant init arm`";
             let message = "the trajectory of a machine needs [machine]";
             return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
         };
-        let setup = plan.setup(&experiment.sensor, experiment.imu.as_ref(), machine.chain.joints.len())?;
+        let mut setup =
+            plan.setup(&experiment.sensor, experiment.imu.as_ref(), machine.chain.joints.len())?;
+        if let Some(earlier) = earlier {
+            machine.chain = earlier.chain(&machine.chain)?;
+            setup = earlier.setup(&setup);
+            machine.moving_noise = earlier.moving_noise.unwrap_or(machine.moving_noise);
+            for (sensor, density) in &earlier.noise_density {
+                match sensor {
+                    SensorKind::Accelerometer => machine.force_density = *density,
+                    SensorKind::Gyroscope => machine.rate_density = machine.rate_density.map(|_| *density),
+                }
+            }
+        }
         let quantities = experiment
             .quantities_of(|kind| kind == SensorKind::Accelerometer || machine.rate_density.is_some());
         let ranges: Vec<(f64, f64)> =
@@ -146,20 +171,51 @@ impl TrajectoryPlan {
         evaluate_trajectory(&self.problem(), &motion)
     }
 
-    /// Writes `trajectory.csv`, `follow_joint_trajectory.yaml`, `trajectory.script` for an arm of Universal Robots, and `design.json`. Returns their paths.
+    /// A design whose motions are all so many times slower.
+    ///
+    /// # Errors
+    /// As [`slowed`](Self::slowed).
+    pub fn slowed_design(&self, of: &TrajectoryDesign, times: f64) -> Result<TrajectoryDesign> {
+        let plain = of.plain.as_ref().map(|plain| {
+            let evaluation = self.slowed(&plain.evaluation, times)?;
+            Ok::<_, Error>(PlainTrajectory { evaluation, ..plain.clone() })
+        });
+        Ok(TrajectoryDesign {
+            optimal: self.slowed(&of.optimal, times)?,
+            random: self.slowed(&of.random, times)?,
+            plain: plain.transpose()?,
+            // it is that of the duration that was searched
+            bound: None,
+            ..of.clone()
+        })
+    }
+
+    /// Writes `trajectory.csv`, `follow_joint_trajectory.yaml`, `trajectory.script` for an arm of Universal Robots, and `design.json` with the goals that were reached. Returns their paths.
     ///
     /// # Errors
     /// [`Error::Output`] where one cannot be written.
-    pub fn write(&self, design: &TrajectoryDesign, directory: &Path) -> Result<Vec<PathBuf>> {
+    pub fn write(
+        &self,
+        design: &TrajectoryDesign,
+        directory: &Path,
+        reached: Option<&Reached>,
+    ) -> Result<Vec<PathBuf>> {
         let at = |name: &str| directory.join(name);
         let mut written = self.write_motion(&design.optimal, directory)?;
-        let problem = self.problem();
-        write_json(
-            &at("design.json"),
-            &TrajectoryFile { design, problem: &problem, plan: &self.machine, world: &self.world },
-        )?;
+        write_json(&at("design.json"), &self.file(design, &self.problem(), reached))?;
         written.push(at("design.json"));
         Ok(written)
+    }
+
+    /// The content of `design.json`, with the goals that were reached.
+    #[must_use]
+    pub fn file<'a>(
+        &'a self,
+        design: &'a TrajectoryDesign,
+        problem: &'a TrajectoryProblem<'a>,
+        reached: Option<&'a Reached>,
+    ) -> TrajectoryFile<'a> {
+        TrajectoryFile { design, problem, plan: &self.machine, world: &self.world, reached }
     }
 
     /// Writes the trajectory alone, in the files that controllers take.

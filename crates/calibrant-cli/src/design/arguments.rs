@@ -20,6 +20,7 @@ pub(crate) struct Arguments {
     /// The experiment file, with a [motion], [holds] or [machine] (see `calibrant init`).
     pub(super) experiment: PathBuf,
     /// An earlier calibration.json of this sensor. The design starts at its estimate, and uses its information. Repeatable: the information adds up, and the last file gives the estimate.
+    /// Of a machine it gives geometry, mount, delays and noise.
     #[arg(long, value_name = "JSON")]
     pub(super) from: Vec<PathBuf>,
     /// Also write motion_dense.csv: position, velocity, acceleration and jerk at this rate.
@@ -29,11 +30,12 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "CSV", conflicts_with_all = ["sweep", "reach"])]
     pub(super) evaluate: Option<PathBuf>,
     /// Design for several values of one quantity: duration=5,10,20, or duration=FROM:TO:COUNT (geometric), or FROM:TO:COUNT:linear. Other quantities:
-    /// acceleration, jerk, intercept, velocity, displacement, rate, noise.
+    /// acceleration, jerk, intercept, velocity, displacement, rate, noise. A machine is swept over its duration.
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep::parse)]
     pub(super) sweep: Option<sweep::Request>,
     /// Find the fewest poses, or the shortest motion, with which a parameter has this standard deviation: scale.x=50ppm, bias.z=0.2mg. Repeatable. It proves a
-    /// number below which none can.
+    /// number below which none can. Of a machine it finds the shortest duration within 6 %, without a proof; scale=50ppm is of every scale factor, gyroscope.bias=1deg/h of
+    /// the gyroscope's biases.
     #[arg(long, value_name = "NAME=SD", value_parser = reach::parse, conflicts_with_all = ["sweep", "evaluate"])]
     pub(super) reach: Vec<reach::Request>,
     /// Number of poses, in place of holds.poses: those to add to an earlier calibration (--from).
@@ -58,7 +60,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SHARE", value_parser = gap, conflicts_with_all = ["no_certificate", "sweep", "reach"])]
     pub(super) gap: Option<f64>,
     /// On a machine: the same path this many times slower, for the first run. What it then determines is said.
-    #[arg(long, value_name = "TIMES", value_parser = slow, conflicts_with = "evaluate")]
+    #[arg(long, value_name = "TIMES", value_parser = slow, conflicts_with_all = ["evaluate", "sweep", "reach"])]
     pub(super) slow: Option<f64>,
     /// Print design.json on stdout instead of the tables.
     #[arg(long)]

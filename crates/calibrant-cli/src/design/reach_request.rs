@@ -3,7 +3,8 @@
 use calibrant::design::Goal;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::nearest;
-use calibrant::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
+use calibrant::machine_design::TrajectoryGoal;
+use calibrant::sensor::{ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters};
 
 /// A parameter, and the standard deviation that it should have.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,10 +25,17 @@ enum Dimension {
     Share,
     /// m/s²: of biases.
     Acceleration,
+    /// rad/s: of biases of gyroscopes.
+    Rate,
 }
 
 /// The units, with their size.
-const UNITS: [(&str, f64, Dimension); 9] = [
+const UNITS: [(&str, f64, Dimension); 14] = [
+    ("deg/h", std::f64::consts::PI / 180.0 / 3600.0, Dimension::Rate),
+    ("°/h", std::f64::consts::PI / 180.0 / 3600.0, Dimension::Rate),
+    ("deg/s", std::f64::consts::PI / 180.0, Dimension::Rate),
+    ("°/s", std::f64::consts::PI / 180.0, Dimension::Rate),
+    ("rad/s", 1.0, Dimension::Rate),
     ("ppm", 1e-6, Dimension::Share),
     ("%", 1e-2, Dimension::Share),
     ("mg", 9.806_65e-3, Dimension::Acceleration),
@@ -120,6 +128,7 @@ fn goal(
         Dimension::Own => true,
         Dimension::Share => !is_bias,
         Dimension::Acceleration => is_bias,
+        Dimension::Rate => false,
     };
     if !fits {
         let message = format!("--reach: {} is not measured in the unit of {}", request.name, request.text);
@@ -133,6 +142,52 @@ fn goal(
     let gain = at.matrix.row(axis.index()).norm();
     let is_counted = unit == ReadingUnit::Counts && request.dimension != Dimension::Own;
     Ok(Goal { parameter, sd: request.value * if is_counted { gain } else { 1.0 } })
+}
+
+/// The goals for the parameters of an IMU. A name without a sensor, or without an axis, is of all that it fits: `scale`, `gyroscope.bias`, `scale.x`.
+pub(super) fn goals_of_imu(
+    requests: &[Request],
+    quantities: &[ImuQuantity],
+) -> calibrant::Result<Vec<TrajectoryGoal>> {
+    let mut goals = Vec::new();
+    for request in requests {
+        let fits = |name: &str| {
+            let wanted: Vec<&str> = request.name.split('.').collect();
+            let found: Vec<&str> = name.split('.').collect();
+            found.windows(wanted.len()).any(|part| part == wanted)
+        };
+        let places: Vec<usize> = (0..quantities.len()).filter(|i| fits(&quantities[*i].name())).collect();
+        let refused = |message: String, help: String| {
+            Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))
+        };
+        if places.is_empty() {
+            let names: Vec<String> = quantities.iter().map(|quantity| quantity.name()).collect();
+            let near = nearest(&request.name, names.iter().map(String::as_str));
+            let hint = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+            let message = format!("--reach: this sensor has no parameter \"{}\"", request.name);
+            return refused(message, format!("{hint}its parameters are {}", names.join(", ")));
+        }
+        for place in places {
+            let quantity = quantities[place];
+            let (dimension, help) = match (quantity, quantity.sensor_kind()) {
+                (ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(_)), _) => {
+                    (Dimension::Acceleration, "give mg, ug or m/s2")
+                }
+                (ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Bias(_)), _) => {
+                    (Dimension::Rate, "give deg/h, deg/s or rad/s")
+                }
+                (ImuQuantity::Of(..), _) => (Dimension::Share, "give ppm or %"),
+                _ => (Dimension::Own, "give a number in the parameter's unit"),
+            };
+            if request.dimension != Dimension::Own && request.dimension != dimension {
+                let message =
+                    format!("--reach: {} is not measured in the unit of {}", quantity.name(), request.text);
+                return refused(message, help.into());
+            }
+            goals.push(TrajectoryGoal { parameter: place, sd: request.value });
+        }
+    }
+    Ok(goals)
 }
 
 #[cfg(test)]

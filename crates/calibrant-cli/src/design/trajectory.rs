@@ -1,12 +1,16 @@
 //! `calibrant design` of a machine: the best trajectory of its joints.
 
-use super::Arguments;
+use super::{Arguments, trajectory_durations};
 use crate::console;
-use crate::diagnostics::tell_all;
+use crate::diagnostics::{tell, tell_all};
 use crate::exit::Exit;
 use calibrant::design::DesignStatus;
+use calibrant::diagnostic::Phrase;
+use calibrant::diagnostic::design::MotionNotCompared;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{TrajectoryEvaluationFile, TrajectoryFile, to_json, write_json, write_text};
+use calibrant::io::{
+    Reached, TrajectoryEvaluationFile, read_earlier_machine, to_json, write_json, write_text,
+};
 use calibrant::machine_design::{TrajectoryDesign, TrajectoryEvaluation};
 use calibrant::progress::Progress;
 use calibrant::report::number_format::short;
@@ -41,39 +45,67 @@ pub(super) fn run(arguments: &Arguments, job: DesignPlan) -> calibrant::Result<E
         shown.set_position(step.done);
         shown.set_message(step.what);
     });
-    let plan = TrajectoryPlan::new(job.experiment, &choice).map_err(placed)?.with_progress(progress);
+    let earlier = match arguments.from.as_slice() {
+        [] => None,
+        [path] => Some(read_earlier_machine(path)?),
+        _ => {
+            return Err(unsuited(
+                "a second --from",
+                "motions or poses: a machine is as its last calibration found it",
+            ));
+        }
+    };
+    let plan = TrajectoryPlan::after(job.experiment, &choice, earlier.as_ref()).map_err(placed)?;
+    let plan = plan.with_progress(progress);
     tell_all(&plan.notes());
+    if let Some(request) = &arguments.sweep {
+        bar.finish_and_clear();
+        return trajectory_durations::sweep(arguments, &plan.with_progress(Progress::default()), request);
+    }
+    if !arguments.reach.is_empty() {
+        bar.finish_and_clear();
+        return trajectory_durations::reach(arguments, plan.with_progress(Progress::default()));
+    }
     if let Some(path) = &arguments.evaluate {
         let evaluation = plan.evaluate(path)?;
         let design = plan.design();
         bar.finish_and_clear();
-        return judge(arguments, &plan, (path, &evaluation), design.ok());
+        let best = design.map_err(|why| tell(MotionNotCompared { why: Phrase(why.to_string()) })).ok();
+        return judge(arguments, &plan, (path, &evaluation), best);
     }
     let design = plan.design().map_err(placed);
     bar.finish_and_clear();
-    finish(arguments, &plan, design?)
+    finish(arguments, &plan, design?, None)
 }
 
-fn finish(
+/// Writes and shows a design, with the goals that it reaches and a sentence on them.
+pub(super) fn finish(
     arguments: &Arguments,
     plan: &TrajectoryPlan,
-    mut design: TrajectoryDesign,
+    design: TrajectoryDesign,
+    reached: Option<(&Reached, &str)>,
 ) -> calibrant::Result<Exit> {
     let mut title = "Trajectory of a machine".to_owned();
-    if let Some(times) = arguments.slow {
-        design.optimal = plan.slowed(&design.optimal, times)?;
-        title += &format!(", {} times slower", short(times));
-    }
+    let design = match arguments.slow {
+        Some(times) => {
+            title += &format!(", {} times slower", short(times));
+            plan.slowed_design(&design, times)?
+        }
+        None => design,
+    };
     let output = &arguments.output;
-    let mut files = plan.write(&design, output)?;
+    let goals = reached.map(|(goals, _)| goals);
+    let mut files = plan.write(&design, output, goals)?;
     let problem = plan.problem();
-    let about = about(arguments, plan, title);
-    let sheet = trajectory_sheet(&design, &problem, &about);
+    let mut about = about(arguments, plan, title);
+    about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));
+    let sheet = trajectory_sheet(&design, (&problem, &plan.world), &about);
     let page = output.join("report.html");
     write_text(&page, &sheet.html())?;
     files.push(page);
-    let file = TrajectoryFile { design: &design, problem: &problem, plan: &plan.machine, world: &plan.world };
-    console::result(arguments.json, || to_json(&file), &sheet, None, &files);
+    let file = plan.file(&design, &problem, goals);
+    let sentence = reached.map(|(_, sentence)| sentence);
+    console::result(arguments.json, || to_json(&file), &sheet, sentence, &files);
     tell_all(&plan.remarks(&design));
     let done = matches!(design.status, DesignStatus::Converged | DesignStatus::IterationLimit);
     Ok(if done && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
@@ -98,7 +130,12 @@ fn judge(
     write_json(&output.join("evaluation.json"), &file)?;
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let about = about(arguments, plan, format!("Assessment of {name}"));
-    let sheet = trajectory_evaluation_sheet(evaluation, best.map(|best| &best.optimal), &problem, &about);
+    let sheet = trajectory_evaluation_sheet(
+        evaluation,
+        best.map(|best| &best.optimal),
+        (&problem, &plan.world),
+        &about,
+    );
     let page = output.join("evaluation.html");
     write_text(&page, &sheet.html())?;
     console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
@@ -106,9 +143,10 @@ fn judge(
     Ok(if is_kept { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
 }
 
-fn about(arguments: &Arguments, plan: &TrajectoryPlan, title: String) -> About {
+pub(super) fn about(arguments: &Arguments, plan: &TrajectoryPlan, title: String) -> About {
     let fact = |label: &str, text: String| (label.to_owned(), text);
-    let facts = vec![
+    let known = arguments.from.iter().map(|path| fact("Machine as found by", path.display().to_string()));
+    let mut facts = vec![
         fact("Experiment", arguments.experiment.display().to_string()),
         fact(
             "Machine",
@@ -125,15 +163,13 @@ fn about(arguments: &Arguments, plan: &TrajectoryPlan, title: String) -> About {
         ),
         fact("Starts", format!("{}, seed {}", plan.settings.starts, plan.settings.seed)),
     ];
+    facts.extend(known);
     About { title, facts, ..About::default() }
 }
 
 fn refuse_others_options(arguments: &Arguments) -> calibrant::Result<()> {
     let given = [
-        ("--sweep", arguments.sweep.is_some()),
         ("--sample-rate", arguments.sample_rate.is_some()),
-        ("--reach", !arguments.reach.is_empty()),
-        ("--from", !arguments.from.is_empty()),
         ("--add", arguments.add.is_some()),
         ("--no-certificate", arguments.no_certificate),
         ("--gap", arguments.gap.is_some()),

@@ -1,6 +1,7 @@
 //! `design.json` of the trajectory of a machine, and `evaluation.json` of one.
 
 use super::heading::{Heading, JsonFile};
+use super::reach::Reached;
 use crate::experiment::{LinksKnown, MachineDesignPlan};
 use calibrant_core::form::rows;
 use calibrant_core::json::{flat, if_some};
@@ -25,6 +26,8 @@ pub struct TrajectoryFile<'a> {
     pub plan: &'a MachineDesignPlan,
     /// What the machine must not touch.
     pub world: &'a World,
+    /// The goals that it reaches, where a duration was sought.
+    pub reached: Option<&'a Reached>,
 }
 
 /// The content of `evaluation.json`.
@@ -65,6 +68,7 @@ json_object! {
         starts: file.design.starts.iter().map(Start::of).collect::<Vec<_>>(),
         /// Iterations of all starts.
         iterations: file.design.iterations,
+        reach: if_some(file.reached),
     }
 }
 

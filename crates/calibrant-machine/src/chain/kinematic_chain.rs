@@ -49,6 +49,25 @@ impl KinematicChain {
         self.corrected(&ChainCorrections::none(self.joints.len()))
     }
 
+    /// The same chain with the corrections in its joints' poses, as a file with the right numbers would describe it.
+    ///
+    /// # Panics
+    /// If the corrections are for another number of joints.
+    #[must_use]
+    pub fn with(&self, corrections: &ChainCorrections) -> Self {
+        assert_eq!(corrections.joints.len(), self.joints.len(), "one correction for each joint");
+        let corrected = |(joint, of): (&Joint, &JointCorrection)| {
+            let turned = UnitQuaternion::from_scaled_axis(of.rotation_rad);
+            let at_zero = match joint.kind.turns() {
+                true => Isometry3::rotation(joint.axis.into_inner() * of.zero),
+                false => Isometry3::from(Translation3::from(joint.axis.into_inner() * of.zero)),
+            };
+            let correction = Isometry3::from_parts(Translation3::from(of.translation_m), turned);
+            Joint { origin: joint.origin * correction * at_zero, ..joint.clone() }
+        };
+        Self { joints: self.joints.iter().zip(&corrections.joints).map(corrected).collect(), ..self.clone() }
+    }
+
     /// The chain with corrections of its geometry.
     ///
     /// # Panics
@@ -237,6 +256,17 @@ mod tests {
 
     fn near(one: Vector3<f64>, x: f64, y: f64, z: f64) {
         assert!((one - Vector3::new(x, y, z)).norm() < 1e-13, "{one}");
+    }
+
+    #[test]
+    fn a_chain_with_its_corrections_is_the_corrected_chain() {
+        let (chain, mut numbers) = (mixed_chain(), Numbers::default());
+        let corrections = corrections_of(&mut numbers, chain.joints.len());
+        let positions: Vec<f64> = (0..chain.joints.len()).map(|j| 0.4 - 0.3 * j as f64).collect();
+        let one = chain.corrected(&corrections).tip_pose(&positions);
+        let other = chain.with(&corrections).nominal().tip_pose(&positions);
+        assert!((one.to_homogeneous() - other.to_homogeneous()).norm() < 1e-13);
+        assert!((one.to_homogeneous() - chain.nominal().tip_pose(&positions).to_homogeneous()).norm() > 1e-3);
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod correlation;
 mod design_population;
 mod device;
 mod drawing;
+mod durations;
 mod ellipse;
 mod frame;
 mod gyroscope_in_holds;
@@ -50,6 +51,7 @@ pub(super) use correlation::correlation_map;
 #[cfg(feature = "study")]
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;
+pub(super) use durations::duration_curves;
 pub(super) use ellipse::confidence_ellipses;
 pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};

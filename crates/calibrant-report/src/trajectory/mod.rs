@@ -3,5 +3,7 @@
 mod limits;
 mod predicted;
 mod sections;
+mod sweep;
 
 pub use sections::{trajectory_evaluation_sheet, trajectory_sheet};
+pub use sweep::trajectory_sweep_sheet;

@@ -22,7 +22,7 @@ const EQUAL: f64 = 0.5;
 #[must_use]
 pub fn trajectory_sheet<'a>(
     design: &'a TrajectoryDesign,
-    problem: &'a TrajectoryProblem<'a>,
+    (problem, world): (&'a TrajectoryProblem<'a>, &'a World),
     about: &'a About,
 ) -> Sheet<'a> {
     let best = &design.optimal;
@@ -49,7 +49,7 @@ pub fn trajectory_sheet<'a>(
         budget(best),
         path(best, problem),
         limits(best, problem),
-        motion(best, problem),
+        motion(best, problem, world),
         search(design),
     ];
     about.sheet("Trajectory of a machine", verdict, sections, MODEL)
@@ -60,7 +60,7 @@ pub fn trajectory_sheet<'a>(
 pub fn trajectory_evaluation_sheet<'a>(
     evaluation: &'a TrajectoryEvaluation,
     best: Option<&'a TrajectoryEvaluation>,
-    problem: &'a TrajectoryProblem<'a>,
+    (problem, world): (&'a TrajectoryProblem<'a>, &'a World),
     about: &'a About,
 ) -> Sheet<'a> {
     let broken = broken(evaluation, problem);
@@ -96,7 +96,7 @@ pub fn trajectory_evaluation_sheet<'a>(
         section.list(broken);
         sections.insert(0, section);
     }
-    sections.push(motion(evaluation, problem));
+    sections.push(motion(evaluation, problem, world));
     about.sheet("Evaluation of a trajectory", verdict, sections, MODEL)
 }
 
@@ -188,10 +188,14 @@ fn limits<'a>(of: &TrajectoryEvaluation, problem: &TrajectoryProblem<'_>) -> Sec
     section
 }
 
-fn motion<'a>(of: &'a TrajectoryEvaluation, problem: &'a TrajectoryProblem<'a>) -> Section<'a> {
+fn motion<'a>(
+    of: &'a TrajectoryEvaluation,
+    problem: &'a TrajectoryProblem<'a>,
+    world: &'a World,
+) -> Section<'a> {
     let mut section = Section::on_page("The machine in motion").lead("To turn and to play.");
     section.drawn(|| {
-        let scene = Scene::of_trajectory(&of.motion, problem.chain, problem.setup);
+        let scene = Scene::of_trajectory(&of.motion, problem.chain, problem.setup, world);
         let script = format!("<script>\n{PLAYER_SCRIPT}</script>");
         [player(&scene), three_views(&scene), script].join("\n")
     });

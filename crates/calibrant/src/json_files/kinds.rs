@@ -3,7 +3,7 @@
 use calibrant_io::{
     BatchEntry, CalibrationFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile,
     JsonFile, MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
-    ReferenceInspectionFile, SweepFile, TrajectoryEvaluationFile, TrajectoryFile, Truth,
+    ReferenceInspectionFile, SweepFile, TrajectoryEvaluationFile, TrajectoryFile, TrajectorySweepFile, Truth,
 };
 #[cfg(feature = "records")]
 use calibrant_records::{Fleet, KeptRecord, RecordFile, SensorDrift, SensorHistory};
@@ -54,6 +54,7 @@ impl FileKind {
         Self::of::<PoseEvaluationFile<'static>>("evaluation.json of holds", "design"),
         Self::of::<TrajectoryFile<'static>>("design.json of the trajectory of a machine", "design"),
         Self::of::<TrajectoryEvaluationFile<'static>>("evaluation.json of a trajectory", "design"),
+        Self::of::<TrajectorySweepFile<'static>>("sweep.json of trajectories", "design"),
         #[cfg(feature = "study")]
         Self::of::<calibrant_io::StudyFile<'static>>("study.json", "study"),
         Self::of::<Truth>("truth.json of a simulation", "simulate"),

@@ -7,7 +7,9 @@ for (const figure of document.querySelectorAll("figure.player")) {
     return list;
   };
   const frames = data.frames.split(";").map(points);
-  const path = data.path.split(";").map(points), floor = data.floor.split(";").map(points);
+  const runs = text => text ? text.split(";").map(points) : [];
+  const path = runs(data.path), floor = runs(data.floor), obstacles = runs(data.obstacles);
+  const capsules = 2 * Number(data.capsules);
   const names = points(data.names), scale = Number(data.scale), [start, end] = numbers(data.times);
   const { width, height } = svg.viewBox.baseVal;
   let [azimuth, elevation] = numbers(data.view), place = 0, playing = false, before = 0;
@@ -32,8 +34,11 @@ for (const figure of document.querySelectorAll("figure.player")) {
     ];
     const line = list => "M" + list.map(point => at(point).join(" ")).join("L");
     const dots = list => list.map(point => `M${at(point).join(" ")}h.01`).join("");
-    const now = posture(), links = now.slice(0, -4), tip = links[links.length - 1], ends = now.slice(-4);
+    const now = posture(), shapes = now.splice(now.length - capsules, capsules);
+    const links = now.slice(0, -4), tip = links[links.length - 1], ends = now.slice(-4);
     set("floor", floor.map(line).join(""));
+    set("obstacles", obstacles.map(line).join(""));
+    for (let k = 0; k < shapes.length; k += 2) set(`capsule${k / 2}`, line(shapes.slice(k, k + 2)));
     set("path", path.map(line).join(""));
     set("links", line(links));
     set("joints", dots(links));

@@ -41,6 +41,16 @@ pub(crate) fn player(scene: &Scene) -> String {
     let still = " tabindex=\"0\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"";
     let mut svg = opened([0.0, 0.0, SIZE.0, SIZE.1], &name, still);
     svg += &part("floor", &lines(&floor), "#d0d7de", 0.8);
+    svg += &part("obstacles", &lines(&scene.obstacles), colour::ORANGE, 1.4);
+    // seen from far away, a capsule is a line as wide as it, with round ends
+    for (k, (ends, radius_m)) in scene.capsule_ends(first).iter().zip(scene.radii_m()).enumerate() {
+        svg += &format!(
+            "<path data-part=\"capsule{k}\" d=\"{}\" stroke=\"{}\" stroke-opacity=\"0.16\" stroke-width=\"{:.1}\"/>",
+            view.line(ends),
+            colour::GREY,
+            2.0 * radius_m * scale
+        );
+    }
     svg += &part("path", &lines(&path), colour::SKY, 1.0);
     if scene.is_chain {
         svg += &part("links", &view.line(&links), colour::GREY, 6.0);
@@ -67,6 +77,7 @@ pub(crate) fn player(scene: &Scene) -> String {
     let frame = |posture: &Posture| {
         let mut points = scene.links(posture);
         points.extend(scene.tip_and_sensor(posture));
+        points.extend(scene.capsule_ends(posture).concat());
         grains(&points)
     };
     let frames: Vec<String> = scene.played.iter().map(frame).collect();
@@ -75,6 +86,8 @@ pub(crate) fn player(scene: &Scene) -> String {
         ("frames", frames.join(";")),
         ("path", runs(&path)),
         ("floor", runs(&floor)),
+        ("obstacles", runs(&scene.obstacles)),
+        ("capsules", scene.radii_m().count().to_string()),
         ("names", grains(&base_axes(scene))),
         ("scale", format!("{:.6}", scale * GRAIN_M)),
         ("view", format!("{},{}", VIEW.0, VIEW.1)),
@@ -94,12 +107,16 @@ pub(crate) fn player(scene: &Scene) -> String {
     } else {
         format!("it plays from {}", range(first.time_s, last))
     };
+    let more = match scene.radii_m().count() {
+        0 => " Where no sample was used, it stands still.",
+        _ => " Wide and pale: the capsules that are kept apart. Boxes are drawn by their edges.",
+    };
     format!(
         "<figure class=\"player\"{data}><h3>The machine in motion</h3>{}<div class=\"stage\">{svg}</div>\
          <div class=\"controls\" hidden><button type=\"button\" data-do=\"play\">Play</button>\
          <input type=\"range\" min=\"0\" max=\"1\" step=\"any\" value=\"0\" aria-label=\"time\"><output>{} s</output>\
          <span><button type=\"button\" data-view=\"-90,0\">Front</button><button type=\"button\" data-view=\"0,0\">Side</button><button type=\"button\" data-view=\"-90,90\">Top</button></span><p>Drag to turn it, or use the arrow keys.</p></div>\
-         <figcaption>In real time, {which}. Where no sample was used, it stands still. The letters x, y, z are at the ends of the base’s axes along the floor’s corner.</figcaption></figure>",
+         <figcaption>In real time, {which}.{more} The letters x, y, z are at the ends of the base’s axes along the floor’s corner.</figcaption></figure>",
         legend(scene.is_chain),
         fixed(first.time_s, 1)
     )

@@ -4,6 +4,7 @@ use calibrant_machine::chain::{KinematicChain, SensorMount};
 use calibrant_machine::estimate::{MachineCalibration, MachineSetup};
 use calibrant_machine::reference::{Motion, Posture};
 use calibrant_machine::spline::VectorSpline;
+use calibrant_machine_design::world::{Body, Capsule, Cuboid, World};
 use nalgebra::Vector3;
 
 /// Largest number of postures along the path.
@@ -33,6 +34,10 @@ pub(crate) struct Scene {
     pub(crate) centre: Vector3<f64>,
     /// Half the extent along each axis of the base, m.
     pub(crate) half: Vector3<f64>,
+    /// The shapes that are kept apart: their frame, as of [`Body`](calibrant_machine_design::world::Body), and the capsule.
+    capsules: Vec<(usize, Capsule)>,
+    /// Edges of what stands around the machine, m.
+    pub(super) obstacles: Vec<Vec<Vector3<f64>>>,
 }
 
 impl Scene {
@@ -85,13 +90,20 @@ impl Scene {
             is_chain: matches!(calibration.motion, Motion::Joints(_)),
             centre: Vector3::zeros(),
             half: Vector3::repeat(1.0),
+            capsules: Vec::new(),
+            obstacles: Vec::new(),
         };
         scene.frame();
         Some(scene)
     }
 
-    /// Of a trajectory of a chain.
-    pub(crate) fn of_trajectory(motion: &VectorSpline, chain: &KinematicChain, setup: &MachineSetup) -> Self {
+    /// Of a trajectory of a chain, with the shapes that are kept apart.
+    pub(crate) fn of_trajectory(
+        motion: &VectorSpline,
+        chain: &KinematicChain,
+        setup: &MachineSetup,
+        world: &World,
+    ) -> Self {
         let nominal = chain.nominal();
         let knots = motion.knots;
         let duration_s = knots.step_s * knots.intervals as f64;
@@ -118,6 +130,8 @@ impl Scene {
             is_chain: true,
             centre: Vector3::zeros(),
             half: Vector3::repeat(1.0),
+            capsules: world.scene().bodies.iter().flat_map(of_body).collect(),
+            obstacles: world.scene().boxes.iter().flat_map(edges).collect(),
         };
         scene.frame();
         scene
@@ -127,7 +141,9 @@ impl Scene {
     fn frame(&mut self) {
         let mut low = Vector3::repeat(f64::INFINITY);
         let mut high = -low;
-        for point in self.path.iter().chain(&self.played).flat_map(|posture| self.links(posture)) {
+        let postures = self.path.iter().chain(&self.played);
+        let links: Vec<Vector3<f64>> = postures.flat_map(|posture| self.links(posture)).collect();
+        for point in links.into_iter().chain(self.obstacles.iter().flatten().copied()) {
             if point.iter().all(|x| x.is_finite()) {
                 (low, high) = (low.inf(&point), high.sup(&point));
             }
@@ -156,11 +172,43 @@ impl Scene {
         ]
     }
 
+    /// Ends of the capsules in a posture, m.
+    pub(super) fn capsule_ends(&self, posture: &Posture) -> Vec<[Vector3<f64>; 2]> {
+        let at = |(frame, capsule): &(usize, Capsule)| match frame
+            .checked_sub(1)
+            .and_then(|k| posture.frames.get(k))
+        {
+            Some(frame) => capsule.ends_m.map(|end| frame.translation.vector + frame.rotation * end),
+            None => capsule.ends_m,
+        };
+        self.capsules.iter().map(at).collect()
+    }
+
+    /// Radii of the capsules, m.
+    pub(super) fn radii_m(&self) -> impl Iterator<Item = f64> {
+        self.capsules.iter().map(|(_, capsule)| capsule.radius_m)
+    }
+
     /// A few postures, evenly over the played part.
     pub(crate) fn few(&self) -> impl Iterator<Item = &Posture> {
         const FEW: usize = 5;
         (0..FEW).filter_map(|k| self.played.get(k * (self.played.len() - 1) / (FEW - 1)))
     }
+}
+
+fn of_body(body: &Body) -> impl Iterator<Item = (usize, Capsule)> {
+    body.capsules.iter().map(|capsule| (body.frame, *capsule))
+}
+
+/// The twelve edges of a box, m.
+fn edges(cuboid: &Cuboid) -> Vec<Vec<Vector3<f64>>> {
+    let sign = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
+    let at = |corner: usize| {
+        let of = cuboid.half_m.component_mul(&Vector3::from_fn(|axis, _| sign(corner, axis)));
+        cuboid.pose.translation.vector + cuboid.pose.rotation * of
+    };
+    let from = (0..8).flat_map(|corner| (0..3).map(move |axis| (corner, corner | 1 << axis)));
+    from.filter(|(one, other)| one != other).map(|(one, other)| vec![at(one), at(other)]).collect()
 }
 
 /// The path of the tip in parts without a gap, m.
