@@ -38,6 +38,7 @@ impl crate::run::Run for Arguments {
             "sweep.csv",
             "report.html",
             "trajectory.csv",
+            "plain_trajectory.csv",
             "follow_joint_trajectory.yaml",
             "trajectory.script",
         ];

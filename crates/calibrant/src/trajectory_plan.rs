@@ -7,6 +7,7 @@ use calibrant_core::diagnostic::design::{CollisionsUnknown, LinksWithoutShapes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{ImuQuantity, SensorKind};
+use calibrant_design::DesignStatus;
 use calibrant_io::{
     CriterionLetter, EarlierMachine, Experiment, LinksKnown, MachineDesignPlan, Plan, Reached, Trajectory,
     TrajectoryFile, read_trajectory, write_goal, write_json, write_trajectory, write_urscript,
@@ -190,7 +191,7 @@ impl TrajectoryPlan {
         })
     }
 
-    /// Writes `trajectory.csv`, `follow_joint_trajectory.yaml`, `trajectory.script` for an arm of Universal Robots, and `design.json` with the goals that were reached. Returns their paths.
+    /// Writes `trajectory.csv`, `follow_joint_trajectory.yaml`, `trajectory.script` for an arm of Universal Robots, `plain_trajectory.csv` and `design.json` with the goals that were reached. Returns their paths.
     ///
     /// # Errors
     /// [`Error::Output`] where one cannot be written.
@@ -204,6 +205,11 @@ impl TrajectoryPlan {
         let mut written = self.write_motion(&design.optimal, directory)?;
         write_json(&at("design.json"), &self.file(design, &self.problem(), reached))?;
         written.push(at("design.json"));
+        if let Some(plain) = &design.plain {
+            let trajectory = Trajectory::of(&self.machine.chain, plain.evaluation.motion.clone());
+            write_trajectory(&at("plain_trajectory.csv"), &trajectory)?;
+            written.push(at("plain_trajectory.csv"));
+        }
         Ok(written)
     }
 
@@ -249,9 +255,12 @@ impl TrajectoryPlan {
         }
     }
 
-    /// Why the search of a design ended before it converged.
+    /// Why the search of a design ended before it converged. The last stage has a number of iterations by intention, which is no reason to say so.
     #[must_use]
     pub fn remarks(&self, design: &TrajectoryDesign) -> Vec<Diagnostic> {
+        if design.status == DesignStatus::IterationLimit {
+            return Vec::new();
+        }
         search_ended(design.status, !self.settings.interruption.is_asked()).into_iter().collect()
     }
 }

@@ -84,3 +84,123 @@ fn what_cannot_be_designed_is_refused_with_what_to_do() {
     bench.preset("mocap", "body.toml", &[]);
     bench.refuses("design body.toml -o best", 2, &["machine with joints"]);
 }
+
+/// Six poses beside the optimum of an arm, and the same bits for any number of threads.
+#[test]
+fn a_design_stands_beside_six_poses_whatever_the_number_of_threads() {
+    let bench = Bench::new();
+    bench.preset("arm", "arm.toml", &[]);
+    let outcome = bench.run("design arm.toml --starts 2 --threads 1 -o one").done();
+    assert!(outcome.printed().contains("Against six poses"), "{outcome:?}");
+    bench.run("design arm.toml --starts 2 --threads 2 -o two").done();
+    for file in ["trajectory.csv", "plain_trajectory.csv", "design.json"] {
+        assert_eq!(bench.read(&format!("one/{file}")), bench.read(&format!("two/{file}")), "{file}");
+    }
+    let design = bench.json("one/design.json");
+    assert_eq!(design["plain_routine"], "six poses");
+    let limits = design["plain"]["limits"].as_array().expect("limits");
+    assert!(limits.iter().all(|limit| limit["is_proved"] == true), "{limits:?}");
+    let value = |of: &str| design[of]["value"].as_f64().expect("a number");
+    assert!(value("optimal") < value("plain") && value("optimal") < value("random"));
+    // it stands still six times, and moves in between
+    let text = bench.read("one/plain_trajectory.csv");
+    let still: Vec<bool> = text
+        .lines()
+        .skip(1)
+        .map(|row| {
+            let numbers: Vec<f64> = row.split(',').map(|number| number.parse().expect("a number")).collect();
+            numbers[7..13].iter().all(|speed| speed.abs() < 1e-9)
+        })
+        .collect();
+    let holds = still.chunk_by(|one, next| one == next).filter(|run| run[0] && run.len() > 2).count();
+    assert_eq!(holds, 6, "{still:?}");
+}
+
+#[test]
+fn durations_are_swept_and_the_shortest_that_is_enough_is_found() {
+    let bench = table();
+    bench.run("design table.toml --starts 2 --sweep duration=6,24 -o durations").done();
+    let sweep = bench.json("durations/sweep.json");
+    let sd = |point: usize, k: usize| sweep["points"][point]["sd"][k].as_f64().expect("a number");
+    // four times the time is half the sd, or better
+    for k in [0, 1, 2] {
+        let ratio = sd(0, k) / sd(1, k);
+        assert!((1.8..6.0).contains(&ratio), "{k}: {ratio}");
+    }
+    assert_eq!(bench.read("durations/sweep.csv").lines().count(), 3);
+    // between both durations lies the one that reaches a goal between both
+    let names: Vec<&str> =
+        sweep["parameters"].as_array().expect("names").iter().filter_map(|name| name.as_str()).collect();
+    let goal = (sd(0, 0) * sd(1, 0)).sqrt();
+    let outcome =
+        bench.run(&format!("design table.toml --starts 2 --reach {}={goal} -o short", names[0])).done();
+    let design = bench.json("short/design.json");
+    let duration = design["duration_s"].as_f64().expect("a number");
+    assert!((6.0..24.0).contains(&duration), "{duration}");
+    assert!(design["optimal"]["sd"][0].as_f64().expect("a number") <= goal);
+    assert!(outcome.printed().contains("none was found in 2 starts"), "{outcome:?}");
+    bench.refuses("design table.toml --reach scale=1mg -o none", 2, &["is not measured in the unit of 1mg"]);
+    bench.refuses("design table.toml --reach skale=1ppm -o none", 2, &["no parameter \"skale\""]);
+    bench.refuses("design table.toml --sweep velocity=1,2 -o none", 2, &["swept over its duration"]);
+}
+
+/// The machine as a calibration found it: another lever, other noise.
+#[test]
+fn a_design_begins_with_the_machine_that_was_found() {
+    let bench = table();
+    bench.run("design table.toml --starts 2 -o best").done();
+    bench.run("simulate table.toml --motion best/trajectory.csv --seed 4 -o made").done();
+    bench.run("calibrate table.toml made/recording.csv --motion made/joints.csv -o out").done();
+    // the same result with noise that is twice as large
+    let mut found = bench.json("out/calibration.json");
+    for sensor in found["machine"]["sensor_noise"].as_array_mut().expect("a list") {
+        for value in sensor["noise"].as_array_mut().expect("a list") {
+            *value = (value.as_f64().expect("a number") * 2.0).into();
+        }
+    }
+    bench.write("noisy.json", found.to_string());
+    let sd = |from: &str| {
+        bench.run(&format!("design table.toml --starts 2 {from} -o next")).done();
+        bench.json("next/design.json")["optimal"]["sd"][0].as_f64().expect("a number")
+    };
+    let (stated, as_found, noisy) = (sd(""), sd("--from out/calibration.json"), sd("--from noisy.json"));
+    assert!((as_found / stated - 1.0).abs() < 0.05, "{as_found} {stated}");
+    assert!((noisy / as_found - 2.0).abs() < 0.1, "{noisy} {as_found}");
+    bench.preset("arm", "arm.toml", &[]);
+    bench.refuses("design arm.toml --from out/calibration.json -o none", 2, &["of another machine", "table"]);
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.run("simulate poses.toml -o held").done();
+    bench.run("calibrate poses.toml held/recording.csv -o held").done();
+    bench.refuses(
+        "design arm.toml --from held/calibration.json -o none",
+        2,
+        &["not of a sensor on a machine"],
+    );
+}
+
+/// Design, recording and calibration of simulated sensors in one command.
+#[test]
+fn a_machine_is_rehearsed() {
+    let bench = table();
+    let outcome = bench.run("study table.toml --sensors 4 --starts 2 -o study").done();
+    assert!(outcome.printed().contains("against best trajectory"), "{outcome:?}");
+    let rehearsal = &bench.json("study/study.json")["rehearsal"];
+    assert_eq!(rehearsal["routine"], "joints in turn");
+    let sensors = rehearsal["sensors"].as_array().expect("a list");
+    assert_eq!(sensors.len(), 4);
+    let number = |of: &serde_json::Value| of.as_f64().expect("a number");
+    for (k, summary) in rehearsal["summary"].as_array().expect("a list").iter().enumerate() {
+        let designed = number(&rehearsal["designed_sd_optimal"][k]);
+        let stated = number(&summary["optimal"]["predicted_sd"]);
+        assert!((0.9..1.5).contains(&(stated / designed)), "{summary}: {designed}");
+        // four sensors: errors beyond three sds are none
+        assert!(number(&summary["optimal"]["realised_rms"]) < 3.0 * stated, "{summary}");
+    }
+    // each sensor is one of `simulate`
+    bench.run("design table.toml --starts 2 -o best").done();
+    bench.run("simulate table.toml --motion best/trajectory.csv --seed 2 -o made").done();
+    let truth = bench.json("made/truth.json");
+    let first = number(&truth["parameters"][0]["value"]);
+    assert_eq!(first.to_bits(), number(&sensors[1]["truth"][0]).to_bits());
+    bench.refuses("study table.toml --motion best/trajectory.csv -o none", 2, &["designs the motions"]);
+}

@@ -123,6 +123,11 @@ fn best_poses() {
     follow("10_best_poses", 8);
 }
 
+#[test]
+fn design_for_an_arm() {
+    follow("11_design_for_an_arm", 4);
+}
+
 /// The guide takes its first poses from example 10.
 #[test]
 fn guide_to_the_design_of_poses() {
@@ -204,7 +209,8 @@ fn every_example_is_followed() {
             "07_robot_arm",
             "08_motion_capture",
             "09_rate_table",
-            "10_best_poses"
+            "10_best_poses",
+            "11_design_for_an_arm"
         ]
     );
 }

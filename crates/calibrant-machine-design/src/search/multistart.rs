@@ -4,9 +4,10 @@
 
 use super::nested::{Candidate, HeldBack, Level, Shared};
 use super::{Kind, Starts, Steps};
+use crate::certificate::certify;
 use crate::information::{FullInformation, Sensing, undetermined};
 use crate::motion::{Knots, REST};
-use crate::{Dwells, TrajectoryProblem, TrajectorySettings, TrajectoryStart};
+use crate::{Dwells, Kept, LimitProof, TrajectoryProblem, TrajectorySettings, TrajectoryStart};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::simulate::{Purpose, stream};
 use calibrant_design::{DesignStatus, Interruption};
@@ -64,7 +65,7 @@ pub(crate) fn search(
     let shared = Shared { problem, sensing, sizes: &sizes };
     let levels = levels(problem);
     let mut candidates = drawn(shared, settings, levels[0]);
-    let first = candidates.first().cloned().ok_or_else(|| no_start(problem))?;
+    let first = candidates.first().cloned().ok_or_else(|| no_start(shared, levels[0]))?;
     let mut full = FullInformation::new(sensing, problem.chain, first.knots, POINTS[0]);
     if full.at(&first.controls).is_none() {
         let information = full.information().unwrap_or_else(|| sensing.sensor_prior());
@@ -143,20 +144,55 @@ fn polish(iterations: usize, held_back: HeldBack, interruption: &Interruption) -
     }
 }
 
-fn no_start(problem: &TrajectoryProblem<'_>) -> Error {
-    let (what, help, key) = match &problem.home {
-        Some(_) => (
-            "the machine cannot rest at home: a distance is below the clearance, or gravity exceeds the sensor's range",
-            "give another home posture, or none",
-            "machine.design.home",
-        ),
-        None => (
-            "no posture was found in which the machine may rest",
-            "look at the floor, the boxes, the clearance and the sensor's range",
-            "machine.world",
-        ),
+/// Why there is no start: what a posture at rest breaks, or the limits of the motion.
+fn no_start(shared: Shared<'_>, knots: Knots) -> Error {
+    let problem = shared.problem;
+    let refuse = |key: &str, what: String, help: &str| {
+        Error::infeasible(InputError::new(Refusal::MotionInfeasible, what, help).about_key(key))
     };
-    Error::infeasible(InputError::new(Refusal::MotionInfeasible, what, help).about_key(key))
+    // at rest the readings of three axes are those of gravity, whatever the posture
+    if problem.force_range_mps2.norm() < problem.setup.gravity_mps2 {
+        let what = "gravity at rest exceeds the range of the accelerometer in every posture".to_owned();
+        return refuse("sensor.range_mps2", what, "give the range of each axis in m/s²: ±4 g is 39.2");
+    }
+    let mut starts = Starts::new(shared.pointwise(HELD_BACK), knots, &[]);
+    let posture = starts.posture(&mut stream(0, Purpose::Start, 0));
+    match (&problem.home, posture) {
+        (_, Some(_)) => {
+            let what = "the machine may rest, but no motion was found that keeps the limits of its joints"
+                .to_owned();
+            let help = "look at velocity, acceleration and jerk in [machine.limits]: are they in rad/s, rad/s², rad/s³?";
+            refuse("machine.limits", what, help)
+        }
+        (Some(home), None) => {
+            let rest = DMatrix::from_fn(knots.controls(), home.len(), |_, j| home[j]);
+            let proofs = certify(problem, knots, &rest);
+            let of = |proof: &LimitProof| {
+                let unit = problem.unit_of(proof.limit);
+                let (kind, of) = (proof.limit.kind(), problem.limited(proof.limit));
+                format!("{kind} of {of} is {:.4} {unit}, allowed {:.4} {unit}", proof.peak, proof.allowed)
+            };
+            let broken: Vec<String> =
+                proofs.iter().filter(|proof| proof.kept == Kept::Broken).map(of).collect();
+            let why = match broken.is_empty() {
+                true => "it has not the room that a design keeps".to_owned(),
+                false => broken.join("; "),
+            };
+            refuse(
+                "machine.design.home",
+                format!("the machine cannot rest at home: {why}"),
+                "give another home posture, or none",
+            )
+        }
+        (None, None) => {
+            let what = "no posture was found in which the machine may rest".to_owned();
+            refuse(
+                "machine.world",
+                what,
+                "look at the floor, the boxes, the clearance and the sensor's range",
+            )
+        }
+    }
 }
 
 fn level(place: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {

@@ -55,7 +55,7 @@ impl<'a> Starts<'a> {
     }
 
     /// A posture at which the machine may rest.
-    fn posture(&mut self, rng: &mut impl Rng) -> Option<Vec<f64>> {
+    pub(super) fn posture(&mut self, rng: &mut impl Rng) -> Option<Vec<f64>> {
         let problem = self.problem;
         let n = problem.joints.len();
         for _ in 0..POSTURES {

@@ -2,7 +2,9 @@
 //!
 //! `g_b` is the score of a block of time: what its samples add to the gradient of the parameters, the motion eliminated, and `H_b` its information. Without the
 //! block the estimate moves by `d_b = (H − H_b)⁻¹ g_b`, so `(B − 1)/B Σ_b d_b d_bᵀ` estimates the covariance of the data's part (the jackknife). Where the
-//! reference's error is correlated over many samples, it exceeds what independent residuals give, `Σ (H − P) Σ` with the information `P` of the priors.
+//! reference's error is correlated over many samples, it exceeds what independent residuals give, `Σ (H − P) Σ` with the information `P` of the priors. Where few
+//! blocks tell a parameter, as the faces of six poses do, independent residuals give more: `E d_b d_bᵀ = Σ H_b (H − H_b)⁻¹`, since the variance of `g_b` is
+//! `H_b − H_b Σ H_b`. By the sum of these the scatter is judged, and a variance is told by `(Σ e_b)²/Σ e_b²` blocks that have the parts `e_b` of it.
 //!
 //! Where the variance of each parameter comes from.
 //!
@@ -67,21 +69,54 @@ fn of_blocks(
     let all = |k: usize| covariance[(k, k)];
     let of_data = |k: usize| all(k) - by_prior[(k, k)];
     let told: Vec<usize> = (0..layout.len()).filter(|k| of_data(*k) > TOLD * all(*k)).collect();
-    let mut factors = vec![1.0; layout.len()];
     // the parameters of a class share a verdict: one ratio alone is uncertain by √(2/blocks)
-    let limit = 1.0 + 2.0 * (2.0 / number).sqrt();
-    for k in &told {
+    let limit = |number: f64| 1.0 + 2.0 * (2.0 / number).sqrt();
+    let mean_of = |k: usize, of: &dyn Fn(usize) -> f64| {
         let alike =
-            told.iter().filter(|other| class(layout.quantities[**other]) == class(layout.quantities[*k]));
-        let ratios: Vec<f64> = alike.map(|k| moved[*k] / of_data(*k)).collect();
-        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        if mean > limit {
+            told.iter().filter(|other| class(layout.quantities[**other]) == class(layout.quantities[k]));
+        let (sum, count) = alike.fold((0.0, 0.0), |(sum, count), k| (sum + of(*k), count + 1.0));
+        sum / count
+    };
+    let mut factors = vec![1.0; layout.len()];
+    // what is expected is never less than `of_data`, and takes longer
+    if !told.iter().any(|k| mean_of(*k, &|k| moved[k] / of_data(k)) > limit(number)) {
+        return factors;
+    }
+    let expected = expected(covariance, information, blocks);
+    for k in &told {
+        let mean = mean_of(*k, &|k| moved[k] / expected.sums[k]);
+        if mean > limit(mean_of(*k, &|k| expected.numbers[k])) {
             // its own ratio scatters: where it is less than the class's mean, this counts
-            let wider = moved[*k].max(of_data(*k) * mean);
+            let wider = of_data(*k) * (moved[*k] / expected.sums[*k]).max(mean);
             factors[*k] = ((wider + by_prior[(*k, *k)]) / all(*k)).sqrt();
         }
     }
     factors
+}
+
+/// What independent residuals give.
+struct Expected {
+    /// Of each parameter the sum over the blocks.
+    sums: Vec<f64>,
+    /// The number of blocks that tell it.
+    numbers: Vec<f64>,
+}
+
+fn expected(covariance: &DMatrix<f64>, information: &DMatrix<f64>, blocks: &[Block]) -> Expected {
+    let (size, number) = (covariance.nrows(), blocks.len() as f64);
+    let (mut sums, mut squares) = (vec![0.0; size], vec![0.0; size]);
+    for block in blocks {
+        let without = Scaled::new(&(information - &block.information));
+        let without = without.map_or_else(|| covariance.clone(), |without| without.inverse());
+        let part = covariance * &block.information;
+        for k in 0..size {
+            let one = (part.row(k) * without.column(k))[0] * (number - 1.0) / number;
+            sums[k] += one;
+            squares[k] += one * one;
+        }
+    }
+    let numbers = sums.iter().zip(&squares).map(|(sum, square)| sum * sum / square).collect();
+    Expected { sums, numbers }
 }
 
 /// Parameters that the same residuals determine.

@@ -31,7 +31,7 @@ pub(crate) fn rehearsed_sds(study: &Rehearsal) -> Figure {
         let logs: f64 = by.sd.iter().zip(designed).map(|(sd, designed)| (sd / designed).ln()).sum();
         (logs / designed.len() as f64).exp()
     };
-    let panel = Panel::new("", "sensor", "sd over designed sd of the best trajectory");
+    let panel = Panel::new("", "sensor", "sd / designed sd");
     let panel = named(panel, study.routine, both(study, &shown, mean), |y| y).log_or_from_zero(false);
     let caption = "What each calibration states: the geometric mean over the parameters of its standard deviations, each in parts of what the design promised for the best \
          trajectory. Squares at 1 keep the promise.";

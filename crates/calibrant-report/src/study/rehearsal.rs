@@ -43,7 +43,7 @@ pub(super) fn judge(study: &Rehearsal) -> (bool, String) {
     let ok = study.sensors.iter().filter(|sensor| sensor.optimal.verdict == "ok").count();
     let coverage = study.summary.iter().map(|entry| entry.optimal.coverage_95).sum::<f64>()
         / study.summary.len().max(1) as f64;
-    let kept = study.summary.iter().all(agrees);
+    let kept = study.summary.iter().all(|entry| agrees(entry, all));
     let gain = study.summary.iter().map(|entry| entry.predicted.value.ln()).sum::<f64>();
     let gain = (gain / study.summary.len().max(1) as f64).exp();
     let sentence = format!(

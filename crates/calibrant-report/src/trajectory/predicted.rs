@@ -3,7 +3,7 @@
 use crate::design::times;
 use crate::figure::DisplayUnit;
 use crate::sheet::{Cell, Column, Table};
-use calibrant_core::sensor::ImuQuantity;
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant_machine_design::TrajectoryEvaluation;
 
 /// Standard deviations of the parameters; infinite where they are not determined.
@@ -12,6 +12,30 @@ fn sds(of: &TrajectoryEvaluation) -> Vec<f64> {
         Some(covariance) => covariance.diagonal().iter().map(|variance| variance.sqrt()).collect(),
         None => vec![f64::INFINITY; of.quantities.len()],
     }
+}
+
+/// Standard deviations of the symmetric parts of the matrices, `(m_ij + m_ji)/2`, which no turn of the mounting changes to first order.
+fn symmetric(of: &TrajectoryEvaluation) -> Vec<(String, &'static str, f64)> {
+    let place = |sensor: SensorKind, i: Axis, j: Axis| {
+        let wanted = ImuQuantity::Of(sensor, Quantity::CrossAxis(i, j));
+        of.quantities.iter().position(|quantity| *quantity == wanted)
+    };
+    let pairs = [(Axis::X, Axis::Y), (Axis::X, Axis::Z), (Axis::Y, Axis::Z)];
+    let all = SensorKind::ALL.into_iter().flat_map(|sensor| pairs.map(|(i, j)| (sensor, i, j)));
+    all.filter_map(|(sensor, i, j)| {
+        let (a, b) = (place(sensor, i, j)?, place(sensor, j, i)?);
+        let variance =
+            of.covariance.as_ref().map_or(f64::INFINITY, |c| (c[(a, a)] + 2.0 * c[(a, b)] + c[(b, b)]) / 4.0);
+        Some((format!("{sensor} symmetric {i}{j}"), unit(of.quantities[a]), variance.sqrt()))
+    })
+    .collect()
+}
+
+/// Mean of the ratios of the standard deviations of two trajectories, by their logarithms.
+pub(super) fn mean_ratio(before: &TrajectoryEvaluation, after: &TrajectoryEvaluation) -> f64 {
+    let logs: Vec<f64> =
+        sds(before).iter().zip(sds(after)).map(|(before, after)| (before / after).ln()).collect();
+    (logs.iter().sum::<f64>() / logs.len() as f64).exp()
 }
 
 /// The unit of a parameter whose readings are in SI units.
@@ -31,13 +55,16 @@ pub(super) fn promised_table(
         columns.extend([format!("sd {name}").into(), "better by".into()]);
     }
     let mut table = Table::new(columns);
-    let all: Vec<Vec<f64>> =
-        [first].iter().chain(others).chain(best.as_ref()).map(|(_, of)| sds(of)).collect();
-    for (i, quantity) in first.1.quantities.iter().enumerate() {
-        let of_this: Vec<f64> = all.iter().map(|sds| sds[i]).collect();
-        let unit = unit(*quantity);
+    let each = |of: &TrajectoryEvaluation| -> Vec<(String, &'static str, f64)> {
+        let single =
+            of.quantities.iter().zip(sds(of)).map(|(quantity, sd)| (quantity.name(), unit(*quantity), sd));
+        single.chain(symmetric(of)).collect()
+    };
+    let all: Vec<_> = [first].iter().chain(others).chain(best.as_ref()).map(|(_, of)| each(of)).collect();
+    for (i, (name, unit, _)) in all[0].iter().enumerate() {
+        let of_this: Vec<f64> = all.iter().map(|sds| sds[i].2).collect();
         let display = DisplayUnit::suited_to(unit, of_this.iter().copied());
-        let mut row = vec![Cell::Name(quantity.name()), display.cell(unit)];
+        let mut row = vec![Cell::name(name), display.cell(unit)];
         row.extend(of_this.iter().map(|sd| Cell::sd(*sd, display.factor)));
         if best.is_some() {
             row.push(Cell::Number(times(of_this[0] / of_this[of_this.len() - 1])));

@@ -1,12 +1,13 @@
 //! The sections of a trajectory, in their order.
 
 use super::limits::{broken, limit_table, nearest_pair};
-use super::predicted::{promised_table, unit};
+use super::predicted::{mean_ratio, promised_table, unit};
 use crate::About;
 use crate::figure::{PLAYER_SCRIPT, Scene, joint_figure, player, three_views};
 use crate::machine::{bars, shares};
 use crate::number_format::{counted, short, significant};
 use crate::sheet::{Grade, Section, Sheet, SheetVerdict, Shown};
+use calibrant_machine_design::world::World;
 use calibrant_machine_design::{
     Kept, PlainRoutine, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem,
 };
@@ -36,7 +37,8 @@ pub fn trajectory_sheet<'a>(
     verdict = verdict.with("Findings", about.findings.clone());
     let mut predicted = Section::new("Predicted standard deviations").lead(
         "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. All trajectories \
-         last as long and keep the limits. The random motion goes at full speed: it is the first start of the search.",
+         last as long and keep the limits. The random motion goes at full speed: it is the first start of the search. What the mount or the geometry leaves open, no motion \
+         improves: the symmetric part of a matrix, the mean of its entries xy and yx, does not depend on the mount, and criterion D counts all combinations of the parameters.",
     );
     predicted.explanation(match &design.plain {
         Some(of) => compared_with(of.routine),
@@ -118,21 +120,20 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
     let mut sentence =
         format!("A trajectory of {duration} s for {}.", counted(problem.chain.joints.len(), "joint"));
     let numbers = design.optimal.quantities.len() as f64;
-    let plain = design.plain.as_ref().map(|of| (of.evaluation.value, of.routine.name()));
-    let random = (design.random.value, "a random motion at full speed");
-    let better = |value: f64| ((value - design.optimal.value) / (2.0 * numbers)).exp();
-    let times: Vec<String> = plain
-        .into_iter()
-        .chain([random])
-        .filter(|(value, _)| value.is_finite())
-        .map(|(value, of)| format!("{} times smaller than those of {of}", significant(better(value), 3)))
-        .collect();
-    if !times.is_empty() {
-        sentence += &format!(" In the mean its standard deviations are {}.", times.join(", and "));
+    let plain = design.plain.as_ref().map(|of| (&of.evaluation, of.routine.name()));
+    let compared = plain.into_iter().chain([(&design.random, "a random motion at full speed")]);
+    for (of, name) in compared.filter(|(of, _)| of.value.is_finite()) {
+        let by_criterion = ((of.value - design.optimal.value) / (2.0 * numbers)).exp();
+        sentence += &format!(
+            " Against {name}, its standard deviations are {} times smaller in the mean, and {} times by criterion {}.",
+            significant(mean_ratio(of, &design.optimal), 3),
+            significant(by_criterion, 3),
+            problem.criterion.letter()
+        );
     }
     if let Some(bound) = &design.bound {
         sentence += &format!(
-            " A bound, whose minimum was looked for on a grid, leaves at most a factor of {}; it is loose.",
+            " A bound, whose minimum was looked for on a grid, leaves at most a factor of {} by this criterion; it is loose.",
             significant(bound.times_better, 3)
         );
     }
