@@ -260,8 +260,9 @@ mod tests {
 
     #[test]
     fn a_chain_with_its_corrections_is_the_corrected_chain() {
-        let (chain, mut numbers) = (mixed_chain(), Numbers::default());
-        let corrections = corrections_of(&mut numbers, chain.joints.len());
+        let mut numbers = Numbers(1);
+        let chain = mixed_chain(5, &mut numbers);
+        let corrections = corrections_of(chain.joints.len(), 0.1, &mut numbers);
         let positions: Vec<f64> = (0..chain.joints.len()).map(|j| 0.4 - 0.3 * j as f64).collect();
         let one = chain.corrected(&corrections).tip_pose(&positions);
         let other = chain.with(&corrections).nominal().tip_pose(&positions);

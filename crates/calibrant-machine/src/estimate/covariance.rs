@@ -274,4 +274,47 @@ mod tests {
             assert!((ratio - 1.0).abs() < 0.06, "{row} {column}: {ratio}");
         }
     }
+
+    /// Six poses: each parameter is told by two of sixteen blocks. Independent residuals must not widen anything; without the expectation they did, by √2.
+    #[test]
+    fn parameters_that_few_blocks_tell_are_not_widened_by_independent_residuals() {
+        let imu = ImuParameters::identity();
+        let setup = MachineSetup { lever_sd_m: 0.0, tilt_sd_rad: 0.0, ..MachineSetup::default() };
+        let list = ParameterList::new(3, SensorModel::Full);
+        let quantities: Vec<ImuQuantity> =
+            list.quantities().iter().map(|of| ImuQuantity::Of(SensorKind::Accelerometer, *of)).collect();
+        let nominal = MachineParameters::nominal(&setup, imu, 0);
+        let layout = Layout::new(&setup, &[SensorKind::Accelerometer], &quantities, nominal);
+        let (number, size, told) = (16, layout.len(), quantities.len());
+        let mut numbers = Numbers(7);
+        // a variance of 1, from twelve uniform numbers
+        let mut normal = || (0..12).map(|_| numbers.next(0.5)).sum::<f64>();
+        let (mut widened, trials) = (0, 30);
+        for _ in 0..trials {
+            // one row of each parameter in each of its two blocks
+            let rows = |block: usize| (0..told).filter(move |k| block % 8 == k % 8);
+            let residuals: Vec<Vec<f64>> =
+                (0..number).map(|block| rows(block).map(|_| normal()).collect()).collect();
+            let mut information = layout.prior.clone();
+            (0..number).flat_map(rows).for_each(|k| information[(k, k)] += 1.0);
+            let covariance = Scaled::new(&information).expect("all are told").inverse();
+            let mut gradient = DVector::zeros(size);
+            for (block, of) in residuals.iter().enumerate() {
+                rows(block).zip(of).for_each(|(k, residual)| gradient[k] += residual);
+            }
+            let estimate = &covariance * gradient;
+            let block = |(block, of): (usize, &Vec<f64>)| {
+                let (mut score, mut part) = (DVector::zeros(size), DMatrix::zeros(size, size));
+                for (k, residual) in rows(block).zip(of) {
+                    score[k] += residual - estimate[k];
+                    part[(k, k)] += 1.0;
+                }
+                Block { score, information: part }
+            };
+            let blocks: Vec<Block> = residuals.iter().enumerate().map(block).collect();
+            let factors = inflation(&layout, &covariance, &information, &blocks);
+            widened += usize::from(factors.iter().any(|factor| *factor > 1.0));
+        }
+        assert!(widened <= 4, "{widened} of {trials}");
+    }
 }

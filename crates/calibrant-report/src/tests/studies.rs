@@ -29,6 +29,7 @@ pub(crate) fn everything(calibrated: usize, designed: usize) -> Studies {
         design: Some(design_study(designed, Trust::Known)),
         noisy: Some(design_study(designed, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }))),
         notes: vec![MotionNotDesigned { is_noisy: false, why: Phrase("<and why>".into()) }.into()],
+        ..Studies::default()
     }
 }
 
