@@ -116,7 +116,7 @@ fn compared_with(routine: PlainRoutine) -> &'static str {
 
 fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> String {
     let knots = design.optimal.motion.knots;
-    let duration = significant(knots.step_s * knots.intervals as f64, 4);
+    let duration = short((1e3 * knots.step_s * knots.intervals as f64).round() / 1e3);
     let mut sentence =
         format!("A trajectory of {duration} s for {}.", counted(problem.chain.joints.len(), "joint"));
     let numbers = design.optimal.quantities.len() as f64;
