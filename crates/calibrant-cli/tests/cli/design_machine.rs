@@ -169,7 +169,11 @@ fn a_design_begins_with_the_machine_that_was_found() {
     assert!((as_found / stated - 1.0).abs() < 0.05, "{as_found} {stated}");
     assert!((noisy / as_found - 2.0).abs() < 0.1, "{noisy} {as_found}");
     bench.preset("arm", "arm.toml", &[]);
-    bench.refuses("design arm.toml --from out/calibration.json -o none", 2, &["of another machine", "table"]);
+    bench.refuses(
+        "design arm.toml --from out/calibration.json -o none",
+        2,
+        &["of another machine", "to plate"],
+    );
     bench.preset("static-poses", "poses.toml", &[]);
     bench.run("simulate poses.toml -o held").done();
     bench.run("calibrate poses.toml held/recording.csv -o held").done();

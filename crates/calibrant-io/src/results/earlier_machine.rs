@@ -17,6 +17,8 @@ const LARGEST: u64 = 1 << 30;
 pub struct EarlierMachine {
     /// The file.
     pub file: PathBuf,
+    /// Links of the chain: the one that stands still, and the one that carries the sensor.
+    pub ends: [String; 2],
     /// Name and value of what was found beside the sensor's parameters: `zero.elbow`.
     pub quantities: Vec<(String, f64)>,
     /// From the tip to the sensor, m.
@@ -43,6 +45,7 @@ struct Input {
 
 #[derive(Deserialize)]
 struct Machine {
+    base: Option<String>,
     tip: Option<String>,
     quantities: Vec<Found>,
     lever_m: [f64; 3],
@@ -78,7 +81,9 @@ fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
     let File { machine, inputs } = serde_json::from_slice(bytes)
         .map_err(|error| InputError::new(Refusal::CalibrationUnsuited, error.to_string(), help))?;
     // a tracker has no tip, and its body is no link of a machine
-    let Some(of) = machine.filter(|machine| machine.tip.is_some()) else {
+    let with_ends =
+        machine.and_then(|machine| Some(([machine.base.clone()?, machine.tip.clone()?], machine)));
+    let Some((ends, of)) = with_ends else {
         return refuse(
             Refusal::CalibrationUnsuited,
             "this calibration is not of a sensor on a machine with joints",
@@ -111,6 +116,7 @@ fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
         .fold(None, |most: Option<f64>, one| Some(most.map_or(one, |most| most.max(one))));
     Ok(EarlierMachine {
         file: path.to_path_buf(),
+        ends,
         quantities: of.quantities.into_iter().map(|found| (found.name, found.value)).collect(),
         lever_m: of.lever_m.into(),
         tip_from_sensor: UnitQuaternion::from_quaternion(turn),
@@ -137,13 +143,18 @@ impl EarlierMachine {
         });
         let known: Vec<String> = all.map(|quantity| quantity.name(&names)).collect();
         let of_joint = |name: &str| name.starts_with("zero.") || name.starts_with("geometry.");
-        if let Some((name, _)) =
-            self.quantities.iter().find(|(name, _)| of_joint(name) && !known.contains(name))
-        {
-            let message = format!(
-                "this calibration is of another machine: it has {name}, and the joints here are {}",
-                names.join(", ")
-            );
+        let mut unknown = self.quantities.iter().filter(|(name, _)| of_joint(name) && !known.contains(name));
+        let [base, tip] = &self.ends;
+        let difference = match unknown.next() {
+            _ if [base, tip] != [&nominal.base, &nominal.tip] => Some(format!(
+                "it goes from {base} to {tip}, and here from {} to {}",
+                nominal.base, nominal.tip
+            )),
+            Some((name, _)) => Some(format!("it has {name}, and the joints here are {}", names.join(", "))),
+            None => None,
+        };
+        if let Some(difference) = difference {
+            let message = format!("this calibration is of another machine: {difference}");
             let help = "give a calibration of the machine of the experiment";
             let input_error =
                 InputError::new(Refusal::CalibrationUnsuited, message, help).in_file(&self.file);
