@@ -106,6 +106,26 @@ checks! {
         peak_radps.to_degrees()
     );
 
+    /// The rotations fit much better with a gain that depends on the rate.
+    GainDependsOnRate "gain-depends-on-rate" Warning {
+        /// Change of the gain at the fastest rate that makes the rotations fit: above 0, the gyroscope reads too little there.
+        share: f64,
+        /// The largest rate of a rotation, rad/s.
+        peak_radps: f64,
+        /// How far a gain would move, in its standard deviations.
+        moved_sds: f64,
+    }
+    decided "A term of the rate's cube is more than six of its standard deviations, and would move a gain by more than two of its own."
+    remedy "Turn the sensor more slowly, or choose a larger range. The gains hold for rates like those of this recording only."
+    says format!(
+        "at its fastest rate, {:.0}°/s, the gyroscope reads {:.2} % too {}: the rotations fit much better with a gain that depends on the rate, and a gain would move by {:.1} \
+         standard deviations",
+        peak_radps.to_degrees(),
+        100.0 * share.abs(),
+        if *share > 0.0 { "little" } else { "much" },
+        moved_sds
+    );
+
     /// The mean rate of the gyroscope differs from hold to hold by far more than its noise explains.
     RestScatters "rest-scatters" Warning {
         /// Standard deviation between holds beyond noise, rad/s.

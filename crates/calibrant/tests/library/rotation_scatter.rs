@@ -77,7 +77,21 @@ fn a_range_that_wraps_or_compresses_is_no_sound_result() {
         }
         let sound = run(&recorded(number, |reading| *reading), &unfeeling_gyroscope(), &steady_imu());
         let found = codes(&sound.expect("determined")).join(" ");
-        assert!(!found.contains("scatter") && !found.contains("gains"), "{found}");
+        assert!(!found.contains("scatter") && !found.contains("gain"), "{found}");
+    }
+}
+
+/// Far below the range a gyroscope may compress by so little that the rotations seem to fit, and the gains be wrong by many standard deviations.
+#[test]
+fn a_gain_that_falls_with_the_rate_is_named() {
+    let most = 1000_f64.to_radians();
+    let compresses = |reading: &Vector3<f64>| reading.map(|rate| most * (rate / most).tanh());
+    for number in 0..6 {
+        let found = run(&recorded(number, compresses), &unfeeling_gyroscope(), &steady_imu());
+        let found = codes(&found.expect("determined"));
+        assert!(found.contains(&"gain-depends-on-rate"), "{number}: {found:?}");
+        let sound = run(&recorded(number, |reading| *reading), &unfeeling_gyroscope(), &steady_imu());
+        assert!(!codes(&sound.expect("determined")).contains(&"gain-depends-on-rate"), "{number}");
     }
 }
 

@@ -3,12 +3,12 @@
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::{
     axis_order, changes, chi_squared, coarse_steps, common_factor, convergence, extrapolation, gains,
-    gyroscope_noise, hold_intervals, holds_left_out, lost_samples, motion_in_hold, rotations_left_out,
-    scatter, time_offset, turns_of_known_angle,
+    gyroscope_noise, hold_intervals, holds_left_out, lost_samples, motion_in_hold, rate_dependence,
+    rotations_left_out, scatter, time_offset, turns_of_known_angle,
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 20] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 21] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,
@@ -19,6 +19,7 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 20] = [
     axis_order::check,
     rotations_left_out::check,
     scatter::of_rotations,
+    rate_dependence::check,
     scatter::at_rest,
     scatter::of_gains,
     lost_samples::check,

@@ -26,6 +26,7 @@ pub(crate) mod list;
 pub(crate) mod lost_samples;
 pub(crate) mod missed_gravity;
 pub(crate) mod motion_in_hold;
+pub(crate) mod rate_dependence;
 pub(crate) mod rotations_left_out;
 pub(crate) mod scatter;
 pub(crate) mod swapped_sensors;
