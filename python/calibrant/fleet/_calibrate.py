@@ -215,7 +215,8 @@ def work(
     table = run_chunk(items, task, threads=threads)
     verdicts, errors = table["verdict"].to_pylist(), table["error_json"].to_pylist()
     failed = sum(verdict == "none" for verdict in verdicts)
-    named = sorted(key or item for item, key in zip(chunk, keys) if key is None or key not in there)
+    # two items with the same bytes have the same key
+    named = sorted(f"{item} {key}" for item, key in zip(chunk, keys) if key is None or key not in there)
     name = hashlib.sha256("\n".join(named).encode()).hexdigest()[:32]
     system, _ = filesystem(path, task.storage_options) if "://" in path else (None, path)
     target = f"{path}/part-{name}.parquet"
