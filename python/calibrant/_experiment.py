@@ -39,7 +39,7 @@ class Experiment:
     >>> cb.Experiment.preset("imu", holds={"gravitty_mps2": 9.8132})
     Traceback (most recent call last):
         ...
-    calibrant.ExperimentError: `holds.gravitty_mps2`: unknown key `gravitty_mps2` (did you mean `gravity_mps2`?)
+    calibrant.ExperimentError: `holds.gravitty_mps2`: unknown key (did you mean `gravity_mps2`?)
     """
 
     def __init__(self, **sections: Section | None) -> None:

@@ -33,7 +33,7 @@ class Motion:
     --------
     >>> import calibrant as cb
     >>> motion = cb.Motion([0.0, 1.0, 2.0], [[0, 0, 0], [1, 0, 0], [0, 0, 0]])
-    >>> motion.velocity_mps[-1, 0]
+    >>> float(motion.velocity_mps[-1, 0])
     1.0
     """
 

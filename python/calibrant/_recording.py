@@ -260,7 +260,7 @@ def read_recording(
     --------
     >>> import calibrant as cb
     >>> text = b"t_s,ax_g,ay_g,az_g\\n0.00,0,0,1\\n0.01,0,0.1,1\\n0.02,0.1,0,1\\n"
-    >>> cb.read_recording(text).accelerometer.values[0, 2]
+    >>> float(cb.read_recording(text).accelerometer.values[0, 2])
     9.80665
     """
     reading = _reading(

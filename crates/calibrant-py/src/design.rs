@@ -158,7 +158,6 @@ pub(crate) fn design(
 /// Puts a motion beside the best one.
 #[pyfunction]
 #[pyo3(signature = (experiment, motion, choice, *, threads=None, progress=None, width=100))]
-#[expect(clippy::too_many_arguments, reason = "each is an argument of the Python function")]
 pub(crate) fn assess(
     py: Python<'_>,
     experiment: &Experiment,
@@ -239,7 +238,6 @@ impl PoseDesign {
 /// Finds the best poses.
 #[pyfunction]
 #[pyo3(signature = (experiment, poses, choice, *, threads=None, progress=None, width=100))]
-#[expect(clippy::too_many_arguments, reason = "each is an argument of the Python function")]
 pub(crate) fn design_poses(
     py: Python<'_>,
     experiment: &Experiment,
