@@ -4,11 +4,11 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{
     HashedFile, ImuFile, ImuReadOptions, Input, Section, file_name, imu_from_columns, imu_pair_of,
-    read_imu_pair, read_imu_recording, read_imu_sensor, read_sections,
+    parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, read_sections,
 };
 use std::path::{Path, PathBuf};
 
-/// The readings of a recording: a file of any format, a table of columns, or a recording that is made already.
+/// The readings of a recording: a file of any format or its bytes, a table of columns, or a recording that is made already.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Readings {
     path: PathBuf,
@@ -18,6 +18,7 @@ pub struct Readings {
 #[derive(Debug, Clone, PartialEq)]
 enum Content {
     File,
+    Bytes(Vec<u8>),
     Columns(Vec<(String, Vec<f64>)>),
     Recording(Box<ImuRecording>),
 }
@@ -27,6 +28,12 @@ impl Readings {
     #[must_use]
     pub fn file(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into(), content: Content::File }
+    }
+
+    /// The bytes of a file, of any format. Results and errors call it by this name.
+    #[must_use]
+    pub fn bytes(name: impl Into<PathBuf>, bytes: Vec<u8>) -> Self {
+        Self { path: name.into(), content: Content::Bytes(bytes) }
     }
 
     /// A table in memory, as [`imu_from_columns`] takes it. Results and errors call it by this name, as they would a file.
@@ -59,6 +66,7 @@ impl Readings {
         let name = || file_name(&self.path);
         match &self.content {
             Content::File => HashedFile::of(&self.path),
+            Content::Bytes(bytes) => Some(HashedFile::of_bytes(name(), bytes)),
             Content::Columns(columns) => {
                 let columns = columns.iter().map(|(name, values)| (name.as_str(), values.clone()));
                 Some(HashedFile::of_numbers(name(), &columns.collect::<Vec<_>>()))
@@ -74,6 +82,9 @@ impl Readings {
     pub(crate) fn read(&self, options: &ImuReadOptions) -> Result<ImuFile> {
         match &self.content {
             Content::File => read_imu_recording(&self.path, options),
+            Content::Bytes(bytes) => {
+                parse_imu_recording(bytes, options).map_err(|error| error.in_recording(&self.path))
+            }
             Content::Columns(columns) => {
                 let columns: Vec<(&str, &[f64])> =
                     columns.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
@@ -161,7 +172,10 @@ impl Source {
     }
 
     /// Reads both sensors of an IMU, from one recording or from two.
-    pub(crate) fn read_imu(&self, options: &ImuReadOptions) -> Result<ImuFile> {
+    ///
+    /// # Errors
+    /// As [`read_imu_recording`].
+    pub fn read_imu(&self, options: &ImuReadOptions) -> Result<ImuFile> {
         match &self.gyroscope {
             None => self.recording.read(options),
             Some(gyroscope) if self.recording.is_file() && gyroscope.is_file() => {
@@ -185,7 +199,7 @@ impl Source {
     }
 
     /// Its [files](Self::files) by their content; `None` where one cannot be read.
-    pub(crate) fn hashed(&self) -> Option<Vec<HashedFile>> {
+    pub fn hashed(&self) -> Option<Vec<HashedFile>> {
         let readings = std::iter::once(&self.recording).chain(&self.gyroscope).chain(&self.further);
         readings.map(Readings::hashed).collect()
     }

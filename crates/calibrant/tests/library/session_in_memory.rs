@@ -48,6 +48,9 @@ fn an_imu_in_memory_is_that_of_its_file() {
     let from_file = of(&Source::from_file(&path));
     let from_columns = of(&Source::from_columns("recording.csv", &table));
     let from_recording = of(&Source::from_recording("recording.csv", recording.clone()));
+    let bytes = std::fs::read(&path).expect("there");
+    let from_bytes = of(&Source::new(Readings::bytes("recording.csv", bytes)));
+    assert_eq!(from_file.json(), from_bytes.json());
     assert_eq!(estimates(&from_file), estimates(&from_columns));
     assert_eq!(estimates(&from_file), estimates(&from_recording));
     let inputs = [&from_file, &from_columns].map(|outcome| &outcome.origin.inputs[0]);

@@ -22,6 +22,7 @@ const LAYERS: &[&[&str]] = &[
     &["calibrant-records"],
     &["calibrant"],
     &["calibrant-cli"],
+    &["calibrant-py"],
 ];
 
 /// What each module of calibrant-core may use.

@@ -35,7 +35,7 @@ use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches, Parser, Subc
 use console::Manner;
 use exit::Exit;
 use run::Run;
-use std::process::ExitCode;
+use std::ffi::OsString;
 
 /// Calibrate accelerometers, gyroscopes and IMUs from a recording, and design the best motion to record.
 ///
@@ -83,11 +83,13 @@ enum Command {
     Man(man::Arguments),
 }
 
-fn main() -> ExitCode {
+/// Runs the command line: the program with these arguments, the first of which is its name. Once in a process. Where the usage is wrong or help is asked for, it ends the process.
+#[must_use]
+pub fn main(arguments: Vec<OsString>) -> u8 {
     calibrant::error::word_options_as(console::as_flags);
     let color =
-        console::color_among(std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into()));
-    let matches = Cli::command().color(color).get_matches();
+        console::color_among(arguments.iter().skip(1).map(|argument| argument.to_string_lossy().into()));
+    let matches = Cli::command().color(color).get_matches_from(arguments);
     let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     console::set_manner(Manner {
         quiet: cli.quiet,
@@ -128,7 +130,7 @@ fn main() -> ExitCode {
         console::error(&error);
         Exit::of(&error)
     });
-    ExitCode::from(exit.max(Rules::exit()).0)
+    exit.max(Rules::exit()).0
 }
 
 /// Has the command `--json`, or a command of it?

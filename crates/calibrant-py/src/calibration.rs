@@ -1,0 +1,262 @@
+//! Calibrations of any format: read, written, compared, and applied to arrays.
+
+use crate::arrays::{Numbers, as_table, list, vectors};
+use crate::failure::{invalid, raised};
+use crate::options::parsed;
+use crate::work::run;
+use calibrant::error::{InputError, Refusal};
+use calibrant::estimate::Comparison;
+use calibrant::io::{
+    CalibratedImuFile, ComparisonFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts,
+    parse_calibrated_imu, read_calibrated_imu, to_json, write_calibrated_imu,
+};
+use calibrant::sensor::{CalibratedImu, Gauge, ImuCorrection, ImuRecording, Recording, SensorKind};
+use calibrant::{Error, Result};
+use nalgebra::{Matrix3, Vector3};
+use pyo3::prelude::*;
+use serde::Deserialize;
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Convention {
+    format: Option<String>,
+    unit: Option<String>,
+    sensor: Option<String>,
+}
+
+impl Convention {
+    fn options(&self) -> Result<ConventionOptions> {
+        let refused =
+            |what: &str, text: &str, help: &str| Err(invalid(format!("`{what}` is {text:?}"), help));
+        Ok(ConventionOptions {
+            format: self.format.as_deref().map(format).transpose()?,
+            units: match self.unit.as_deref() {
+                None => None,
+                Some("si") => Some(RawUnits::Si),
+                Some("counts") => Some(RawUnits::Counts),
+                Some(other) => return refused("unit", other, "readings are in \"si\" or \"counts\""),
+            },
+            sensor_kind: match self.sensor.as_deref() {
+                None => None,
+                Some("accelerometer") => Some(SensorKind::Accelerometer),
+                Some("gyroscope") => Some(SensorKind::Gyroscope),
+                Some(other) => return refused("sensor", other, "give \"accelerometer\" or \"gyroscope\""),
+            },
+        })
+    }
+}
+
+fn format(name: &str) -> Result<ImuFormat> {
+    match name {
+        "calibrant" => Ok(ImuFormat::CalibrantJson),
+        "kalibr" => Ok(ImuFormat::Kalibr),
+        "imu_tk" => Ok(ImuFormat::ImuTk),
+        "imucal" => Ok(ImuFormat::Imucal),
+        "c" => Ok(ImuFormat::CHeader),
+        other => Err(invalid(
+            format!("`format` is {other:?}"),
+            "the formats are calibrant, kalibr, imu_tk, imucal and c",
+        )),
+    }
+}
+
+fn gauge(name: &str) -> Result<Gauge> {
+    match name {
+        "lower" => Ok(Gauge::Lower),
+        "upper" => Ok(Gauge::Upper),
+        "symmetric" => Ok(Gauge::Symmetric),
+        other => Err(invalid(format!("`gauge` is {other:?}"), "the gauges are lower, upper and symmetric")),
+    }
+}
+
+fn of_json(text: &str) -> Result<CalibratedImuFile> {
+    parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default())
+}
+
+/// Reads a calibration of any format: the text of a calibration of ours, and what was noticed.
+#[pyfunction]
+pub(crate) fn read_calibration(py: Python<'_>, path: PathBuf, options: &str) -> PyResult<(String, String)> {
+    let options = parsed::<Convention>(options).and_then(|of| of.options());
+    let options = options.map_err(|error| raised(py, &error))?;
+    run(py, move || {
+        let file = read_calibrated_imu(&path, &options)?;
+        let findings = json!(file.findings).to_string();
+        let written = calibrated_imu_texts(&file, ImuFormat::CalibrantJson)?;
+        let text = written.into_iter().next().map(|(_, text)| text).unwrap_or_default();
+        Ok((text, findings))
+    })
+}
+
+/// Writes a calibration in another format; returns the paths, and what was noticed.
+#[pyfunction]
+#[pyo3(signature = (text, path, format_name=None, gauge_name=None))]
+pub(crate) fn convert_calibration(
+    py: Python<'_>,
+    text: String,
+    path: PathBuf,
+    format_name: Option<String>,
+    gauge_name: Option<String>,
+) -> PyResult<(Vec<PathBuf>, String)> {
+    run(py, move || {
+        let written_as = match format_name {
+            Some(name) => format(&name)?,
+            None => ImuFormat::of_extension(&path).ok_or_else(|| {
+                let message = "the ending of the path does not tell the format to write";
+                let help = "say `format=` calibrant, kalibr, imu_tk, imucal or c";
+                Error::experiment(InputError::new(Refusal::FormatUnknown, message, help).in_file(&path))
+            })?,
+        };
+        let mut file = of_json(&text)?;
+        if let Some(name) = gauge_name {
+            file.imu = file.imu.in_gauge(gauge(&name)?)?;
+        }
+        let written = write_calibrated_imu(&path, &file, written_as)?;
+        Ok((written.files.clone(), json!(written.warnings).to_string()))
+    })
+}
+
+/// Compares two calibrations: the text of `calibrant compare --json`, and the sheet.
+#[pyfunction]
+pub(crate) fn compare(
+    py: Python<'_>,
+    a: (String, String),
+    b: (String, String),
+    width: usize,
+) -> PyResult<(String, String, String)> {
+    run(py, move || {
+        let ((a, name_a), (b, name_b)) = (a, b);
+        let (one, other) = (of_json(&a)?.imu, of_json(&b)?.imu);
+        let comparison = Comparison::of(&one, &other);
+        if comparison.quantities.is_empty() {
+            let message = format!("{name_a} and {name_b} have no sensor in common");
+            let help = "compare calibrations of one sensor";
+            return Err(Error::experiment(InputError::new(Refusal::CalibrationUnsuited, message, help)));
+        }
+        let json = to_json(&ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b });
+        let sheet = calibrant::report::comparison_sheet(&comparison, [name_a, name_b]);
+        Ok((json, sheet.text(width), sheet.html()))
+    })
+}
+
+/// Corrects arrays with a calibration.
+#[pyclass(frozen)]
+pub(crate) struct Correction {
+    imu: CalibratedImu,
+    correction: ImuCorrection,
+}
+
+/// Corrected values of accelerometer and gyroscope, then their standard uncertainties.
+type Corrected<'py> = [Option<Numbers<'py>>; 4];
+
+#[pymethods]
+impl Correction {
+    #[new]
+    fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
+        crate::wording::set();
+        let of = || {
+            let imu = of_json(text)?.imu;
+            Ok(Self { correction: ImuCorrection::of(&imu)?, imu })
+        };
+        of().map_err(|error: Error| raised(py, &error))
+    }
+
+    /// Does it depend on temperature?
+    fn follows_temperature(&self) -> bool {
+        self.correction.follows_temperature()
+    }
+
+    /// The unit of a sensor's readings; `None` where it is not calibrated.
+    fn unit(&self, sensor: &str) -> Option<&'static str> {
+        self.imu.unit(crate::recording::sensor_kind(sensor)).map(|unit| unit.symbol())
+    }
+
+    /// Corrects samples that were taken at the same times.
+    #[pyo3(signature = (accelerometer=None, gyroscope=None, temperature_c=None, with_sd=false))]
+    fn apply<'py>(
+        &self,
+        py: Python<'py>,
+        accelerometer: Option<&[u8]>,
+        gyroscope: Option<&[u8]>,
+        temperature_c: Option<&[u8]>,
+        with_sd: bool,
+    ) -> PyResult<Corrected<'py>> {
+        let (force, rate) = (accelerometer.map(vectors), gyroscope.map(vectors));
+        let temperatures = temperature_c.map(list);
+        let work = || self.corrected(force, rate, temperatures.as_deref(), with_sd);
+        let corrected = py.detach(work).map_err(|error| raised(py, &error))?;
+        Ok(corrected.map(|of| of.map(|of| as_table(py, &of))))
+    }
+}
+
+type Tables = [Option<Vec<Vector3<f64>>>; 4];
+
+impl Correction {
+    fn corrected(
+        &self,
+        force: Option<Vec<Vector3<f64>>>,
+        rate: Option<Vec<Vector3<f64>>>,
+        temperatures: Option<&[f64]>,
+        with_sd: bool,
+    ) -> Result<Tables> {
+        let samples = force.as_ref().or(rate.as_ref()).map_or(0, Vec::len);
+        if let (Some(force), Some(rate)) = (&force, &rate)
+            && force.len() != rate.len()
+        {
+            let message = format!("`accelerometer` has {} samples, `gyroscope` {}", force.len(), rate.len());
+            return Err(invalid(message, "give samples of the same times"));
+        }
+        let temperature_c = match temperatures {
+            None | Some([]) => None,
+            Some([all]) => Some(vec![*all; samples]),
+            Some(each) if each.len() == samples => Some(each.to_vec()),
+            Some(each) => {
+                let message = format!("`temperature_c` has {} values for {samples} samples", each.len());
+                return Err(invalid(message, "give one number, or one for each sample"));
+            }
+        };
+        if samples == 0 {
+            return Ok([force, rate, None, None]);
+        }
+        // the samples of both sensors are of the same times: only their order counts
+        let times: Vec<f64> = (0..samples).map(|number| number as f64).collect();
+        let of = |sensor_kind: SensorKind, readings: Option<Vec<Vector3<f64>>>| {
+            let both = readings.zip(self.imu.unit(sensor_kind));
+            both.map(|(readings, unit)| Recording::new(times.clone(), readings, 3, unit)).transpose()
+        };
+        let recording = ImuRecording {
+            accelerometer: of(SensorKind::Accelerometer, force)?,
+            gyroscope: of(SensorKind::Gyroscope, rate)?,
+            temperature_c,
+        };
+        // the force that the gyroscope feels is there, or not needed
+        let feels = recording.accelerometer.is_some() || self.correction.g_sensitivity == Matrix3::zeros();
+        if !with_sd && feels && !self.correction.follows_temperature() {
+            return Ok(self.without_sd(&recording));
+        }
+        let corrected = self.correction.apply(&recording)?;
+        let mut tables = Tables::default();
+        for (number, of) in [corrected.accelerometer, corrected.gyroscope].into_iter().enumerate() {
+            if let Some(of) = of {
+                tables[number] = Some(of.values);
+                tables[number + 2] = of.sd.filter(|_| with_sd);
+            }
+        }
+        Ok(tables)
+    }
+
+    /// The same values. The uncertainty would take most of the time.
+    fn without_sd(&self, recording: &ImuRecording) -> Tables {
+        let readings =
+            |sensor_kind: SensorKind| recording.sensor(sensor_kind).map(|of| of.readings().to_vec());
+        let force: Option<Vec<_>> = readings(SensorKind::Accelerometer)
+            .map(|of| of.iter().filter_map(|reading| self.correction.force(reading)).collect());
+        let rate = readings(SensorKind::Gyroscope).map(|of| {
+            let felt = |number: usize| force.as_ref().map_or_else(Vector3::zeros, |of| of[number]);
+            let rate = |(number, reading)| self.correction.rate(reading, &felt(number));
+            of.iter().enumerate().filter_map(rate).collect()
+        });
+        [force, rate, None, None]
+    }
+}

@@ -1,0 +1,177 @@
+"""From a recording to a calibration."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from typing import Any, Sequence
+
+from . import _native
+from ._arrays import Path
+from ._calibration import Calibration
+from ._exceptions import CalibrationWarning, experiment_error
+from ._experiment import Experiment, presets
+from ._frames import is_frame, library_of
+from ._motion import as_native_motion
+from ._progress import Progress, Told
+from ._recording import Recording, as_source, read_recording
+
+AnyExperiment = Any
+"""An :class:`Experiment`, a path of an experiment file, the name of a preset, or ``"auto"``."""
+
+
+def calibrate(
+    recording: Any,
+    experiment: AnyExperiment = "auto",
+    *,
+    gravity_mps2: float | None = None,
+    motion: Any = None,
+    log: Any = None,
+    validate: Any = None,
+    validate_log: Any = None,
+    folds: int | None = None,
+    sections: Path | None = None,
+    together: Sequence[Any] = (),
+    allow: Sequence[str] = (),
+    accept: Path | None = None,
+    sensor: str | None = None,
+    sensor_from: str | None = None,
+    sensor_key: str | None = None,
+    station: str | None = None,
+    threads: int | None = None,
+    progress: Progress = False,
+) -> Calibration:
+    """Calibrate the sensors of a recording.
+
+    The same input gives the same bits as the command line.
+
+    Parameters
+    ----------
+    recording : path, bytes, frame or Recording
+        The recording. What a file does not state goes to :func:`read_recording`, or to ``[columns]`` of the experiment.
+    experiment : Experiment, path or str
+        What is known of the sensor, and what was done with it: an :class:`Experiment`, an experiment file, the name of a preset,
+        or ``"auto"``: turned by hand and held still, an accelerometer or an IMU, as the recording has it.
+    gravity_mps2 : float, optional
+        Gravity at your place, m/s², in place of what the experiment says.
+    motion : Motion, path or frame, optional
+        The commanded motion, which a ``[motion]`` experiment needs.
+    log : Poses, Joints, path or frame, optional
+        The log of the machine, which a ``[machine]`` experiment needs where the recording's file has none.
+    validate : path, bytes, frame or Recording, optional
+        Another recording of the sensor, on which the calibration is tried.
+    validate_log : Poses, Joints, path or frame, optional
+        The log of the machine in that recording.
+    folds : int, optional
+        Number of blocks, each predicted by a calibration from the others.
+    sections : path, optional
+        The list of faces and turns of a session of imucal.
+    together : list of recordings
+        Further recordings of the same accelerometer, calibrated together with the first.
+    allow : list of str
+        Codes of diagnostics that do not count for the verdict.
+    accept : path, optional
+        A file with ``[accept]``: the limits that a result must keep.
+    sensor, sensor_from, sensor_key : str, optional
+        The sensor's serial number; or the pattern of file names that has it, ``"{sensor}.csv"``; or the line or column that has it.
+    station : str, optional
+        Where it was recorded.
+    threads : int, optional
+        Number of threads; all cores by default. Results do not depend on it.
+    progress : bool or callable
+        ``True`` for a bar of tqdm, or a callable that takes steps done, steps in all, and what is done.
+
+    Returns
+    -------
+    Calibration
+        With a :exc:`CalibrationWarning` where its verdict is not ``ok``.
+
+    Raises
+    ------
+    ExperimentError
+        Where experiment, motion or an argument makes no sense.
+    RecordingError
+        Where the recording cannot be used.
+    NotIdentifiable
+        Where the data do not determine the parameters: `groups` says which, why, and what would help.
+    KeyboardInterrupt
+        Where Ctrl-C came before there was a result.
+
+    Examples
+    --------
+    >>> import calibrant as cb
+    >>> simulated = cb.simulate(cb.Experiment.preset("static-poses"))
+    >>> cal = cb.calibrate(simulated.recording, gravity_mps2=9.80665)
+    >>> abs(cal["accelerometer.scale.x"].value - simulated.truth["accelerometer.scale.x"]) < 5 * cal["accelerometer.scale.x"].sd
+    True
+    """
+    made = _experiment_of(recording, experiment)
+    if gravity_mps2 is not None:
+        made = made.replace(**{made.kind: {"gravity_mps2": gravity_mps2}})
+    if motion is not None and log is not None:
+        raise experiment_error("`motion` and `log` are both there", "leave one of them away", code="options-contradict")
+    source, reading, _ = as_source(recording, sections=sections, further=together)
+    other = None if validate is None else as_source(validate)[0]
+    options: dict[str, Any] = {
+        "experiment_file": made._path or "",
+        "reading": reading,
+        "folds": folds,
+        "accept": None if accept is None else os.fspath(accept),
+        "allow": list(allow),
+        "sensor": sensor,
+        "sensor_from": sensor_from,
+        "sensor_key": sensor_key,
+        "station": station,
+        "report": True,
+    }
+    with Told(progress) as told:
+        outcome = _native.calibrate(
+            made._native,
+            source,
+            json.dumps(options),
+            motion=as_native_motion(motion if log is None else log),
+            validate=other,
+            validate_motion=as_native_motion(validate_log),
+            threads=threads,
+            progress=told,
+        )
+    found = Calibration(outcome.json(), outcome, like=_library(recording))
+    if found.verdict != "ok":
+        codes = ", ".join((found.data.get("verdict") or {}).get("codes") or ())
+        warnings.warn(f"the calibration is {found.verdict}: {codes}; see its diagnostics", CalibrationWarning, stacklevel=2)
+    return found
+
+
+def as_experiment(experiment: AnyExperiment) -> Experiment:
+    """An experiment, a path, or the name of a preset."""
+    if isinstance(experiment, Experiment):
+        return experiment
+    if isinstance(experiment, str) and experiment in presets():
+        return Experiment.preset(experiment)
+    if isinstance(experiment, (str, os.PathLike)):
+        return Experiment.from_toml(experiment)
+    raise experiment_error(
+        f"{type(experiment).__name__} is no experiment", "give an Experiment, a path, or the name of a preset"
+    )
+
+
+def _experiment_of(recording: Any, experiment: AnyExperiment) -> Experiment:
+    if not (isinstance(experiment, str) and experiment == "auto"):
+        return as_experiment(experiment)
+    read = recording if isinstance(recording, Recording) else read_recording(recording)
+    accelerometer, gyroscope = read.accelerometer, read.gyroscope
+    counts = "-counts" if accelerometer is not None and accelerometer.unit == "counts" else ""
+    if gyroscope is not None:
+        return Experiment.preset(f"imu{counts}")
+    # what the preset says of the datasheet is of its own sensor
+    of_datasheet = ("noise_mps2", "noise_counts", "bias_sd_mps2", "scale_sd", "cross_axis_sd")
+    return Experiment.preset(f"static-poses{counts}", sensor=dict.fromkeys(of_datasheet))
+
+
+def _library(recording: Any) -> Any:
+    if isinstance(recording, Recording):
+        return recording._like
+    if isinstance(recording, (str, os.PathLike, bytes, bytearray, memoryview)):
+        return None
+    return library_of(recording) if is_frame(recording) else None

@@ -1,0 +1,433 @@
+"""Recordings: files of any format, bytes, frames and arrays."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Literal, Mapping, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._arrays import Array, Path, as_list, as_table, numbers, table
+from ._diagnostic import Diagnostic, diagnostics
+from ._exceptions import experiment_error
+from ._frames import columns_of, frame, is_frame, library_of
+
+Columns = Mapping[str, Union[str, Sequence[str]]]
+
+
+class Samples:
+    """The samples of one sensor.
+
+    Attributes
+    ----------
+    t_s : (n,) array
+        Times, s.
+    values : (n, 3) array
+        Readings, in `unit`.
+    unit : str
+        ``"m/s²"``, ``"rad/s"`` or ``"counts"``.
+    """
+
+    def __init__(self, t_s: Array, values: Array, unit: str) -> None:
+        self.t_s, self.values, self.unit = t_s, values, unit
+
+    @classmethod
+    def _of(cls, found: tuple[bytearray, bytearray, str] | None) -> Samples | None:
+        return None if found is None else cls(numbers(found[0]), table(found[1]), found[2])
+
+    def __repr__(self) -> str:
+        return f"Samples({len(self.t_s)} in {self.unit})"
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What a recording contains, and what to expect of a calibration from it.
+
+    Attributes
+    ----------
+    data : dict
+        As ``calibrant inspect --json`` writes it.
+    text, html : str
+        The sheet.
+    findings : tuple of Diagnostic
+        What was noticed in the file, the samples and the holds.
+    """
+
+    data: dict[str, Any]
+    text: str
+    html: str
+    findings: tuple[Diagnostic, ...]
+
+    @property
+    def holds(self) -> list[dict[str, Any]]:
+        """The stationary intervals; empty without an accelerometer."""
+        return list((self.data.get("holds") or {}).get("table") or [])
+
+    @property
+    def missing_orientations(self) -> tuple[str, ...]:
+        """The sides of the sensor that no hold has up: ``"+x"``, ``"-z"``. A hold belongs to the side that is nearest to up."""
+        seen = set()
+        for hold in self.holds:
+            mean = np.array(hold["mean"])
+            axis = int(np.argmax(np.abs(mean)))
+            seen.add(("+" if mean[axis] > 0 else "-") + "xyz"[axis])
+        return tuple(side for side in ("+x", "-x", "+y", "-y", "+z", "-z") if side not in seen)
+
+    @property
+    def emptiest_direction(self) -> Array | None:
+        """The direction that is farthest from all holds, a unit vector in the sensor's axes."""
+        found = (self.data.get("holds") or {}).get("emptiest_direction")
+        return None if found is None else np.array(found)
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        return self.html
+
+
+class Recording:
+    """A recording that was read. Make one with :func:`read_recording` or :func:`recording`.
+
+    It remembers where it came from, so that a calibration reads it as the experiment says.
+    """
+
+    def __init__(
+        self,
+        source: _native.Source,
+        reading: dict[str, Any],
+        name: str,
+        rebuild: tuple[Any, ...],
+        like: Any = None,
+    ) -> None:
+        self._source, self._reading, self.name = source, reading, name
+        self._rebuild, self._like = rebuild, like
+        self._read = _native.read_recording(source, json.dumps(reading))
+        self._about: dict[str, Any] = json.loads(self._read.about())
+
+    @property
+    def findings(self) -> tuple[Diagnostic, ...]:
+        """What the reader noticed and repaired."""
+        return diagnostics(self._about["findings"])
+
+    @property
+    def format(self) -> str:
+        """The format, as it was recognised or given."""
+        return str(self._about["format"])
+
+    @property
+    def sha256(self) -> tuple[str, ...]:
+        """SHA-256 of each file, or of the numbers in memory."""
+        return tuple(self._about["sha256"])
+
+    @property
+    def accelerometer(self) -> Samples | None:
+        """The accelerometer's samples, in m/s² or counts."""
+        return Samples._of(self._read.samples("accelerometer"))
+
+    @property
+    def gyroscope(self) -> Samples | None:
+        """The gyroscope's samples, in rad/s or counts."""
+        return Samples._of(self._read.samples("gyroscope"))
+
+    @property
+    def temperature_c(self) -> Array | None:
+        """Temperature at each sample of the first sensor, °C."""
+        found = self._read.temperature_c()
+        return None if found is None else numbers(found)
+
+    def inspect(self, width: int = 100) -> Inspection:
+        """What it contains: columns, sampling, ranges, holds, coverage, and what to expect of a calibration."""
+        text, sheet, html = self._read.inspect(width)
+        data = json.loads(text)
+        return Inspection(data, sheet, html, diagnostics(data.get("findings") or ()))
+
+    def between(self, start_s: float, end_s: float) -> Recording:
+        """The samples from `start_s` to `end_s`, s."""
+        accelerometer, gyroscope, temperature = self.accelerometer, self.gyroscope, self.temperature_c
+        first = accelerometer or gyroscope
+        assert first is not None
+        keep = (first.t_s >= start_s) & (first.t_s <= end_s)
+        arguments: dict[str, Any] = {"name": self.name}
+        if temperature is not None:
+            arguments["temperature_c"] = temperature[keep]
+        for sensor, of in (("accelerometer", accelerometer), ("gyroscope", gyroscope)):
+            if of is not None:
+                kept = (of.t_s >= start_s) & (of.t_s <= end_s)
+                arguments[sensor], arguments[f"{sensor}_unit"] = of.values[kept], of.unit
+                if of is not first and not np.array_equal(of.t_s, first.t_s):
+                    arguments["gyroscope_t_s"] = of.t_s[kept]
+        return recording(first.t_s[keep], **arguments)
+
+    def to_frame(self) -> Any:
+        """The samples as a frame: of the library that came in, or else pandas, polars or pyarrow. Sensors with different times need :attr:`accelerometer` and :attr:`gyroscope`."""
+        accelerometer, gyroscope, temperature = self.accelerometer, self.gyroscope, self.temperature_c
+        columns: dict[str, Any] = {}
+        for letter, of in (("a", accelerometer), ("g", gyroscope)):
+            if of is None:
+                continue
+            if "t_s" in columns and not np.array_equal(columns["t_s"], of.t_s):
+                raise experiment_error("the sensors have different times", "take `accelerometer` and `gyroscope`")
+            columns["t_s"] = of.t_s
+            unit = {"m/s²": "mps2", "rad/s": "radps"}.get(of.unit, of.unit)
+            columns.update({f"{letter}{axis}_{unit}": of.values[:, k] for k, axis in enumerate("xyz")})
+        if temperature is not None:
+            columns["temp_c"] = temperature
+        return frame(columns, self._like)
+
+    def save(self, path: Path) -> None:
+        """Write it as CSV, in SI units or counts."""
+        self._read.write(os.fspath(path))
+
+    def _readings(self) -> list[_native.Readings]:
+        return _readings_of(self._rebuild)[0]
+
+    def __len__(self) -> int:
+        first = self.accelerometer or self.gyroscope
+        return 0 if first is None else len(first.t_s)
+
+    def __repr__(self) -> str:
+        return f"Recording({self.name!r}: {len(self)} samples, {self.format})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuilt, (self._rebuild, self._reading))
+
+
+def read_recording(
+    source: Any,
+    *,
+    gyroscope: Any = None,
+    columns: Columns | None = None,
+    accelerometer_unit: str | None = None,
+    gyroscope_unit: str | None = None,
+    time_unit: str | None = None,
+    rate_hz: float | None = None,
+    rate_sd_ppm: float | None = None,
+    times: Literal["even", "as-logged"] | None = None,
+    instance: str | None = None,
+    format: str | None = None,
+    topic: str | None = None,
+    name: str | None = None,
+    force: bool = False,
+) -> Recording:
+    """Read a recording of an accelerometer, a gyroscope or both.
+
+    Parameters
+    ----------
+    source : path, bytes or frame
+        A file of any format that calibrant reads, its bytes, or a frame of pandas, polars or pyarrow.
+    gyroscope : path, bytes or frame, optional
+        The gyroscope's recording, where each sensor has its own.
+    columns : dict, optional
+        Names of columns, where their names do not tell: keys ``time``, ``accelerometer``, ``gyroscope`` (three names each) and ``temperature``.
+    accelerometer_unit : str, optional
+        ``"m/s²"``, ``"g"``, ``"mg"`` or ``"counts"``, where the file does not say.
+    gyroscope_unit : str, optional
+        ``"rad/s"``, ``"deg/s"``, ``"mdps"`` or ``"counts"``, where the file does not say.
+    time_unit : str, optional
+        ``"s"``, ``"ms"``, ``"us"``, ``"ns"``, or ``"samples"`` for a counter.
+    rate_hz : float, optional
+        Sample rate in Hz, where there are no times.
+    rate_sd_ppm : float, optional
+        How well that rate is known, ppm.
+    times : {"even", "as-logged"}, optional
+        Even sample times or the logged ones.
+    instance : str, optional
+        Which sensor, where the rows are of several.
+    format : str, optional
+        The format, where it is not recognised.
+    topic : str, optional
+        The topic of a bag.
+    name : str, optional
+        What results and errors call bytes or a frame.
+    force : bool
+        Read it in spite of its size.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    RecordingError
+        Where it cannot be read, with file, line and column; or where a unit or a rate is not known: `answers` names the argument.
+
+    Examples
+    --------
+    >>> import calibrant as cb
+    >>> text = b"t_s,ax_g,ay_g,az_g\\n0.00,0,0,1\\n0.01,0,0.1,1\\n0.02,0.1,0,1\\n"
+    >>> float(cb.read_recording(text).accelerometer.values[0, 2])
+    9.80665
+    """
+    reading = _reading(
+        columns=columns,
+        accelerometer_unit=accelerometer_unit,
+        gyroscope_unit=gyroscope_unit,
+        time_unit=time_unit,
+        rate_hz=rate_hz,
+        rate_sd_ppm=rate_sd_ppm,
+        times=times,
+        instance=instance,
+        format=format,
+        topic=topic,
+        force=force,
+    )
+    return _read_recording(source, gyroscope, name, reading)
+
+
+def recording(
+    t_s: npt.ArrayLike | None = None,
+    accelerometer: npt.ArrayLike | None = None,
+    gyroscope: npt.ArrayLike | None = None,
+    *,
+    rate_hz: float | None = None,
+    accelerometer_unit: str = "m/s²",
+    gyroscope_unit: str = "rad/s",
+    temperature_c: npt.ArrayLike | None = None,
+    gyroscope_t_s: npt.ArrayLike | None = None,
+    name: str = "recording",
+    force: bool = False,
+) -> Recording:
+    """A recording of arrays.
+
+    Parameters
+    ----------
+    t_s : (n,) array, optional
+        Times, s, increasing; ``None`` with `rate_hz`.
+    accelerometer : (n, 3) array, optional
+        Specific force, in `accelerometer_unit`. NaN: no reading.
+    gyroscope : (n, 3) array, optional
+        Angular rate, in `gyroscope_unit`.
+    rate_hz : float, optional
+        Sample rate in Hz, in place of times.
+    accelerometer_unit : str
+        ``"m/s²"``, ``"g"``, ``"mg"`` or ``"counts"``.
+    gyroscope_unit : str
+        ``"rad/s"``, ``"deg/s"``, ``"mdps"`` or ``"counts"``.
+    temperature_c : (n,) array, optional
+        Temperature of the sensor, °C.
+    gyroscope_t_s : (m,) array, optional
+        Times of the gyroscope, s, where it has its own; it then has shape (m, 3).
+    name : str
+        What results and errors call it.
+    force : bool
+        Take it in spite of its size.
+
+    Raises
+    ------
+    RecordingError
+        Where shapes differ, times do not increase, or readings make no sense.
+
+    Examples
+    --------
+    >>> import calibrant as cb, numpy as np
+    >>> t = np.arange(100) / 100
+    >>> force = np.tile([0.0, 0.0, 1.0], (100, 1)) + 1e-3 * np.sin(np.arange(300)).reshape(-1, 3)
+    >>> len(cb.recording(t, force, accelerometer_unit="g"))
+    100
+    """
+    if accelerometer is None and gyroscope is None:
+        raise experiment_error("neither `accelerometer` nor `gyroscope` is there", "give at least one of them")
+    reading = _reading(rate_hz=rate_hz, force=force)
+    parts: list[list[tuple[str, Array]]] = []
+    own_times = gyroscope_t_s is not None and accelerometer is not None
+    for letter, given, unit, unit_name in (
+        ("a", accelerometer, accelerometer_unit, "accelerometer_unit"),
+        ("g", gyroscope, gyroscope_unit, "gyroscope_unit"),
+    ):
+        if given is None:
+            continue
+        readings = as_table("accelerometer" if letter == "a" else "gyroscope", given)
+        reading[unit_name] = unit
+        if not parts or own_times:
+            own = gyroscope_t_s if letter == "g" and gyroscope_t_s is not None else t_s
+            parts.append([] if own is None else [("t_s", as_list("t_s", own))])
+        parts[-1] += [(f"{letter}{axis}", np.ascontiguousarray(readings[:, k])) for k, axis in enumerate("xyz")]
+    if temperature_c is not None:
+        parts[0].append(("temp_c", as_list("temperature_c", temperature_c)))
+    rebuild = ("columns", name, parts)
+    return _rebuilt(rebuild, reading)
+
+
+def _reading(**options: Any) -> dict[str, Any]:
+    columns = options.pop("columns", None)
+    reading = {key: value for key, value in options.items() if value not in (None, False)}
+    if columns:
+        reading["columns"] = {
+            key: value if isinstance(value, str) else list(value) for key, value in columns.items()
+        }
+    return reading
+
+
+def _read_recording(source: Any, gyroscope: Any, name: str | None, reading: dict[str, Any]) -> Recording:
+    if isinstance(source, Recording):
+        return source
+    like = library_of(source) if not _is_path_or_bytes(source) and is_frame(source) else None
+    parts = [_part(source)] + ([] if gyroscope is None else [_part(gyroscope)])
+    return _rebuilt(("parts", name, parts), reading, like)
+
+
+def as_source(
+    source: Any, gyroscope: Any = None, sections: Path | None = None, further: Sequence[Any] = ()
+) -> tuple[_native.Source, dict[str, Any], str]:
+    """Anything that is a recording, as the native part takes it; what is known of its reading; and its name. A path is not read yet."""
+    if isinstance(source, Recording):
+        if sections is None and not further:
+            return source._source, source._reading, source.name
+        readings, reading, name = source._readings(), source._reading, source.name
+    else:
+        parts = [_part(source)] + ([] if gyroscope is None else [_part(gyroscope)])
+        readings, name = _readings_of(("parts", None, parts))
+        reading = {}
+    added = [_readings_of(("parts", None, [_part(of)]))[0][0] for of in further]
+    place = None if sections is None else os.fspath(sections)
+    return _native.Source(readings[0], readings[1] if len(readings) > 1 else None, added, place), reading, name
+
+
+def _is_path_or_bytes(source: Any) -> bool:
+    return isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview))
+
+
+def _part(source: Any) -> tuple[str, Any]:
+    """Path, bytes or columns: what can be pickled."""
+    if isinstance(source, (str, os.PathLike)):
+        return ("path", os.fspath(source))
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return ("bytes", bytes(source))
+    if isinstance(source, Recording):
+        kind, _, parts = source._rebuild
+        if len(parts) == 1:
+            return ("columns", parts[0]) if kind == "columns" else parts[0]
+    if not is_frame(source):
+        message = f"{type(source).__name__} is no recording"
+        raise experiment_error(message, "give a path, bytes, a frame, or arrays by `recording(…)`")
+    return ("columns", columns_of(source))
+
+
+def _readings_of(rebuild: tuple[Any, ...]) -> tuple[list[_native.Readings], str]:
+    kind, name, parts = rebuild
+    if kind == "columns":
+        parts = [("columns", part) for part in parts]
+    called = name or (os.path.basename(parts[0][1]) if parts[0][0] == "path" else "recording")
+    made = []
+    for number, (of, content) in enumerate(parts):
+        other = called if number == 0 else f"{called} (gyroscope)"
+        if of == "path":
+            made.append(_native.Readings.file(content))
+        elif of == "bytes":
+            made.append(_native.Readings.bytes(other, content))
+        else:
+            columns = [(of_column, values.tobytes()) for of_column, values in content]
+            made.append(_native.Readings.columns(other, columns))
+    return made, called
+
+
+def _rebuilt(rebuild: tuple[Any, ...], reading: dict[str, Any], like: Any = None) -> Recording:
+    readings, name = _readings_of(rebuild)
+    source = _native.Source(readings[0], readings[1] if len(readings) > 1 else None)
+    return Recording(source, reading, name, rebuild, like)
+

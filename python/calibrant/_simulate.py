@@ -1,0 +1,145 @@
+"""Simulated recordings."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Iterator, Mapping
+
+import numpy.typing as npt
+
+from . import _native
+from ._arrays import Path, as_table, numbers, table
+from ._calibrate import as_experiment
+from ._motion import Joints, Motion, Poses, as_native_motion
+from ._recording import Recording, Samples, recording as recording_of
+
+
+class Truth(Mapping[str, float]):
+    """The true parameters of a simulated sensor, by the names of a calibration's. ``data`` has all of them, as in ``truth.json``."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.data = data
+        self._values = _values(data)
+
+    def __getitem__(self, name: str) -> float:
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __repr__(self) -> str:
+        return f"Truth({len(self)} parameters)"
+
+
+class Simulation:
+    """A simulated recording, with the truth behind it.
+
+    Attributes
+    ----------
+    recording : Recording
+        What the sensor would have reported.
+    truth : Truth
+        The true parameters.
+    motion : Motion or None
+        The commanded motion, of a ``[motion]`` experiment.
+    log : Poses, Joints or None
+        The log of the machine, of a ``[machine]`` experiment.
+    seed : int
+        The seed of the sensor.
+    """
+
+    def __init__(self, made: _native.Simulation) -> None:
+        self._made = made
+        self.truth = Truth(json.loads(made.truth()))
+        self.seed: int = json.loads(made.about())["seed"]
+        nodes, log = made.motion(), made.log()
+        self.motion = None if nodes is None else Motion(numbers(nodes[0]), table(nodes[1]))
+        self.log: Poses | Joints | None = None
+        if log is not None:
+            kind, names, times, first, second = log
+            if kind == "joints":
+                positions, velocities = (
+                    None if of is None else dict(zip(names, table(of, len(names)).T)) for of in (first, second)
+                )
+                self.log = Joints(numbers(times), positions or {}, velocities)
+            else:
+                assert second is not None
+                self.log = Poses(numbers(times), table(first), table(second, 4))
+
+    @property
+    def recording(self) -> Recording:
+        """What the sensor would have reported."""
+        found: dict[str, Samples] = {}
+        for sensor in ("accelerometer", "gyroscope"):
+            samples = Samples._of(self._made.samples(sensor))
+            if samples is not None:
+                found[sensor] = samples
+        first = next(iter(found.values()))
+        temperature = self._made.temperature_c()
+        arguments: dict[str, Any] = {"temperature_c": None if temperature is None else numbers(temperature)}
+        for sensor, samples_of in found.items():
+            arguments[sensor], arguments[f"{sensor}_unit"] = samples_of.values, samples_of.unit
+        return recording_of(first.t_s, **arguments)
+
+    def save(self, directory: Path) -> None:
+        """Write the files of ``calibrant simulate``: ``recording.csv``, ``truth.json``, and ``motion.csv``, ``joints.csv`` or ``poses.csv``."""
+        os.makedirs(directory, exist_ok=True)
+        self._made.write(os.fspath(directory))
+
+    def __repr__(self) -> str:
+        return f"Simulation(seed {self.seed})"
+
+
+def simulate(
+    experiment: Any,
+    *,
+    motion: Any = None,
+    poses: npt.ArrayLike | None = None,
+    seed: int | None = None,
+    recording: int = 1,
+    force: bool = False,
+) -> Simulation:
+    """Draw a sensor from the datasheet of an experiment, and simulate a recording of it.
+
+    Parameters
+    ----------
+    experiment : Experiment, path or str
+        The experiment, its file, or the name of a preset.
+    motion : Motion, Poses, Joints, path or frame, optional
+        The commanded motion, or the log of a machine; a random one by default.
+    poses : (n, 3) array, optional
+        The direction that is up in each hold of an accelerometer that is held by hand.
+    seed : int, optional
+        Seed of all random numbers; that of the experiment by default.
+    recording : int
+        Number of the recording, from 1: each has its own noise, poses and motion.
+    force : bool
+        Do it in spite of its size.
+
+    Examples
+    --------
+    >>> import calibrant as cb
+    >>> cb.simulate("imu", seed=2)
+    Simulation(seed 2)
+    """
+    return Simulation(
+        _native.simulate(
+            as_experiment(experiment)._native,
+            motion=as_native_motion(motion),
+            poses=None if poses is None else as_table("poses", poses).tobytes(),
+            seed=seed,
+            recording=recording,
+            force=force,
+        )
+    )
+
+
+def _values(data: dict[str, Any]) -> dict[str, float]:
+    listed = data.get("parameters")
+    if isinstance(listed, list):
+        return {of["name"]: float(of["value"]) for of in listed}
+    return {}

@@ -1,0 +1,57 @@
+"""Engines: what runs chunks. Each takes a function and the arguments of each call, and gives results as they are done."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Iterator, Sequence
+
+from .._exceptions import experiment_error
+
+Engine = Callable[[Callable[..., Any], Sequence[tuple[Any, ...]]], Iterator[Any]]
+
+
+def engine_of(client: Any) -> Engine:
+    """The engine of a client: the module `ray`, a client of Dask, or an executor of `concurrent.futures`."""
+    if getattr(client, "__name__", None) == "ray":
+        return lambda work, calls: _on_ray(client, work, calls)
+    if hasattr(client, "get_executor"):
+        return lambda work, calls: _on_executor(client.get_executor(), work, calls)
+    if hasattr(client, "submit"):
+        return lambda work, calls: _on_executor(client, work, calls)
+    raise experiment_error(
+        f"`client` is {type(client).__name__}", "give the module ray, a Client of Dask, or an Executor of concurrent.futures"
+    )
+
+
+def _on_executor(
+    executor: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]], most: int = 1000
+) -> Iterator[Any]:
+    """At most so many calls wait at a time: a fleet of millions does not fit into a queue."""
+    waiting = list(reversed(calls))
+    running = {executor.submit(work, *waiting.pop()) for _ in range(min(most, len(waiting)))}
+    while running:
+        done = _first_done(running)
+        for future in done:
+            running.discard(future)
+            if waiting:
+                running.add(executor.submit(work, *waiting.pop()))
+            yield future.result()
+
+
+def _first_done(running: set[Any]) -> list[Any]:
+    from concurrent.futures import FIRST_COMPLETED, wait
+
+    return list(wait(running, return_when=FIRST_COMPLETED).done)
+
+
+def _on_ray(ray: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]], most: int = 1000) -> Iterator[Any]:
+    if not ray.is_initialized():
+        ray.init(log_to_driver=False)
+    # a worker that is killed is replaced, and its chunk runs again
+    remote = ray.remote(max_retries=-1, num_cpus=1)(work)
+    waiting = list(reversed(calls))
+    running = [remote.remote(*waiting.pop()) for _ in range(min(most, len(waiting)))]
+    while running:
+        done, running = ray.wait(running, num_returns=1)
+        if waiting:
+            running.append(remote.remote(*waiting.pop()))
+        yield ray.get(done[0])

@@ -1,0 +1,180 @@
+"""Manners: errors with data, threads, signals, pickles, forks, nothing printed."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import pickle
+import signal
+import threading
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+
+import calibrant as cb
+
+
+@pytest.fixture(scope="module")
+def imu() -> cb.Calibration:
+    return cb.calibrate(cb.simulate("imu").recording, "imu")
+
+
+def test_an_error_has_code_remedy_and_answers() -> None:
+    text = b"t_s,ax,ay,az\n" + b"".join(b"%f,0,0,%f\n" % (k / 100, 1 + 1e-3 * (k % 7)) for k in range(400))
+    with pytest.raises(cb.RecordingError) as caught:
+        cb.read_recording(text)
+    error = caught.value
+    assert error.code == "unit-unknown" and isinstance(error, ValueError)
+    assert "accelerometer_unit" in [answer.argument for answer in error.answers]
+    assert "--" not in str(error) and "option `" not in str(error)
+    again = pickle.loads(pickle.dumps(error))
+    assert (again.code, again.answers, str(again)) == (error.code, error.answers, str(error))
+
+
+def test_what_is_not_determined_is_named() -> None:
+    flat = np.tile([0.0, 0.0, 9.81], (3000, 1)) + 0.01 * np.random.default_rng(1).standard_normal((3000, 3))
+    with pytest.raises(cb.NotIdentifiable) as caught:
+        cb.calibrate(cb.recording(np.arange(3000) / 100, flat), gravity_mps2=9.81)
+    assert caught.value.groups and caught.value.parameters and caught.value.groups[0].remedy
+    assert pickle.loads(pickle.dumps(caught.value)).groups == caught.value.groups
+
+
+def test_a_wrong_experiment_names_its_key() -> None:
+    with pytest.raises(cb.ExperimentError) as caught:
+        cb.Experiment.preset("imu", holds={"gravitty_mps2": 9.8})
+    assert caught.value.key == "holds.gravitty_mps2" and caught.value.line is None
+    with pytest.raises(cb.ExperimentError) as caught:
+        cb.Experiment.from_toml(b"schema = 1\n[sensor]\nkind = 3\n")
+    assert caught.value.line == 3
+
+
+def test_a_verdict_can_be_raised(imu: cb.Calibration) -> None:
+    assert imu.raise_for_verdict("ok") is imu
+    data = imu.to_json().replace('"usability": "ok"', '"usability": "bad"')
+    with pytest.raises(cb.BadCalibration) as caught:
+        cb.Calibration(data).raise_for_verdict()
+    assert caught.value.calibration.verdict == "bad"
+
+
+def test_everything_pickles(imu: cb.Calibration) -> None:
+    assert pickle.loads(pickle.dumps(imu)) == imu
+    experiment = cb.Experiment.preset("arm")
+    assert pickle.loads(pickle.dumps(experiment)) == experiment
+    made = cb.simulate("rate-table")
+    assert pickle.loads(pickle.dumps(made.recording)).sha256 == made.recording.sha256
+    assert isinstance(pickle.loads(pickle.dumps(made.log)), cb.Joints)
+
+
+def test_frames_come_back_as_they_went_in(imu: cb.Calibration) -> None:
+    recording = cb.simulate("imu").recording
+    for library in ("pandas", "polars", "pyarrow"):
+        module = pytest.importorskip(library)
+        columns = {"t_s": recording.accelerometer.t_s}  # type: ignore[union-attr]
+        for letter, of in (("a", recording.accelerometer), ("g", recording.gyroscope)):
+            assert of is not None
+            unit = "mps2" if letter == "a" else "radps"
+            columns.update({f"{letter}{axis}_{unit}": of.values[:, k] for k, axis in enumerate("xyz")})
+        given = module.table(columns) if library == "pyarrow" else module.DataFrame(columns)
+        kind = type(given)
+        assert isinstance(cb.calibrate(given, "imu").to_frame(), kind)
+        assert isinstance(imu.apply(given, sd=True), kind)
+
+
+def test_other_threads_run_meanwhile() -> None:
+    ticks, stop = 0, threading.Event()
+
+    def tick() -> None:
+        nonlocal ticks
+        while not stop.is_set():
+            ticks += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    cb.design("stage", starts=4)
+    stop.set()
+    thread.join()
+    assert ticks > 20
+
+
+def test_ctrl_c_gives_the_best_so_far() -> None:
+    asked: list[float] = []
+
+    def ask() -> None:
+        asked.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(1.0, ask)
+    timer.start()
+    best = cb.design("stage", starts=100_000, force=True)
+    assert best.interrupted and best.motion is not None
+    assert time.monotonic() - asked[0] < 1.5, "0.5 s and a slow machine"
+
+
+def test_progress_is_told_and_may_stop_the_work() -> None:
+    told: list[tuple[int, int, str]] = []
+    cb.design("stage", starts=3, progress=lambda done, total, text: told.append((done, total, text)))
+    assert told and told[-1][0] <= told[-1][1]
+
+    def refuse(done: int, total: int, text: str) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        cb.design("stage", starts=200, progress=refuse)
+
+
+def _values(queue: Any) -> None:
+    queue.put(cb.calibrate(cb.simulate("static-poses").recording, "static-poses").values)
+
+
+@pytest.mark.parametrize("method", ["fork", "forkserver", "spawn"])
+def test_other_processes_give_the_same(method: str) -> None:
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip(f"there is no {method}")
+    expected = cb.calibrate(cb.simulate("static-poses").recording, "static-poses").values
+    context = multiprocessing.get_context(method)
+    queue = context.Queue()
+    process = context.Process(target=_values, args=(queue,))
+    process.start()
+    assert np.array_equal(queue.get(timeout=60), expected)
+    process.join()
+
+
+def test_threads_change_nothing() -> None:
+    recording = cb.simulate("imu").recording
+    one, two = (cb.calibrate(recording, "imu", threads=count) for count in (1, 2))
+    assert one == two
+
+
+def test_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
+    cb.calibrate(cb.simulate("imu").recording, "imu").summary()
+    with pytest.raises(cb.CalibrantError):
+        cb.recording([0.0, 1.0], [[0.0, 0.0, 1.0]])
+    captured = capfd.readouterr()
+    assert captured.out == "" and captured.err == ""
+
+
+def test_hostile_arrays_are_refused_or_calibrated() -> None:
+    rng = np.random.default_rng(0)
+    classes: dict[str, int] = {}
+    for _ in range(200):
+        count = int(rng.choice([0, 1, 2, 3, 50, 2000]))
+        shape = rng.choice([0, 1, 2, 3])
+        t: Any = np.arange(count) / 100
+        force: Any = np.tile([0.0, 0.0, 9.81], (count, 1)) + rng.normal(size=(count, 3)) * rng.choice([0, 1e-3, 1e300])
+        if shape == 1 and count:
+            force[rng.integers(count)] = rng.choice([np.nan, np.inf, -np.inf, 1e308])
+        if shape == 2:
+            t = t[::-1] if rng.random() < 0.5 else t[: count // 2]
+        if shape == 3:
+            force = force[:, :2] if rng.random() < 0.5 else force.astype(object)
+        try:
+            cb.calibrate(cb.recording(t, force), gravity_mps2=float(rng.choice([9.81, np.nan, -1.0, 0.0])))
+            name = "calibrated"
+        except cb.CalibrantError as error:
+            assert error.code != "internal-error", error
+            name = type(error).__name__
+        classes[name] = classes.get(name, 0) + 1
+    assert sum(classes.values()) == 200
