@@ -11,7 +11,7 @@ use calibrant::design::{Design as FoundDesign, DesignStatus, assess as assessed,
 use calibrant::diagnostic::Diagnostic;
 use calibrant::io::{
     CriterionLetter, DesignFile, DesignSetting, EarlierCalibration, EvaluationFile, PoseDesignFile,
-    PoseEvaluationFile, TrajectoryFile, parse_calibration, to_json,
+    PoseEvaluationFile, parse_calibration, to_json,
 };
 use calibrant::machine_design::TrajectoryDesign;
 use calibrant::report::{About, design_sheet, evaluation_sheet, pose_sheet, trajectory_sheet};
@@ -176,7 +176,7 @@ pub(crate) fn assess(
         let motion = match &source {
             MotionSource::File(path) => calibrant::io::read_motion(path, problem.sensor.axes)?,
             MotionSource::Commanded(motion) => motion.clone(),
-            MotionSource::Logged(_) => {
+            MotionSource::Logged(_) | MotionSource::OnKnots(..) => {
                 return Err(invalid("a log of a machine is no commanded motion", "give the nodes of one"));
             }
         };
@@ -338,7 +338,7 @@ impl Trajectory {
     /// Writes the files of `calibrant design`, without its report.
     fn write(&self, py: Python<'_>, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
         let found = Arc::clone(&self.found);
-        run(py, move || found.0.write(&found.1, &directory))
+        run(py, move || found.0.write(&found.1, &directory, None))
     }
 }
 
@@ -363,11 +363,9 @@ pub(crate) fn design_trajectory(
         let mut notes = plan.notes();
         notes.extend(plan.remarks(&found));
         let problem = plan.problem();
-        let file =
-            TrajectoryFile { design: &found, problem: &problem, plan: &plan.machine, world: &plan.world };
-        let json = to_json(&file);
+        let json = to_json(&plan.file(&found, &problem, None));
         let about = About { title: "Trajectory of a machine".into(), ..About::default() };
-        let sheet = trajectory_sheet(&found, &problem, &about);
+        let sheet = trajectory_sheet(&found, (&problem, &plan.world), &about);
         let (text, html) = (sheet.text(width), sheet.html());
         drop(sheet);
         drop(problem);

@@ -6,7 +6,8 @@ use calibrant_core::error::{InputError, Refusal, TaskOption};
 use serde::{Deserialize, Serialize};
 
 /// The remedy where the given format is not that of the content.
-pub(super) const LEAVE_AWAY: &str = "leave option `format` away: the format is recognised by the content";
+pub(super) const LEAVE_AWAY: &str =
+    "leave option `format` away, and `format` in [columns]: the format is recognised by the content";
 
 /// A file format of whole-IMU recordings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -306,12 +306,12 @@ const CASES: &[Case] = &[
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || format(FileFormat::Mcap),
-        "the format was given as mcap, but this is text (leave option `format` away: the format is recognised by the content)",
+        "the format was given as mcap, but this is text (leave option `format` away, and `format` in [columns]: the format is recognised by the content)",
     ),
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || format(FileFormat::ImuTk),
-        "line 1: imu_tk's files have no header, and this one has (leave option `format` away: the format is recognised by the content)",
+        "line 1: imu_tk's files have no header, and this one has (leave option `format` away, and `format` in [columns]: the format is recognised by the content)",
     ),
     (
         "0 1 2\n1 2 3\n",

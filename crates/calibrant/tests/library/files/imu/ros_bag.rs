@@ -348,7 +348,7 @@ fn bags_that_cannot_be_used_say_why() {
         (
             one(),
             ImuReadOptions { format: Some(FileFormat::Csv), ..plain.clone() },
-            "the format was given as csv, but this is ROS 2 bag (MCAP) (leave option `format` away: the format is recognised by the content)",
+            "the format was given as csv, but this is ROS 2 bag (MCAP) (leave option `format` away, and `format` in [columns]: the format is recognised by the content)",
         ),
     ] {
         assert_eq!(refused(&bytes, &options), expected);
