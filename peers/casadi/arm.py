@@ -39,7 +39,7 @@ IPOPT = {
     "ipopt.sb": "yes",
     "ipopt.tol": 1e-3,
     "ipopt.acceptable_tol": 1e-2,
-    "ipopt.mu_strategy": "adaptive",
+    "ipopt.mu_strategy": "monotone",
     "print_time": False,
 }
 GAUSS = {28: 5, 53: 4}  # points of an interval for the integral

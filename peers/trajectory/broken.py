@@ -30,15 +30,15 @@ from scipy.spatial.transform import Rotation  # noqa: E402
 URDF = Path(__file__).parents[2] / "crates/calibrant-io/presets/machines/arm.urdf"
 STEP, GRAVITY = 0.2, 9.80665
 # to design, and to evaluate: the second has room
-LIMITS = {"position": (6.0, 6.2), "velocity": (2.4, 3.0), "acceleration": (3.2, 5.0), "jerk": (42.0, 50.0), "tip_speed_mps": (1.4, 1.5)}
+LIMITS = {"position": (6.0, 6.2), "velocity": (2.4, 3.0), "acceleration": (3.2, 5.0), "jerk": (34.0, 36.0), "tip_speed_mps": (1.4, 1.5)}
 ROOM_M = 0.02  # the clearance of the design
 CLEARANCE_M = 0.005
-FORCE = 1.02  # range of the accelerometer over the largest force of the good trajectory
+FORCE = 1.012  # range of the accelerometer over the largest force of the good trajectory
 BODY, RADIUS = [0.0, 0.0, 0.025], 0.05  # the sensor's, of the preset
 BOX = [0.45, 0.35, 0.2], [0.15, 0.15, 0.2]
 BEYOND = 0.004  # part of a limit by which it is broken at most; m for a distance, so that bodies still do not touch
 BUMPS = {  # joints, and width in knots (0: a constant, 1: two neighbours apart) of the bumps that may break a limit
-    "position": ([5, 3, 0], 0), "velocity": ([5], 8), "acceleration": ([5], 3), "jerk": ([5], 1), "tip speed": ([0, 1, 2], 6), "specific force": ([1, 2, 3], 3),
+    "position": ([5, 3, 0], 0), "velocity": ([5], 8), "acceleration": ([5], 3), "jerk": ([0, 5], 1), "tip speed": ([0, 1, 2], 6), "specific force": ([1, 2, 3, 4], 2),
     "floor": ([1, 2, 3], 6), "box": ([0, 1, 2], 8), "self": ([2, 3, 4], 6),
 }
 REASONS = {  # kind of the limit in evaluation.json, and what `of` has
@@ -124,23 +124,23 @@ class Arm:
         return poses, pose @ self.tip
 
     def distances(self, q):
-        """Smallest distance of each kind: self, floor, box."""
+        """Smallest distance of each kind at each time: self, floor, box."""
         poses, _ = self.frames(q)
         ends = []
         for body in self.bodies:
             pose = poses[body["frame"]]
             ends.append([[pose[:, :3, :3] @ np.array(c[k]) + pose[:, :3, 3] for k in ("from_m", "to_m")] + [c["radius_m"]] for c in body["capsules"]])
-        own = min(segments(*a[:2], *b[:2]).min() - a[2] - b[2] for i, j in self.pairs for a in ends[i] for b in ends[j])
-        floor = box = np.inf
+        own = np.min([segments(*a[:2], *b[:2]) - a[2] - b[2] for i, j in self.pairs for a in ends[i] for b in ends[j]], axis=0)
+        floor, box = np.full((2, len(q)), np.inf)
         for body, capsules in zip(self.bodies, ends):
             if body["frame"] < 2:
                 continue
             for p, r, radius in capsules:
-                floor = min(floor, p[:, 2].min() - radius, r[:, 2].min() - radius)
+                floor = np.minimum(floor, np.minimum(p[:, 2], r[:, 2]) - radius)
                 for share in np.linspace(0, 1, 21):
                     out = np.abs(p + share * (r - p) - BOX[0]) - BOX[1]
                     d = np.linalg.norm(np.maximum(out, 0), axis=1) + np.minimum(out.max(axis=1), 0)
-                    box = min(box, d.min() - radius)
+                    box = np.minimum(box, d - radius)
         return {"self": own, "floor": floor, "box": box}
 
 
@@ -161,6 +161,7 @@ class Judge:
 
     def __init__(self, arm, sensor_body, force):
         self.arm, self.body, self.force = arm, sensor_body, force
+        self.when = {}  # knot at which each limit is nearest, of the last motion that was judged
 
     def joints(self, points):
         """Of control points: positions, velocities, accelerations, jerks of the joints; exact but for the positions' and velocities' extrema between 10 times a knot."""
@@ -181,16 +182,20 @@ class Judge:
         spin = np.linalg.norm(rate, axis=1)
         along = (ball[:, :3] * rate).sum(1) / np.maximum(spin, 1e-12)
         across = np.sqrt(np.maximum((ball[:, :3] ** 2).sum(1) - along**2, 0)) + RADIUS * spin
-        speed = max(np.linalg.norm(tip[:, :3], axis=1).max(), np.hypot(along, across).max())
+        speeds = np.maximum(np.linalg.norm(tip[:, :3], axis=1), np.hypot(along, across))
+        self.when["tip speed"], speed = t[speeds.argmax()] / STEP + 1, speeds.max()
         lifted = (after[:, :3, 3] - 2 * here[:, :3, 3] + before[:, :3, 3]) / h**2 + [0, 0, GRAVITY]
-        force = np.abs(np.einsum("kji,kj->ki", here[:, :3, :3], lifted)).max()
+        forces = np.abs(np.einsum("kji,kj->ki", here[:, :3, :3], lifted)).max(axis=1)
+        self.when["specific force"], force = t[forces.argmax()] / STEP + 1, forces.max()
         return {"tip speed": 1 - speed / LIMITS["tip_speed_mps"][1], "specific force": 1 - force / self.force}, force
 
     def all(self, points, times=1000):
         left = self.joints(points) | self.sensor(points, times)[0]
         spline = curve(points)
-        distances = self.arm.distances(spline(np.linspace(0, spline.x[-1], times)))
-        return left | {name: d - CLEARANCE_M for name, d in distances.items()}
+        t = np.linspace(0, spline.x[-1], times)
+        distances = self.arm.distances(spline(t))
+        self.when |= {name: t[d.argmin()] / STEP + 1 for name, d in distances.items()}
+        return left | {name: d.min() - CLEARANCE_M for name, d in distances.items()}
 
 
 def control_points(path):
@@ -221,7 +226,7 @@ def write(path, rows):
     path.write_text("\n".join(",".join(x if isinstance(x, str) else f"{x:.17g}" for x in row) for row in rows) + "\n")
 
 
-def bump(rng, points, joints, width):
+def bump(rng, points, joints, width, near):
     """A smooth change of one joint that keeps the ends at rest; or a constant one."""
     n = len(points)
     shape = np.zeros(points.shape)
@@ -234,7 +239,7 @@ def bump(rng, points, joints, width):
         shape[at : at + 2, joint] = rng.choice([-1, 1]) * np.array([0.1, -0.1])
         return shape
     width = width * np.exp(0.4 * rng.normal())
-    at = rng.uniform(6, n - 6)
+    at = rng.uniform(6, n - 6) if near is None else np.clip(near + 3 * rng.normal(), 6, n - 6)
     curve = np.exp(-0.5 * ((np.arange(n) - at) / width) ** 2)
     ends = np.clip((np.minimum(np.arange(n), np.arange(n)[::-1]) - 2) / 6, 0, 1)
     shape[:, joint] = rng.choice([-1, 1]) * curve * ends**3 * (10 - 15 * ends + 6 * ends**2)
@@ -250,16 +255,20 @@ def just_broken(judge, points, wanted, rng, tries=300):
         left = judge.joints(points + size * shape)
         return left if cheap or min(left.values()) < 0 else judge.all(points + size * shape, times)
 
+    judge.all(points, 1000)
+    near = judge.when.get(wanted)
     for _ in range(tries):
-        shape = bump(rng, points, joints, width)
+        shape = bump(rng, points, joints, width, near)
         low, high = 0.0, 0.02
-        while high < 4 and min(room(high, 200).values()) > 0:
-            low, high = high, 1.5 * high
-        if room(high, 200).get(wanted, 1.0) > 0:
+        while high < 4 and min(judge.joints(points + high * shape).values()) > 2e-3:
+            low, high = high, 1.3 * high
+        high = high if cheap else low  # the largest that keeps the limits of the joints
+        if room(high, 200).get(wanted, 1.0) > -BEYOND / 2:
             continue  # another limit comes first
-        for _ in range(20):
+        low = 0.0
+        for _ in range(16):
             middle = (low + high) / 2
-            low, high = (low, middle) if room(middle, 800).get(wanted, 1.0) < -BEYOND / 2 else (middle, high)
+            low, high = (low, middle) if room(middle, 600).get(wanted, 1.0) < -BEYOND / 2 else (middle, high)
         changed = points + high * shape
         for times in (300, 4000):
             left = judge.all(changed, times)
