@@ -231,7 +231,7 @@ def bump(rng, points, joints, width, near):
     n = len(points)
     shape = np.zeros(points.shape)
     joint = rng.choice(joints)
-    if width == 0:
+    if width == 0 or width > 5 and rng.random() < 0.5:
         shape[:, joint] = rng.choice([-1, 1])
         return shape
     if width == 1:
@@ -262,10 +262,12 @@ def just_broken(judge, points, wanted, rng, tries=300):
         low, high = 0.0, 0.02
         while high < 4 and min(judge.joints(points + high * shape).values()) > 2e-3:
             low, high = high, 1.3 * high
-        high = high if cheap else low  # the largest that keeps the limits of the joints
+        if not cheap:  # up to the largest that keeps the limits of the joints
+            sizes = np.linspace(0, low, 13)
+            high = next((size for size in sizes[1:] if min(room(size, 200).values()) < 0), low)
+            low = high - sizes[1]
         if room(high, 200).get(wanted, 1.0) > -BEYOND / 2:
             continue  # another limit comes first
-        low = 0.0
         for _ in range(16):
             middle = (low + high) / 2
             low, high = (low, middle) if room(middle, 600).get(wanted, 1.0) < -BEYOND / 2 else (middle, high)
