@@ -12,6 +12,7 @@ impl TrajectoryLimit {
             Self::Velocity(_) => "velocity",
             Self::Acceleration(_) => "acceleration",
             Self::Jerk(_) => "jerk",
+            Self::Rest(_) => "velocity at begin and end",
             Self::SpeedNearEnds(_) => "velocity near the ends",
             Self::Force(_) => "specific force",
             Self::Rate(_) => "angular rate",
@@ -30,6 +31,7 @@ impl TrajectoryProblem<'_> {
             | TrajectoryLimit::Velocity(j)
             | TrajectoryLimit::Acceleration(j)
             | TrajectoryLimit::Jerk(j)
+            | TrajectoryLimit::Rest(j)
             | TrajectoryLimit::SpeedNearEnds(j) => self.chain.joints[j].name.clone(),
             TrajectoryLimit::Force(axis) | TrajectoryLimit::Rate(axis) => {
                 format!("sensor {}", Axis::ALL[axis])
@@ -49,7 +51,7 @@ impl TrajectoryProblem<'_> {
         let of = |j: usize, units: [&'static str; 2]| units[usize::from(!self.chain.joints[j].kind.turns())];
         match limit {
             TrajectoryLimit::Position(j) => of(j, ["rad", "m"]),
-            TrajectoryLimit::Velocity(j) => of(j, ["rad/s", "m/s"]),
+            TrajectoryLimit::Velocity(j) | TrajectoryLimit::Rest(j) => of(j, ["rad/s", "m/s"]),
             TrajectoryLimit::Acceleration(j) => of(j, ["rad/s²", "m/s²"]),
             TrajectoryLimit::Jerk(j) => of(j, ["rad/s³", "m/s³"]),
             TrajectoryLimit::SpeedNearEnds(_) => "1",

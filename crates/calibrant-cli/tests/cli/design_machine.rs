@@ -70,6 +70,21 @@ fn a_trajectory_that_is_too_fast_is_named_and_a_slow_one_is_the_same_path() {
     }
 }
 
+/// Rows from the middle of a trajectory: the table moves where they begin, and where they end.
+#[test]
+fn a_trajectory_that_does_not_begin_at_rest_is_not_kept() {
+    let bench = table();
+    bench.run("design table.toml --starts 2 -o best").done();
+    let text = bench.read("best/trajectory.csv");
+    let rows: Vec<&str> = text.lines().collect();
+    let of_row = |row: &str| row.split_once(',').map_or(String::new(), |(_, rest)| rest.to_owned());
+    let middle: Vec<String> =
+        (0..21).map(|k| format!("{},{}", 0.2 * f64::from(k), of_row(rows[11 + k as usize]))).collect();
+    bench.write("middle.csv", format!("{}\n{}\n", rows[0], middle.join("\n")));
+    let outcome = bench.run("design table.toml --starts 2 --evaluate middle.csv -o judged").ends_with(4);
+    assert!(outcome.printed().contains("velocity at begin and end of table"), "{outcome:?}");
+}
+
 #[test]
 fn what_cannot_be_designed_is_refused_with_what_to_do() {
     let bench = Bench::new();

@@ -11,6 +11,8 @@ pub enum TrajectoryLimit {
     Acceleration(usize),
     /// Jerk of a joint.
     Jerk(usize),
+    /// Speed of a joint at the beginning and at the end of the motion.
+    Rest(usize),
     /// Speed of a joint near its ends.
     SpeedNearEnds(usize),
     /// Specific force on an axis of the sensor, m/s².

@@ -30,6 +30,7 @@ mod joint_extrema;
 mod limit_proof;
 mod near_ends;
 mod readings;
+mod rest;
 #[cfg(test)]
 mod tests;
 
@@ -46,6 +47,7 @@ pub(crate) fn certify(
     controls: &DMatrix<f64>,
 ) -> Vec<LimitProof> {
     let mut proofs = joint_extrema::all(problem, knots, controls);
+    proofs.extend(rest::broken(problem, knots, controls));
     proofs.extend(near_ends::all(problem, knots, controls));
     proofs.extend(readings::all(problem, knots, controls));
     proofs.extend(distances::all(problem, knots, controls));
