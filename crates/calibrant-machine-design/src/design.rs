@@ -13,6 +13,7 @@ use crate::{
 };
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_design::DesignStatus;
+use calibrant_machine::spline::VectorSpline;
 use std::time::{Duration, Instant};
 
 /// The best trajectory found.
@@ -51,13 +52,20 @@ pub fn design_trajectory(
     let interruption = settings.interruption.or_at(deadline);
     let Found { candidates, first, starts, iterations } = search(problem, &sensing, settings, &interruption)?;
     let best = proved(problem, &sensing, &candidates)?;
-    let optimal = evaluated(problem, &sensing, best.knots, &best.controls)?;
+    let mut optimal = evaluated(problem, &sensing, best.knots, &best.controls)?;
     let random = evaluated(problem, &sensing, first.knots, &first.controls)?;
+    let plain = plain(problem, &sensing, settings.seed);
+    // the search does not go through these; what they are better in is known only here
+    for other in [Some(&random), plain.as_ref().map(|plain| &plain.evaluation)].into_iter().flatten() {
+        if other.value < optimal.value && other.is_proved() {
+            optimal = other.clone();
+        }
+    }
     Ok(TrajectoryDesign {
         status: if interruption.is_asked() { DesignStatus::Interrupted } else { best.status },
-        dwells_s: dwells(problem, &best),
+        dwells_s: dwells(problem, &optimal.motion),
         bound: bound(problem, &sensing, optimal.value),
-        plain: plain(problem, &sensing, settings.seed),
+        plain,
         optimal,
         random,
         starts,
@@ -71,7 +79,9 @@ fn proved(problem: &TrajectoryProblem<'_>, sensing: &Sensing, candidates: &[Cand
         let proofs = certify(problem, candidate.knots, &candidate.controls);
         proofs.iter().all(|proof| proof.kept == Kept::Proved)
     };
-    for candidate in candidates {
+    let mut by_value: Vec<&Candidate> = candidates.iter().collect();
+    by_value.sort_by(|one, other| one.value.total_cmp(&other.value));
+    for candidate in by_value {
         if is_proved(candidate) {
             return Ok(candidate.clone());
         }
@@ -89,18 +99,19 @@ fn proved(problem: &TrajectoryProblem<'_>, sensing: &Sensing, candidates: &[Cand
 /// Where all control points of an interval are equal but for this part of the top speed.
 const STILL: f64 = 0.01;
 
-fn dwells(problem: &TrajectoryProblem<'_>, candidate: &Candidate) -> Vec<(f64, f64)> {
-    let h = candidate.knots.step_s;
+fn dwells(problem: &TrajectoryProblem<'_>, motion: &VectorSpline) -> Vec<(f64, f64)> {
+    let h = motion.knots.step_s;
+    let control = |i: usize, j: usize| motion.controls[i * motion.dimension + j];
     let rests = |i: usize| {
         problem.joints.iter().enumerate().all(|(j, limit)| {
             (0..3).all(|r| {
-                let step = candidate.controls[(i + r + 1, j)] - candidate.controls[(i + r, j)];
+                let step = control(i + r + 1, j) - control(i + r, j);
                 step.abs() <= STILL * limit.velocity * h
             })
         })
     };
     let mut dwells: Vec<(f64, f64)> = Vec::new();
-    for i in (0..candidate.knots.intervals).filter(|i| rests(*i)) {
+    for i in (0..motion.knots.intervals).filter(|i| rests(*i)) {
         let (from, to) = (i as f64 * h, (i + 1) as f64 * h);
         match dwells.last_mut() {
             Some(last) if from - last.1 < h / 2.0 => last.1 = to,

@@ -72,8 +72,13 @@ pub struct ShortestTrajectory {
 const NEAR: f64 = 1.06;
 /// Designs at most.
 const DESIGNS: usize = 12;
-/// Longest duration over that of the problem.
-const LONGEST: f64 = 50.0;
+/// Shortest and longest duration, s: as `machine.design.duration_s` may be.
+const SHORTEST_S: f64 = 1.0;
+const LONGEST_S: f64 = 3600.0;
+/// How far a duration goes from the one before, and how far beyond what is proposed.
+const LEAST: f64 = 0.35;
+const MOST: f64 = 3.0;
+const BEYOND: f64 = 0.03;
 
 /// The shortest duration, within 6 %, in which the search finds a trajectory that reaches the goals. Variances go down about as the duration goes up, which proposes the next duration.
 ///
@@ -90,6 +95,10 @@ pub fn shortest_trajectory(
     for number in 1..=DESIGNS {
         let outcome = design_trajectory(&TrajectoryProblem { duration_s, ..problem.clone() }, settings);
         progress(number);
+        if settings.interruption.is_asked() {
+            // a design that was broken off tells nothing of its duration
+            break;
+        }
         let (excess, design) = match outcome {
             Ok(design) => (excess(&design, goals), Some(design)),
             // too short to move at all
@@ -102,24 +111,28 @@ pub fn shortest_trajectory(
                 let before = not_enough.replace((duration_s, excess));
                 let stays =
                     before.is_some_and(|(shorter, more)| duration_s > 2.0 * shorter && excess > 0.98 * more);
-                if enough.is_none() && (stays || duration_s >= LONGEST * problem.duration_s) {
+                if enough.is_none() && (stays || duration_s >= LONGEST_S) {
                     return Err(out_of_reach(problem, goals, duration_s, excess));
                 }
             }
         }
         let (shortest, longest) = (enough.as_ref().map(|(of, _)| *of), not_enough.map(|(of, _)| of));
         let is_near = shortest.zip(longest).is_some_and(|(shortest, longest)| shortest <= NEAR * longest);
-        if is_near || settings.interruption.is_asked() {
+        if is_near || (shortest.is_some() && duration_s <= SHORTEST_S) {
             break;
         }
-        let proposed = duration_s * (excess * excess).clamp(0.35, 3.0);
-        duration_s = match (longest, shortest) {
+        let proposed = duration_s * (excess * excess).clamp(LEAST, MOST);
+        let next = match (longest, shortest) {
             (Some(low), Some(high)) if proposed <= low || proposed >= high => (low * high).sqrt(),
             (Some(low), Some(high)) => proposed.clamp(low * NEAR.sqrt(), high / NEAR.sqrt()),
             // a little beyond what is proposed, so that both sides are found
-            (None, Some(_)) => proposed * 0.97,
-            (_, None) => (proposed * 1.03).min(LONGEST * problem.duration_s),
+            (None, Some(_)) => proposed * (1.0 - BEYOND),
+            (_, None) => proposed * (1.0 + BEYOND),
         };
+        duration_s = next.clamp(SHORTEST_S, LONGEST_S);
+    }
+    if enough.is_none() {
+        settings.interruption.check()?;
     }
     let Some((duration_s, design)) = enough else {
         let (longest, excess) = not_enough.unwrap_or((problem.duration_s, f64::INFINITY));

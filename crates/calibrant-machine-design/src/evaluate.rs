@@ -25,6 +25,8 @@ pub struct TrajectoryEvaluation {
     pub motion: VectorSpline,
     /// Value of the criterion, in nats, of first order in what is not known; infinite where the parameters are not determined.
     pub value: f64,
+    /// Numbers whose variances the criterion is made of: a standard deviation goes as `exp(value/2 numbers)`.
+    pub numbers: usize,
     /// The parameters of the sensor.
     pub quantities: Vec<ImuQuantity>,
     /// Information on them, with all else marginalised and what is known beforehand.
@@ -40,6 +42,21 @@ pub struct TrajectoryEvaluation {
 }
 
 impl TrajectoryEvaluation {
+    /// Standard deviations of the parameters; infinite where they are not determined.
+    #[must_use]
+    pub fn sd(&self) -> Vec<f64> {
+        match &self.covariance {
+            Some(covariance) => covariance.diagonal().iter().map(|variance| variance.sqrt()).collect(),
+            None => vec![f64::INFINITY; self.quantities.len()],
+        }
+    }
+
+    /// How many times smaller standard deviations are than those of another trajectory, by the criterion.
+    #[must_use]
+    pub fn times_better_than(&self, other: &Self) -> f64 {
+        ((other.value - self.value) / (2.0 * self.numbers as f64)).exp()
+    }
+
     /// Is every limit proved?
     #[must_use]
     pub fn is_proved(&self) -> bool {
@@ -100,6 +117,7 @@ pub(crate) fn evaluated(
     Ok(TrajectoryEvaluation {
         motion: knots.spline(controls),
         value,
+        numbers: sensing.criterion.numbers(quantities.len()),
         quantities,
         information,
         covariance,

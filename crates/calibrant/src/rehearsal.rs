@@ -171,10 +171,7 @@ impl RehearsalPlan<'_> {
         let quantities = &self.plan.quantities;
         let parameters = quantities.iter().map(|of| Parameter::undescribed(*of, unit(of))).collect();
         let knots = design.optimal.motion.knots;
-        let designed = |of: &Rehearsed<'_>| match &of.evaluation.covariance {
-            Some(covariance) => covariance.diagonal().iter().map(|variance| variance.sqrt()).collect(),
-            None => Vec::new(),
-        };
+        let designed = |of: &Rehearsed<'_>| of.evaluation.sd();
         let duration_s = knots.step_s * knots.intervals as f64;
         Rehearsal::of(
             (self.seed, duration_s),

@@ -6,7 +6,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::design::{CollisionsUnknown, LinksWithoutShapes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::progress::Progress;
-use calibrant_core::sensor::{ImuQuantity, SensorKind};
+use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorKind};
 use calibrant_design::DesignStatus;
 use calibrant_io::{
     CriterionLetter, EarlierMachine, Experiment, LinksKnown, MachineDesignPlan, Plan, Reached, Trajectory,
@@ -93,6 +93,12 @@ impl TrajectoryPlan {
             .quantities_of(|kind| kind == SensorKind::Accelerometer || machine.rate_density.is_some());
         let ranges: Vec<(f64, f64)> =
             machine.limits.joints.iter().map(|limit| (limit.lower, limit.upper)).collect();
+        if experiment.sensor.unit == ReadingUnit::Counts {
+            let help = "unit = \"mps2\" in [sensor], with noise_mps2 = noise_counts/gain_counts_per_mps2, for the design alone";
+            let message = "the trajectory of a machine is designed in m/s², not in counts";
+            let input_error = InputError::new(Refusal::ExperimentUnsuited, message, help);
+            return Err(Error::experiment(input_error.about_key("sensor.unit")));
+        }
         let world = World::new(&machine.chain, &ranges, machine.world.scene.clone());
         let letter = choice.criterion.unwrap_or(experiment.design.criterion);
         let criterion = criterion(letter, &experiment, &machine, &quantities)?;
@@ -185,8 +191,10 @@ impl TrajectoryPlan {
             optimal: self.slowed(&of.optimal, times)?,
             random: self.slowed(&of.random, times)?,
             plain: plain.transpose()?,
-            // it is that of the duration that was searched
+            dwells_s: of.dwells_s.iter().map(|(from, to)| (times * from, times * to)).collect(),
+            // these are of the duration that was searched
             bound: None,
+            starts: Vec::new(),
             ..of.clone()
         })
     }

@@ -167,24 +167,27 @@ pub(super) fn goals_of_imu(
             let message = format!("--reach: this sensor has no parameter \"{}\"", request.name);
             return refused(message, format!("{hint}its parameters are {}", names.join(", ")));
         }
-        for place in places {
-            let quantity = quantities[place];
-            let (dimension, help) = match (quantity, quantity.sensor_kind()) {
-                (ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(_)), _) => {
-                    (Dimension::Acceleration, "give mg, ug or m/s2")
-                }
-                (ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Bias(_)), _) => {
-                    (Dimension::Rate, "give deg/h, deg/s or rad/s")
-                }
-                (ImuQuantity::Of(..), _) => (Dimension::Share, "give ppm or %"),
-                _ => (Dimension::Own, "give a number in the parameter's unit"),
+        let measured = |place: &usize| match quantities[*place] {
+            ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(_)) => Dimension::Acceleration,
+            ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Bias(_)) => Dimension::Rate,
+            ImuQuantity::Of(..) => Dimension::Share,
+            _ => Dimension::Own,
+        };
+        // a unit says which are meant: `bias=1mg` is of the accelerometer
+        let fitting =
+            places.iter().filter(|place| [Dimension::Own, measured(place)].contains(&request.dimension));
+        let before = goals.len();
+        goals.extend(fitting.map(|place| TrajectoryGoal { parameter: *place, sd: request.value }));
+        if goals.len() == before {
+            let name = quantities[places[0]].name();
+            let message = format!("--reach: {name} is not measured in the unit of {}", request.text);
+            let help = match measured(&places[0]) {
+                Dimension::Acceleration => "give mg, ug or m/s2",
+                Dimension::Rate => "give deg/h, deg/s or rad/s",
+                Dimension::Share => "give ppm or %",
+                Dimension::Own => "give a number in the parameter's unit",
             };
-            if request.dimension != Dimension::Own && request.dimension != dimension {
-                let message =
-                    format!("--reach: {} is not measured in the unit of {}", quantity.name(), request.text);
-                return refused(message, help.into());
-            }
-            goals.push(TrajectoryGoal { parameter: place, sd: request.value });
+            return refused(message, help.into());
         }
     }
     Ok(goals)

@@ -86,13 +86,13 @@ pub(super) fn finish(
     reached: Option<(&Reached, &str)>,
 ) -> calibrant::Result<Exit> {
     let mut title = "Trajectory of a machine".to_owned();
-    let design = match arguments.slow {
-        Some(times) => {
-            title += &format!(", {} times slower", short(times));
-            plan.slowed_design(&design, times)?
-        }
-        None => design,
-    };
+    let (mut plan, mut design) = (plan.clone(), design);
+    if let Some(times) = arguments.slow {
+        title += &format!(", {} times slower", short(times));
+        design = plan.slowed_design(&design, times)?;
+        plan.machine.duration_s *= times;
+    }
+    let plan = &plan;
     let output = &arguments.output;
     let goals = reached.map(|(goals, _)| goals);
     let mut files = plan.write(&design, output, goals)?;

@@ -18,6 +18,9 @@ use calibrant::machine_design::{ShortestTrajectory, TrajectoryGoal, shortest_tra
 use calibrant::report::number_format::{counted, significant};
 use calibrant::report::trajectory_sweep_sheet;
 
+/// Longest duration of a trajectory, s.
+const LONGEST_S: f64 = 3600.0;
+
 pub(super) fn sweep(
     arguments: &Arguments,
     plan: &TrajectoryPlan,
@@ -27,6 +30,15 @@ pub(super) fn sweep(
         let message =
             format!("a machine is swept over its duration, not over its {}", request.variable.name());
         let input_error = InputError::new(Refusal::ExperimentUnsuited, message, "--sweep duration=10,20,40");
+        return Err(Error::experiment(input_error));
+    }
+    // as machine.design.duration_s may be
+    if let Some(duration_s) =
+        request.values.iter().find(|duration_s| !(1.0..=LONGEST_S).contains(*duration_s))
+    {
+        let message = format!("--sweep: a trajectory of {duration_s} s");
+        let input_error =
+            InputError::new(Refusal::ValueOutOfRange, message, "durations from 1 s, at most 3600 s");
         return Err(Error::experiment(input_error));
     }
     let bar = console::progress(request.values.len() as u64, "durations");

@@ -156,6 +156,7 @@ fn durations_are_swept_and_the_shortest_that_is_enough_is_found() {
     bench.refuses("design table.toml --reach scale=1mg -o none", 2, &["is not measured in the unit of 1mg"]);
     bench.refuses("design table.toml --reach skale=1ppm -o none", 2, &["no parameter \"skale\""]);
     bench.refuses("design table.toml --sweep velocity=1,2 -o none", 2, &["swept over its duration"]);
+    bench.refuses("design table.toml --sweep duration=5,9000 -o none", 2, &["of 9000 s", "at most 3600 s"]);
 }
 
 /// The machine as a calibration found it: another lever, other noise.

@@ -33,6 +33,7 @@ pub struct EarlierMachine {
 
 #[derive(Deserialize)]
 struct File {
+    schema: Option<u32>,
     machine: Option<Machine>,
     #[serde(default)]
     inputs: Vec<Input>,
@@ -78,7 +79,7 @@ pub fn read_earlier_machine(path: &Path) -> Result<EarlierMachine> {
 fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
     let help =
         "give a calibration.json of a sensor on a machine: `calibrant calibrate arm.toml recording.csv`";
-    let File { machine, inputs } = serde_json::from_slice(bytes)
+    let File { schema, machine, inputs } = serde_json::from_slice(bytes)
         .map_err(|error| InputError::new(Refusal::CalibrationUnsuited, error.to_string(), help))?;
     // a tracker has no tip, and its body is no link of a machine
     let with_ends =
@@ -90,6 +91,31 @@ fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
             help,
         );
     };
+    if schema != Some(2) {
+        return refuse(Refusal::CalibrationUnsuited, "this file is not of schema 2", help);
+    }
+    let sizes = [
+        ("machine.lever_m", of.lever_m.iter().fold(0.0, |most: f64, x| most.max(x.abs())), 100.0),
+        ("machine.quantities", of.quantities.iter().fold(0.0, |most: f64, of| most.max(of.value.abs())), 1e3),
+        (
+            "machine.sensor_noise.noise",
+            of.sensor_noise.iter().flat_map(|of| of.noise).fold(0.0, f64::max),
+            1e3,
+        ),
+        (
+            "machine.sensor_noise.growth",
+            of.sensor_noise.iter().filter_map(|of| of.growth).fold(0.0, f64::max),
+            1e6,
+        ),
+    ];
+    if let Some((key, size, most)) = sizes.into_iter().find(|(_, size, most)| *size > *most) {
+        let message = format!("`{key}` has a number of size {size:.0e}, and {most:.0e} is much already");
+        return refuse(
+            Refusal::ValueOutOfRange,
+            message,
+            "is the file damaged? give it as calibrant wrote it",
+        );
+    }
     let [w, x, y, z] = of.tip_from_sensor_wxyz;
     let turn = Quaternion::new(w, x, y, z);
     if (turn.norm() - 1.0).abs() > 1e-3 || !turn.norm().is_finite() {
@@ -101,7 +127,11 @@ fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
     }
     // one file of both sensors, or one for each
     let rate = |place: usize| {
-        inputs.get(place).or(inputs.first()).map(|input| input.rate_hz).filter(|rate| *rate > 0.0)
+        inputs
+            .get(place)
+            .or(inputs.first())
+            .map(|input| input.rate_hz)
+            .filter(|rate| (1e-3..1e7).contains(rate))
     };
     let density = |(place, noise): (usize, &Noise)| {
         let sensor = SensorKind::ALL.into_iter().find(|kind| kind.to_string() == noise.sensor)?;

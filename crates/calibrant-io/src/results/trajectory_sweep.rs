@@ -5,7 +5,7 @@ use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::Result;
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
-use calibrant_machine_design::{TrajectoryEvaluation, TrajectorySweep, TrajectorySweepPoint};
+use calibrant_machine_design::{TrajectorySweep, TrajectorySweepPoint};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
@@ -49,10 +49,6 @@ struct Point {
     sd: Option<Vec<f64>>,
 }
 
-fn sds(of: &TrajectoryEvaluation) -> Option<Vec<f64>> {
-    of.covariance.as_ref().map(|of| of.diagonal().iter().map(|variance| variance.sqrt()).collect())
-}
-
 impl Point {
     fn of(point: &TrajectorySweepPoint) -> Self {
         let design = point.outcome.as_ref().ok();
@@ -64,7 +60,7 @@ impl Point {
             error: point.outcome.as_ref().err().cloned(),
             value: design.and_then(|design| finite(design.optimal.value)),
             plain_value: plain.and_then(|plain| finite(plain.evaluation.value)),
-            sd: design.and_then(|design| sds(&design.optimal)),
+            sd: design.filter(|of| of.optimal.covariance.is_some()).map(|design| design.optimal.sd()),
         }
     }
 }

@@ -9,6 +9,8 @@ use calibrant_study::{DesignStudy, Factor, ParameterSummary};
 
 /// Predicted and realised factors differ significantly beyond this number of standard errors, of many sensors.
 const CHANCE: f64 = 3.0;
+/// Fewer sensors do not tell their scatter.
+const FEWEST: usize = 5;
 
 /// The titles of a chapter and of its figures.
 pub(super) struct Chapter {
@@ -128,6 +130,9 @@ fn coverage(study: &DesignStudy) -> f64 {
 
 /// Do predicted and realised factor agree over so many sensors, up to chance?
 pub(super) fn agrees(entry: &calibrant_study::Improvement, sensors: usize) -> bool {
+    if sensors < FEWEST {
+        return true;
+    }
     let error = |factor: &Factor| factor.standard_error.unwrap_or(f64::INFINITY);
     let both = error(&entry.predicted).hypot(error(&entry.realised));
     // few sensors tell their scatter badly: Student's quantile in place of the normal one, by its expansion in 1/ν

@@ -2,17 +2,10 @@
 
 use crate::design::times;
 use crate::figure::DisplayUnit;
+use crate::number_format::significant;
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant_machine_design::TrajectoryEvaluation;
-
-/// Standard deviations of the parameters; infinite where they are not determined.
-fn sds(of: &TrajectoryEvaluation) -> Vec<f64> {
-    match &of.covariance {
-        Some(covariance) => covariance.diagonal().iter().map(|variance| variance.sqrt()).collect(),
-        None => vec![f64::INFINITY; of.quantities.len()],
-    }
-}
 
 /// Standard deviations of the symmetric parts of the matrices, `(m_ij + m_ji)/2`, which no turn of the mounting changes to first order.
 fn symmetric(of: &TrajectoryEvaluation) -> Vec<(String, &'static str, f64)> {
@@ -31,10 +24,18 @@ fn symmetric(of: &TrajectoryEvaluation) -> Vec<(String, &'static str, f64)> {
     .collect()
 }
 
+/// `1.24 times smaller`, or `1.07 times larger`.
+pub(super) fn smaller(times: f64) -> String {
+    match times >= 1.0 {
+        true => format!("{} times smaller", significant(times, 3)),
+        false => format!("{} times larger", significant(1.0 / times, 3)),
+    }
+}
+
 /// Mean of the ratios of the standard deviations of two trajectories, by their logarithms.
 pub(super) fn mean_ratio(before: &TrajectoryEvaluation, after: &TrajectoryEvaluation) -> f64 {
     let logs: Vec<f64> =
-        sds(before).iter().zip(sds(after)).map(|(before, after)| (before / after).ln()).collect();
+        before.sd().iter().zip(after.sd()).map(|(before, after)| (before / after).ln()).collect();
     (logs.iter().sum::<f64>() / logs.len() as f64).exp()
 }
 
@@ -57,7 +58,7 @@ pub(super) fn promised_table(
     let mut table = Table::new(columns);
     let each = |of: &TrajectoryEvaluation| -> Vec<(String, &'static str, f64)> {
         let single =
-            of.quantities.iter().zip(sds(of)).map(|(quantity, sd)| (quantity.name(), unit(*quantity), sd));
+            of.quantities.iter().zip(of.sd()).map(|(quantity, sd)| (quantity.name(), unit(*quantity), sd));
         single.chain(symmetric(of)).collect()
     };
     let all: Vec<_> = [first].iter().chain(others).chain(best.as_ref()).map(|(_, of)| each(of)).collect();

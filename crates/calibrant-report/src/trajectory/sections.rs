@@ -1,7 +1,7 @@
 //! The sections of a trajectory, in their order.
 
 use super::limits::{broken, limit_table, nearest_pair};
-use super::predicted::{mean_ratio, promised_table, unit};
+use super::predicted::{mean_ratio, promised_table, smaller, unit};
 use crate::About;
 use crate::figure::{PLAYER_SCRIPT, Scene, joint_figure, player, three_views};
 use crate::machine::{bars, shares};
@@ -37,13 +37,15 @@ pub fn trajectory_sheet<'a>(
     verdict = verdict.with("Findings", about.findings.clone());
     let mut predicted = Section::new("Predicted standard deviations").lead(
         "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. All trajectories \
-         last as long and keep the limits. The random motion goes at full speed: it is the first start of the search. What the mount or the geometry leaves open, no motion \
+         last as long and keep the limits. The random motion is the first start of the search. What the mount or the geometry leaves open, no motion \
          improves: the symmetric part of a matrix, the mean of its entries xy and yx, does not depend on the mount, and criterion D counts all combinations of the parameters.",
     );
-    predicted.explanation(match &design.plain {
-        Some(of) => compared_with(of.routine),
-        None => "No plain routine was found that keeps the limits in this duration: six poses, or each joint in turn.",
-    });
+    match &design.plain {
+        Some(of) => predicted.explanation(compared_with(of.routine)),
+        None => predicted.line(
+            "No plain routine was found that keeps the limits in this duration: six poses, or each joint in turn.",
+        ),
+    }
     predicted.table(promised_table(plain.unwrap_or(random), &others, Some(("optimal", best))));
     predicted.line(values(design, problem));
     let sections = vec![
@@ -119,15 +121,13 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
     let duration = short((1e3 * knots.step_s * knots.intervals as f64).round() / 1e3);
     let mut sentence =
         format!("A trajectory of {duration} s for {}.", counted(problem.chain.joints.len(), "joint"));
-    let numbers = design.optimal.quantities.len() as f64;
     let plain = design.plain.as_ref().map(|of| (&of.evaluation, of.routine.name()));
-    let compared = plain.into_iter().chain([(&design.random, "a random motion at full speed")]);
+    let compared = plain.into_iter().chain([(&design.random, "a random motion")]);
     for (of, name) in compared.filter(|(of, _)| of.value.is_finite()) {
-        let by_criterion = ((of.value - design.optimal.value) / (2.0 * numbers)).exp();
         sentence += &format!(
-            " Against {name}, its standard deviations are {} times smaller in the mean, and {} times by criterion {}.",
-            significant(mean_ratio(of, &design.optimal), 3),
-            significant(by_criterion, 3),
+            " Against {name}, its standard deviations are {} in the mean, and {} by criterion {}.",
+            smaller(mean_ratio(of, &design.optimal)),
+            smaller(design.optimal.times_better_than(of)),
             problem.criterion.letter()
         );
     }
@@ -208,11 +208,14 @@ fn search<'a>(design: &TrajectoryDesign) -> Section<'a> {
     let mut section = Section::new("The search");
     let polished = design.starts.iter().filter(|start| start.polished);
     let at_best = polished.clone().filter(|start| start.value - design.optimal.value < EQUAL).count();
-    section.line(format!(
+    // a slowed trajectory has none: its values are of another duration
+    if !design.starts.is_empty() {
+        section.line(format!(
         "{} of {} that were searched to the end came within {EQUAL} nats of the best (1 % of a standard deviation).",
         at_best,
         counted(polished.count(), "start")
     ));
+    }
     if !design.dwells_s.is_empty() {
         let each: Vec<String> = design
             .dwells_s

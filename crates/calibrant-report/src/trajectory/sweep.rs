@@ -1,6 +1,6 @@
 //! The sheet of trajectories of several durations: what time is worth.
 
-use super::predicted::unit;
+use super::predicted::{smaller, unit};
 use crate::About;
 use crate::figure::{DisplayUnit, Figure, duration_curves};
 use crate::number_format::{short, significant};
@@ -68,11 +68,14 @@ fn table(sweep: &TrajectorySweep) -> Table {
     let mut table = Table::new(columns);
     for point in &sweep.points {
         let mut row = vec![Cell::Number(short(point.duration_s))];
-        row.extend(groups.iter().zip(&units).map(|(group, unit)| Cell::sd(rms(point, group), unit.factor)));
+        let sd = |(group, unit): (&Group, &DisplayUnit)| match rms(point, group) * unit.factor {
+            sd if sd.is_finite() => Cell::Number(significant(sd, 4)),
+            _ => Cell::Number("–".into()),
+        };
+        row.extend(groups.iter().zip(&units).map(sd));
         let plain = point.outcome.as_ref().ok().and_then(|design| {
-            let numbers = 2.0 * sweep.quantities.len() as f64;
-            let plain = design.plain.as_ref()?.evaluation.value;
-            Some(((plain - design.optimal.value) / numbers).exp()).filter(|times| times.is_finite())
+            let plain = &design.plain.as_ref()?.evaluation;
+            Some(design.optimal.times_better_than(plain)).filter(|times| times.is_finite())
         });
         row.push(Cell::Number(
             plain.map_or_else(|| "–".into(), |times| format!("{} ×", significant(times, 3))),
@@ -102,10 +105,10 @@ fn verdict(sweep: &TrajectorySweep, about: &About) -> SheetVerdict {
                 groups(sweep).iter().map(|of| (rms(short_one, of) / rms(long, of)).ln()).collect();
             let times = (all.iter().sum::<f64>() / all.len().max(1) as f64).exp();
             format!(
-                "From {} s to {} s standard deviations become {} times smaller in the mean.",
+                "From {} s to {} s standard deviations become {} in the mean.",
                 short(short_one.duration_s),
                 short(long.duration_s),
-                significant(times, 3)
+                smaller(times)
             )
         }
         _ => String::new(),
