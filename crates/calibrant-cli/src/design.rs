@@ -13,6 +13,7 @@ mod sweep;
 mod sweep_request;
 mod trajectory;
 mod trajectory_durations;
+mod trajectory_output;
 
 pub(crate) use arguments::Arguments;
 

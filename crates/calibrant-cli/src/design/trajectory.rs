@@ -1,20 +1,17 @@
 //! `calibrant design` of a machine: the best trajectory of its joints.
 
+use super::trajectory_output::{about, finish};
 use super::{Arguments, trajectory_durations};
 use crate::console;
 use crate::diagnostics::{tell, tell_all};
 use crate::exit::Exit;
-use calibrant::design::DesignStatus;
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::MotionNotCompared;
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{
-    Reached, TrajectoryEvaluationFile, read_earlier_machine, to_json, write_json, write_text,
-};
+use calibrant::io::{TrajectoryEvaluationFile, read_earlier_machine, to_json, write_json, write_text};
 use calibrant::machine_design::{TrajectoryDesign, TrajectoryEvaluation};
 use calibrant::progress::Progress;
-use calibrant::report::number_format::short;
-use calibrant::report::{About, trajectory_evaluation_sheet, trajectory_sheet};
+use calibrant::report::trajectory_evaluation_sheet;
 use calibrant::{DesignChoice, DesignPlan, TrajectoryPlan};
 use std::path::Path;
 
@@ -78,39 +75,6 @@ pub(super) fn run(arguments: &Arguments, job: DesignPlan) -> calibrant::Result<E
     finish(arguments, &plan, design?, None)
 }
 
-/// Writes and shows a design, with the goals that it reaches and a sentence on them.
-pub(super) fn finish(
-    arguments: &Arguments,
-    plan: &TrajectoryPlan,
-    design: TrajectoryDesign,
-    reached: Option<(&Reached, &str)>,
-) -> calibrant::Result<Exit> {
-    let mut title = "Trajectory of a machine".to_owned();
-    let (mut plan, mut design) = (plan.clone(), design);
-    if let Some(times) = arguments.slow {
-        title += &format!(", {} times slower", short(times));
-        design = plan.slowed_design(&design, times)?;
-        plan.machine.duration_s *= times;
-    }
-    let plan = &plan;
-    let output = &arguments.output;
-    let goals = reached.map(|(goals, _)| goals);
-    let mut files = plan.write(&design, output, goals)?;
-    let problem = plan.problem();
-    let mut about = about(arguments, plan, title);
-    about.findings.extend(reached.map(|(_, sentence)| sentence.to_owned()));
-    let sheet = trajectory_sheet(&design, (&problem, &plan.world), &about);
-    let page = output.join("report.html");
-    write_text(&page, &sheet.html())?;
-    files.push(page);
-    let file = plan.file(&design, &problem, goals);
-    let sentence = reached.map(|(_, sentence)| sentence);
-    console::result(arguments.json, || to_json(&file), &sheet, sentence, &files);
-    tell_all(&plan.remarks(&design));
-    let done = matches!(design.status, DesignStatus::Converged | DesignStatus::IterationLimit);
-    Ok(if done && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
-}
-
 fn judge(
     arguments: &Arguments,
     plan: &TrajectoryPlan,
@@ -141,30 +105,6 @@ fn judge(
     console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
     let is_kept = evaluation.is_proved() && evaluation.covariance.is_some();
     Ok(if is_kept { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
-}
-
-pub(super) fn about(arguments: &Arguments, plan: &TrajectoryPlan, title: String) -> About {
-    let fact = |label: &str, text: String| (label.to_owned(), text);
-    let known = arguments.from.iter().map(|path| fact("Machine as found by", path.display().to_string()));
-    let mut facts = vec![
-        fact("Experiment", arguments.experiment.display().to_string()),
-        fact(
-            "Machine",
-            format!(
-                "{} joints, from {} to {}",
-                plan.machine.chain.joints.len(),
-                plan.machine.chain.base,
-                plan.machine.chain.tip
-            ),
-        ),
-        fact(
-            "Duration",
-            format!("{} s, waypoints every {} s", short(plan.machine.duration_s), short(plan.machine.knot_s)),
-        ),
-        fact("Starts", format!("{}, seed {}", plan.settings.starts, plan.settings.seed)),
-    ];
-    facts.extend(known);
-    About { title, facts, ..About::default() }
 }
 
 fn refuse_others_options(arguments: &Arguments) -> calibrant::Result<()> {

@@ -3,7 +3,7 @@
 use super::Arguments;
 use super::reach_request;
 use super::sweep_request::Request;
-use super::trajectory::{about, finish};
+use super::trajectory_output::{about, finish};
 use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;

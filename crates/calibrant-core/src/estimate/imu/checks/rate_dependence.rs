@@ -91,7 +91,7 @@ fn with_dependence(
         reading + matrix * rate * (kappa * rate.norm_squared())
     };
     let readings: Vec<Vector3<f64>> = data.samples.readings.iter().map(with).collect();
-    let samples = Samples { readings: &readings, ..data.samples.clone() };
+    let samples = Samples { readings: &readings, ..data.samples };
     let moved = RotationData {
         from: data.from,
         samples,
