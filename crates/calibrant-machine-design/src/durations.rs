@@ -91,7 +91,9 @@ pub fn shortest_trajectory(
     progress: &dyn Fn(usize),
 ) -> Result<ShortestTrajectory> {
     let mut duration_s = problem.duration_s;
-    let (mut enough, mut not_enough): (Option<(f64, TrajectoryDesign)>, Option<(f64, f64)>) = (None, None);
+    let mut enough: Option<(f64, TrajectoryDesign)> = None;
+    // a duration, and its largest standard deviation over the goal
+    let mut not_enough: Option<(f64, f64)> = None;
     for number in 1..=DESIGNS {
         let outcome = design_trajectory(&TrajectoryProblem { duration_s, ..problem.clone() }, settings);
         progress(number);

@@ -81,7 +81,7 @@ fn table(study: &Rehearsal) -> Table {
         let (plain, best) = (&entry.initial, &entry.optimal);
         let designed = study.designed_sd.each_ref().map(|sds| sds.get(k).copied().unwrap_or(f64::INFINITY));
         let numbers = [best.predicted_sd, best.realised_rms, plain.predicted_sd, plain.realised_rms];
-        let unit = DisplayUnit::suited_to(best.unit, numbers.into_iter());
+        let unit = DisplayUnit::suited_to(best.unit, numbers);
         let shown = |value: f64| Cell::scaled(value, 3, unit.factor);
         table.row(vec![
             Cell::name(&best.name),
@@ -103,10 +103,10 @@ fn table(study: &Rehearsal) -> Table {
 
 fn verdicts(study: &Rehearsal) -> Table {
     let mut table = Table::new(["calibrations", "ok", "doubtful", "bad", "codes"]);
-    let motions: [(&str, fn(&RehearsedSensor) -> &RehearsedCalibration); 2] =
-        [(study.routine, |sensor| &sensor.plain), ("best trajectory", |sensor| &sensor.optimal)];
-    for (name, pick) in motions {
-        let all = || study.sensors.iter().map(pick);
+    for (name, is_best) in [(study.routine, false), ("best trajectory", true)] {
+        let of_sensor =
+            |sensor: &'_ RehearsedSensor| if is_best { sensor.optimal.clone() } else { sensor.plain.clone() };
+        let all = || study.sensors.iter().map(of_sensor);
         let of = |verdict: &str| Cell::Number(count(all().filter(|one| one.verdict == verdict).count()));
         let mut codes: Vec<&str> = all().flat_map(|one| one.codes.iter().copied()).collect();
         codes.sort_unstable();
