@@ -5,7 +5,7 @@ use super::settings::setting_table;
 use crate::figure::{DisplayUnit, rehearsed_errors, rehearsed_sds};
 use crate::number_format::{count, counted, percent, short};
 use crate::sheet::{Cell, Column, Section, Table};
-use calibrant_study::{Rehearsal, RehearsedCalibration, RehearsedSensor};
+use calibrant_study::Rehearsal;
 
 /// What design, recording and calibration give for simulated sensors.
 pub(super) fn chapter(study: &Rehearsal) -> Section<'_> {
@@ -104,9 +104,7 @@ fn table(study: &Rehearsal) -> Table {
 fn verdicts(study: &Rehearsal) -> Table {
     let mut table = Table::new(["calibrations", "ok", "doubtful", "bad", "codes"]);
     for (name, is_best) in [(study.routine, false), ("best trajectory", true)] {
-        let of_sensor =
-            |sensor: &'_ RehearsedSensor| if is_best { sensor.optimal.clone() } else { sensor.plain.clone() };
-        let all = || study.sensors.iter().map(of_sensor);
+        let all = || study.sensors.iter().map(|of| if is_best { &of.optimal } else { &of.plain });
         let of = |verdict: &str| Cell::Number(count(all().filter(|one| one.verdict == verdict).count()));
         let mut codes: Vec<&str> = all().flat_map(|one| one.codes.iter().copied()).collect();
         codes.sort_unstable();
