@@ -115,7 +115,7 @@ checks! {
         /// How far a gain would move, in its standard deviations.
         moved_sds: f64,
     }
-    decided "A term of the rate's cube is more than six of its standard deviations, and would move a gain by more than two of its own."
+    decided "A term of the rate's cube is as large by chance once in ten thousand times, and would move a gain by more than two of its standard deviations."
     remedy "Turn the sensor more slowly, or choose a larger range. The gains hold for rates like those of this recording only."
     says format!(
         "at its fastest rate, {:.0}°/s, the gyroscope reads {:.2} % too {}: the rotations fit much better with a gain that depends on the rate, and a gain would move by {:.1} \

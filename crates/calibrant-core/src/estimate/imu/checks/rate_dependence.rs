@@ -1,23 +1,24 @@
 //! A gyroscope whose gain depends on the rate: it compresses, or its range is too small.
 //!
-//! With a gain that changes with the square of the rate, `ω = ω₀ (1 + κ |ω₀|²)` of the corrected rate `ω₀`. The fit is linear near its end, so one more least squares
-//! over the rotations tells `κ` and how the other parameters would move with it:
+//! Each axis of a gyroscope compresses by itself: with its output `r` about the bias, `r + κ r³` is what a linear one had read. The fit is linear near its end, so one more
+//! least squares over the rotations tells the three `κ` and how the other parameters would move with them:
 //!
 //! ```text
 //! minimise over δ, κ:  Σ |e + J δ + (∂e/∂κ) κ|²
 //! ```
 //!
 //! with the gravity residuals `e` of the fit and their derivatives `J` by the gyroscope's quantities. The residuals themselves tell the variance, so that what scatters for
-//! other reasons is no evidence.
+//! other reasons is no evidence. The `κ` together are tested by Fisher's F.
 
 use crate::diagnostic::gyroscope::GainDependsOnRate;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::model::{ImuModel, RotationData, Samples, State};
+use crate::estimate::statistics::f_p_value;
 use crate::sensor::{ImuQuantity, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 
-/// `κ` in its standard deviations beyond which it is no chance: with ten degrees of freedom once in ten thousand.
-const NO_CHANCE: f64 = 6.0;
+/// Probability of `κ` at least this large where the gains are constant.
+const CHANCE: f64 = 1e-4;
 /// Movement of a gain in its stated standard deviations that matters.
 const MATTERS: f64 = 2.0;
 /// Fewest degrees of freedom that tell a variance.
@@ -34,23 +35,26 @@ fn dependence(evidence: &Evidence<'_>) -> Option<crate::diagnostic::Diagnostic> 
         .collect();
     let counting: Vec<&RotationData<'_>> =
         model.rotations.iter().filter(|data| data.counts && data.used).collect();
-    let peak_radps = counting.iter().map(|data| data.samples.path(&state.imu).peak_radps).fold(0.0, f64::max);
-    let unknowns = columns.len() + 1;
-    if 2 * counting.len() < unknowns + FEWEST || peak_radps <= 0.0 {
+    let peaks_radps = peaks(&counting, state);
+    let unknowns = columns.len() + 3;
+    if 2 * counting.len() < unknowns + FEWEST || peaks_radps.min() <= 0.0 {
         return None;
     }
-    // a share of the gain at the fastest rate: small, so that differences are derivatives
-    let step = 1e-4 / peak_radps.powi(2);
     let mut rows = DMatrix::zeros(2 * counting.len(), unknowns);
     let mut errors = DVector::zeros(2 * counting.len());
     for (i, data) in counting.iter().enumerate() {
         let residual = model.gravity_residual(data, state)?;
-        let moved = with_dependence(model, data, state, step)?;
         errors.fixed_rows_mut::<2>(2 * i).copy_from(&residual.error);
         for (place, column) in columns.iter().enumerate() {
             rows.view_mut((2 * i, place), (2, 1)).copy_from(&residual.by_parameters.column(*column));
         }
-        rows.view_mut((2 * i, unknowns - 1), (2, 1)).copy_from(&((moved - residual.error) / step));
+        for axis in 0..3 {
+            // a share of the gain at the fastest rate: small, so that differences are derivatives
+            let step = 1e-4 / peaks_radps[axis].powi(2);
+            let moved = with_dependence(model, data, state, &Vector3::ith(axis, step))?;
+            let slope = (moved - residual.error) / step;
+            rows.view_mut((2 * i, columns.len() + axis), (2, 1)).copy_from(&slope);
+        }
     }
     // unknowns of one size
     let sizes: Vec<f64> = rows.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
@@ -59,10 +63,11 @@ fn dependence(evidence: &Evidence<'_>) -> Option<crate::diagnostic::Diagnostic> 
     let inverse = normal.cholesky()?.inverse();
     let solved = -(&inverse * rows.transpose() * &errors);
     let left = (&errors + &rows * &solved).norm_squared();
-    let variance = left / (errors.len() - unknowns) as f64;
-    let last = unknowns - 1;
-    let deviations = solved[last].abs() / (variance * inverse[(last, last)]).sqrt();
-    let kappa = solved[last] / sizes[last];
+    let free = (errors.len() - unknowns) as f64;
+    let of_kappa = inverse.fixed_view::<3, 3>(columns.len(), columns.len()).into_owned();
+    let kappa = solved.fixed_rows::<3>(columns.len()).into_owned();
+    let chi2 = kappa.dot(&of_kappa.cholesky()?.solve(&kappa)) / (left / free);
+    let chance = f_p_value(chi2, 3, free)?;
     let moved_sds = columns.iter().enumerate().filter_map(|(place, column)| {
         let quantity = model.quantities[*column];
         let is_gain = matches!(quantity, ImuQuantity::Of(_, Quantity::Scale(_)));
@@ -71,24 +76,36 @@ fn dependence(evidence: &Evidence<'_>) -> Option<crate::diagnostic::Diagnostic> 
         is_gain.then(|| solved[place].abs() / sizes[place] / sd)
     });
     let moved_sds = moved_sds.fold(0.0, f64::max);
-    let share = kappa * peak_radps * peak_radps;
-    let matters = deviations > NO_CHANCE && moved_sds > MATTERS && share.abs() < 1.0;
+    let share_of = |axis: usize| kappa[axis] / sizes[columns.len() + axis] * peaks_radps[axis].powi(2);
+    let most = (0..3).max_by(|one, other| share_of(*one).abs().total_cmp(&share_of(*other).abs()))?;
+    let (share, peak_radps) = (share_of(most), peaks_radps[most]);
+    let matters = chance < CHANCE && moved_sds > MATTERS && share.abs() < 1.0;
     matters.then(|| GainDependsOnRate { share, peak_radps, moved_sds }.into())
 }
 
-/// The gravity residual with this `κ`.
+/// The largest output of each axis about its bias, rad/s.
+fn peaks(counting: &[&RotationData<'_>], state: &State) -> Vector3<f64> {
+    let of = |data: &&RotationData<'_>| {
+        let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
+        data.samples
+            .readings
+            .iter()
+            .fold(Vector3::zeros(), |peak: Vector3<f64>, of| peak.sup(&(of - bias).abs()))
+    };
+    counting.iter().map(of).fold(Vector3::zeros(), |peak, of| peak.sup(&of))
+}
+
+/// The gravity residual with these `κ`.
 fn with_dependence(
     model: &ImuModel<'_>,
     data: &RotationData<'_>,
     state: &State,
-    kappa: f64,
+    kappa: &Vector3<f64>,
 ) -> Option<Vector2<f64>> {
-    let imu = state.imu.at(data.samples.temperature_c());
-    let (matrix, bias) = (imu.gyroscope.matrix, imu.gyroscope.bias);
-    let correction = matrix.try_inverse()?;
+    let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
     let with = |reading: &Vector3<f64>| {
-        let rate = correction * (reading - bias);
-        reading + matrix * rate * (kappa * rate.norm_squared())
+        let output = reading - bias;
+        reading + output.component_mul(&output).component_mul(&output).component_mul(kappa)
     };
     let readings: Vec<Vector3<f64>> = data.samples.readings.iter().map(with).collect();
     let samples = Samples { readings: &readings, ..data.samples };
