@@ -8,6 +8,7 @@
 use crate::certificate::certify;
 use crate::information::{FullInformation, Marginalised, Sensing, solved};
 use crate::motion::Knots;
+use crate::turned_cross_terms::of_turned_cross_terms;
 use crate::{LimitProof, TrajectoryProblem};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::ImuQuantity;
@@ -129,7 +130,7 @@ pub(crate) fn evaluated(
 
 /// Budget, and what is known of the nuisances afterwards.
 struct Posterior {
-    /// What the mounting adds to the covariance beyond first order, as a calibration states it.
+    /// What the mounting adds to the covariance beyond first order at the nominal sensor, as a calibration states it.
     second: DMatrix<f64>,
     budget: Vec<BudgetRow>,
     machine: Vec<(MachineQuantity, f64)>,
@@ -147,7 +148,8 @@ fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
     let own = own - &gain * &cross;
     let mut all = DMatrix::zeros(p + size, p + size);
     all.view_mut((p, p), (size, size)).copy_from(&own);
-    let second = of_mounting(layout, &layout.nominal, &all).view((0, 0), (p, p)).into_owned();
+    let second = of_mounting(layout, &layout.nominal, &all) + of_turned_cross_terms(layout, &all);
+    let second = second.view((0, 0), (p, p)).into_owned();
     let sources: Vec<Source> = layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
     let quantities = sensing.quantities();
     let row = |(i, quantity): (usize, &ImuQuantity)| {

@@ -30,6 +30,7 @@ mod search;
 #[cfg(test)]
 mod spheres_for_tests;
 mod start;
+mod turned_cross_terms;
 pub mod world;
 
 pub use bound::TrajectoryBound;

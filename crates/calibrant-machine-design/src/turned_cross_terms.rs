@@ -1,0 +1,97 @@
+//! What a turn of the mount does with the sensor's own scale and cross terms.
+//!
+//! # Formula
+//! A turn `δ` of the mount changes a matrix `S = I + C` by `S [δ]×`. The part `[δ]×` is of first order at the nominal sensor, whose `C` is zero. A calibration stands at the
+//! sensor's own `C`, so that it states `C [δ]×` as well. With independent entries of prior variance `c²` and the covariance `T` of `δ`, row `i` has the mean products
+//!
+//! ```text
+//! Σ_k c²_ik [e_k]× T [e_k]×ᵀ
+//! ```
+
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use calibrant_machine::estimate::{Layout, MachineQuantity};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// An entry of a matrix: sensor, row, column.
+fn entry(quantity: MachineQuantity) -> Option<(SensorKind, usize, usize)> {
+    let MachineQuantity::Imu(ImuQuantity::Of(kind, of)) = quantity else { return None };
+    let (row, column) = match of {
+        Quantity::Scale(axis) => (axis, axis),
+        Quantity::CrossAxis(row, column) | Quantity::Symmetric(row, column) => (row, column),
+        Quantity::Bias(_) => return None,
+    };
+    Some((kind, row.index(), column.index()))
+}
+
+/// The mean products of these changes over the sensor's prior, for all quantities; 0 where the mounting is not estimated, or nothing is known of the sensor.
+/// `covariance` is that of the quantities.
+pub(crate) fn of_turned_cross_terms(layout: &Layout, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = layout.quantities.len();
+    let mut products = DMatrix::zeros(n, n);
+    let place = |quantity| layout.quantities.iter().position(|of| *of == quantity);
+    let [Some(x), Some(y), Some(z)] = Axis::ALL.map(|axis| place(MachineQuantity::Mounting(axis))) else {
+        return products;
+    };
+    let places = [x, y, z];
+    let turn = Matrix3::from_fn(|i, j| covariance[(places[i], places[j])]);
+    let entries: Vec<(usize, (SensorKind, usize, usize))> = (layout.quantities.iter().enumerate())
+        .filter_map(|(place, quantity)| Some((place, entry(*quantity)?)))
+        .collect();
+    for (known, (kind, row, k)) in &entries {
+        let information = layout.prior[(*known, *known)];
+        if information <= 0.0 {
+            continue;
+        }
+        let cross = Vector3::ith(*k, 1.0).cross_matrix();
+        let of_row = cross * turn * cross.transpose() / information;
+        let same = entries.iter().filter(|(_, (other, of, _))| other == kind && of == row);
+        for (i, (_, _, one)) in same.clone() {
+            for (j, (_, _, other)) in same.clone() {
+                products[(*i, *j)] += of_row[(*one, *other)];
+            }
+        }
+    }
+    products
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
+    use crate::information::Sensing;
+
+    #[test]
+    fn the_products_are_those_of_many_turns_and_sensors() {
+        let chain = arm_of_all_kinds(3, &mut Numbers(8));
+        let mut layout = Sensing::new(&problem_of(&chain)).expect("valid").layout;
+        let (turn_sd, entry_sd) = (0.01, 0.02);
+        let n = layout.quantities.len();
+        layout.prior = DMatrix::identity(n, n) / (entry_sd * entry_sd);
+        let found = of_turned_cross_terms(&layout, &(DMatrix::identity(n, n) * (turn_sd * turn_sd)));
+
+        let place = |row: usize, column: usize| {
+            let wanted = Some((SensorKind::Gyroscope, row, column));
+            layout.quantities.iter().position(|of| entry(*of) == wanted).expect("there")
+        };
+        let (mut numbers, draws) = (Numbers(3), 100_000);
+        // uniform on ±√3: of unit variance
+        let mut unit = |sd: f64| numbers.next(3.0_f64.sqrt() * sd);
+        let mut sums = [[0.0; 3]; 3];
+        for _ in 0..draws {
+            let own = Matrix3::from_fn(|_, _| unit(entry_sd));
+            let turn = Vector3::from_fn(|_, _| unit(turn_sd));
+            let change = own * turn.cross_matrix();
+            for (i, sums) in sums.iter_mut().enumerate() {
+                for (j, sum) in sums.iter_mut().enumerate() {
+                    *sum += change[(i, j)].powi(2) / f64::from(draws);
+                }
+            }
+        }
+        for (i, sums) in sums.iter().enumerate() {
+            for (j, sum) in sums.iter().enumerate() {
+                let k = place(i, j);
+                assert!((found[(k, k)] / sum - 1.0).abs() < 0.03, "{i} {j}: {} {sum}", found[(k, k)]);
+            }
+        }
+    }
+}
