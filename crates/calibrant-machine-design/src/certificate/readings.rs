@@ -96,7 +96,7 @@ impl Proof<'_, '_> {
             for (k, body) in self.bodies.iter().enumerate() {
                 let point = (tip * Point3::from(body.center_m)).coords;
                 let of = posture.point_velocity(&point, |k| joints[k].qd);
-                values[6 + k] = of.v.norm() + body.radius_m * of.w.norm();
+                values[6 + k] = body.fastest_mps(&of.v, &of.w);
             }
         }
         let time_s = (i as f64 + u) * self.knots.step_s;

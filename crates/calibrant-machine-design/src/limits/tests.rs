@@ -80,3 +80,21 @@ fn limits_on_control_points_are_differences_of_them() {
     assert!((least - 0.4).abs() < 1e-12, "{least}");
     assert!((least_slack(&[limit], &knots, &controls) - 0.4).abs() < 1e-12);
 }
+
+#[test]
+fn no_point_of_a_sensor_body_is_faster_than_the_fastest_and_one_nearly_as_fast() {
+    let mut numbers = Numbers(5);
+    for _ in 0..20 {
+        let (v, w, body) = (
+            numbers.vector(1.0),
+            numbers.vector(5.0),
+            SensorBody { center_m: Vector3::zeros(), radius_m: 0.1 },
+        );
+        let points = (0..20_000).map(|_| body.radius_m * numbers.vector(1.0).normalize());
+        let fastest = points.map(|x| (v + w.cross(&x)).norm()).fold(0.0, f64::max);
+        let found = body.fastest_mps(&v, &w);
+        assert!(fastest <= found * (1.0 + 1e-12) && fastest > 0.999 * found, "{fastest} {found}");
+    }
+    let still = SensorBody { center_m: Vector3::zeros(), radius_m: 0.1 };
+    assert_eq!(still.fastest_mps(&Vector3::x(), &Vector3::zeros()), 1.0);
+}
