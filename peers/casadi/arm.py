@@ -6,7 +6,8 @@ on control points; ranges of the sensor, tip speed and distances of capsules at 
 derivatives. The Hessian is IPOPT's limited memory: the exact one takes minutes.
 
 An engineer's way: the start is that of 30 random smooth motions within the joint limits which collides least, if at all; 28 control points per joint, then 53. IPOPT's time is that until its
-iterate is feasible (1e-4) and within 0.05 of its best value. calibrant's is that of the whole command, all starts, proofs and the file; both are processor time.
+iterate is feasible (1e-4) and within 0.05 of its best value. calibrant's is that of the whole command on as many control points: all starts, proofs, and the file.
+Both are processor time.
 What IPOPT's answer breaks between collocation times is printed, and forgiven; calibrant's answer has been proved.
 
 Usage: arm.py CASE.json [--case PROGRAM] [options]    PROGRAM: cargo's example `case` of calibrant-machine-design (PROGRAM CASE.json trajectory.csv SEED STARTS)
@@ -355,11 +356,11 @@ class Watch(ca.Callback):
         return [0]
 
 
-def calibrant(program, case, seed, starts):
+def calibrant(program, case, seed, starts, knot_s):
     """Value and processor time of one command."""
     with tempfile.TemporaryDirectory() as folder:
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run([program, case, Path(folder) / "trajectory.csv", str(seed), str(starts)], capture_output=True, text=True, check=True)
+        done = subprocess.run([program, case, Path(folder) / "trajectory.csv", str(seed), str(starts), "D", str(knot_s)], capture_output=True, text=True, check=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     value = float(re.match(r"(-?[\d.]+)", done.stdout).group(1))
     return value, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -395,10 +396,11 @@ def main():
                 best[points] = value, until
     failed = not best
     if o.case:
-        rows = [(starts, *calibrant(o.case, o.case_file, o.seed, starts)) for starts in o.calibrant_starts]
-        for starts, value, seconds in rows:
-            print(f"  calibrant, {starts} starts: {value:.2f} in {seconds:.2f} s")
         for points, (value, until) in best.items():
+            knot_s = case["duration_s"] / (points - 3)
+            rows = [(starts, *calibrant(o.case, o.case_file, o.seed, starts, knot_s)) for starts in o.calibrant_starts]
+            for starts, found, seconds in rows:
+                print(f"  calibrant, {points} control points, {starts} starts: {found:.2f} in {seconds:.2f} s")
             reached = [seconds for _, found, seconds in rows if found <= value]
             ratio = until / min(reached) if reached else 0.0
             failed |= ratio < o.times

@@ -1,8 +1,9 @@
 """Broken trajectories: does `calibrant design arm.toml --evaluate` flag each, and for the right reason?
 
 A trajectory is designed with limits that leave room. Bumps of one or several joints, found by a random search, then break one limit each by little and keep all others: position,
-velocity, acceleration, jerk, tip speed, sensor range, floor, self-collision, box. Which limits a bump breaks is judged here: joint limits from the piecewise polynomials,
-the rest at 4000 times, from homogeneous matrices and their differences. Other files are not at rest at the end, or are no trajectories.
+velocity, acceleration, jerk, tip speed, sensor range, self-collision. Which limits a bump breaks is judged here: joint limits from the piecewise polynomials,
+the rest at 4000 times, from homogeneous matrices and their differences. Floor and box come nearer instead, until the good
+trajectory is too near to them. Other files are not at rest at the end, or are no trajectories.
 
 A row of the table: what was done, the exit status, what evaluation.json says is broken (or the message), and whether this is the reason.
 
@@ -39,13 +40,12 @@ BOX = [0.45, 0.35, 0.2], [0.15, 0.15, 0.2]
 BEYOND = 0.004  # part of a limit by which it is broken at most; m for a distance, so that bodies still do not touch
 BUMPS = {  # joints, and width in knots (0: a constant, 1: two neighbours apart) of the bumps that may break a limit
     "position": ([5, 3, 0], 0), "velocity": ([5], 8), "acceleration": ([5], 3), "jerk": ([0, 5], 1), "tip speed": ([0, 1, 2], 6), "specific force": ([1, 2, 3, 4], 2),
-    "floor": ([1, 2, 3], 6), "box": ([0, 1, 2], 8), "self": ([2, 3, 4], 6),
+    "self": ([2, 3, 4], 6),
 }
 REASONS = {  # kind of the limit in evaluation.json, and what `of` has
     "position": ("position", ""), "velocity": ("velocity", ""), "acceleration": ("acceleration", ""), "jerk": ("jerk", ""), "tip speed": ("speed", ""),
-    "specific force": ("specific force", ""), "floor": ("distance", "floor"), "box": ("distance", "box"), "self": ("distance", "_link"),
+    "specific force": ("specific force", ""), "self": ("distance", ""),
 }
-
 
 
 def arguments():
@@ -304,6 +304,20 @@ def main():
     wrong += bool(broken)
 
     rng = np.random.default_rng(o.seed)
+    spare = {name: d.min() - CLEARANCE_M + BEYOND / 2 for name, d in arm.distances(curve(points)(np.linspace(0, STEP * (len(points) - 3), 20000))).items()}
+    for wanted in ("floor", "box"):
+        nearer = o.folder / f"{wanted}.toml"
+        text = toml.read_text()
+        if wanted == "floor":
+            text = key(text, "floor_m", spare["floor"])
+        else:
+            text = key(text, "boxes", f"[{{ center_m = {BOX[0]}, half_m = {[half + spare['box'] for half in BOX[1]]} }}]")
+        nearer.write_text(text)
+        broken, status, names, message = evaluate(o, nearer, o.folder / "good/trajectory.csv", wanted)
+        right = status != 0 and broken and all(k == "distance" and wanted in n for k, n in names)
+        wrong += not right
+        print(f"  {wanted + f' nearer by {1e3 * spare[wanted]:.0f} mm':32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
+
     for wanted, (kind, of) in REASONS.items():
         changed, beyond = just_broken(judge, points, wanted, rng)
         if changed is None:
@@ -314,7 +328,7 @@ def main():
         write(path, rows_of(changed, header))
         broken, status, names, message = evaluate(o, toml, path, wanted)
         by = f"{1e3 * beyond:.1f} mm" if kind == "distance" else f"{100 * beyond:.2f} %"
-        right = status != 0 and broken and all(k == kind and of in n for k, n in names) and ("floor" not in str(names) and "box" not in str(names) or wanted in ("floor", "box"))
+        right = status != 0 and broken and all(k == kind and of in n for k, n in names) and not re.search("floor|box", str(names))
         wrong += not right
         print(f"  {wanted + ' by ' + by:32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
 
@@ -346,13 +360,13 @@ def files(header, points):
     """Trajectories that are none, their names, and what a message must say."""
     good = rows_of(points, header)
     moving = max(range(40, 80), key=lambda k: np.abs(curve(points)(STEP * k, 1)).max())
-    yield "not at rest at the end", good[: moving + 2], "rest"
-    yield "not at rest at the start", [header, *([row[0] - STEP * moving, *row[1:]] for row in good[moving + 1 :])], "rest"
+    yield "not at rest at the end", good[: moving + 2], "begin and end"
+    yield "not at rest at the start", [header, *([row[0] - STEP * moving, *row[1:]] for row in good[moving + 1 :])], "begin and end"
     late = [list(row) for row in good]
     late[30][0] += 0.05
     yield "knots not uniform", late, "even|uniform|knots at these times"
     yield "joint misnamed", [[column.replace("elbow", "ellbow") for column in header], *good[1:]], "elbow"
-    yield "two rows", good[:3], "row|knot|short"
+    yield "two rows", good[:3], "begin and end|row|knot|short"
     bent = [list(row) for row in good]
     bent[30][1 + len(points[0])] += 0.01
     yield "a velocity that is not the spline's", bent, "spline"

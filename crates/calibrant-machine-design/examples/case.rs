@@ -1,5 +1,6 @@
-//! Designs the trajectory of a case file in JSON, and writes it: `case CASE.json trajectory.csv [seed] [starts]`.
+//! Designs the trajectory of a case file in JSON, and writes it: `case CASE.json trajectory.csv [seed] [starts] [D or A] [knot_s]`.
 
+use calibrant_core::progress::{Progress, Step};
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant_machine::chain::{Joint, JointKind, JointLimits, KinematicChain};
 use calibrant_machine::estimate::{MachineSetup, MountingPrior};
@@ -29,11 +30,19 @@ fn main() {
         Some("A") => TrajectoryCriterion::A { range: [2.0 * 9.80665, 500_f64.to_radians()] },
         _ => TrajectoryCriterion::D,
     };
-    let problem = problem(&case, &chain, &setup, &quantities, &world, criterion);
+    let mut problem = problem(&case, &chain, &setup, &quantities, &world, criterion);
+    problem.knot_s = arguments.get(6).map_or(problem.knot_s, |text| text.parse().expect("a number"));
     let defaults = TrajectorySettings::default();
-    let settings =
-        TrajectorySettings { seed: argument(3, 1) as u64, starts: argument(4, defaults.starts), ..defaults };
     let begun = std::time::Instant::now();
+    let told = move |step: Step| {
+        eprintln!("stage {} of {}: {:.2} s", step.done, step.of, begun.elapsed().as_secs_f64())
+    };
+    let settings = TrajectorySettings {
+        seed: argument(3, 1) as u64,
+        starts: argument(4, defaults.starts),
+        progress: Progress::to(told),
+        ..defaults
+    };
     let design = design_trajectory(&problem, &settings).expect("a motion");
     let elapsed_s = begun.elapsed().as_secs_f64();
     println!(

@@ -81,19 +81,25 @@ fn proved(problem: &TrajectoryProblem<'_>, sensing: &Sensing, candidates: &[Cand
     };
     let mut by_value: Vec<&Candidate> = candidates.iter().collect();
     by_value.sort_by(|one, other| one.value.total_cmp(&other.value));
+    let mut best: Option<Candidate> = None;
     for candidate in by_value {
-        if is_proved(candidate) {
-            return Ok(candidate.clone());
+        // a repair costs value, so that the next candidate may be better
+        if best.as_ref().is_some_and(|best| best.value <= candidate.value) {
+            break;
         }
-        if let Some(repaired) = repaired(problem, sensing, candidate).into_iter().find(is_proved) {
-            return Ok(repaired);
-        }
+        let kept = match is_proved(candidate) {
+            true => Some(candidate.clone()),
+            false => repaired(problem, sensing, candidate, is_proved),
+        };
+        best = best.into_iter().chain(kept).min_by(|one, other| one.value.total_cmp(&other.value));
     }
-    Err(Error::infeasible(InputError::new(
-        Refusal::MotionInfeasible,
-        "no trajectory was found whose limits hold between the times that were looked at",
-        "allow more time (`machine.design.duration_s`), or give the machine more room",
-    )))
+    best.ok_or_else(|| {
+        Error::infeasible(InputError::new(
+            Refusal::MotionInfeasible,
+            "no trajectory was found whose limits hold between the times that were looked at",
+            "allow more time (`machine.design.duration_s`), or give the machine more room",
+        ))
+    })
 }
 
 /// Where all control points of an interval are equal but for this part of the top speed.

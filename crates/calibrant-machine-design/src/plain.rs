@@ -125,7 +125,7 @@ impl<'a> Planner<'a> {
                 let tour = self.tour_of_faces(rng)?;
                 let used: usize = tour.moves.iter().sum();
                 let hold = room.checked_sub(used)? / tour.postures.len();
-                (hold >= HOLD).then(|| self.controls(&tour, hold))
+                (hold >= HOLD).then(|| self.controls(&tour, hold, self.knots.controls()))
             }
             PlainRoutine::JointsInTurn => {
                 let once = self.tour_of_ends(rng)?;
@@ -133,7 +133,7 @@ impl<'a> Planner<'a> {
                 let rounds = std::iter::repeat_n(&once.postures[1..], times).flatten();
                 let postures = once.postures[..1].iter().chain(rounds).cloned().collect();
                 let tour = Tour { postures, moves: once.moves.repeat(times) };
-                (times > 0).then(|| self.controls(&tour, 0))
+                (times > 0).then(|| self.controls(&tour, 0, self.knots.controls()))
             }
         }
     }
@@ -279,13 +279,13 @@ impl<'a> Planner<'a> {
         let shortest = 1.01 * self.shortest_s(from, to) / self.knots.step_s;
         SLOWER.into_iter().map(|times| ((shortest * times).ceil() as usize).max(1)).find(|intervals| {
             let tour = Tour { postures: vec![from.to_vec(), to.to_vec()], moves: vec![*intervals] };
-            let controls = self.controls(&tour, 0);
+            let controls = self.controls(&tour, 0, 0);
             (0..controls.nrows() - REST).all(|i| self.probe.interval_is_free(&controls, i))
         })
     }
 
-    /// Control points of a tour that stays so many intervals at each posture; what is left of the duration at the last one.
-    fn controls(&self, tour: &Tour, hold: usize) -> DMatrix<f64> {
+    /// Control points of a tour that stays so many intervals at each posture, and at the last one until there are at least so many.
+    fn controls(&self, tour: &Tour, hold: usize, at_least: usize) -> DMatrix<f64> {
         let mut rows: Vec<Posture> = vec![tour.postures[0].clone(); REST + hold];
         for (pair, intervals) in tour.postures.windows(2).zip(&tour.moves) {
             for k in 1..=*intervals {
@@ -296,8 +296,7 @@ impl<'a> Planner<'a> {
             rows.resize(rows.len() + hold, pair[1].clone());
         }
         let last = rows[rows.len() - 1].clone();
-        let whole = if tour.postures.len() == 2 { 0 } else { self.knots.controls() };
-        rows.resize((rows.len() + REST - 1).max(whole), last);
+        rows.resize((rows.len() + REST - 1).max(at_least), last);
         DMatrix::from_fn(rows.len(), self.problem.joints.len(), |i, j| rows[i][j])
     }
 }

@@ -4,6 +4,7 @@ use super::knots::{between_knots, spline_through_velocities};
 use crate::reference_log::{ReferenceLogOptions, read_reference_log};
 use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::number_format::counted;
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::log::ReferenceLog;
 use calibrant_machine::spline::VectorSpline;
@@ -108,8 +109,11 @@ pub fn read_trajectory(path: &Path, chain: &KinematicChain) -> Result<Trajectory
         spline_through_velocities(&log.times_s, &log.positions, velocities, width)
     });
     let Some(spline) = found else {
-        let message = "its rows are not of one cubic spline with knots at these times";
-        return refused(Refusal::MotionInvalid, message.into(), HELP);
+        let message = match file.rows.saturating_sub(log.times_s.len()) {
+            0 => "its rows are not of one cubic spline with knots at these times".to_owned(),
+            left_out => format!("a value is missing or is no number in {}", counted(left_out, "row")),
+        };
+        return refused(Refusal::MotionInvalid, message, HELP);
     };
     let controls = spline.controls.chunks_exact(width);
     let controls = controls.flat_map(|row| places.iter().map(|place| row[*place])).collect();
@@ -176,6 +180,7 @@ mod tests {
                 "its rows are not of one cubic spline with knots at these times",
             ),
             (good.replace("\n0.4,-", "\n0.4,"), "its rows are not of one cubic spline"),
+            (good.replace("\n0.4,-", "\n0.4,nan"), "a value is missing or is no number in 1 row"),
             (good.replace("one_rad,two_m,", "one_x,two_x,"), "no column"),
             ([rows[0], rows[2], rows[1]].join("\n"), "0.2"),
         ] {

@@ -29,6 +29,8 @@ const ITERATIONS: [usize; 3] = [usize::MAX, usize::MAX, 80];
 const HELD: usize = 2;
 /// The same of the last stage, with the full information.
 const POLISH: ((f64, f64), f64) = ((1e-3, 4e-4), 0.002);
+/// Times of an interval at which a repair takes limits.
+const REPAIR_TIMES: usize = 12;
 /// What the search holds back.
 pub(crate) const HELD_BACK: HeldBack = HeldBack { clearance_m: 0.0025, share: 0.008 };
 
@@ -112,20 +114,22 @@ pub(crate) fn search(
     Ok(Found { candidates, first, starts, iterations })
 }
 
-/// The same motion with more held back of the limits: twice, four times.
+/// The same motion, searched on with limits at more times; then with more held back of them, twice, four times, until its limits are proved.
 pub(crate) fn repaired(
     problem: &TrajectoryProblem<'_>,
     sensing: &Sensing,
     candidate: &Candidate,
-) -> Vec<Candidate> {
+    is_proved: impl Fn(&Candidate) -> bool,
+) -> Option<Candidate> {
     let sizes = sizes(problem);
     let shared = Shared { problem, sensing, sizes: &sizes };
     let more = |factor: f64| {
         let held_back =
             HeldBack { clearance_m: factor * HELD_BACK.clearance_m, share: factor * HELD_BACK.share };
-        shared.improve(candidate.clone(), &polish(20, held_back, &Interruption::default()))
+        let level = polish(20, held_back, &Interruption::default());
+        shared.improve(candidate.clone(), &Level { times: REPAIR_TIMES, ..level })
     };
-    [2.0, 4.0].map(more).into_iter().filter(|one| one.admissible).collect()
+    [1.0, 2.0, 4.0].into_iter().map(more).find(|one| one.admissible && is_proved(one))
 }
 
 /// The last stage.
