@@ -4,8 +4,8 @@ use crate::session::{Calibrated, MotionSource, Readings, Session, SessionOptions
 use crate::simulation::{SimulationOptions, simulate};
 use crate::trajectory_plan::TrajectoryPlan;
 use calibrant_core::budget::Budget;
-use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::design::SeriesInterrupted;
+use calibrant_core::diagnostic::design::{SensorsNotCalibrated, SeriesInterrupted};
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::interruption::Interruption;
 use calibrant_core::sensor::{ImuQuantity, Parameter, ReadingUnit, SensorKind};
@@ -13,6 +13,7 @@ use calibrant_io::{Experiment, Plan, Trajectory};
 use calibrant_machine::estimate::MachineQuantity;
 use calibrant_machine_design::{PlainRoutine, PlainTrajectory, TrajectoryDesign, TrajectoryEvaluation};
 use calibrant_study::{Rehearsal, RehearsedCalibration, RehearsedSensor, Studies};
+use rayon::iter::Either;
 use rayon::prelude::*;
 
 /// A rehearsal, ready to run.
@@ -57,14 +58,15 @@ impl RehearsalPlan<'_> {
     /// The result does not depend on the number of threads. Sensor `k` is that of `calibrant simulate --seed` with its seed.
     ///
     /// # Errors
-    /// [`Error::Infeasible`] where the design found no plain routine to compare with; as [`simulate`] and [`Session::calibrate`]; [`Refusal::Interrupted`] before the first sensor.
+    /// [`Error::Infeasible`] where the design found no plain routine to compare with; as [`simulate`] and [`Session::calibrate`] where no sensor is calibrated;
+    /// [`Refusal::Interrupted`] before the first sensor.
     pub fn run(&self, design: &TrajectoryDesign, progress: &(dyn Fn(u64) + Sync)) -> Result<Studies> {
         let Some(PlainTrajectory { routine, evaluation: plain }) = &design.plain else {
             return Err(no_routine());
         };
         let one = |number: u64, evaluation| Rehearsed { motion: self.motion(evaluation), evaluation, number };
         let both = [one(1, plain), one(2, &design.optimal)];
-        let sensors = self.sensors(&both, progress)?;
+        let (sensors, failed) = self.sensors(&both, progress);
         let mut notes = Vec::<Diagnostic>::new();
         if self.interruption.is_asked() {
             let (finished, all) = (sensors.len(), self.sensors);
@@ -72,6 +74,15 @@ impl RehearsalPlan<'_> {
         }
         if sensors.is_empty() {
             self.interruption.check()?;
+        }
+        let number = failed.len();
+        match failed.into_iter().next() {
+            Some((_, error)) if sensors.is_empty() => return Err(error),
+            Some((seed, error)) => {
+                let why = Phrase(format!("The sensor of seed {seed}: {error}"));
+                notes.push(SensorsNotCalibrated { number, all: self.sensors, why }.into());
+            }
+            None => {}
         }
         let rehearsal = self.summed_up(design, *routine, &both, sensors);
         Ok(Studies { rehearsal: Some(rehearsal), notes, ..Studies::default() })
@@ -82,21 +93,26 @@ impl RehearsalPlan<'_> {
         MotionSource::OnKnots(trajectory.log(), of.motion.knots.step_s)
     }
 
+    /// The sensors, and the seeds of those that were not calibrated, with the error.
     fn sensors(
         &self,
         both: &[Rehearsed<'_>; 2],
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<Vec<RehearsedSensor>> {
+    ) -> (Vec<RehearsedSensor>, Vec<(u64, Error)>) {
         let one = |k: u64| {
             if self.interruption.is_asked() {
                 return None;
             }
-            let sensor = self.sensor(both, self.seed.wrapping_add(k));
+            let seed = self.seed.wrapping_add(k);
+            let sensor = self.sensor(both, seed).map_err(|error| (seed, error));
             progress(1);
             // what an interruption broke off is left out
             (sensor.is_ok() || !self.interruption.is_asked()).then_some(sensor)
         };
-        (0..self.sensors as u64).into_par_iter().filter_map(one).collect()
+        (0..self.sensors as u64).into_par_iter().filter_map(one).partition_map(|sensor| match sensor {
+            Ok(sensor) => Either::Left(sensor),
+            Err(failed) => Either::Right(failed),
+        })
     }
 
     fn sensor(&self, [plain, optimal]: &[Rehearsed<'_>; 2], seed: u64) -> Result<RehearsedSensor> {

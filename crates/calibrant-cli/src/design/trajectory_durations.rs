@@ -58,7 +58,8 @@ pub(super) fn sweep(
     let file = TrajectorySweepFile { sweep: &swept };
     write_json(&output.join("sweep.json"), &file)?;
     write_trajectory_sweep_csv(&output.join("sweep.csv"), &swept)?;
-    let about = about(arguments, plan, "Trajectories of several durations".into());
+    let mut about = about(arguments, plan, "Trajectories of several durations".into());
+    about.facts.retain(|(label, _)| label != "Duration");
     let sheet = trajectory_sweep_sheet(&swept, &about);
     write_text(&output.join("report.html"), &sheet.html())?;
     let files = ["sweep.csv", "report.html"].map(|name| output.join(name));

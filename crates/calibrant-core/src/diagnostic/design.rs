@@ -100,6 +100,23 @@ checks! {
     remedy "Let it run to its end. A batch continues with the option `resume`."
     says format!("the {series} was interrupted: {finished} of {all} {items} are finished");
 
+    /// Simulated sensors of a rehearsal were not calibrated. What it says is of the others.
+    SensorsNotCalibrated "sensors-not-calibrated" Warning {
+        /// How many.
+        number: usize,
+        /// All sensors.
+        all: usize,
+        /// The seed of the first, and why it was not calibrated.
+        why: Phrase,
+    }
+    decided "The calibration of a simulated sensor ends with an error."
+    remedy "Read the error. `calibrant simulate --seed` makes the recording again."
+    says format!(
+        "{number} of {all} simulated sensors {} not calibrated, and what is said is of the others. {}",
+        if *number == 1 { "was" } else { "were" },
+        why.0
+    );
+
     /// A study compares no optimal motion.
     MotionNotDesigned "motion-not-designed" Note {
         /// Is it the motion with process noise, of `[study.noisy]`?

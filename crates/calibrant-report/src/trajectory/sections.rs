@@ -210,11 +210,10 @@ fn search<'a>(design: &TrajectoryDesign) -> Section<'a> {
     let at_best = polished.clone().filter(|start| start.value - design.optimal.value < EQUAL).count();
     // a slowed trajectory has none: its values are of another duration
     if !design.starts.is_empty() {
+        let searched = counted(polished.count(), "start");
         section.line(format!(
-        "{} of {} that were searched to the end came within {EQUAL} nats of the best (1 % of a standard deviation).",
-        at_best,
-        counted(polished.count(), "start")
-    ));
+            "Of {searched} searched to the end, {at_best} came within {EQUAL} nats of the best (1 % of a standard deviation)."
+        ));
     }
     if !design.dwells_s.is_empty() {
         let each: Vec<String> = design
