@@ -14,7 +14,7 @@ STARTS = 3
 
 sys.path.insert(0, str(PEERS / "pyomo"))
 spec = importlib.util.spec_from_file_location("doe_of_pyomo", PEERS / "pyomo" / "design.py")
-doe_of_pyomo = importlib.util.module_from_spec(spec)
+doe_of_pyomo = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(doe_of_pyomo)
 logging.getLogger("pyomo").setLevel(logging.ERROR)
 
@@ -23,15 +23,14 @@ with_calibrant = motion.with_calibrant
 
 
 def prepare():
-    """The experiment; and the peer's problem with its starts."""
+    """The peer's problem, and its starts."""
     problem = doe_of_pyomo.DesignProblem(doe_of_pyomo.casadi_design.reference_case("D1", 1, "A"))
     rng = np.random.default_rng(1)
-    return motion.prepare()[0], (problem, [problem.random_motion(rng)[:, 0] for _ in range(STARTS)])
+    return problem, [problem.random_motion(rng)[:, 0] for _ in range(STARTS)]
 
 
-def with_pyomo(_, starts):
-    problem, motions = starts
-    return [doe_of_pyomo.solve(problem, start)["value"] for start in motions]
+def with_pyomo(problem, starts):
+    return [doe_of_pyomo.solve(problem, start)["value"] for start in starts]
 
 
 def compare(ours, theirs):

@@ -6,18 +6,14 @@ import numpy as np
 
 JOB, PEER = "the best motion of one axis", "CasADi"
 STARTS = 20
-LIMITS = {"acceleration_mps2": 30.0, "jerk_mps3": 30.0}
-OFF = ("velocity_mps", "displacement_m", "rest", "start_acceleration_mps2", "end_acceleration_mps2")
 
 
 def prepare():
-    """The experiment: ten intervals of 1 s, 10 Hz; and the starts of the peer."""
-    sensor, motion = {"noise_mps2": 2e-4}, {"intervals": 10, "interval_s": 1.0, "rate_hz": 10.0, "known_ends": "start", "clock": None}
-    experiment = cb.Experiment.preset("stage", sensor=sensor, motion=motion, limits=LIMITS | dict.fromkeys(OFF))
-    return experiment, np.random.default_rng(1).uniform(-30, 30, (STARTS, 11))
+    """The starts of the peer: accelerations of the eleven nodes."""
+    return (np.random.default_rng(1).uniform(-30, 30, (STARTS, 11)),)
 
 
-def with_casadi(_, starts):
+def with_casadi(starts):
     """The best of IPOPT's solutions: its trace, its motion, and how many of the starts reach it."""
     t = np.arange(101) / 10
     weights = np.maximum(0, 1 - np.abs(t[:, None] - np.arange(11)))
@@ -32,8 +28,12 @@ def with_casadi(_, starts):
     return values.min(), np.array(found[values.argmin()]["x"]).ravel(), int((values < values.min() * (1 + 1e-6)).sum())
 
 
-def with_calibrant(experiment, _):
-    return cb.design(experiment)
+def with_calibrant(*_):
+    sensor = {"noise_mps2": 2e-4}
+    motion = {"intervals": 10, "interval_s": 1.0, "rate_hz": 10.0, "known_ends": "start", "clock": None}
+    limits = {"acceleration_mps2": 30.0, "jerk_mps3": 30.0}
+    none = ("velocity_mps", "displacement_m", "rest", "start_acceleration_mps2", "end_acceleration_mps2")
+    return cb.design(cb.Experiment.preset("stage", sensor=sensor, motion=motion, limits=limits | dict.fromkeys(none)))
 
 
 def compare(ours, theirs):
