@@ -1,9 +1,9 @@
 """Broken trajectories: does `calibrant design arm.toml --evaluate` flag each, and for the right reason?
 
 A trajectory is designed with limits that leave room. Bumps of one or several joints, found by a random search, then break one limit each by little and keep all others: position,
-velocity, acceleration, jerk, tip speed, sensor range, self-collision. Which limits a bump breaks is judged here: joint limits from the piecewise polynomials,
-the rest at 4000 times, from homogeneous matrices and their differences. Floor and box come nearer instead, until the good
-trajectory is too near to them. Other files are not at rest at the end, or are no trajectories.
+velocity, acceleration, jerk, tip speed, sensor range, floor, self-collision. Which limits a bump breaks is judged here: joint limits from the piecewise polynomials,
+the rest at 4000 times, from homogeneous matrices and their differences. A box grows instead, until the good
+trajectory is too near to it. Other files are not at rest at the end, or are no trajectories.
 
 A row of the table: what was done, the exit status, what evaluation.json says is broken (or the message), and whether this is the reason.
 
@@ -40,11 +40,11 @@ BOX = [0.45, 0.35, 0.2], [0.15, 0.15, 0.2]
 BEYOND = 0.004  # part of a limit by which it is broken at most; m for a distance, so that bodies still do not touch
 BUMPS = {  # joints, and width in knots (0: a constant, 1: two neighbours apart) of the bumps that may break a limit
     "position": ([5, 3, 0], 0), "velocity": ([5], 8), "acceleration": ([5], 3), "jerk": ([0, 5], 1), "tip speed": ([0, 1, 2], 6), "specific force": ([1, 2, 3, 4], 2),
-    "self": ([2, 3, 4], 6),
+    "floor": ([1, 2], 0), "self": ([2, 3, 4], 6),
 }
 REASONS = {  # kind of the limit in evaluation.json, and what `of` has
     "position": ("position", ""), "velocity": ("velocity", ""), "acceleration": ("acceleration", ""), "jerk": ("jerk", ""), "tip speed": ("speed", ""),
-    "specific force": ("specific force", ""), "self": ("distance", ""),
+    "specific force": ("specific force", ""), "floor": ("distance", "floor"), "self": ("distance", ""),
 }
 
 
@@ -304,31 +304,32 @@ def main():
     wrong += bool(broken)
 
     rng = np.random.default_rng(o.seed)
-    spare = {name: d.min() - CLEARANCE_M + BEYOND / 2 for name, d in arm.distances(curve(points)(np.linspace(0, STEP * (len(points) - 3), 20000))).items()}
-    for wanted in ("floor", "box"):
-        nearer = o.folder / f"{wanted}.toml"
-        text = toml.read_text()
-        if wanted == "floor":
-            text = key(text, "floor_m", spare["floor"])
-        else:
-            text = key(text, "boxes", f"[{{ center_m = {BOX[0]}, half_m = {[half + spare['box'] for half in BOX[1]]} }}]")
-        nearer.write_text(text)
-        broken, status, names, message = evaluate(o, nearer, o.folder / "good/trajectory.csv", wanted)
-        right = status != 0 and broken and all(k == "distance" and wanted in n for k, n in names)
-        wrong += not right
-        print(f"  {wanted + f' nearer by {1e3 * spare[wanted]:.0f} mm':32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
+    # the box grows until the good trajectory is too near to it
+    near = arm.distances(curve(points)(np.linspace(0, STEP * (len(points) - 3), 20000)))["box"].min() - CLEARANCE_M + BEYOND / 2
+    grown = o.folder / "box.toml"
+    grown.write_text(key(toml.read_text(), "boxes", f"[{{ center_m = {BOX[0]}, half_m = {[float(half + near) for half in BOX[1]]} }}]"))
+    broken, status, names, message = evaluate(o, grown, o.folder / "good/trajectory.csv", "box")
+    right = status != 0 and broken and all(k == "distance" and "box" in n for k, n in names)
+    wrong += not right
+    print(f"  {f'box larger by {1e3 * near:.0f} mm':32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
 
     for wanted, (kind, of) in REASONS.items():
+        of_force = judge.force
+        if wanted == "floor":  # gravity turns with the arm
+            judge.force *= 1.5
+        limits = toml.with_name(f"limits_{wanted.replace(' ', '_')}.toml")
+        limits.write_text(experiment(preset, 1, judge.force))
         changed, beyond = just_broken(judge, points, wanted, rng)
+        judge.force = of_force
         if changed is None:
             print(f"  {wanted}: no bump was found that breaks it alone")
             wrong += 1
             continue
         path = o.folder / f"{wanted.replace(' ', '_')}.csv"
         write(path, rows_of(changed, header))
-        broken, status, names, message = evaluate(o, toml, path, wanted)
+        broken, status, names, message = evaluate(o, limits, path, wanted)
         by = f"{1e3 * beyond:.1f} mm" if kind == "distance" else f"{100 * beyond:.2f} %"
-        right = status != 0 and broken and all(k == kind and of in n for k, n in names) and not re.search("floor|box", str(names))
+        right = status != 0 and broken and all(k == kind and of in n for k, n in names) and (wanted == "floor" or not re.search("floor|box", str(names)))
         wrong += not right
         print(f"  {wanted + ' by ' + by:32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
 
