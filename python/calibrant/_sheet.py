@@ -24,7 +24,8 @@ def with_sd(value: float, sd: float) -> str:
     decimals = max(0, 1 - math.floor(math.log10(sd)))
     if decimals > 12:
         return f"{value:.8g} ± {sd:.2g}"
-    return f"{value:.{decimals}f} ± {sd:.{decimals}f}"
+    # a zero has no sign
+    return f"{round(value, decimals) + 0.0:.{decimals}f} ± {sd:.{decimals}f}"
 
 
 def table_text(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> str:
