@@ -65,17 +65,20 @@ def residuals(calibration: Calibration, ax: Axes | None) -> Axes:
         used, scaled = of.weights > 0.0, of.residuals / of.sd
         colours = AXES if of.sensor == "accelerometer" else AXES_OF_GYROSCOPE
         colour, label = colours[of.axis or "z"], f"{of.sensor} {of.axis}"
-        marker, size = ".", 2.0
+        marker, size = "o", 1.0
         if of.kind != "sample":
             colour, label = (BLUE, "holds") if of.kind == "hold" else (VERMILLION, "rotations")
-            marker, size = ("o", 5.0) if of.kind == "hold" else ("^", 5.0)
-        ax.plot(of.t_s[used], scaled[used], marker, ms=size, color=colour, label=label)
+            marker, size = "o" if of.kind == "hold" else "^", 5.0
+        ax.plot(of.t_s[used], scaled[used], marker, ms=size, color=colour)
+        ax.plot([], [], marker, ms=max(size, 5.0), color=colour, label=label)
         if not used.all():
             ax.plot(of.t_s[~used], scaled[~used], "x", ms=5, color=colour, label=f"{label}, not used")
         farthest = max(farthest, 1.1 * float(np.nanmax(np.abs(scaled), initial=0.0)))
     for level in (-2.0, 0.0, 2.0):
         ax.axhline(level, color=GREY, linewidth=0.8, linestyle="--" if level else "-", zorder=1)
-    ax.set_ylim(-farthest, farthest)
+    # the legend has its place above the points
+    lines = -(-len(ax.get_legend_handles_labels()[1]) // 2)
+    ax.set_ylim(-farthest, (1.0 + 0.13 * lines) * farthest)
     ax.set_xlabel("time (s)")
     ax.set_ylabel("residual / its standard deviation")
     _legend(ax, columns=2)
@@ -113,7 +116,8 @@ def motion(design: Design, ax: Axes | None) -> Axes:
     ax = _axes(ax)
     if design.motion is not None:
         for k, axis in enumerate("xyz"[: design.motion.axes]):
-            ax.plot(design.motion.t_s, design.motion.acceleration_mps2[:, k], color=AXES[axis], label=axis)
+            # lines that coincide stay visible
+            ax.plot(design.motion.t_s, design.motion.acceleration_mps2[:, k], color=AXES[axis], lw=3.0 - k, label=axis)
         if design.motion.axes > 1:
             _legend(ax, columns=3)
     ax.set_xlabel("time (s)")
