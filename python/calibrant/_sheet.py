@@ -117,4 +117,4 @@ def calibration_html(calibration: Calibration) -> str:
     )
     found = "".join(f"<li>{escape(str(of))}</li>" for of in calibration.diagnostics if of.severity != "note")
     notes = f"<ul>{found}</ul>" if found else ""
-    return f"<div><table>{facts}</table>{table_html(_HEAD, _rows(calibration))}{notes}</div>"
+    return f"<div><table style='margin-bottom:1em'>{facts}</table>{table_html(_HEAD, _rows(calibration))}{notes}</div>"
