@@ -49,7 +49,8 @@ class Parameter:
     prior_share: float | None = None
 
     def __str__(self) -> str:
-        return f"{self.name} = {_sheet.with_sd(self.value, self.sd)} {self.unit}".rstrip()
+        unit = "" if self.unit in ("", "1") else f" {self.unit}"
+        return f"{self.name} = {_sheet.with_sd(self.value, self.sd)}{unit}"
 
 
 @dataclass(frozen=True)

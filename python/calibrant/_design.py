@@ -18,6 +18,7 @@ from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._motion import Joints, Motion, as_native_motion
 from ._progress import Progress, Told
+from ._sheet import page_html
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,9 +40,7 @@ class _Sheet:
         return self._summary
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        return f'<iframe srcdoc="{escape(self._html)}" style="width:100%;height:40em;border:0"></iframe>'
+        return page_html(self._html)
 
     def to_json(self) -> str:
         """The text of the JSON file of the command line."""

@@ -16,8 +16,13 @@ if TYPE_CHECKING:
     from ._design import Design, PoseDesign, TrajectoryDesign
     from ._noise import SensorNoise
 
-# those of the report
-COLOURS = {"x": "#c0392b", "y": "#1e8449", "z": "#1f618d"}
+# the report's: Okabe and Ito's, which differ for readers with all common kinds of colour vision
+BLACK, ORANGE, SKY, GREEN, BLUE, VERMILLION, PURPLE, GREY = (
+    "#000000 #e69f00 #56b4e9 #009e73 #0072b2 #d55e00 #cc79a7 #6e7781".split()
+)
+AXES = {"x": VERMILLION, "y": GREEN, "z": BLUE}
+AXES_OF_GYROSCOPE = {"x": ORANGE, "y": PURPLE, "z": SKY}
+LINES = (BLACK, ORANGE, BLUE, SKY, VERMILLION, GREEN, PURPLE, GREY)
 
 
 def _axes(ax: Axes | None, width: float = 7.0, height: float = 4.0) -> Axes:
@@ -32,51 +37,73 @@ def _axes(ax: Axes | None, width: float = 7.0, height: float = 4.0) -> Axes:
 
 def _clean(ax: Axes) -> Axes:
     ax.spines[["top", "right"]].set_visible(False)
-    ax.grid(True, color="#dddddd", linewidth=0.6)
+    ax.grid(True, color="#e3e7eb", linewidth=0.6)
     ax.set_axisbelow(True)
     return ax
 
 
+def _legend(ax: Axes, columns: int = 1) -> None:
+    """A legend that stays readable over what is drawn."""
+    ax.legend(loc="upper right", fontsize="small", ncols=columns, framealpha=0.9, edgecolor="none")
+
+
+def _by_line(ax: Axes, names: list[str]) -> Axes:
+    """A line for each name, from above."""
+    ax.set_yticks(range(len(names)), names, fontsize="small")
+    ax.set_ylim(len(names) - 0.4, -0.6)
+    return _clean(ax)
+
+
+def _height(lines: int) -> float:
+    return 1.0 + 0.2 * max(lines, 1)
+
+
 def residuals(calibration: Calibration, ax: Axes | None) -> Axes:
     """Residuals in their standard deviations over time."""
-    ax = _axes(ax)
+    ax, farthest = _axes(ax), 3.5
     for of in calibration.residuals():
-        used = of.weights > 0.0
-        marker = "." if of.kind == "sample" else "o"
-        label = of.sensor if of.axis is None else f"{of.sensor} {of.axis}"
-        colour = COLOURS.get(of.axis or "", "#333333" if of.sensor == "accelerometer" else "#b9770e")
-        scaled = of.residuals / of.sd
-        alpha = 0.5 if of.kind == "sample" else 1.0
-        ax.plot(of.t_s[used], scaled[used], marker, ms=3 if of.kind == "sample" else 5, color=colour, alpha=alpha, label=label)
+        used, scaled = of.weights > 0.0, of.residuals / of.sd
+        colours = AXES if of.sensor == "accelerometer" else AXES_OF_GYROSCOPE
+        colour, label = colours[of.axis or "z"], f"{of.sensor} {of.axis}"
+        marker, size = "o", 1.0
+        if of.kind != "sample":
+            colour, label = (BLUE, "holds") if of.kind == "hold" else (VERMILLION, "rotations")
+            marker, size = "o" if of.kind == "hold" else "^", 5.0
+        ax.plot(of.t_s[used], scaled[used], marker, ms=size, color=colour)
+        ax.plot([], [], marker, ms=max(size, 5.0), color=colour, label=label)
         if not used.all():
             ax.plot(of.t_s[~used], scaled[~used], "x", ms=5, color=colour, label=f"{label}, not used")
-    for level in (-2.0, 2.0):
-        ax.axhline(level, color="#888888", linewidth=0.8, linestyle="--")
-    ax.axhline(0.0, color="#888888", linewidth=0.8)
-    ax.set_xlabel("time, s")
+        farthest = max(farthest, 1.1 * float(np.nanmax(np.abs(scaled), initial=0.0)))
+    for level in (-2.0, 0.0, 2.0):
+        ax.axhline(level, color=GREY, linewidth=0.8, linestyle="--" if level else "-", zorder=1)
+    # the legend has its place above the points
+    lines = -(-len(ax.get_legend_handles_labels()[1]) // 2)
+    ax.set_ylim(-farthest, (1.0 + 0.13 * lines) * farthest)
+    ax.set_xlabel("time (s)")
     ax.set_ylabel("residual / its standard deviation")
-    ax.legend(loc="upper right", fontsize="small", frameon=False)
+    _legend(ax, columns=2)
     return _clean(ax)
 
 
 def parameters(calibration: Calibration, ax: Axes | None) -> Axes:
-    """Deviation of each parameter from its nominal value, with two standard deviations."""
-    known = [of for of in calibration.parameters if np.isfinite(of.sd)]
-    ax = _axes(ax, height=1.0 + 0.28 * max(len(known), 1))
-    places = np.arange(len(known))
-    ax.barh(places, [1e6 * of.sd for of in known], color="#1f618d", height=0.6)
-    ax.set_yticks(places, [f"{of.name}, {of.unit or '1'}" for of in known], fontsize="small")
-    ax.invert_yaxis()
+    """Standard deviation of each parameter, in its unit."""
+    known = [of for of in calibration.parameters if np.isfinite(of.sd) and of.sd > 0.0]
+    ax = _axes(ax, height=_height(len(known)))
+    units = list(dict.fromkeys(of.unit for of in known))
+    for unit, colour in zip(units, (BLUE, ORANGE, GREEN, PURPLE, SKY, GREY)):
+        places = [k for k, of in enumerate(known) if of.unit == unit]
+        ax.plot([known[k].sd for k in places], places, "o", ms=5, color=colour, label=unit or "1")
     ax.set_xscale("log")
-    ax.set_xlabel("standard deviation, 10⁻⁶ of the unit")
-    return _clean(ax)
+    ax.set_xlabel("standard deviation, in the unit of the parameter")
+    ax.legend(title="unit", fontsize="small", framealpha=0.9, edgecolor="none")
+    return _by_line(ax, [of.name for of in known])
 
 
 def correlation(calibration: Calibration, ax: Axes | None) -> Axes:
     """Correlation of the parameters."""
-    size = 2.0 + 0.28 * max(len(calibration), 1)
-    ax = _axes(ax, size + 1.0, size)
     names = list(calibration)
+    size = 2.0 + 0.19 * len(names)
+    ax = _axes(ax, size + 0.8, size)
     image = ax.imshow(calibration.correlation, cmap="RdBu_r", vmin=-1.0, vmax=1.0)
     ax.set_xticks(range(len(names)), names, rotation=90, fontsize="x-small")
     ax.set_yticks(range(len(names)), names, fontsize="x-small")
@@ -89,11 +116,12 @@ def motion(design: Design, ax: Axes | None) -> Axes:
     ax = _axes(ax)
     if design.motion is not None:
         for k, axis in enumerate("xyz"[: design.motion.axes]):
-            ax.plot(design.motion.t_s, design.motion.acceleration_mps2[:, k], color=COLOURS[axis], label=axis)
+            # lines that coincide stay visible
+            ax.plot(design.motion.t_s, design.motion.acceleration_mps2[:, k], color=AXES[axis], lw=3.0 - k, label=axis)
         if design.motion.axes > 1:
-            ax.legend(frameon=False)
-    ax.set_xlabel("time, s")
-    ax.set_ylabel("acceleration, m/s²")
+            _legend(ax, columns=3)
+    ax.set_xlabel("time (s)")
+    ax.set_ylabel("acceleration (m/s²)")
     return _clean(ax)
 
 
@@ -102,24 +130,26 @@ def poses(design: PoseDesign, ax: Axes | None) -> Axes:
     ax = _axes(ax)
     x, y, z = design.directions.T
     longitude, latitude = np.degrees(np.arctan2(y, x)), np.degrees(np.arcsin(np.clip(z, -1.0, 1.0)))
-    ax.plot(longitude, latitude, "o", color="#1f618d")
+    ax.plot(longitude, latitude, "o", color=BLUE)
     for number, place in enumerate(zip(longitude, latitude), 1):
-        ax.annotate(str(number), place, textcoords="offset points", xytext=(4, 4), fontsize="small")
-    ax.set_xlim(-180, 180)
-    ax.set_ylim(-95, 95)
-    ax.set_xlabel("longitude about z of the direction that is up, °")
-    ax.set_ylabel("latitude, °")
+        ax.annotate(str(number), place, textcoords="offset points", xytext=(5, 4), fontsize="small")
+    ax.set_xlim(-190, 190)
+    ax.set_ylim(-100, 100)
+    ax.set_xticks(range(-180, 181, 60))
+    ax.set_yticks(range(-90, 91, 30))
+    ax.set_xlabel("longitude of the direction that is up, about z from x (°)")
+    ax.set_ylabel("latitude, towards z (°)")
     return _clean(ax)
 
 
 def joints(design: TrajectoryDesign, ax: Axes | None) -> Axes:
     """Positions of the joints at the waypoints."""
-    ax = _axes(ax)
-    for name, positions in zip(design.joints.names, design.joints.positions.T):
-        ax.plot(design.joints.t_s, positions, label=name)
-    ax.set_xlabel("time, s")
-    ax.set_ylabel("position, rad or m")
-    ax.legend(fontsize="small", frameon=False)
+    ax = _axes(ax, width=8.5)
+    for k, (name, positions) in enumerate(zip(design.joints.names, design.joints.positions.T)):
+        ax.plot(design.joints.t_s, positions, color=LINES[k % len(LINES)], label=name)
+    ax.set_xlabel("time (s)")
+    ax.set_ylabel("position of the joint (rad or m)")
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="small", frameon=False)
     return _clean(ax)
 
 
@@ -127,23 +157,22 @@ def allan(noise: SensorNoise, ax: Axes | None) -> Axes:
     """Allan deviation with its confidence interval."""
     ax = _axes(ax)
     for k, axis in enumerate(noise.axes):
-        colour = COLOURS[axis]
-        ax.loglog(noise.tau_s, noise.allan_deviation[:, k], color=colour, label=axis)
-        ax.fill_between(noise.tau_s, noise.allan_low[:, k], noise.allan_high[:, k], color=colour, alpha=0.2, linewidth=0)
-    ax.set_xlabel("averaging time τ, s")
-    ax.set_ylabel(f"Allan deviation of the {noise.sensor}, {noise.unit}")
-    ax.legend(frameon=False)
+        ax.loglog(noise.tau_s, noise.allan_deviation[:, k], color=AXES[axis], label=axis)
+        ax.fill_between(
+            noise.tau_s, noise.allan_low[:, k], noise.allan_high[:, k], color=AXES[axis], alpha=0.2, linewidth=0
+        )
+    ax.set_xlabel("cluster time τ (s)")
+    ax.set_ylabel(f"Allan deviation of the {noise.sensor} ({noise.unit})")
+    _legend(ax, columns=3)
     return _clean(ax)
 
 
 def differences(comparison: Comparison, ax: Axes | None) -> Axes:
     """Differences in their standard deviations."""
     rows = [row for row in comparison.data["quantities"] if row.get("difference_in_sd") is not None]
-    ax = _axes(ax, height=1.0 + 0.28 * max(len(rows), 1))
-    places = np.arange(len(rows))
-    ax.axvspan(-2.0, 2.0, color="#eeeeee")
-    ax.plot([row["difference_in_sd"] for row in rows], places, "o", color="#1f618d")
-    ax.set_yticks(places, [row["name"] for row in rows], fontsize="small")
-    ax.invert_yaxis()
+    ax = _axes(ax, height=_height(len(rows)))
+    ax.axvspan(-2.0, 2.0, color="#eef0f2", label="±2 standard deviations")
+    ax.plot([row["difference_in_sd"] for row in rows], range(len(rows)), "o", ms=5, color=BLUE)
     ax.set_xlabel("difference / its standard deviation")
-    return _clean(ax)
+    _legend(ax)
+    return _by_line(ax, [row["name"] for row in rows])

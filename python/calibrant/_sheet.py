@@ -24,7 +24,8 @@ def with_sd(value: float, sd: float) -> str:
     decimals = max(0, 1 - math.floor(math.log10(sd)))
     if decimals > 12:
         return f"{value:.8g} ± {sd:.2g}"
-    return f"{value:.{decimals}f} ± {sd:.{decimals}f}"
+    # a zero has no sign
+    return f"{round(value, decimals) + 0.0:.{decimals}f} ± {sd:.{decimals}f}"
 
 
 def table_text(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> str:
@@ -44,12 +45,20 @@ def table_text(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1
 
 
 def table_html(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table as HTML."""
-    cells = "".join(f"<th>{escape(cell)}</th>" for cell in head)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
-    )
-    return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"
+    """A table as HTML; the first and the last column begin at the left."""
+
+    def line(kind: str, row: Sequence[str]) -> str:
+        sides = ["left", *["right"] * (len(row) - 2), "left"]
+        return "".join(f"<{kind} style='text-align:{side}'>{escape(cell)}</{kind}>" for side, cell in zip(sides, row))
+
+    body = "".join(f"<tr>{line('td', row)}</tr>" for row in rows)
+    return f"<table><thead><tr>{line('th', head)}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def page_html(page: str) -> str:
+    """A whole page within another: its styles stay its own."""
+    style = "width:100%;height:36em;border:1px solid #d8dee4;resize:vertical"
+    return f'<iframe srcdoc="{escape(page)}" style="{style}"></iframe>'
 
 
 _HEAD = ("parameter", "value", "sd", "unit")
@@ -108,4 +117,4 @@ def calibration_html(calibration: Calibration) -> str:
     )
     found = "".join(f"<li>{escape(str(of))}</li>" for of in calibration.diagnostics if of.severity != "note")
     notes = f"<ul>{found}</ul>" if found else ""
-    return f"<div><table>{facts}</table>{table_html(_HEAD, _rows(calibration))}{notes}</div>"
+    return f"<div><table style='margin-bottom:1em'>{facts}</table>{table_html(_HEAD, _rows(calibration))}{notes}</div>"

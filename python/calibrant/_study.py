@@ -12,6 +12,7 @@ from ._calibration import _write
 from ._diagnostic import Diagnostic, diagnostics
 from ._motion import as_native_motion
 from ._progress import Progress, Told
+from ._sheet import page_html
 
 
 class Study:
@@ -28,6 +29,9 @@ class Study:
 
     def __str__(self) -> str:
         return self._summary
+
+    def _repr_html_(self) -> str:
+        return page_html(self._html)
 
     def to_json(self) -> str:
         """The text of ``study.json``."""
