@@ -128,7 +128,8 @@ fn in_pool<T: Send>(
     drop(sender.send(Told::Done(outcome)));
 }
 
-fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+/// What a panic says.
+pub(crate) fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
     let words = panic.downcast_ref::<String>().map(String::as_str);
     words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic").to_owned()
 }

@@ -8,6 +8,9 @@ from .._exceptions import experiment_error
 
 Engine = Callable[[Callable[..., Any], Sequence[tuple[Any, ...]]], Iterator[Any]]
 
+# calls that wait at a time: a fleet of millions does not fit into a queue
+_MOST = 1000
+
 
 def engine_of(client: Any) -> Engine:
     """The engine of a client: the module `ray`, a client of Dask, or an executor of `concurrent.futures`."""
@@ -22,36 +25,35 @@ def engine_of(client: Any) -> Engine:
     )
 
 
-def _on_executor(
-    executor: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]], most: int = 1000
-) -> Iterator[Any]:
-    """At most so many calls wait at a time: a fleet of millions does not fit into a queue."""
-    waiting = list(reversed(calls))
-    running = {executor.submit(work, *waiting.pop()) for _ in range(min(most, len(waiting)))}
-    while running:
-        done = _first_done(running)
-        for future in done:
-            running.discard(future)
-            if waiting:
-                running.add(executor.submit(work, *waiting.pop()))
-            yield future.result()
-
-
-def _first_done(running: set[Any]) -> list[Any]:
+def _on_executor(executor: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]]) -> Iterator[Any]:
     from concurrent.futures import FIRST_COMPLETED, wait
 
-    return list(wait(running, return_when=FIRST_COMPLETED).done)
+    waiting = list(reversed(calls))
+    running = {executor.submit(work, *waiting.pop()) for _ in range(min(_MOST, len(waiting)))}
+    try:
+        while running:
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            running |= {executor.submit(work, *waiting.pop()) for _ in range(min(len(done), len(waiting)))}
+            yield from (future.result() for future in done)
+    finally:
+        # after an error or Ctrl-C
+        for future in running:
+            future.cancel()
 
 
-def _on_ray(ray: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]], most: int = 1000) -> Iterator[Any]:
+def _on_ray(ray: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]]) -> Iterator[Any]:
     if not ray.is_initialized():
         ray.init(log_to_driver=False)
     # a worker that is killed is replaced, and its chunk runs again
     remote = ray.remote(max_retries=-1, num_cpus=1)(work)
     waiting = list(reversed(calls))
-    running = [remote.remote(*waiting.pop()) for _ in range(min(most, len(waiting)))]
-    while running:
-        done, running = ray.wait(running, num_returns=1)
-        if waiting:
-            running.append(remote.remote(*waiting.pop()))
-        yield ray.get(done[0])
+    running = [remote.remote(*waiting.pop()) for _ in range(min(_MOST, len(waiting)))]
+    try:
+        while running:
+            done, running = ray.wait(running, num_returns=1)
+            if waiting:
+                running.append(remote.remote(*waiting.pop()))
+            yield ray.get(done[0])
+    finally:
+        for reference in running:
+            ray.cancel(reference)

@@ -1,0 +1,76 @@
+//! Reads a table of Parquet by rows: each is an object of its columns.
+
+use crate::files::guarded_parquet::{damaged, guarded};
+use crate::text::decoding::{Checked, open_file};
+use calibrant_core::error::{Error, Result};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::reader::RowIter;
+use parquet::record::Field;
+use parquet::schema::types::Type;
+use serde_json::{Map, Value};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The rows of a file of Parquet, one after the other.
+pub struct ParquetRows {
+    rows: RowIter<'static>,
+    path: PathBuf,
+}
+
+impl ParquetRows {
+    /// Opens a file. `columns`: those that are wanted, or all. One that the file has not is left out.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the file cannot be opened, or is no Parquet.
+    pub fn open(path: &Path, columns: Option<&[&str]>) -> Result<Self> {
+        let opened = open_file(path, "a data set").map_err(Error::Experiment)?;
+        let rows = guarded(|| {
+            let reader = SerializedFileReader::new(opened).map_err(|error| damaged(&error))?;
+            let wanted = columns.map(|columns| among(&reader, columns));
+            let rows = RowIter::from_file_into(Box::new(reader));
+            wanted.map_or(Ok(rows), |wanted| rows.project(Some(wanted?))).map_err(|error| damaged(&error).into())
+        });
+        let rows = rows.map_err(|error| Error::experiment(error.in_file(path)))?;
+        Ok(Self { rows, path: path.to_path_buf() })
+    }
+
+    /// The next rows, at most so many; none at the end. A number that is not finite is missing.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the file is damaged.
+    pub fn next_rows(&mut self, most: usize) -> Result<Vec<Value>> {
+        let rows = &mut self.rows;
+        let read = guarded(|| {
+            let objects = rows.take(most).map(|row| {
+                let columns = row.map_err(|error| damaged(&error))?.into_columns();
+                let columns = columns.iter().map(|(name, field)| (name.clone(), value(field)));
+                Ok(Value::Object(columns.collect::<Map<_, _>>()))
+            });
+            objects.collect::<Checked<Vec<_>>>()
+        });
+        read.map_err(|error| Error::experiment(error.in_file(&self.path)))
+    }
+}
+
+/// The schema of those columns that the file has.
+fn among<R: FileReader>(reader: &R, columns: &[&str]) -> parquet::errors::Result<Type> {
+    let schema = reader.metadata().file_metadata().schema();
+    let is_wanted = |field: &&Arc<Type>| columns.contains(&field.name());
+    let fields = schema.get_fields().iter().filter(is_wanted).cloned().collect();
+    Type::group_type_builder(schema.name()).with_fields(fields).build()
+}
+
+fn value(field: &Field) -> Value {
+    match field {
+        Field::Bool(of) => (*of).into(),
+        Field::Int(of) => (*of).into(),
+        Field::Long(of) => (*of).into(),
+        Field::UInt(of) => (*of).into(),
+        Field::ULong(of) => (*of).into(),
+        Field::Float(of) => f64::from(*of).into(),
+        Field::Double(of) => (*of).into(),
+        Field::Str(of) => of.as_str().into(),
+        Field::ListInternal(list) => list.elements().iter().map(value).collect(),
+        _ => Value::Null,
+    }
+}
