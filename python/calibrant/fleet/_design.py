@@ -24,8 +24,6 @@ from ._task import Item, failure, name_of, schema_of
 if TYPE_CHECKING:
     import pyarrow as pa
 
-_Opened = "Experiment | CalibrantError"
-
 
 @dataclass(frozen=True)
 class DesignTask:

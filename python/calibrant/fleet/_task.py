@@ -16,21 +16,19 @@ Item = Union[str, "tuple[str, Experiment]"]
 
 
 class Task(Protocol):
-    """What is done with each item of a chunk.
+    """What is done with each item of a chunk."""
 
-    Attributes
-    ----------
-    storage_options : dict
-        For paths that are URLs.
-    what : str
-        What the items are, for the progress.
-    most : int
-        Items of a chunk, where nobody says it: so few that a killed worker loses seconds, so many that the engine's own share is small.
-    """
+    @property
+    def storage_options(self) -> dict[str, Any]:
+        """For paths that are URLs."""
 
-    storage_options: dict[str, Any]
-    what: str
-    most: int
+    @property
+    def what(self) -> str:
+        """What the items are, for the progress."""
+
+    @property
+    def most(self) -> int:
+        """Items of a chunk, where nobody says it: so few that a killed worker loses seconds, so many that the engine's own share is small."""
 
     def schema(self) -> pa.Schema:
         """The columns of the data set."""
