@@ -45,12 +45,14 @@ pub use aging::{
 pub use database::{Inserted, KeptRecord, RecordFilter, Records};
 pub use dataset::DatasetRow;
 #[cfg(feature = "parquet")]
-pub use dataset::Imported;
+pub use dataset::{DataSet, Imported};
 pub use fleet::{Distribution, FarSensor, Fleet, FleetParameter, LeftOut};
 pub use json::RecordFile;
 pub use record::{KeptVerdict, Record};
 pub use sheet::{drift_sheet, fleet_sheet, history_sheet, record_sheet, records_sheet};
 
+#[cfg(all(test, feature = "parquet"))]
+mod dataset_tests;
 #[cfg(test)]
 mod fleet_tests;
 #[cfg(test)]

@@ -2,14 +2,14 @@
 
 use crate::console;
 use crate::exit::Exit;
-use calibrant::records::{Imported, Records};
+use calibrant::records::{DataSet, Imported, Records};
 use calibrant::report::number_format::counted;
 use std::path::PathBuf;
 
 /// Import the data set that calibrant.fleet.calibrate of the Python package wrote.
 ///
 /// A calibration of a recording, experiment, motion and version that the records have already takes the place of that one, so a data set that has grown is imported again.
-/// Rows without a calibration are left out. So are recordings with the same bytes under the names of several sensors: nobody knows of which they are.
+/// All rows are read before the first is added. Rows without a calibration are left out. So are recordings with the same bytes under the names of several sensors: nobody knows of which they are.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The records. They are made where there are none.
@@ -21,8 +21,10 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn run(&self) -> calibrant::Result<Exit> {
+        // before the records are made
+        let data_set = DataSet::read(&self.data_set)?;
         let Imported { new, replaced, without_calibration, copies } =
-            Records::open(&self.records)?.import(&self.data_set)?;
+            Records::open(&self.records)?.import(&data_set)?;
         let mut sentence = format!("{}, {replaced} replaced", counted(new, "new calibration"));
         if without_calibration > 0 {
             sentence += &format!(", {} without a calibration left out", counted(without_calibration, "row"));

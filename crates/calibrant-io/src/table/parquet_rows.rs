@@ -3,13 +3,11 @@
 use crate::files::guarded_parquet::{damaged, guarded};
 use crate::text::decoding::{Checked, open_file};
 use calibrant_core::error::{Error, Result};
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::SerializedFileReader;
 use parquet::record::reader::RowIter;
 use parquet::record::Field;
-use parquet::schema::types::Type;
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// The rows of a file of Parquet, one after the other.
 pub struct ParquetRows {
@@ -18,17 +16,15 @@ pub struct ParquetRows {
 }
 
 impl ParquetRows {
-    /// Opens a file. `columns`: those that are wanted, or all. One that the file has not is left out.
+    /// Opens a file.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the file cannot be opened, or is no Parquet.
-    pub fn open(path: &Path, columns: Option<&[&str]>) -> Result<Self> {
+    pub fn open(path: &Path) -> Result<Self> {
         let opened = open_file(path, "a data set").map_err(Error::Experiment)?;
         let rows = guarded(|| {
             let reader = SerializedFileReader::new(opened).map_err(|error| damaged(&error))?;
-            let wanted = columns.map(|columns| among(&reader, columns));
-            let rows = RowIter::from_file_into(Box::new(reader));
-            wanted.map_or(Ok(rows), |wanted| rows.project(Some(wanted?))).map_err(|error| damaged(&error).into())
+            Ok(RowIter::from_file_into(Box::new(reader)))
         });
         let rows = rows.map_err(|error| Error::experiment(error.in_file(path)))?;
         Ok(Self { rows, path: path.to_path_buf() })
@@ -50,14 +46,6 @@ impl ParquetRows {
         });
         read.map_err(|error| Error::experiment(error.in_file(&self.path)))
     }
-}
-
-/// The schema of those columns that the file has.
-fn among<R: FileReader>(reader: &R, columns: &[&str]) -> parquet::errors::Result<Type> {
-    let schema = reader.metadata().file_metadata().schema();
-    let is_wanted = |field: &&Arc<Type>| columns.contains(&field.name());
-    let fields = schema.get_fields().iter().filter(is_wanted).cloned().collect();
-    Type::group_type_builder(schema.name()).with_fields(fields).build()
 }
 
 fn value(field: &Field) -> Value {

@@ -66,8 +66,8 @@ pub struct DatasetRow {
     pub reference_c: Option<f64>,
     /// Least and greatest temperature of the recording, °C, where there are temperature terms.
     pub range_c: Option<[f64; 2]>,
-    /// Degrees of freedom behind the covariance: accelerometer, gyroscope at rest, matrix of the gyroscope.
-    pub covariance_degrees: Option<[f64; 3]>,
+    /// Degrees of freedom behind the covariance: accelerometer, gyroscope at rest, matrix of the gyroscope; `None` where they are infinite.
+    pub covariance_degrees: Option<[Option<f64>; 3]>,
 }
 
 /// What a row has of a `calibration.json` beside its record.
@@ -144,7 +144,7 @@ impl DatasetRow {
             model: model::text_of(&record.imu),
             reference_c: further.reference_c,
             range_c: further.range_c,
-            covariance_degrees: further.degrees,
+            covariance_degrees: further.degrees.map(|of| of.map(|of| Some(of).filter(|of| of.is_finite()))),
         }
     }
 
@@ -173,7 +173,7 @@ impl DatasetRow {
         let further = Further {
             reference_c: self.reference_c,
             range_c: self.range_c,
-            degrees: self.covariance_degrees,
+            degrees: self.covariance_degrees.map(|of| of.map(|of| of.unwrap_or(f64::INFINITY))),
             covariance: triangle.map(entry),
         };
         let estimates: Vec<f64> = places.iter().map(|place| self.values[*place]).collect();
