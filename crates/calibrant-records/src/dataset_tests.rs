@@ -54,7 +54,9 @@ fn write(path: &Path, rows: &[Value]) {
     let of_numbers = ["values", "sd", "covariance", "covariance_degrees", "range_c"];
     let fields = columns.keys().map(|name| match name.as_str() {
         "codes" | "names" | "units" => {
-            format!("optional group {name} (LIST) {{ repeated group list {{ optional binary element (UTF8); }} }}")
+            format!(
+                "optional group {name} (LIST) {{ repeated group list {{ optional binary element (UTF8); }} }}"
+            )
         }
         name if of_numbers.contains(&name) => {
             format!("optional group {name} (LIST) {{ repeated group list {{ optional double element; }} }}")
@@ -66,7 +68,8 @@ fn write(path: &Path, rows: &[Value]) {
     let schema = format!("message schema {{ {} }}", fields.collect::<Vec<_>>().join(" "));
     let schema = Arc::new(parse_message_type(&schema).expect("a schema"));
     let file = std::fs::File::create(path).expect("made");
-    let mut file = SerializedFileWriter::new(file, schema, Arc::new(WriterProperties::default())).expect("begun");
+    let mut file =
+        SerializedFileWriter::new(file, schema, Arc::new(WriterProperties::default())).expect("begun");
     let mut group = file.next_row_group().expect("begun");
     for name in columns.keys() {
         column(&mut group, &rows.iter().map(|row| row[name].clone()).collect::<Vec<_>>());
@@ -176,7 +179,11 @@ fn copies_under_several_names_are_left_out() {
 fn what_is_no_data_set_is_named() {
     let (_directory, folder) = folder();
     let refused = |path: &Path| DataSet::read(path).expect_err("refused").to_string();
-    assert!(refused(&folder).contains("set: there is no file of Parquet in this folder"), "{}", refused(&folder));
+    assert!(
+        refused(&folder).contains("set: there is no file of Parquet in this folder"),
+        "{}",
+        refused(&folder)
+    );
     assert!(refused(&folder.join("none")).contains("none: cannot read the data set"));
     let part = folder.join("part-1.parquet");
     let fails = |change: &dyn Fn(&mut Value), says: &str| {

@@ -76,12 +76,9 @@ impl Further {
             Some(_) => return None,
             None => None,
         };
-        imu.degrees_of_freedom =
-            self.degrees.map(|[accelerometer, gyroscope_at_rest, gyroscope_matrix]| CovarianceDegrees {
-                accelerometer,
-                gyroscope_at_rest,
-                gyroscope_matrix,
-            });
+        imu.degrees_of_freedom = self.degrees.map(|[accelerometer, gyroscope_at_rest, gyroscope_matrix]| {
+            CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix }
+        });
         Some(imu)
     }
 }

@@ -32,7 +32,10 @@ impl Arguments {
         console::print(&format!("{sentence}: {}\n", console::name(&self.records)));
         for files in copies {
             let files = files.join(", ");
-            console::print(&format!("left out, as they have the same bytes: {}\n", console::in_one_line(&files)));
+            console::print(&format!(
+                "left out, as they have the same bytes: {}\n",
+                console::in_one_line(&files)
+            ));
         }
         Ok(Exit::DONE)
     }

@@ -4,8 +4,8 @@ use crate::files::guarded_parquet::{damaged, guarded};
 use crate::text::decoding::{Checked, open_file};
 use calibrant_core::error::{Error, Result};
 use parquet::file::reader::SerializedFileReader;
-use parquet::record::reader::RowIter;
 use parquet::record::Field;
+use parquet::record::reader::RowIter;
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 

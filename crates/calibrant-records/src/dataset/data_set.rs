@@ -35,8 +35,7 @@ impl DataSet {
     /// # Errors
     /// [`Error::Experiment`] where there is none, and names the part and its row that cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
-        let mut found =
-            Self { parts: parts(path)?, without_calibration: 0, copies: BTreeMap::new() };
+        let mut found = Self { parts: parts(path)?, without_calibration: 0, copies: BTreeMap::new() };
         let mut first: HashMap<String, (String, String)> = HashMap::new();
         for part in found.parts.clone() {
             found.without_calibration += each_piece(&part, |rows| {
@@ -94,7 +93,8 @@ pub(super) fn each_piece(
                 without += 1;
                 continue;
             }
-            let read = serde_json::from_value::<InPart>(value).map_err(|error| unfit(error.to_string()).into());
+            let read =
+                serde_json::from_value::<InPart>(value).map_err(|error| unfit(error.to_string()).into());
             let record = read.and_then(|InPart { file, row }| Ok((file, row.into_record()?)));
             piece.push(record.map_err(|error| {
                 let message = format!("row {number}: {}", error.message);
