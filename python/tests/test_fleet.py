@@ -198,6 +198,24 @@ def test_designs_are_those_of_one_call(tmp_path: pathlib.Path) -> None:
         fleet.calibrate([], "static-poses", tmp_path / "named")
 
 
+def test_the_questions_of_the_guide_have_answers(
+    line: pathlib.Path, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("polars")
+    pytest.importorskip("duckdb")
+    import re
+
+    guide = (pathlib.Path(__file__).parents[2] / "docs/fleets.md").read_text(encoding="utf-8").split("## Ask it")[1]
+    programs = re.findall(r"```python\n(.*?)```", guide, flags=re.DOTALL)
+    assert len(programs) == 2
+    fleet.calibrate(f"{line}/*.csv", "static-poses", tmp_path / "results")
+    monkeypatch.chdir(tmp_path)
+    for program in programs:
+        exec(program, {})
+    shown = capsys.readouterr().out
+    assert "number-malformed" in shown and "accelerometer.scale.x" in shown
+
+
 def test_records_import_a_data_set(
     simulated: Callable[[str], pathlib.Path], cli: Callable[..., object], tmp_path: pathlib.Path
 ) -> None:

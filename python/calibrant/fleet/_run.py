@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from typing import TYPE_CHECKING, Any, Collection, Iterator, Literal, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Collection, Iterable, Iterator, Literal, Mapping, Sequence
 
 from .._arrays import Path
 from .._exceptions import experiment_error, of_json
@@ -94,8 +94,8 @@ def run(
     system.create_dir(path, recursive=True)
     schema = task.schema()
     known = _known(system, path, schema) if resume else {}
-    chunks = [items[at : at + size] for at in range(0, len(items), size)]
-    calls: list[_Call] = [(chunk, task, _of_chunk(known, chunk), place) for chunk in chunks]
+    chunks = (items[at : at + size] for at in range(0, len(items), size))
+    calls = ((chunk, task, _of_chunk(known, chunk), place) for chunk in chunks)
     counts = [0, 0, 0]
     with Told(progress) as told:
         for *found, error in _results(client, calls):
@@ -109,25 +109,25 @@ def run(
 
 
 
-def _results(client: Any, calls: list[_Call]) -> Iterator[_Counts]:
+def _results(client: Any, calls: Iterable[_Call]) -> Iterator[_Counts]:
     if client is None:
         # chunks one after the other, each on all cores
         return (work(*call, threads=None) for call in calls)
     return engine_of(client)(work, calls)
 
 
-def _known(system: Any, path: str, schema: pa.Schema) -> dict[str, set[str]]:
-    """The keys that the data set has, by the names of the items."""
+def _known(system: Any, path: str, schema: pa.Schema) -> dict[str, str]:
+    """The keys that the data set has, by the names of the items; with blanks between several."""
     import pyarrow.parquet as pq
 
-    known: dict[str, set[str]] = {}
+    known: dict[str, str] = {}
     for number, part in enumerate(parts(system, path)):
         if number == 0:
             _check(part, pq.read_schema(part, filesystem=system), schema)
         columns = pq.read_table(part, columns=["file", "key"], filesystem=system)
         for name, key in zip(columns["file"].to_pylist(), columns["key"].to_pylist()):
             if key is not None:
-                known.setdefault(name, set()).add(key)
+                known[name] = f"{known[name]} {key}" if name in known else key
     return known
 
 
@@ -137,9 +137,9 @@ def _check(part: str, found: pa.Schema, wanted: pa.Schema) -> None:
         raise experiment_error(f"{part} is of {kinds[0]}, not of {kinds[1]}", "give another `output`")
 
 
-def _of_chunk(known: Mapping[str, set[str]], chunk: Sequence[Item]) -> frozenset[tuple[str, str]]:
+def _of_chunk(known: Mapping[str, str], chunk: Sequence[Item]) -> frozenset[tuple[str, str]]:
     names = (name_of(item) for item in chunk)
-    return frozenset((name, key) for name in names for key in known.get(name, ()))
+    return frozenset((name, key) for name in names for key in known.get(name, "").split())
 
 
 def _size(per_task: int | Literal["auto"], count: int, client: Any, task: Task) -> int:
