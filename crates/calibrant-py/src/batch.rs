@@ -5,7 +5,7 @@ use crate::failure::{as_json, internal_error, raised};
 use crate::motion::Motion;
 use crate::options::{Calibrate, budget, parsed};
 use crate::source::Source;
-use crate::work::{How, Run, run, run_as, words_of};
+use crate::work::{How, Run, pool, run, run_as, words_of};
 use calibrant::batch::in_parallel;
 use calibrant::records::DatasetRow;
 use calibrant::session::{MotionSource, Readings, Session, SessionOptions, Source as GivenSource};
@@ -126,15 +126,22 @@ fn each(
     of: impl Fn(usize) -> Result<Value> + Sync,
 ) -> Result<Vec<Row>> {
     let done = AtomicU64::new(0);
-    let rows = in_parallel(count, |number| {
+    // the threads of `in_parallel` are of no pool, and the global one would hang a process after `fork`
+    let threads = (rayon::current_num_threads() / count.max(1)).max(1);
+    let alone = |number: usize| -> std::result::Result<Result<Value>, String> {
+        let pool = pool(threads).map_err(|error| error.to_string())?;
+        catch_unwind(AssertUnwindSafe(|| pool.install(|| of(number))))
+            .map_err(|panic| words_of(panic.as_ref()))
+    };
+    let row = |number: usize| -> Result<Row> {
         given.interruption.check()?;
-        let found = catch_unwind(AssertUnwindSafe(|| of(number)));
+        let found = alone(number);
         given.progress.tell(what, done.fetch_add(1, Ordering::Relaxed) + 1, count as u64);
         Ok(match found {
             Ok(Ok(row)) => (Some(row.to_string()), None),
             Ok(Err(error)) => (None, Some(as_json(&error).to_string())),
-            Err(panic) => (None, Some(internal_error(&words_of(panic.as_ref())).to_string())),
+            Err(panic) => (None, Some(internal_error(&panic).to_string())),
         })
-    });
-    rows.into_iter().collect()
+    };
+    in_parallel(count, row).into_iter().collect()
 }
