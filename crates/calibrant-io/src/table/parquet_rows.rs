@@ -4,9 +4,9 @@ use crate::files::guarded_parquet::{damaged, guarded};
 use crate::text::decoding::{Checked, open_file};
 use calibrant_core::error::{Error, Result};
 use parquet::file::reader::SerializedFileReader;
-use parquet::record::Field;
 use parquet::record::reader::RowIter;
-use serde_json::{Map, Value};
+use parquet::record::{Field, Row};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The rows of a file of Parquet, one after the other.
@@ -36,16 +36,14 @@ impl ParquetRows {
     /// [`Error::Experiment`] where the file is damaged.
     pub fn next_rows(&mut self, most: usize) -> Result<Vec<Value>> {
         let rows = &mut self.rows;
-        let read = guarded(|| {
-            let objects = rows.take(most).map(|row| {
-                let columns = row.map_err(|error| damaged(&error))?.into_columns();
-                let columns = columns.iter().map(|(name, field)| (name.clone(), value(field)));
-                Ok(Value::Object(columns.collect::<Map<_, _>>()))
-            });
-            objects.collect::<Checked<Vec<_>>>()
-        });
+        let read = guarded(|| rows.take(most).map(object).collect::<Checked<Vec<_>>>());
         read.map_err(|error| Error::experiment(error.in_file(&self.path)))
     }
+}
+
+fn object(row: parquet::errors::Result<Row>) -> Checked<Value> {
+    let columns = row.map_err(|error| damaged(&error))?.into_columns();
+    Ok(Value::Object(columns.into_iter().map(|(name, field)| (name, value(&field))).collect()))
 }
 
 fn value(field: &Field) -> Value {

@@ -1,10 +1,11 @@
 //! A data set that was read once: its parts, and the copies in it.
 
 use super::row::{DatasetRow, unfit};
-use crate::record::Record;
+use crate::record::{Record, together};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_io::ParquetRows;
+use calibrant_io::{Checked, ParquetRows};
 use serde::Deserialize;
+use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
@@ -40,7 +41,7 @@ impl DataSet {
         for part in found.parts.clone() {
             found.without_calibration += each_piece(&part, |rows| {
                 for (file, Record { sensor, recordings, .. }) in rows {
-                    let sha256 = crate::record::together(&recordings);
+                    let sha256 = together(&recordings);
                     let (other, its_file) =
                         first.entry(sha256.clone()).or_insert_with(|| (sensor.clone(), file.clone()));
                     if *other != sensor {
@@ -93,14 +94,17 @@ pub(super) fn each_piece(
                 without += 1;
                 continue;
             }
-            let read =
-                serde_json::from_value::<InPart>(value).map_err(|error| unfit(error.to_string()).into());
-            let record = read.and_then(|InPart { file, row }| Ok((file, row.into_record()?)));
-            piece.push(record.map_err(|error| {
-                let message = format!("row {number}: {}", error.message);
-                Error::experiment(InputError { message, ..*error }.in_file(part))
-            })?);
+            let record = record_of(value).map_err(|mut error| {
+                error.message = format!("row {number}: {}", error.message);
+                Error::experiment(error.in_file(part))
+            });
+            piece.push(record?);
         }
         take(piece)?;
     }
+}
+
+fn record_of(row: Value) -> Checked<(String, Record)> {
+    let InPart { file, row } = serde_json::from_value(row).map_err(|error| unfit(error.to_string()))?;
+    Ok((file, row.into_record()?))
 }
