@@ -68,8 +68,10 @@ class CalibrationTask:
             self.experiment._native, opened, self._options(), motion=as_native_motion(self.motion), threads=threads
         )
         rows = [as_row(row, error, self.experiment, self.covariance) for row, error in found]
-        for row, of in zip(rows, self._hashes(opened)):
-            row["recording_sha256"] = None if of is None else of[1]
+        for row, of in zip(rows, opened):
+            if row["code"] is not None:
+                (hashed,) = self._hashes([of])
+                row["recording_sha256"] = None if hashed is None else hashed[1]
         return rows
 
     def _hashes(self, opened: Sequence[Any]) -> list[tuple[str, str] | None]:
@@ -196,8 +198,7 @@ def as_row(row: str | None, error: str | None, experiment: Experiment, covarianc
     """The columns of a calibration, or of its error."""
     given: dict[str, Any] = json.loads(row) if row is not None else {"verdict": "none"}
     given.update(experiment_sha256=experiment.sha256, program=_native.program())
-    if error is not None:
-        given.update(failure(error))
+    given.update(failure(error))
     if not covariance:
         given["covariance"] = None
     return given

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
 
 from .._exceptions import CalibrantError, as_json, of_json
@@ -48,12 +47,12 @@ def name_of(item: Item) -> str:
     return item if isinstance(item, str) else item[0]
 
 
-def failure(error: str | CalibrantError) -> dict[str, Any]:
-    """The columns of an error, or of its JSON."""
-    if isinstance(error, CalibrantError):
-        error = as_json(error)
-    data = json.loads(error)
-    return {"code": data["code"], "error": str(of_json(error)), "error_json": error}
+def failure(error: str | CalibrantError | None) -> dict[str, Any]:
+    """The columns of an error, or of its JSON; they are empty where there is none."""
+    if error is None:
+        return {"code": None, "error": None, "error_json": None}
+    found = error if isinstance(error, CalibrantError) else of_json(error)
+    return {"code": found.code, "error": str(found), "error_json": as_json(found)}
 
 
 def schema_of(kind: str, columns: Sequence[tuple[str, Any]]) -> pa.Schema:
