@@ -3,6 +3,7 @@
 use super::tests::place;
 use super::*;
 use calibrant_core::error::Refusal;
+use parquet::column::writer::ColumnWriter;
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
@@ -46,23 +47,21 @@ fn without(file: &str) -> Value {
     row
 }
 
-/// Writes a part as pyarrow does: optional columns, and lists of optional elements. The types are those of the first row.
+/// Writes a part as pyarrow does: optional columns, and lists of optional elements.
 fn write(path: &Path, rows: &[Value]) {
+    let (texts, lists) =
+        (["codes", "names", "units"], ["values", "sd", "covariance", "covariance_degrees", "range_c"]);
+    let numbers = ["chi2", "degrees_of_freedom", "p_value", "rate_hz", "reference_c"];
     let columns = row("A", "a");
     let columns = columns.as_object().expect("an object");
-    let numbers = ["chi2", "degrees_of_freedom", "p_value", "rate_hz", "reference_c"];
-    let of_numbers = ["values", "sd", "covariance", "covariance_degrees", "range_c"];
+    let list = |name: &str, element: &str| {
+        format!("optional group {name} (LIST) {{ repeated group list {{ optional {element}; }} }}")
+    };
     let fields = columns.keys().map(|name| match name.as_str() {
-        "codes" | "names" | "units" => {
-            format!(
-                "optional group {name} (LIST) {{ repeated group list {{ optional binary element (UTF8); }} }}"
-            )
-        }
-        name if of_numbers.contains(&name) => {
-            format!("optional group {name} (LIST) {{ repeated group list {{ optional double element; }} }}")
-        }
-        "samples" => "optional int64 samples;".to_owned(),
+        name if texts.contains(&name) => list(name, "binary element (UTF8)"),
+        name if lists.contains(&name) => list(name, "double element"),
         name if numbers.contains(&name) => format!("optional double {name};"),
+        "samples" => "optional int64 samples;".to_owned(),
         name => format!("optional binary {name} (UTF8);"),
     });
     let schema = format!("message schema {{ {} }}", fields.collect::<Vec<_>>().join(" "));
@@ -72,50 +71,48 @@ fn write(path: &Path, rows: &[Value]) {
         SerializedFileWriter::new(file, schema, Arc::new(WriterProperties::default())).expect("begun");
     let mut group = file.next_row_group().expect("begun");
     for name in columns.keys() {
-        column(&mut group, &rows.iter().map(|row| row[name].clone()).collect::<Vec<_>>());
+        let entries: Vec<Value> = rows.iter().map(|row| row[name].clone()).collect();
+        column(&mut group, &entries, texts.contains(&name.as_str()) || lists.contains(&name.as_str()));
     }
     group.close().expect("written");
     file.close().expect("written");
 }
 
-/// The next column. A level says how much of an entry is there: of a list its elements, itself, or nothing.
-fn column(group: &mut SerializedRowGroupWriter<'_, std::fs::File>, entries: &[Value]) {
-    use parquet::column::writer::ColumnWriter;
-    let mut writer = group.next_column().expect("begun").expect("there");
-    let (mut there, mut repeated, mut values) = (Vec::new(), Vec::new(), Vec::new());
-    let is_list = entries.iter().any(Value::is_array)
-        || matches!(writer.untyped(), ColumnWriter::DoubleColumnWriter(of) if of.get_descriptor().max_def_level() == 3);
-    for entry in entries {
-        match entry {
-            Value::Array(elements) if elements.is_empty() => (there.push(1), repeated.push(0)).0,
-            Value::Array(elements) => {
-                for (k, element) in elements.iter().enumerate() {
-                    there.push(if element.is_null() { 2 } else { 3 });
-                    repeated.push(i16::from(k > 0));
-                    values.extend(Some(element.clone()).filter(|element| !element.is_null()));
-                }
-            }
-            Value::Null => (there.push(0), repeated.push(0)).0,
-            value => {
-                (there.push(1), repeated.push(0)).0;
-                values.push(value.clone());
-            }
-        }
+/// How much of an entry is there (of a list its elements, itself, or nothing), whether it goes on in the same row, and the value.
+fn levels(entry: &Value) -> Vec<(i16, i16, Option<Value>)> {
+    let of_element = |(k, element): (usize, &Value)| match element {
+        Value::Null => (2, i16::from(k > 0), None),
+        value => (3, i16::from(k > 0), Some(value.clone())),
+    };
+    match entry {
+        Value::Null => vec![(0, 0, None)],
+        Value::Array(elements) if elements.is_empty() => vec![(1, 0, None)],
+        Value::Array(elements) => elements.iter().enumerate().map(of_element).collect(),
+        value => vec![(1, 0, Some(value.clone()))],
     }
+}
+
+/// Writes the next column.
+fn column(group: &mut SerializedRowGroupWriter<'_, std::fs::File>, entries: &[Value], is_list: bool) {
+    let mut writer = group.next_column().expect("begun").expect("there");
+    let entries: Vec<_> = entries.iter().flat_map(levels).collect();
+    let there: Vec<i16> = entries.iter().map(|(there, ..)| *there).collect();
+    let repeated: Vec<i16> = entries.iter().map(|(_, repeated, _)| *repeated).collect();
     let repeated = is_list.then_some(repeated.as_slice());
-    let number = |value: &Value| value.as_f64().expect("a number");
+    let values = entries.into_iter().filter_map(|(.., value)| value);
     match writer.untyped() {
         ColumnWriter::DoubleColumnWriter(_) => {
-            let values: Vec<f64> = values.iter().map(number).collect();
+            let values: Vec<f64> = values.map(|value| value.as_f64().expect("a number")).collect();
             writer.typed::<DoubleType>().write_batch(&values, Some(&there), repeated)
         }
         ColumnWriter::Int64ColumnWriter(_) => {
-            let values: Vec<i64> = values.iter().map(|value| value.as_i64().expect("whole")).collect();
+            let values: Vec<i64> = values.map(|value| value.as_i64().expect("whole")).collect();
             writer.typed::<Int64Type>().write_batch(&values, Some(&there), repeated)
         }
         _ => {
-            let texts = values.iter().map(|value| ByteArray::from(value.as_str().expect("a text")));
-            writer.typed::<ByteArrayType>().write_batch(&texts.collect::<Vec<_>>(), Some(&there), repeated)
+            let values: Vec<_> =
+                values.map(|value| ByteArray::from(value.as_str().expect("a text"))).collect();
+            writer.typed::<ByteArrayType>().write_batch(&values, Some(&there), repeated)
         }
     }
     .expect("written");
