@@ -215,7 +215,7 @@ def design(
     >>> best.bound <= best.value
     True
     """
-    choice = _choice(known, criterion, gap, starts, seconds, seed, certificate, force)
+    choice = choice_of(known, criterion, gap, starts, seconds, seed, certificate, force)
     with Told(progress) as told:
         return Design(_native.design(as_experiment(experiment)._native, choice, threads=threads, progress=told))
 
@@ -239,7 +239,7 @@ def assess(
     `data` has the motion's criterion, covariance and use of limits, as in ``evaluation.json``; the rest is of the best motion.
     Parameters are those of :func:`design`; `motion` is a :class:`Motion`, a path or a frame.
     """
-    choice = _choice(known, criterion, None, starts, seconds, seed, certificate, force)
+    choice = choice_of(known, criterion, None, starts, seconds, seed, certificate, force)
     given = as_native_motion(motion)
     if given is None:
         raise experiment_error("there is no motion to assess", "give a Motion, a path or a frame")
@@ -280,7 +280,7 @@ def design_poses(
     >>> cb.design_poses("static-poses", 12, starts=4).directions.shape
     (12, 3)
     """
-    choice = _choice(known, criterion, None, starts, None, seed, True, force)
+    choice = choice_of(known, criterion, None, starts, None, seed, True, force)
     made = as_experiment(experiment)
     with Told(progress) as told:
         return PoseDesign(_native.design_poses(made._native, poses, choice, threads=threads, progress=told))
@@ -298,7 +298,7 @@ def assess_poses(experiment: Any, directions: npt.ArrayLike, *, seed: int | None
     seed : int
         Seed of the search.
     """
-    choice = _choice((), None, None, None, None, seed, True, False)
+    choice = choice_of((), None, None, None, None, seed, True, False)
     given = as_table("directions", directions).tobytes()
     found: dict[str, Any] = json.loads(_native.assess_poses(as_experiment(experiment)._native, given, choice))
     return found
@@ -318,13 +318,13 @@ def design_trajectory(
 
     `experiment` has ``[machine]``; the others are as in :func:`design`.
     """
-    choice = _choice((), criterion, None, starts, seconds, seed, True, False)
+    choice = choice_of((), criterion, None, starts, seconds, seed, True, False)
     made = as_experiment(experiment)
     with Told(progress) as told:
         return TrajectoryDesign(_native.design_trajectory(made._native, choice, threads=threads, progress=told))
 
 
-def _choice(
+def choice_of(
     known: Sequence[Calibration],
     criterion: str | None,
     gap: float | None,
@@ -334,6 +334,7 @@ def _choice(
     certificate: bool,
     force: bool,
 ) -> str:
+    """What is chosen beside the experiment, as the native part takes it."""
     given = [known] if isinstance(known, Calibration) else known
     return json.dumps(
         {

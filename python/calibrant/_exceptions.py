@@ -69,6 +69,7 @@ class CalibrantError(Exception):
     line: int | None = None
     column: int | None = None
     key: str | None = None
+    _json: str | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_again, (type(self), self.args, self.__dict__))
@@ -159,6 +160,7 @@ def of_json(text: str) -> CalibrantError:
         )
     )
     error = made(full)
+    error._json = text
     error.code, error.remedy = data["code"], remedy
     error.path, error.line, error.column, error.key = path, line, column, key
     error.answers = tuple(
@@ -173,6 +175,14 @@ def of_json(text: str) -> CalibrantError:
             for group in data.get("groups") or ()
         )
     return error
+
+
+def as_json(error: CalibrantError) -> str:
+    """The JSON from which :func:`of_json` makes the same exception."""
+    if error._json is not None:
+        return error._json
+    kinds = [kind for kind, of in _CLASSES.items() if isinstance(error, of)]
+    return json.dumps({"kind": kinds[0] if kinds else "other", "code": error.code, "message": str(error)})
 
 
 def place_in_words(path: str | None, line: int | None, column: int | None) -> str:

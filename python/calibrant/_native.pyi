@@ -203,7 +203,8 @@ class Records:
     def remove(self, ids: Any) -> None: ...
     def export(self, path: str) -> int: ...
 
-_Row = tuple[str | None, str | None, str | None, str | None]
+# a row of a data set, and an error, as JSON
+_Row = tuple[str | None, str | None]
 
 def calibrate_each(
     experiment: Experiment,
@@ -213,5 +214,16 @@ def calibrate_each(
     motion: Motion | None = None,
     threads: int | None = None,
     progress: _Progress = None,
-) -> Any: ...
-def keys(experiment: Experiment, sources: Any, options: str, *, motion: Motion | None = None) -> Any: ...
+) -> list[_Row]: ...
+def study_each(
+    experiment: Experiment,
+    sensors: list[tuple[str, int]],
+    options: str,
+    *,
+    motion: Motion | None = None,
+    threads: int | None = None,
+    progress: _Progress = None,
+) -> list[_Row]: ...
+def keys(
+    experiment: Experiment, sources: Any, options: str, *, motion: Motion | None = None
+) -> list[tuple[str, str] | None]: ...

@@ -4,6 +4,8 @@ mod add;
 mod drift;
 mod export;
 mod fleet;
+#[cfg(feature = "parquet")]
+mod import;
 mod list;
 mod remove;
 mod selection;
@@ -30,6 +32,8 @@ enum Command {
     Fleet(fleet::Arguments),
     Export(export::Arguments),
     Add(add::Arguments),
+    #[cfg(feature = "parquet")]
+    Import(import::Arguments),
     Remove(remove::Arguments),
 }
 
@@ -49,6 +53,8 @@ impl crate::run::Run for Arguments {
             Command::Fleet(arguments) => arguments.run(),
             Command::Export(arguments) => arguments.run(),
             Command::Add(arguments) => arguments.run(),
+            #[cfg(feature = "parquet")]
+            Command::Import(arguments) => arguments.run(),
             Command::Remove(arguments) => arguments.run(),
         }
     }

@@ -20,6 +20,7 @@
 //! | `noise.json` | | [`NoiseFile`] |
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`Truth`] |
 //! | residuals, exported records (CSV, Parquet) | | [`Table`] |
+//! | data set of a fleet (Parquet) | `ParquetRows` | |
 //! | `resume.json` of a batch | [`Finished::read`] | [`Finished::write`] |
 //! | `study.json`, `summary.csv` | | [`StudyFile`], [`write_summary`] |
 //!
@@ -112,6 +113,8 @@ pub use results::summary::{
 pub use results::sweep::write_sweep_csv;
 pub use results::trajectory_design::{TrajectoryEvaluationFile, TrajectoryFile};
 pub use results::trajectory_sweep::{TrajectorySweepFile, write_trajectory_sweep_csv};
+#[cfg(feature = "parquet")]
+pub use table::ParquetRows;
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};
 pub use text::decoding::{Checked, open_file, read_text};
 pub use trajectory::{

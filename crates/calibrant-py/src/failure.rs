@@ -12,9 +12,14 @@ pub(crate) fn raised(py: Python<'_>, error: &Error) -> PyErr {
 
 /// The exception where the library itself failed.
 pub(crate) fn internal(py: Python<'_>, message: &str) -> PyErr {
+    exception(py, &internal_error(message))
+}
+
+/// What an exception needs where the library itself failed.
+pub(crate) fn internal_error(message: &str) -> Value {
     let text = format!("calibrant failed inside: {message}");
     let remedy = "keep the input, and report it";
-    exception(py, &json!({ "kind": "internal", "code": "internal-error", "message": text, "remedy": remedy }))
+    json!({ "kind": "internal", "code": "internal-error", "message": text, "remedy": remedy })
 }
 
 /// The error about an argument.

@@ -8,6 +8,7 @@ use calibrant::error::Refusal;
 use calibrant::interruption::Interruption;
 use calibrant::progress::{Progress, Step};
 use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
@@ -120,15 +121,20 @@ fn in_pool<T: Send>(
     work: impl FnOnce() -> calibrant::Result<T> + Send,
 ) {
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
-        pool.map(|pool| pool.install(work)).map_err(|error| error.to_string())
+        pool(threads).map(|pool| pool.install(work)).map_err(|error| error.to_string())
     }));
     let outcome = outcome.unwrap_or_else(|panic| Err(words_of(panic.as_ref())));
     // nobody listens any more after an interruption
     drop(sender.send(Told::Done(outcome)));
 }
 
-fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+/// A pool of so many threads; 0: as many as there are cores.
+pub(crate) fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
+    ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build()
+}
+
+/// What a panic says.
+pub(crate) fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
     let words = panic.downcast_ref::<String>().map(String::as_str);
     words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic").to_owned()
 }

@@ -3,6 +3,8 @@
 //! [`Record`] is what a database keeps of a `calibration.json`: sensor, date, station, hashes of experiment and recordings, version of the program,
 //! verdict, parameters and their covariance. [`Records`] is the database.
 //!
+//! A fleet is calibrated into a Parquet data set, a [`DatasetRow`] for each recording. Records take it up.
+//!
 //! Two calibrations of one sensor are compared by [`Comparison`](calibrant_core::estimate::Comparison). Several show its [`Aging`]: a line over time through each quantity that
 //! does not depend on the true frame. A [`Distribution`] says how a quantity differs from sensor to sensor.
 //!
@@ -29,9 +31,11 @@
 
 mod aging;
 mod database;
+mod dataset;
 mod export;
 mod fleet;
 mod json;
+mod model;
 mod record;
 mod sheet;
 
@@ -39,11 +43,16 @@ pub use aging::{
     Aging, Dated, DatedCalibration, QuantityAging, SensorChange, SensorDrift, SensorHistory, aging_of,
 };
 pub use database::{Inserted, KeptRecord, RecordFilter, Records};
+pub use dataset::DatasetRow;
+#[cfg(feature = "parquet")]
+pub use dataset::{DataSet, Imported};
 pub use fleet::{Distribution, FarSensor, Fleet, FleetParameter, LeftOut};
 pub use json::RecordFile;
 pub use record::{KeptVerdict, Record};
 pub use sheet::{drift_sheet, fleet_sheet, history_sheet, record_sheet, records_sheet};
 
+#[cfg(all(test, feature = "parquet"))]
+mod dataset_tests;
 #[cfg(test)]
 mod fleet_tests;
 #[cfg(test)]

@@ -102,7 +102,12 @@ impl Record {
     /// The names of its recordings, with commas between them.
     #[must_use]
     pub fn recording(&self) -> String {
-        self.recordings.iter().map(|file| file.file.as_str()).collect::<Vec<_>>().join(", ")
+        self.names().join(", ")
+    }
+
+    /// The names of its recordings. None has a slash in it.
+    pub(crate) fn names(&self) -> Vec<&str> {
+        self.recordings.iter().map(|file| file.file.as_str()).collect()
     }
 }
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Iterator, Sequence
+from itertools import islice
+from typing import Any, Callable, Iterable, Iterator
 
 from .._exceptions import experiment_error
 
-Engine = Callable[[Callable[..., Any], Sequence[tuple[Any, ...]]], Iterator[Any]]
+Engine = Callable[[Callable[..., Any], Iterable["tuple[Any, ...]"]], Iterator[Any]]
+
+# calls that wait at a time: a fleet of millions does not fit into a queue
+_MOST = 1000
 
 
 def engine_of(client: Any) -> Engine:
@@ -22,36 +26,34 @@ def engine_of(client: Any) -> Engine:
     )
 
 
-def _on_executor(
-    executor: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]], most: int = 1000
-) -> Iterator[Any]:
-    """At most so many calls wait at a time: a fleet of millions does not fit into a queue."""
-    waiting = list(reversed(calls))
-    running = {executor.submit(work, *waiting.pop()) for _ in range(min(most, len(waiting)))}
-    while running:
-        done = _first_done(running)
-        for future in done:
-            running.discard(future)
-            if waiting:
-                running.add(executor.submit(work, *waiting.pop()))
-            yield future.result()
-
-
-def _first_done(running: set[Any]) -> list[Any]:
+def _on_executor(executor: Any, work: Callable[..., Any], calls: Iterable[tuple[Any, ...]]) -> Iterator[Any]:
     from concurrent.futures import FIRST_COMPLETED, wait
 
-    return list(wait(running, return_when=FIRST_COMPLETED).done)
+    waiting = iter(calls)
+    running = {executor.submit(work, *call) for call in islice(waiting, _MOST)}
+    try:
+        while running:
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            running |= {executor.submit(work, *call) for call in islice(waiting, len(done))}
+            yield from (future.result() for future in done)
+    finally:
+        # after an error or Ctrl-C
+        for future in running:
+            future.cancel()
 
 
-def _on_ray(ray: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]], most: int = 1000) -> Iterator[Any]:
+def _on_ray(ray: Any, work: Callable[..., Any], calls: Iterable[tuple[Any, ...]]) -> Iterator[Any]:
     if not ray.is_initialized():
         ray.init(log_to_driver=False)
     # a worker that is killed is replaced, and its chunk runs again
     remote = ray.remote(max_retries=-1, num_cpus=1)(work)
-    waiting = list(reversed(calls))
-    running = [remote.remote(*waiting.pop()) for _ in range(min(most, len(waiting)))]
-    while running:
-        done, running = ray.wait(running, num_returns=1)
-        if waiting:
-            running.append(remote.remote(*waiting.pop()))
-        yield ray.get(done[0])
+    waiting = iter(calls)
+    running = [remote.remote(*call) for call in islice(waiting, _MOST)]
+    try:
+        while running:
+            done, running = ray.wait(running, num_returns=1)
+            running += [remote.remote(*call) for call in islice(waiting, len(done))]
+            yield ray.get(done[0])
+    finally:
+        for reference in running:
+            ray.cancel(reference)

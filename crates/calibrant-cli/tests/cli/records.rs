@@ -252,6 +252,16 @@ fn what_is_no_record_is_refused() {
 }
 
 #[test]
+fn what_is_no_data_set_is_not_imported() {
+    let bench = Bench::new();
+    bench.write("set/part-1.parquet", "PAR1 and no more");
+    bench.write("empty/notes.txt", "no part");
+    bench.refuses("records import r.db none", 2, &["none: cannot read the data set"]);
+    bench.refuses("records import r.db empty", 2, &["empty: there is no file of Parquet in this folder"]);
+    bench.refuses("records import r.db set", 2, &["part-1.parquet: the Parquet file is damaged"]);
+}
+
+#[test]
 fn a_copy_under_the_name_of_another_sensor_is_refused_and_the_wrong_name_removed() {
     let bench = dated(&["2026-05-01"]);
     bench.run(&of_date("2026-05-01")).ends_with(5);

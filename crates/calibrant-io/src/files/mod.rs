@@ -2,6 +2,8 @@
 
 pub(crate) mod atomic_output;
 pub(crate) mod finished;
+#[cfg(feature = "parquet")]
+pub(crate) mod guarded_parquet;
 pub(crate) mod hashed_file;
 pub(crate) mod manifest;
 pub(crate) mod name_pattern;

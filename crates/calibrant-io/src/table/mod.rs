@@ -5,7 +5,11 @@ mod csv;
 mod format;
 #[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(feature = "parquet")]
+mod parquet_rows;
 mod write;
 
 pub use columns::{ColumnValues, Table, TableColumn};
 pub use format::TableFormat;
+#[cfg(feature = "parquet")]
+pub use parquet_rows::ParquetRows;

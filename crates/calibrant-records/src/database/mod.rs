@@ -1,8 +1,8 @@
 //! The database: its schema, what is written to it, and questions to it.
 
+mod blob;
 mod checksum;
 mod failure;
-mod model;
 mod query;
 mod records;
 mod repeated_recording;

@@ -1,9 +1,10 @@
 //! Questions to the records.
 
+use super::blob::numbers_of;
 use super::checksum::{COLUMNS, MODEL, PARAMETERS, VALUES, model_row, parameters};
 use super::failure::{damaged, failed};
-use super::model::{self, Further};
 use super::records::Records;
+use crate::model::{self, Further};
 use crate::record::{KeptVerdict, Record};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;
@@ -157,14 +158,20 @@ impl<'r> Reader<'r> {
             let whole = kept.is_some_and(|kept| kept == checksum);
             self.models.insert(number, model::read(&text).filter(|_| whole));
         }
+        // a blob that is cut has no numbers, which do not fit
+        let numbers = |place: usize| -> rusqlite::Result<Option<Vec<f64>>> {
+            let bytes: Option<Vec<u8>> = row.get(place)?;
+            Ok(bytes.map(|bytes| numbers_of(&bytes).unwrap_or_default()))
+        };
+        let Ok(degrees) = numbers(20)?.map(<[f64; 3]>::try_from).transpose() else { return Ok(None) };
         let further = Further {
             reference_c: row.get(17)?,
             range_c: row
                 .get::<_, Option<f64>>(18)?
                 .zip(row.get(19)?)
                 .map(|(least, greatest)| [least, greatest]),
-            degrees: row.get(20)?,
-            covariance: row.get(21)?,
+            degrees,
+            covariance: numbers(21)?,
         };
         let time = |text: String| UtcTime::parse(&text);
         let (recorded, inserted): (Option<String>, String) = (row.get(2)?, row.get(3)?);

@@ -1,9 +1,10 @@
 //! The database of records: opened, and written.
 
+use super::blob::bytes_of;
 use super::failure::{Failure, empty, failed, not_a_database, unknown};
-use super::model::{self, Further};
 use super::writable::check_writable;
 use super::{checksum, repeated_recording, schema};
+use crate::model::{self, Further};
 use crate::record::Record;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::CalibratedImu;
@@ -216,8 +217,6 @@ fn insert(
     // its parameters go with it
     transaction.prepare_cached("DELETE FROM calibrations WHERE id = ?")?.execute([earlier])?;
     let further = Further::of(&record.imu);
-    // no name of a file has a slash in it
-    let files: Vec<&str> = record.recordings.iter().map(|file| file.file.as_str()).collect();
     transaction
         .prepare_cached(
             "INSERT INTO calibrations (id, sensor, recorded, inserted, station, program, plan, experiment, experiment_sha256, motion, motion_sha256,
@@ -237,7 +236,7 @@ fn insert(
             experiment_sha256,
             record.motion_file.as_ref().map(|file| &file.file),
             motion_sha256,
-            files.join("/"),
+            record.names().join("/"),
             recording_sha256,
             record.verdict.usability.name(),
             record.verdict.codes.join(" "),
@@ -246,8 +245,8 @@ fn insert(
             further.reference_c,
             further.range_c.map(|[least, _]| least),
             further.range_c.map(|[_, greatest]| greatest),
-            further.degrees,
-            further.covariance,
+            further.degrees.map(bytes_of),
+            further.covariance.map(bytes_of),
         ])?;
     let id = transaction.last_insert_rowid();
     let mut parameter = transaction

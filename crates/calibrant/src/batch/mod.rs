@@ -44,6 +44,7 @@ mod run;
 pub use copies::Copies;
 pub use folders::{folder_names, own_name};
 pub use options::BatchOptions;
+pub use parallel::in_parallel;
 pub use result::{BatchResult, BatchResults, BatchRow};
 pub use run::Batch;
 

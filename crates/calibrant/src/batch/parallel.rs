@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 ///
 /// These are not threads of rayon. A thread of rayon that waits takes up other work, which could be a whole recording. The recordings would then
 /// pile up in memory.
-pub(super) fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+#[must_use]
+pub fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let work = || {
         let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|number| *number < count);

@@ -7,31 +7,23 @@ use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::parquet_pages::Pages;
 use super::unit::ColumnUnit;
+use crate::files::guarded_parquet::{damaged, guarded};
 use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::{Checked, refuse};
 use bytes::Bytes;
 use calibrant_core::budget::Budget;
-use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::error::Refusal;
 use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
-use parquet::errors::ParquetError;
 use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
-use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
-use std::sync::Once;
 
 /// Number of values that are read at once.
 const BATCH: usize = 1 << 16;
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
-
-thread_local! {
-    /// Does this thread read a file, so that a panic becomes an error?
-    static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
-}
 
 /// An opened file and the meaning of its columns.
 pub(super) struct Opened {
@@ -207,50 +199,5 @@ impl Column<'_> {
                 self.values.push(value);
             }
         }
-    }
-}
-
-fn damaged(error: &ParquetError) -> InputError {
-    InputError::new(
-        Refusal::FileDamaged,
-        format!("the Parquet file is damaged: {error}"),
-        "was it written to its end?",
-    )
-}
-
-/// A damaged file must not end the program, even where the crate that reads it panics; nor does the panic print anything.
-fn guarded<T>(read: impl FnOnce() -> Checked<T>) -> Checked<T> {
-    static HOOKED: Once = Once::new();
-    HOOKED.call_once(|| {
-        let others = take_hook();
-        set_hook(Box::new(move |panic| {
-            if !IS_GUARDED.get() {
-                others(panic)
-            }
-        }));
-    });
-    IS_GUARDED.set(true);
-    let read = catch_unwind(AssertUnwindSafe(read));
-    IS_GUARDED.set(false);
-    read.unwrap_or_else(|_| {
-        refuse(Refusal::FileDamaged, "the Parquet file is damaged", "was it written to its end?")
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    thread_local! {
-        static PRINTED: Cell<usize> = const { Cell::new(0) };
-    }
-
-    #[test]
-    fn a_panic_that_becomes_an_error_is_not_printed_and_others_are() {
-        set_hook(Box::new(|_| PRINTED.set(PRINTED.get() + 1)));
-        let error = guarded::<()>(|| panic!("the crate that reads")).expect_err("damaged");
-        assert_eq!((error.code, PRINTED.get()), (Refusal::FileDamaged, 0));
-        assert!(catch_unwind(|| panic!("another")).is_err());
-        assert_eq!(PRINTED.get(), 1);
     }
 }

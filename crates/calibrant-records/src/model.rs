@@ -1,4 +1,4 @@
-//! The model of a calibration: what calibrations of one kind of sensor share, so that a database has it once.
+//! The model of a calibration: what calibrations of one kind of sensor share, so that a database has it once. And what a calibration has beside it.
 //!
 //! It is calibrant JSON with zero in place of each estimate. Added to zero, the estimates come back to the last bit.
 
@@ -7,7 +7,7 @@ use calibrant_io::{ImuCore, to_json};
 use nalgebra::DMatrix;
 
 /// The text of the model of an IMU.
-pub(super) fn text_of(imu: &CalibratedImu) -> String {
+pub(crate) fn text_of(imu: &CalibratedImu) -> String {
     let mut model = CalibratedImu { covariance: None, degrees_of_freedom: None, ..imu.clone() };
     for quantity in &imu.quantities {
         quantity.add_to(&mut model.parameters, -quantity.value(&imu.parameters));
@@ -19,30 +19,32 @@ pub(super) fn text_of(imu: &CalibratedImu) -> String {
 }
 
 /// The IMU of a model's text; all its estimates are zero.
-pub(super) fn read(text: &str) -> Option<CalibratedImu> {
+pub(crate) fn read(text: &str) -> Option<CalibratedImu> {
     let core: ImuCore = serde_json::from_str(text).ok()?;
     Some(core.into_imu().ok()?.0)
 }
 
 /// What a calibration has beside its model and its estimates.
-pub(super) struct Further {
-    pub(super) reference_c: Option<f64>,
-    pub(super) range_c: Option<[f64; 2]>,
-    pub(super) degrees: Option<Vec<u8>>,
-    pub(super) covariance: Option<Vec<u8>>,
+pub(crate) struct Further {
+    pub(crate) reference_c: Option<f64>,
+    pub(crate) range_c: Option<[f64; 2]>,
+    /// Degrees of freedom behind the covariance: accelerometer, gyroscope at rest, matrix of the gyroscope.
+    pub(crate) degrees: Option<[f64; 3]>,
+    /// The lower triangle by rows.
+    pub(crate) covariance: Option<Vec<f64>>,
 }
 
 impl Further {
     /// Of an IMU.
-    pub(super) fn of(imu: &CalibratedImu) -> Self {
+    pub(crate) fn of(imu: &CalibratedImu) -> Self {
         let thermal = &imu.parameters.thermal;
         let triangle = |sigma: &DMatrix<f64>| {
             let entry = |i: usize| (0..=i).map(move |j| sigma[(i, j)]);
-            bytes_of((0..sigma.nrows()).flat_map(entry))
+            (0..sigma.nrows()).flat_map(entry).collect()
         };
         let degrees =
             |CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix }: CovarianceDegrees| {
-                bytes_of([accelerometer, gyroscope_at_rest, gyroscope_matrix])
+                [accelerometer, gyroscope_at_rest, gyroscope_matrix]
             };
         Self {
             reference_c: imu.follows_temperature().then_some(thermal.reference_c),
@@ -53,7 +55,7 @@ impl Further {
     }
 
     /// The IMU of a model with these estimates. `None` where the sizes do not fit.
-    pub(super) fn onto(self, model: &CalibratedImu, estimates: &[f64]) -> Option<CalibratedImu> {
+    pub(crate) fn onto(self, model: &CalibratedImu, estimates: &[f64]) -> Option<CalibratedImu> {
         let size = model.quantities.len();
         if estimates.len() != size {
             return None;
@@ -67,31 +69,16 @@ impl Further {
                 (reference_c, self.range_c);
         }
         imu.covariance = match self.covariance {
-            Some(bytes) => {
-                let triangle = numbers_of(&bytes).filter(|numbers| numbers.len() == size * (size + 1) / 2)?;
+            Some(triangle) if triangle.len() == size * (size + 1) / 2 => {
                 let at = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
                 Some(DMatrix::from_fn(size, size, at))
             }
+            Some(_) => return None,
             None => None,
         };
-        imu.degrees_of_freedom = match self.degrees.map(|bytes| numbers_of(&bytes)) {
-            Some(numbers) => match numbers?[..] {
-                [accelerometer, gyroscope_at_rest, gyroscope_matrix] => {
-                    Some(CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix })
-                }
-                _ => return None,
-            },
-            None => None,
-        };
+        imu.degrees_of_freedom = self.degrees.map(|[accelerometer, gyroscope_at_rest, gyroscope_matrix]| {
+            CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix }
+        });
         Some(imu)
     }
-}
-
-fn bytes_of(numbers: impl IntoIterator<Item = f64>) -> Vec<u8> {
-    numbers.into_iter().flat_map(f64::to_le_bytes).collect()
-}
-
-fn numbers_of(bytes: &[u8]) -> Option<Vec<f64>> {
-    let (numbers, rest) = bytes.as_chunks::<8>();
-    rest.is_empty().then(|| numbers.iter().copied().map(f64::from_le_bytes).collect())
 }
