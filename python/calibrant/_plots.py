@@ -13,8 +13,11 @@ if TYPE_CHECKING:
 
     from ._calibration import Calibration
     from ._compare import Comparison
-    from ._design import Design, PoseDesign, TrajectoryDesign
+    from ._design import Design
+    from ._motion import Joints
     from ._noise import SensorNoise
+    from ._pose_design import PoseDesign
+    from ._sweep import Sweep
 
 # those of the report
 COLOURS = {"x": "#c0392b", "y": "#1e8449", "z": "#1f618d"}
@@ -112,13 +115,24 @@ def poses(design: PoseDesign, ax: Axes | None) -> Axes:
     return _clean(ax)
 
 
-def joints(design: TrajectoryDesign, ax: Axes | None) -> Axes:
-    """Positions of the joints at the waypoints."""
+def joints(log: Joints, ax: Axes | None) -> Axes:
+    """Positions of joints over time."""
     ax = _axes(ax)
-    for name, positions in zip(design.joints.names, design.joints.positions.T):
-        ax.plot(design.joints.t_s, positions, label=name)
+    for name, positions in zip(log.names, log.positions.T):
+        ax.plot(log.t_s, positions, label=name)
     ax.set_xlabel("time, s")
     ax.set_ylabel("position, rad or m")
+    ax.legend(fontsize="small", frameon=False)
+    return _clean(ax)
+
+
+def sweep(swept: Sweep, ax: Axes | None) -> Axes:
+    """Standard deviation of each parameter over the quantity that was swept."""
+    ax = _axes(ax)
+    for name, sds in zip(swept.parameters, swept.sd.T):
+        ax.loglog(swept.values, sds, "o-", ms=4, label=name)
+    ax.set_xlabel(f"{swept.quantity}, {swept.unit}" if swept.unit else swept.quantity)
+    ax.set_ylabel("standard deviation, in the unit of each parameter")
     ax.legend(fontsize="small", frameon=False)
     return _clean(ax)
 
