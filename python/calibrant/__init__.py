@@ -8,18 +8,9 @@ from __future__ import annotations
 
 from . import fleet
 from ._calibrate import calibrate
-from ._calibration import Calibration, Parameter, ResidualSeries
+from ._calibration import Calibration, Converted, Parameter, ResidualSeries
 from ._compare import Comparison, compare
-from ._design import (
-    Design,
-    PoseDesign,
-    TrajectoryDesign,
-    assess,
-    assess_poses,
-    design,
-    design_poses,
-    design_trajectory,
-)
+from ._design import Design, assess, design
 from ._diagnostic import Diagnostic
 from ._exceptions import (
     Answer,
@@ -34,13 +25,24 @@ from ._exceptions import (
     UndeterminedGroup,
 )
 from ._experiment import Experiment, presets
+from ._explain import Explanation, codes, explain
+from ._inspect import inspect
 from ._motion import Joints, Motion, Poses
 from ._native import program as _program
 from ._noise import Noise, SensorNoise, noise
+from ._page import Page
+from ._pose_design import PoseDesign, assess_poses, design_poses
 from ._recording import Inspection, Recording, Samples, read_recording, recording
 from ._records import Records
 from ._simulate import Simulation, Truth, simulate
 from ._study import Study, study
+from ._sweep import Sweep, sweep
+from ._trajectory import (
+    TrajectoryAssessment,
+    TrajectoryDesign,
+    assess_trajectory,
+    design_trajectory,
+)
 
 __version__ = _program().split()[-1]
 
@@ -51,10 +53,12 @@ __all__ = [
     "Calibration",
     "CalibrationWarning",
     "Comparison",
+    "Converted",
     "Design",
     "Diagnostic",
     "Experiment",
     "ExperimentError",
+    "Explanation",
     "Infeasible",
     "Inspection",
     "Joints",
@@ -62,6 +66,7 @@ __all__ = [
     "Noise",
     "NotIdentifiable",
     "OutputError",
+    "Page",
     "Parameter",
     "PoseDesign",
     "Poses",
@@ -73,23 +78,30 @@ __all__ = [
     "SensorNoise",
     "Simulation",
     "Study",
+    "Sweep",
+    "TrajectoryAssessment",
     "TrajectoryDesign",
     "Truth",
     "UndeterminedGroup",
     "assess",
     "assess_poses",
+    "assess_trajectory",
     "calibrate",
+    "codes",
     "compare",
     "design",
     "design_poses",
     "design_trajectory",
+    "explain",
     "fleet",
+    "inspect",
     "noise",
     "presets",
     "read_recording",
     "recording",
     "simulate",
     "study",
+    "sweep",
 ]
 
 # tracebacks and pages name what users import

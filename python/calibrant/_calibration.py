@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, overload
+from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, Sequence, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ from ._arrays import Array, Path, as_list, as_table, numbers, table
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import BadCalibration, CalibrantError, experiment_error
 from ._frames import frame, is_frame, library_of
+from ._page import write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,6 +76,22 @@ class ResidualSeries:
     residuals: Array
     sd: Array
     weights: Array
+
+
+@dataclass(frozen=True)
+class Converted:
+    """Files that :meth:`Calibration.convert` wrote.
+
+    Attributes
+    ----------
+    paths : tuple of str
+        The files.
+    diagnostics : tuple of Diagnostic
+        What was changed, and what the format cannot hold.
+    """
+
+    paths: tuple[str, ...]
+    diagnostics: tuple[Diagnostic, ...]
 
 
 class Calibration:
@@ -242,7 +259,7 @@ class Calibration:
             Where the calibration was loaded: a report needs the recording.
         """
         html = self._found("a report").html()
-        _write(path, html)
+        write(path, html)
         return self
 
     def text(self, width: int = 100) -> str:
@@ -413,7 +430,7 @@ class Calibration:
 
     def save(self, path: Path) -> None:
         """Write ``calibration.json``."""
-        _write(path, self._text)
+        write(path, self._text)
 
     @classmethod
     def load(
@@ -438,7 +455,7 @@ class Calibration:
             The sensor, for files of one sensor that do not name it.
         """
         options = {"format": format, "unit": unit, "sensor": sensor}
-        text, _ = _native.read_calibration(os.fspath(path), json.dumps(options))
+        text, findings = _native.read_calibration(os.fspath(path), json.dumps(options))
         try:
             with open(path, encoding="utf-8") as file:
                 own = file.read()
@@ -447,7 +464,9 @@ class Calibration:
                 text = own
         except (OSError, ValueError):
             pass
-        return cls(text)
+        found = cls(text)
+        found._notes = diagnostics(json.loads(findings))
+        return found
 
     def convert(
         self,
@@ -455,10 +474,50 @@ class Calibration:
         format: Literal["calibrant", "kalibr", "imu_tk", "imucal", "c"] | None = None,
         *,
         gauge: Literal["lower", "upper", "symmetric"] | None = None,
-    ) -> list[str]:
-        """Write it in the format of another program; returns the paths. ``None``: as the ending of the path says."""
-        paths, _ = _native.convert_calibration(self._text, os.fspath(path), format, gauge)
-        return [os.fspath(written) for written in paths]
+        sensor: Literal["accelerometer", "gyroscope"] | None = None,
+        noise: Sequence[Path] = (),
+        drop_g_sensitivity: bool = False,
+        temperature_c: float | None = None,
+    ) -> Converted:
+        """Write it in the format of another program.
+
+        Parameters
+        ----------
+        path : path
+            Where to write it. imu_tk has a file for each sensor: ``NAME.calib`` stands for ``NAME_acc.calib`` and ``NAME_gyro.calib``.
+        format : str, optional
+            The format; as the ending of the path says by default.
+        gauge : str, optional
+            Turn the true frame of both sensors into this gauge of the accelerometer.
+        sensor : str, optional
+            Write one sensor alone.
+        noise : list of paths
+            Noise densities: files ``noise.json``, or ``imu.yaml`` of Kalibr.
+        drop_g_sensitivity : bool
+            Leave out the gyroscope's g-sensitivity. This changes the correction.
+        temperature_c : float, optional
+            Evaluate biases and gains at this temperature, °C, and leave out the terms of temperature.
+
+        Returns
+        -------
+        Converted
+            The paths of the files, and what the format cannot hold.
+
+        Raises
+        ------
+        ExperimentError
+            Where the format cannot hold the correction.
+        """
+        changes = {
+            "format": format,
+            "gauge": gauge,
+            "sensor": sensor,
+            "noise": [os.fspath(of) for of in noise],
+            "drop_g_sensitivity": drop_g_sensitivity,
+            "temperature_c": temperature_c,
+        }
+        paths, notes = _native.convert_calibration(self._text, os.fspath(path), json.dumps(changes))
+        return Converted(tuple(os.fspath(written) for written in paths), diagnostics(json.loads(notes)))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Calibration) and self._text == other._text
@@ -472,17 +531,3 @@ class Calibration:
 
 def _number(value: float | None) -> float:
     return float("nan") if value is None else float(value)
-
-
-def _write(path: Path, text: str) -> None:
-    from ._exceptions import OutputError
-
-    try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-    except OSError as error:
-        failed = OutputError(f"cannot write {os.fspath(path)}: {error.strerror or error}")
-        failed.code, failed.remedy, failed.path = "output-unwritable", "choose another place", os.fspath(path)
-        raise failed from error
-
-

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _native
 from ._calibration import Calibration, _number
-from ._diagnostic import Diagnostic, diagnostics
 from ._frames import frame, library_of
-from ._sheet import page_html
+from ._page import Page
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class Comparison:
+class Comparison(Page):
     """Two calibrations of a sensor, b less a, by quantities that do not depend on the true frame.
 
     Attributes
@@ -34,15 +32,13 @@ class Comparison:
         All of it, as ``calibrant compare --json`` writes it.
     """
 
-    def __init__(self, found: tuple[str, str, str], like: Any = None) -> None:
-        self._json, self._summary, self._html = found
-        self.data: dict[str, Any] = json.loads(self._json)
+    def __init__(self, page: _native.Page, like: Any = None) -> None:
+        super().__init__(page)
         self._like = like
         overall = self.data.get("overall") or {}
         self.chi2 = _number(overall.get("chi2"))
         self.degrees_of_freedom = int(overall.get("degrees_of_freedom") or 0)
         self.p_value = _number(overall.get("p_value"))
-        self.diagnostics: tuple[Diagnostic, ...] = diagnostics(self.data.get("notes") or ())
 
     def to_frame(self, like: Any = None) -> Any:
         """The quantities as a frame: name, unit, a, a_sd, b, b_sd, difference, difference_sd, difference_in_sd, p_value."""
@@ -51,20 +47,6 @@ class Comparison:
         columns: dict[str, Any] = {name: [row[name] for row in rows] for name in ("name", "unit")}
         columns.update({name: np.array([_number(row.get(name)) for row in rows]) for name in numbers})
         return frame(columns, self._like if like is None else library_of(like))
-
-    def summary(self) -> str:
-        """The sheet that the command line prints."""
-        return self._summary
-
-    def __str__(self) -> str:
-        return self._summary
-
-    def _repr_html_(self) -> str:
-        return page_html(self._html)
-
-    def to_json(self) -> str:
-        """The text that ``calibrant compare --json`` writes."""
-        return self._json
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw each difference in its standard deviations; returns the axes."""
@@ -91,4 +73,4 @@ def compare(a: Calibration, b: Calibration, *, names: tuple[str, str] = ("a", "b
     ExperimentError
         Where they have no sensor in common.
     """
-    return Comparison(_native.compare((a.to_json(), names[0]), (b.to_json(), names[1]), 100), a._like)
+    return Comparison(_native.compare((a.to_json(), names[0]), (b.to_json(), names[1])), a._like)

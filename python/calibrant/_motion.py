@@ -115,7 +115,9 @@ class Joints:
     positions : dict of (n,) arrays
         Position of each joint by its name, rad or m.
     velocities : dict of (n,) arrays, optional
-        Measured velocity of each joint, rad/s or m/s.
+        Velocity of each joint, rad/s or m/s.
+    knot_step_s : float, optional
+        Distance of the knots of the cubic splines on which the machine moved, s, where it is known.
     """
 
     def __init__(
@@ -123,15 +125,19 @@ class Joints:
         t_s: npt.ArrayLike,
         positions: Mapping[str, npt.ArrayLike],
         velocities: Mapping[str, npt.ArrayLike] | None = None,
+        *,
+        knot_step_s: float | None = None,
     ) -> None:
         self.t_s: Array = as_list("t_s", t_s)
         self.names = tuple(positions)
         self.positions: Array = _side_by_side(self.names, positions)
         self.velocities: Array | None = None if velocities is None else _side_by_side(self.names, velocities)
+        self.knot_step_s = knot_step_s
 
     def _as_native(self) -> _native.Motion:
         velocities = None if self.velocities is None else self.velocities.tobytes()
-        return _native.Motion.joints(list(self.names), self.t_s.tobytes(), self.positions.tobytes(), velocities)
+        times, positions = self.t_s.tobytes(), self.positions.tobytes()
+        return _native.Motion.joints(list(self.names), times, positions, velocities, self.knot_step_s)
 
     def __repr__(self) -> str:
         return f"Joints({', '.join(self.names)}: {len(self.t_s)} times)"
@@ -151,11 +157,14 @@ def as_native_motion(motion: Any) -> _native.Motion | None:
         return None
     if isinstance(motion, Motion):
         return motion._native
-    if isinstance(motion, (Poses, Joints)):
-        return motion._as_native()
+    if hasattr(motion, "_as_native"):
+        made: _native.Motion = motion._as_native()
+        return made
     if is_frame(motion):
         return _of_frame(dict(columns_of(motion)))
-    return _native.Motion.file(os.fspath(motion))
+    if isinstance(motion, (str, os.PathLike)):
+        return _native.Motion.file(os.fspath(motion))
+    raise experiment_error(f"{type(motion).__name__} is no motion", "give a Motion, Poses, Joints, a frame or a path")
 
 
 def _of_frame(columns: dict[str, Array]) -> _native.Motion:

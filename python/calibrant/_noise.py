@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
 from . import _native
-from ._arrays import Array, Path
-from ._calibration import _number, _write
+from ._arrays import Array, Path, as_list
+from ._calibration import _number
 from ._exceptions import experiment_error
 from ._frames import frame, library_of
+from ._page import Page, write
 from ._recording import as_source
-from ._sheet import page_html
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,23 +57,21 @@ class SensorNoise:
         return f"SensorNoise({self.sensor}, N {self.white})"
 
 
-class Noise:
+class Noise(Page):
     """The noise of the sensors of a recording at rest.
 
     Attributes
     ----------
     sensors : tuple of SensorNoise
         Each sensor whose noise was determined.
-    findings : list of str
+    diagnostics : tuple of Diagnostic
         What was noticed.
     data : dict
         All of it, as in ``noise.json``.
     """
 
-    def __init__(self, found: tuple[str, str, str, str]) -> None:
-        self._json, notes, self._summary, self._html = found
-        self.data: dict[str, Any] = json.loads(self._json)
-        self.findings: list[str] = json.loads(notes)
+    def __init__(self, page: _native.Page) -> None:
+        super().__init__(page)
         listed = self.data.get("sensors") or []
         self.sensors = tuple(SensorNoise(of) for of in listed)
 
@@ -129,27 +127,9 @@ class Noise:
                     columns[name].append(value)
         return frame(columns, None if like is None else library_of(like))
 
-    def summary(self) -> str:
-        """The sheet that the command line prints."""
-        return self._summary
-
-    def __str__(self) -> str:
-        return self._summary
-
-    def _repr_html_(self) -> str:
-        return page_html(self._html)
-
-    def to_json(self) -> str:
-        """The text of ``noise.json``."""
-        return self._json
-
     def save(self, path: Path) -> None:
         """Write ``noise.json``."""
-        _write(path, self._json)
-
-    def report(self, path: Path) -> None:
-        """Write the report as one HTML file."""
-        _write(path, self._html)
+        write(path, self._json)
 
     def plot(self, ax: Axes | None = None, sensor: str | None = None) -> Axes:
         """Draw the Allan deviation of a sensor, of the first by default; returns the axes."""
@@ -166,6 +146,8 @@ def noise(
     *,
     sensor: str | None = None,
     hold_s: tuple[float, float] | None = None,
+    gain: float | Sequence[float] | None = None,
+    gyroscope_gain: float | Sequence[float] | None = None,
     threads: int | None = None,
 ) -> Noise:
     """Estimate the noise of a sensor at rest: Allan deviation, noise density, bias instability, random walk.
@@ -178,6 +160,10 @@ def noise(
         One sensor; all that were recorded by default.
     hold_s : (float, float), optional
         Start and end of the interval at rest, s; the longest hold by default.
+    gain : float or (3,) array, optional
+        Nominal gain of the accelerometer, or of `sensor`: counts per m/s² or rad/s. The noise of counts is then stated in SI, too.
+    gyroscope_gain : float or (3,) array, optional
+        Nominal gain of the gyroscope, beside that of the accelerometer.
     threads : int, optional
         Number of threads; all cores by default.
 
@@ -189,7 +175,24 @@ def noise(
     if sensor not in (None, "accelerometer", "gyroscope"):
         raise experiment_error(f"`sensor` is {sensor!r}", "give 'accelerometer' or 'gyroscope'")
     source, reading, _ = as_source(recording)
-    return Noise(_native.noise(source, json.dumps(reading), sensor=sensor, hold_s=hold_s, threads=threads))
+    return Noise(
+        _native.noise(
+            source,
+            json.dumps(reading),
+            sensor=sensor,
+            hold_s=hold_s,
+            gain=_gain("gain", gain),
+            gyroscope_gain=_gain("gyroscope_gain", gyroscope_gain),
+            threads=threads,
+        )
+    )
+
+
+def _gain(name: str, given: float | Sequence[float] | None) -> list[float] | None:
+    if given is None:
+        return None
+    gain: list[float] = as_list(name, np.atleast_1d(given)).tolist()
+    return gain
 
 
 def _side_by_side(tables: list[Any], name: str) -> Array:

@@ -13,8 +13,11 @@ if TYPE_CHECKING:
 
     from ._calibration import Calibration
     from ._compare import Comparison
-    from ._design import Design, PoseDesign, TrajectoryDesign
+    from ._design import Design
+    from ._motion import Joints
     from ._noise import SensorNoise
+    from ._pose_design import PoseDesign
+    from ._sweep import Sweep
 
 # the report's: Okabe and Ito's, which differ for readers with all common kinds of colour vision
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILLION, PURPLE, GREY = (
@@ -142,13 +145,25 @@ def poses(design: PoseDesign, ax: Axes | None) -> Axes:
     return _clean(ax)
 
 
-def joints(design: TrajectoryDesign, ax: Axes | None) -> Axes:
-    """Positions of the joints at the waypoints."""
+def joints(log: Joints, ax: Axes | None) -> Axes:
+    """Positions of joints over time."""
     ax = _axes(ax, width=8.5)
-    for k, (name, positions) in enumerate(zip(design.joints.names, design.joints.positions.T)):
-        ax.plot(design.joints.t_s, positions, color=LINES[k % len(LINES)], label=name)
+    for k, (name, positions) in enumerate(zip(log.names, log.positions.T)):
+        ax.plot(log.t_s, positions, color=LINES[k % len(LINES)], label=name)
     ax.set_xlabel("time (s)")
     ax.set_ylabel("position of the joint (rad or m)")
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="small", frameon=False)
+    return _clean(ax)
+
+
+def sweep(swept: Sweep, ax: Axes | None) -> Axes:
+    """Standard deviation of each parameter over the quantity that was swept."""
+    ax = _axes(ax, width=8.5)
+    for k, (name, sds) in enumerate(zip(swept.parameters, swept.sd.T)):
+        style = ("o-", "s--", "^:", "D-.")[k // len(LINES) % 4]
+        ax.loglog(swept.values, sds, style, ms=4, color=LINES[k % len(LINES)], label=name)
+    ax.set_xlabel(f"{swept.quantity} ({swept.unit})" if swept.unit else swept.quantity)
+    ax.set_ylabel("standard deviation, in the unit of each parameter")
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="small", frameon=False)
     return _clean(ax)
 

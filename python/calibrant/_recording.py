@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
 from typing import Any, Literal, Mapping, Sequence, Union
 
 import numpy as np
@@ -15,7 +14,7 @@ from ._arrays import Array, Path, as_list, as_table, numbers, table
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import experiment_error
 from ._frames import columns_of, frame, is_frame, library_of
-from ._sheet import page_html
+from ._page import Page
 
 Columns = Mapping[str, Union[str, Sequence[str]]]
 
@@ -44,24 +43,16 @@ class Samples:
         return f"Samples({len(self.t_s)} in {self.unit})"
 
 
-@dataclass(frozen=True)
-class Inspection:
+class Inspection(Page):
     """What a recording contains, and what to expect of a calibration from it.
 
     Attributes
     ----------
+    diagnostics : tuple of Diagnostic
+        What was noticed in the file, the samples and the holds.
     data : dict
         As ``calibrant inspect --json`` writes it.
-    text, html : str
-        The sheet.
-    findings : tuple of Diagnostic
-        What was noticed in the file, the samples and the holds.
     """
-
-    data: dict[str, Any]
-    text: str
-    html: str
-    findings: tuple[Diagnostic, ...]
 
     @property
     def holds(self) -> list[dict[str, Any]]:
@@ -83,12 +74,6 @@ class Inspection:
         """The direction that is farthest from all holds, a unit vector in the sensor's axes."""
         found = (self.data.get("holds") or {}).get("emptiest_direction")
         return None if found is None else np.array(found)
-
-    def __str__(self) -> str:
-        return self.text
-
-    def _repr_html_(self) -> str:
-        return page_html(self.html)
 
 
 class Recording:
@@ -141,11 +126,9 @@ class Recording:
         found = self._read.temperature_c()
         return None if found is None else numbers(found)
 
-    def inspect(self, width: int = 100) -> Inspection:
+    def inspect(self) -> Inspection:
         """What it contains: columns, sampling, ranges, holds, coverage, and what to expect of a calibration."""
-        text, sheet, html = self._read.inspect(width)
-        data = json.loads(text)
-        return Inspection(data, sheet, html, diagnostics(data.get("findings") or ()))
+        return Inspection(self._read.inspect())
 
     def between(self, start_s: float, end_s: float) -> Recording:
         """The samples from `start_s` to `end_s`, s."""
@@ -367,7 +350,7 @@ def _reading(**options: Any) -> dict[str, Any]:
 def _read_recording(source: Any, gyroscope: Any, name: str | None, reading: dict[str, Any]) -> Recording:
     if isinstance(source, Recording):
         return source
-    like = library_of(source) if not _is_path_or_bytes(source) and is_frame(source) else None
+    like = library_of(source) if not is_path_or_bytes(source) and is_frame(source) else None
     parts = [_part(source)] + ([] if gyroscope is None else [_part(gyroscope)])
     return _rebuilt(("parts", name, parts), reading, like)
 
@@ -389,7 +372,8 @@ def as_source(
     return _native.Source(readings[0], readings[1] if len(readings) > 1 else None, added, place), reading, name
 
 
-def _is_path_or_bytes(source: Any) -> bool:
+def is_path_or_bytes(source: Any) -> bool:
+    """Is it a path, or the bytes of a file?"""
     return isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview))
 
 

@@ -71,9 +71,17 @@ class Records:
         """Remove calibrations."""
         self._native.remove(list(numbers))
 
-    def export(self, path: Path) -> int:
-        """Write them as CSV or Parquet, as the ending says; returns the number of rows."""
-        return self._native.export(os.fspath(path))
+    def export(
+        self,
+        path: Path,
+        *,
+        sensor: str | None = None,
+        station: str | None = None,
+        verdict: Literal["ok", "doubtful", "bad"] | None = None,
+        latest: bool = False,
+    ) -> int:
+        """Write them, or those that :meth:`list` would give, as CSV or Parquet, as the ending says; returns the number of rows."""
+        return self._native.export(os.fspath(path), sensor, station, verdict, latest)
 
     def to_frame(self, like: Any = None) -> Any:
         """A row for each calibration with its parameters, as a frame."""

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from . import _native
 from ._arrays import Path, as_table, numbers, table
 from ._calibrate import as_experiment
+from ._diagnostic import Diagnostic, diagnostics
 from ._motion import Joints, Motion, Poses, as_native_motion
 from ._recording import Recording, Samples, recording as recording_of
 
@@ -50,12 +51,16 @@ class Simulation:
         The log of the machine, of a ``[machine]`` experiment.
     seed : int
         The seed of the sensor.
+    diagnostics : tuple of Diagnostic
+        What was noticed.
     """
 
     def __init__(self, made: _native.Simulation) -> None:
         self._made = made
         self.truth = Truth(json.loads(made.truth()))
-        self.seed: int = json.loads(made.about())["seed"]
+        about = json.loads(made.about())
+        self.seed: int = about["seed"]
+        self.diagnostics: tuple[Diagnostic, ...] = diagnostics(about["notes"])
         nodes, log = made.motion(), made.log()
         self.motion = None if nodes is None else Motion(numbers(nodes[0]), table(nodes[1]))
         self.log: Poses | Joints | None = None
@@ -65,7 +70,8 @@ class Simulation:
                 positions, velocities = (
                     None if of is None else dict(zip(names, table(of, len(names)).T)) for of in (first, second)
                 )
-                self.log = Joints(numbers(times), positions or {}, velocities)
+                step_s = about["knot_step_s"]
+                self.log = Joints(numbers(times), positions or {}, velocities, knot_step_s=step_s)
             else:
                 assert second is not None
                 self.log = Poses(numbers(times), table(first), table(second, 4))
@@ -109,8 +115,8 @@ def simulate(
     ----------
     experiment : Experiment, path or str
         The experiment, its file, or the name of a preset.
-    motion : Motion, Poses, Joints, path or frame, optional
-        The commanded motion, or the log of a machine; a random one by default.
+    motion : Motion, Poses, Joints, TrajectoryDesign, path or frame, optional
+        The commanded motion, the log of a machine, or a trajectory that it follows; a random one by default.
     poses : (n, 3) array, optional
         The direction that is up in each hold of an accelerometer that is held by hand.
     seed : int, optional

@@ -2,44 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from . import _native
-from ._arrays import Path
 from ._calibrate import as_experiment
-from ._calibration import _write
-from ._diagnostic import Diagnostic, diagnostics
 from ._motion import as_native_motion
+from ._page import Page
 from ._progress import Progress, Told
-from ._sheet import page_html
 
 
-class Study:
-    """What a study found. ``data`` has all of it, as in ``study.json``."""
-
-    def __init__(self, found: tuple[str, str, str, str]) -> None:
-        self._json, notes, self._summary, self._html = found
-        self.data: dict[str, Any] = json.loads(self._json)
-        self.diagnostics: tuple[Diagnostic, ...] = diagnostics(json.loads(notes))
-
-    def summary(self) -> str:
-        """The sheet that the command line prints."""
-        return self._summary
-
-    def __str__(self) -> str:
-        return self._summary
-
-    def _repr_html_(self) -> str:
-        return page_html(self._html)
-
-    def to_json(self) -> str:
-        """The text of ``study.json``."""
-        return self._json
-
-    def report(self, path: Path) -> None:
-        """Write the report as one HTML file."""
-        _write(path, self._html)
+class Study(Page):
+    """What a study found. `data` has all of it, as in ``study.json``; of a machine under ``rehearsal``."""
 
 
 def study(
@@ -53,14 +26,17 @@ def study(
     threads: int | None = None,
     progress: Progress = False,
 ) -> Study:
-    """Simulate many sensors of a ``[motion]`` experiment, and compare estimates with the truth. Ctrl-C gives those that are finished.
+    """Simulate many sensors, and compare estimates with the truth. Ctrl-C gives those that are finished.
+
+    Of a ``[motion]`` experiment each sensor is calibrated on a random motion, then on the best one. With joints in ``[machine]`` it rehearses the
+    machine: the best trajectory is designed, and each sensor is calibrated on a plain routine and on that trajectory.
 
     Parameters
     ----------
     experiment : Experiment, path or str
         The experiment.
     motion : Motion, path or frame, optional
-        The initial motion of every sensor; a random one for each by default.
+        The initial motion of every sensor; a random one for each by default. A rehearsal takes none.
     sensors, starts, seed : int, optional
         Number of sensors, starts of each design, seed; those of the experiment by default.
     force : bool

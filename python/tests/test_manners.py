@@ -8,10 +8,11 @@ import pickle
 import signal
 import threading
 import time
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import pytest
+from hostile import hostile
 
 import calibrant as cb
 
@@ -99,18 +100,66 @@ def test_other_threads_run_meanwhile() -> None:
     assert ticks > 20
 
 
-def test_ctrl_c_gives_the_best_so_far() -> None:
+def interrupted(call: Callable[[], Any], after_s: float = 1.0) -> tuple[Any, float]:
+    """What a call gives, or None after KeyboardInterrupt, where Ctrl-C comes in its midst; and how long it took to end, s."""
     asked: list[float] = []
 
     def ask() -> None:
         asked.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
 
-    timer = threading.Timer(1.0, ask)
+    timer = threading.Timer(after_s, ask)
     timer.start()
-    best = cb.design("stage", starts=100_000, force=True)
-    assert best.interrupted and best.motion is not None
-    assert time.monotonic() - asked[0] < 1.5, "0.5 s and a slow machine"
+    found = None
+    try:
+        found = call()
+    except KeyboardInterrupt:
+        pass
+    ended = time.monotonic()
+    assert asked, "it ended before Ctrl-C came"
+    return found, ended - asked[0]
+
+
+# 0.5 s, and a machine that has other work
+SOON_S = 1.5
+
+
+def test_ctrl_c_gives_the_best_motion_so_far() -> None:
+    best, took_s = interrupted(lambda: cb.design("stage", starts=100_000, force=True))
+    assert best.interrupted and best.motion is not None and took_s < SOON_S
+
+
+def test_ctrl_c_gives_the_best_poses_so_far() -> None:
+    best, took_s = interrupted(lambda: cb.design_poses("static-poses", 30, starts=100_000, force=True))
+    assert best.data["status"] == "interrupted" and len(best.directions) == 30 and took_s < SOON_S
+
+
+def test_ctrl_c_gives_the_best_trajectory_so_far() -> None:
+    best, took_s = interrupted(lambda: cb.design_trajectory("rate-table", starts=100_000), 4.0)
+    assert best is None or best.interrupted and len(best.joints.t_s) > 2
+    assert took_s < SOON_S
+
+
+def test_ctrl_c_gives_the_values_that_are_finished() -> None:
+    durations = np.linspace(5.0, 10.0, 900)
+    swept, took_s = interrupted(lambda: cb.sweep("stage", "duration", durations, force=True), 2.0)
+    assert swept is None or 0 < len(swept.values) < 900
+    assert took_s < SOON_S
+
+
+def test_ctrl_c_gives_the_sensors_that_are_finished() -> None:
+    found, took_s = interrupted(lambda: cb.study("report", sensors=1_000_000, force=True), 2.0)
+    assert found is None or found.data["kind"] == "study"
+    assert took_s < SOON_S
+
+
+def test_ctrl_c_ends_noise_and_a_calibration_on_a_machine() -> None:
+    long = cb.recording(None, np.random.default_rng(1).normal(size=(3_000_000, 3)) + [0.0, 0.0, 9.81], rate_hz=1000.0)
+    found, took_s = interrupted(lambda: [cb.noise(long) for _ in range(100)], 0.5)
+    assert found is None and took_s < SOON_S
+    made = cb.simulate("gantry")
+    found, took_s = interrupted(lambda: [cb.calibrate(made.recording, "gantry", log=made.log) for _ in range(100)], 0.5)
+    assert found is None and took_s < SOON_S
 
 
 def test_progress_is_told_and_may_stop_the_work() -> None:
@@ -134,7 +183,7 @@ def test_other_processes_give_the_same(method: str) -> None:
     if method not in multiprocessing.get_all_start_methods():
         pytest.skip(f"there is no {method}")
     expected = cb.calibrate(cb.simulate("static-poses").recording, "static-poses").values
-    context = multiprocessing.get_context(method)
+    context: Any = multiprocessing.get_context(method)
     queue = context.Queue()
     process = context.Process(target=_values, args=(queue,))
     process.start()
@@ -156,25 +205,8 @@ def test_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
     assert captured.out == "" and captured.err == ""
 
 
-def test_hostile_arrays_are_refused_or_calibrated() -> None:
-    rng = np.random.default_rng(0)
-    classes: dict[str, int] = {}
-    for _ in range(200):
-        count = int(rng.choice([0, 1, 2, 3, 50, 2000]))
-        shape = rng.choice([0, 1, 2, 3])
-        t: Any = np.arange(count) / 100
-        force: Any = np.tile([0.0, 0.0, 9.81], (count, 1)) + rng.normal(size=(count, 3)) * rng.choice([0, 1e-3, 1e300])
-        if shape == 1 and count:
-            force[rng.integers(count)] = rng.choice([np.nan, np.inf, -np.inf, 1e308])
-        if shape == 2:
-            t = t[::-1] if rng.random() < 0.5 else t[: count // 2]
-        if shape == 3:
-            force = force[:, :2] if rng.random() < 0.5 else force.astype(object)
-        try:
-            cb.calibrate(cb.recording(t, force), gravity_mps2=float(rng.choice([9.81, np.nan, -1.0, 0.0])))
-            name = "calibrated"
-        except cb.CalibrantError as error:
-            assert error.code != "internal-error", error
-            name = type(error).__name__
-        classes[name] = classes.get(name, 0) + 1
-    assert sum(classes.values()) == 200
+def test_hostile_input_is_refused_or_used() -> None:
+    """A short part of hostile.py."""
+    classes, failed = hostile(120, 40, seed=7)
+    assert not failed, "\n".join(failed)
+    assert sum(classes.values()) == 160 and classes["array: accepted"] and classes["array: RecordingError"]

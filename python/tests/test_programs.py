@@ -103,11 +103,7 @@ PREPARED = {
 }
 
 
-# the reader of a pair of files without names of sensors does not look at `columns.time`, on the command line either
-PAIR = pytest.mark.xfail(raises=cb.RecordingError, reason="a pair of files does not heed columns.time", strict=True)
-
-
-@pytest.mark.parametrize("program", [pytest.param(name, marks=PAIR if name == "p04_phone" else ()) for name in sorted(PREPARED)])
+@pytest.mark.parametrize("program", sorted(PREPARED))
 def test_a_program_runs(
     program: str,
     simulated: Folder,

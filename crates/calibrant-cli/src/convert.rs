@@ -2,18 +2,12 @@
 
 use crate::calibration_file::{Format, Reading, in_words};
 use crate::console;
-use crate::diagnostics::{tell, tell_all};
+use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use calibrant::Error;
-use calibrant::diagnostic::correction::{GSensitivityOmitted, TemperatureFixed};
-use calibrant::diagnostic::samples::CalibrationExtrapolated;
-use calibrant::diagnostic::settings::SettingUnused;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{
-    ImuFormat, ImuNoise, ResultPlaces, imu_tk_files, read_kalibr_noise, read_measured_noise,
-    write_calibrated_imu,
-};
-use calibrant::sensor::{CalibratedImu, Gauge, SensorKind};
+use calibrant::io::{ImuFormat, ResultPlaces, imu_tk_files, write_calibrated_imu};
+use calibrant::sensor::Gauge;
+use calibrant::{Conversion, Error};
 use std::path::{Path, PathBuf};
 
 /// Convert a calibration between formats: calibrant JSON, Kalibr, imu_tk, imucal, C header.
@@ -100,33 +94,15 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let mut file = arguments.reading.read(&arguments.input)?;
     let read =
         format!("{} ({}): {}\n", console::name(&arguments.input), file.format.title(), in_words(&file.imu));
-    if let Some(noise) = densities(&arguments.noise, &file.imu)? {
-        file.noise = Some(noise);
-    }
-    if arguments.drop_g_sensitivity {
-        let largest = file.imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
-        if largest > 0.0 {
-            let unit = file.imu.gyroscope_unit.map_or("", |unit| unit.symbol());
-            tell(GSensitivityOmitted { error: 9.80665 * largest, unit });
-        }
-        file.imu = file.imu.without_g_sensitivity();
-    }
-    if let Some(sensor_kind) = arguments.reading.sensor_kind() {
-        file.imu = only(&file.imu, sensor_kind, &arguments.input)?;
-    }
-    if let Some(temperature_c) = arguments.temperature {
-        if file.imu.follows_temperature() {
-            tell(TemperatureFixed { temperature_c });
-            let thermal = &file.imu.parameters.thermal;
-            CalibrationExtrapolated::of(thermal, [temperature_c; 2]).into_iter().for_each(tell);
-            file.imu = file.imu.at(temperature_c)?;
-        } else {
-            tell(SettingUnused::of(&["--temperature"], "this calibration has no temperature terms"));
-        }
-    }
-    if let Some(gauge) = arguments.gauge {
-        file.imu = file.imu.in_gauge(gauge.into())?;
-    }
+    let conversion = Conversion {
+        path: Some(arguments.input.clone()),
+        noise: arguments.noise.clone(),
+        drop_g_sensitivity: arguments.drop_g_sensitivity,
+        sensor: arguments.reading.sensor_kind(),
+        temperature_c: arguments.temperature,
+        gauge: arguments.gauge.map(Gauge::from),
+    };
+    tell_all(&conversion.change(&mut file)?);
     let written = write_calibrated_imu(&arguments.output, &file, format)?;
     console::print(&read);
     tell_all(&written.warnings);
@@ -138,39 +114,4 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         file.imu.frame
     ));
     Ok(Exit::DONE)
-}
-
-/// The noise densities of all these files.
-fn densities(paths: &[PathBuf], imu: &CalibratedImu) -> calibrant::Result<Option<ImuNoise>> {
-    let mut all: Option<ImuNoise> = None;
-    for path in paths {
-        let is_ours = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
-        let noise = if is_ours { read_measured_noise(path, imu)? } else { read_kalibr_noise(path)? };
-        all = Some(match all {
-            Some(before) => before.or(noise),
-            None => noise,
-        });
-    }
-    Ok(all)
-}
-
-/// One sensor of the calibration alone.
-fn only(imu: &CalibratedImu, sensor_kind: SensorKind, path: &Path) -> calibrant::Result<CalibratedImu> {
-    let refuse = |message: &str, help: &str| {
-        Err(Error::Experiment(Box::new(InputError::new(Refusal::SensorMissing, message, help).in_file(path))))
-    };
-    if imu.unit(sensor_kind).is_none() {
-        return refuse(
-            &format!("the calibration has no {sensor_kind}"),
-            "choose the other with --sensor, or leave it away",
-        );
-    }
-    if sensor_kind == SensorKind::Gyroscope && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0)
-    {
-        return refuse(
-            "the gyroscope's g-sensitivity takes the accelerometer's readings, and the correction would be another without them",
-            "leave it out on purpose with --drop-g-sensitivity",
-        );
-    }
-    Ok(imu.only(sensor_kind))
 }

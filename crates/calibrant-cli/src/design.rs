@@ -8,7 +8,6 @@ mod pose_evaluation;
 mod pose_output;
 mod poses;
 mod reach;
-mod reach_request;
 mod sweep;
 mod sweep_request;
 mod trajectory;

@@ -94,7 +94,7 @@ pub use results::calibration::CalibrationFile;
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
-pub use results::earlier_machine::{EarlierMachine, read_earlier_machine};
+pub use results::earlier_machine::{EarlierMachine, parse_earlier_machine, read_earlier_machine};
 pub use results::heading::{Heading, JsonFile, Kind, RECORD_KIND};
 pub use results::input::{Input, file_name};
 pub use results::json::{SCHEMA, to_json, write_json};

@@ -3,15 +3,19 @@
 use crate::arrays::{Numbers, as_table, list, vectors};
 use crate::failure::{invalid, raised};
 use crate::options::parsed;
-use crate::work::run;
+use crate::page::{Page, page};
+use crate::work::{at_once, run};
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::Comparison;
 use calibrant::io::{
     CalibratedImuFile, ComparisonFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts,
     parse_calibrated_imu, read_calibrated_imu, to_json, write_calibrated_imu,
 };
-use calibrant::sensor::{CalibratedImu, Gauge, ImuCorrection, ImuRecording, Recording, SensorKind};
-use calibrant::{Error, Result};
+use calibrant::report::comparison_sheet;
+use calibrant::sensor::{
+    CalibratedImu, Gauge, ImuCorrection, ImuRecording, Recording, SensorKind, WORKING_C,
+};
+use calibrant::{Conversion, Error, Result};
 use nalgebra::{Matrix3, Vector3};
 use pyo3::prelude::*;
 use serde::Deserialize;
@@ -38,13 +42,45 @@ impl Convention {
                 Some("counts") => Some(RawUnits::Counts),
                 Some(other) => return refused("unit", other, "readings are in \"si\" or \"counts\""),
             },
-            sensor_kind: match self.sensor.as_deref() {
-                None => None,
-                Some("accelerometer") => Some(SensorKind::Accelerometer),
-                Some("gyroscope") => Some(SensorKind::Gyroscope),
-                Some(other) => return refused("sensor", other, "give \"accelerometer\" or \"gyroscope\""),
-            },
+            sensor_kind: self.sensor.as_deref().map(sensor).transpose()?,
         })
+    }
+}
+
+/// What is changed of a calibration that is written.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Changes {
+    format: Option<String>,
+    gauge: Option<String>,
+    noise: Vec<PathBuf>,
+    drop_g_sensitivity: bool,
+    sensor: Option<String>,
+    temperature_c: Option<f64>,
+}
+
+impl Changes {
+    fn conversion(self) -> Result<Conversion> {
+        if let Some(celsius) = self.temperature_c.filter(|celsius| !WORKING_C.contains(celsius)) {
+            let help = format!("give °C from {} to {}", WORKING_C.start(), WORKING_C.end());
+            return Err(invalid(format!("`temperature_c` is {celsius}"), help));
+        }
+        Ok(Conversion {
+            path: None,
+            noise: self.noise,
+            drop_g_sensitivity: self.drop_g_sensitivity,
+            sensor: self.sensor.as_deref().map(sensor).transpose()?,
+            temperature_c: self.temperature_c,
+            gauge: self.gauge.as_deref().map(gauge).transpose()?,
+        })
+    }
+}
+
+fn sensor(name: &str) -> Result<SensorKind> {
+    match name {
+        "accelerometer" => Ok(SensorKind::Accelerometer),
+        "gyroscope" => Ok(SensorKind::Gyroscope),
+        other => Err(invalid(format!("`sensor` is {other:?}"), "give \"accelerometer\" or \"gyroscope\"")),
     }
 }
 
@@ -91,17 +127,20 @@ pub(crate) fn read_calibration(py: Python<'_>, path: PathBuf, options: &str) -> 
 
 /// Writes a calibration in another format; returns the paths, and what was noticed.
 #[pyfunction]
-#[pyo3(signature = (text, path, format_name=None, gauge_name=None))]
 pub(crate) fn convert_calibration(
     py: Python<'_>,
     text: String,
     path: PathBuf,
-    format_name: Option<String>,
-    gauge_name: Option<String>,
+    options: &str,
 ) -> PyResult<(Vec<PathBuf>, String)> {
+    let read = || -> Result<_> {
+        let options: Changes = parsed(options)?;
+        Ok((options.format.as_deref().map(format).transpose()?, options.conversion()?))
+    };
+    let (written_as, conversion) = read().map_err(|error| raised(py, &error))?;
     run(py, move || {
-        let written_as = match format_name {
-            Some(name) => format(&name)?,
+        let written_as = match written_as {
+            Some(written_as) => written_as,
             None => ImuFormat::of_extension(&path).ok_or_else(|| {
                 let message = "the ending of the path does not tell the format to write";
                 let help = "say `format=` calibrant, kalibr, imu_tk, imucal or c";
@@ -109,22 +148,16 @@ pub(crate) fn convert_calibration(
             })?,
         };
         let mut file = of_json(&text)?;
-        if let Some(name) = gauge_name {
-            file.imu = file.imu.in_gauge(gauge(&name)?)?;
-        }
+        let mut notes = conversion.change(&mut file)?;
         let written = write_calibrated_imu(&path, &file, written_as)?;
-        Ok((written.files.clone(), json!(written.warnings).to_string()))
+        notes.extend(written.warnings);
+        Ok((written.files, json!(notes).to_string()))
     })
 }
 
-/// Compares two calibrations: the text of `calibrant compare --json`, and the sheet.
+/// Compares two calibrations.
 #[pyfunction]
-pub(crate) fn compare(
-    py: Python<'_>,
-    a: (String, String),
-    b: (String, String),
-    width: usize,
-) -> PyResult<(String, String, String)> {
+pub(crate) fn compare(py: Python<'_>, a: (String, String), b: (String, String)) -> PyResult<Page> {
     run(py, move || {
         let ((a, name_a), (b, name_b)) = (a, b);
         let (one, other) = (of_json(&a)?.imu, of_json(&b)?.imu);
@@ -135,8 +168,7 @@ pub(crate) fn compare(
             return Err(Error::experiment(InputError::new(Refusal::CalibrationUnsuited, message, help)));
         }
         let json = to_json(&ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b });
-        let sheet = calibrant::report::comparison_sheet(&comparison, [name_a, name_b]);
-        Ok((json, sheet.text(width), sheet.html()))
+        Ok(page(json, &comparison.notes, &comparison_sheet(&comparison, [name_a, name_b])))
     })
 }
 
@@ -154,12 +186,10 @@ type Corrected<'py> = [Option<Numbers<'py>>; 4];
 impl Correction {
     #[new]
     fn new(py: Python<'_>, text: &str) -> PyResult<Self> {
-        crate::wording::set();
-        let of = || {
+        at_once(py, || {
             let imu = of_json(text)?.imu;
             Ok(Self { correction: ImuCorrection::of(&imu)?, imu })
-        };
-        of().map_err(|error: Error| raised(py, &error))
+        })
     }
 
     /// Does it depend on temperature?
@@ -184,8 +214,7 @@ impl Correction {
     ) -> PyResult<Corrected<'py>> {
         let (force, rate) = (accelerometer.map(vectors), gyroscope.map(vectors));
         let temperatures = temperature_c.map(list);
-        let work = || self.corrected(force, rate, temperatures.as_deref(), with_sd);
-        let corrected = py.detach(work).map_err(|error| raised(py, &error))?;
+        let corrected = at_once(py, || self.corrected(force, rate, temperatures.as_deref(), with_sd))?;
         Ok(corrected.map(|of| of.map(|of| as_table(py, &of))))
     }
 }

@@ -1,7 +1,7 @@
 //! Experiments: their text, made of sections, and read.
 
 use crate::failure::{invalid, raised};
-use crate::wording;
+use crate::work::at_once;
 use calibrant::Result;
 use calibrant::io::{Experiment as Read, PRESETS, nearest, preset};
 use pyo3::prelude::*;
@@ -23,8 +23,7 @@ impl Experiment {
     #[new]
     #[pyo3(signature = (text, path=None))]
     fn new(py: Python<'_>, text: &str, path: Option<PathBuf>) -> PyResult<Self> {
-        wording::set();
-        let read = Read::parse(text, path.as_deref()).map_err(|error| raised(py, &error))?;
+        let read = at_once(py, || Read::parse(text, path.as_deref()))?;
         Ok(Self { read, file: path.unwrap_or_default() })
     }
 
@@ -70,8 +69,7 @@ pub(crate) fn presets() -> Vec<(&'static str, &'static str)> {
 /// A text with these sections, as JSON: keys replace keys, and null takes one away.
 #[pyfunction]
 pub(crate) fn merged(py: Python<'_>, text: &str, sections: &str) -> PyResult<String> {
-    wording::set();
-    merge(text, sections).map_err(|error| raised(py, &error))
+    at_once(py, || merge(text, sections))
 }
 
 /// The sections of a text, as JSON.

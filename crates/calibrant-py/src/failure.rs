@@ -1,7 +1,8 @@
 //! Errors of the library as exceptions of Python. The classes are in `calibrant._exceptions`.
 
+use crate::wording::argument;
 use calibrant::Error;
-use calibrant::error::{InputError, Refusal};
+use calibrant::error::{InputError, Refusal, TaskOption};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
@@ -35,12 +36,17 @@ fn exception(py: Python<'_>, data: &Value) -> PyErr {
     made.map_or_else(|error| error, PyErr::from_value)
 }
 
+/// The argument that answers: the format of a calibration is the only question that `from` answers.
+fn asked(option: TaskOption) -> &'static str {
+    if option == TaskOption::From { "format" } else { argument(option) }
+}
+
 /// What an exception needs of an error. Tables of failures take it, too.
 pub(crate) fn as_json(error: &Error) -> Value {
     let code = error.code();
     let about = |kind: &str, of: &InputError| {
         let answers = of.answers.iter().map(
-            |answer| json!({ "option": answer.option.name(), "values": answer.values, "more": answer.more }),
+            |answer| json!({ "option": asked(answer.option), "values": answer.values, "more": answer.more }),
         );
         json!({
             "kind": kind, "code": code.name(), "message": of.message, "remedy": of.help, "key": of.key,

@@ -4,24 +4,31 @@
 //! |---|---|
 //! | `work` | runs every call: threads of its own, signals, panics |
 //! | `failure`, `wording` | errors as exceptions, in Python's words |
-//! | `options`, `arrays` | what comes and goes |
+//! | `options`, `choice`, `arrays`, `page` | what comes and goes |
 //! | the others | one for each command |
 
 mod arrays;
 mod batch;
 mod calibrate;
 mod calibration;
+mod choice;
 mod design;
 mod experiment;
+mod explain;
 mod failure;
+mod inspect;
 mod motion;
 mod noise;
 mod options;
+mod page;
+mod poses;
 mod recording;
 mod records;
 mod simulate;
 mod source;
 mod study;
+mod sweep;
+mod trajectory;
 mod wording;
 mod work;
 
@@ -52,15 +59,19 @@ mod _native {
     #[pymodule_export]
     use crate::calibration::{Correction, compare, convert_calibration, read_calibration};
     #[pymodule_export]
-    use crate::design::{
-        Design, PoseDesign, Trajectory, assess, assess_poses, design, design_poses, design_trajectory,
-    };
+    use crate::design::{assess, design};
     #[pymodule_export]
     use crate::experiment::{Experiment, merged, preset_text, presets, sections_of};
+    #[pymodule_export]
+    use crate::explain::explained;
+    #[pymodule_export]
+    use crate::inspect::{inspect_log, inspect_machine, is_log};
     #[pymodule_export]
     use crate::motion::Motion;
     #[pymodule_export]
     use crate::noise::noise;
+    #[pymodule_export]
+    use crate::poses::{assess_poses, design_poses};
     #[pymodule_export]
     use crate::recording::{Recording, read_recording};
     #[pymodule_export]
@@ -71,4 +82,8 @@ mod _native {
     use crate::source::{Readings, Source};
     #[pymodule_export]
     use crate::study::study;
+    #[pymodule_export]
+    use crate::sweep::sweep;
+    #[pymodule_export]
+    use crate::trajectory::{Trajectory, assess_trajectory, design_trajectory};
 }

@@ -2,6 +2,7 @@
 
 use crate::arrays::{Numbers, as_array, as_table, list, vectors};
 use crate::failure::{invalid, raised};
+use crate::work::at_once;
 use calibrant::io::{write_dense_motion, write_motion};
 use calibrant::machine::log::{JointLog, PoseLog, ReferenceLog};
 use calibrant::motion::JerkControlledMotion;
@@ -53,19 +54,29 @@ impl Motion {
 
     #[staticmethod]
     fn commanded(py: Python<'_>, times_s: &[u8], acceleration_mps2: &[u8]) -> PyResult<Self> {
-        let motion = JerkControlledMotion::new(list(times_s), vectors(acceleration_mps2));
-        Ok(Self(MotionSource::Commanded(motion.map_err(|error| raised(py, &error))?)))
+        let motion = at_once(py, || JerkControlledMotion::new(list(times_s), vectors(acceleration_mps2)))?;
+        Ok(Self(MotionSource::Commanded(motion)))
     }
 
     #[staticmethod]
-    #[pyo3(signature = (names, times_s, positions, velocities=None))]
-    fn joints(names: Vec<String>, times_s: &[u8], positions: &[u8], velocities: Option<&[u8]>) -> Self {
-        Self(MotionSource::Logged(ReferenceLog::Joints(JointLog {
+    #[pyo3(signature = (names, times_s, positions, velocities=None, knot_step_s=None))]
+    fn joints(
+        names: Vec<String>,
+        times_s: &[u8],
+        positions: &[u8],
+        velocities: Option<&[u8]>,
+        knot_step_s: Option<f64>,
+    ) -> Self {
+        let log = ReferenceLog::Joints(JointLog {
             names,
             times_s: list(times_s),
             positions: list(positions),
             velocities: velocities.map(list),
-        })))
+        });
+        Self(match knot_step_s {
+            Some(step_s) => MotionSource::OnKnots(log, step_s),
+            None => MotionSource::Logged(log),
+        })
     }
 
     /// What is not a number was not seen.
@@ -101,7 +112,9 @@ impl Motion {
     /// Velocity in m/s and displacement in m at each node, from rest.
     fn states<'py>(&self, py: Python<'py>) -> PyResult<Nodes<'py>> {
         let motion = self.nodes(py)?;
-        Ok((as_table(py, &motion.velocity_mps()), as_table(py, &motion.displacement_m())))
+        let states = || Ok((motion.velocity_mps(), motion.displacement_m()));
+        let (velocity_mps, displacement_m) = at_once(py, states)?;
+        Ok((as_table(py, &velocity_mps), as_table(py, &displacement_m)))
     }
 }
 

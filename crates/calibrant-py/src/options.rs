@@ -12,14 +12,23 @@ use calibrant::sensor::SensorKind;
 use calibrant::session::SessionOptions;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
 /// Reads options.
 pub(crate) fn parsed<T: DeserializeOwned>(text: &str) -> Result<T> {
     serde_json::from_str(text).map_err(|error| {
-        let message = error.to_string();
-        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
-        invalid(format!("an argument makes no sense: {message}"), "see the documentation of the function")
+        let why = error.to_string();
+        let why = why.split(" at line ").next().unwrap_or_default();
+        // every option has a default: the one that fails alone is at fault
+        let options = serde_json::from_str::<Map<String, Value>>(text).unwrap_or_default();
+        let fails =
+            |(name, value): &(String, Value)| serde_json::from_value::<T>(json!({ name: value })).is_err();
+        let message = match options.into_iter().find(fails) {
+            Some((name, _)) => format!("`{name}`: {why}"),
+            None => format!("an argument makes no sense: {why}"),
+        };
+        invalid(message, "see the documentation of the function")
     })
 }
 
@@ -62,12 +71,6 @@ impl Reading {
             let read = |text: &str| ImuUnit::parse(text).filter(|unit| unit.suits(sensor_kind));
             chosen(name, text, read, choices)
         };
-        let positive = |name: &str, value: Option<f64>| match value {
-            Some(value) if !value.is_finite() || value <= 0.0 => {
-                Err(invalid(format!("`{name}` is {value}"), "give a number above 0"))
-            }
-            value => Ok(value),
-        };
         let of = self.columns.clone();
         Ok(ImuReadOptions {
             format: chosen("format", &self.format, FileFormat::parse, || {
@@ -79,9 +82,7 @@ impl Reading {
                 gyroscope: of.gyroscope,
                 temperature: of.temperature,
             },
-            time_unit: chosen("time_unit", &self.time_unit, TimeUnit::parse, || {
-                "times are in s, ms, us or ns, or samples".into()
-            })?,
+            time_unit: time_unit(&self.time_unit)?,
             accelerometer_unit: unit(
                 "accelerometer_unit",
                 &self.accelerometer_unit,
@@ -102,6 +103,21 @@ impl Reading {
             ..ImuReadOptions::default()
         })
     }
+}
+
+/// A number above 0, where it is there.
+pub(crate) fn positive(name: &str, value: Option<f64>) -> Result<Option<f64>> {
+    match value {
+        Some(value) if !value.is_finite() || value <= 0.0 => {
+            Err(invalid(format!("`{name}` is {value}"), "give a number above 0"))
+        }
+        value => Ok(value),
+    }
+}
+
+/// The unit of times.
+pub(crate) fn time_unit(name: &Option<String>) -> Result<Option<TimeUnit>> {
+    chosen("time_unit", name, TimeUnit::parse, || "times are in s, ms, us or ns, or samples".into())
 }
 
 /// The choice that a text names.

@@ -3,6 +3,7 @@
 use crate::arrays::{Numbers, as_array, as_table};
 use crate::failure::raised;
 use crate::options::{Reading, parsed};
+use crate::page::{Page, page};
 use crate::source::Source;
 use crate::work::run;
 use calibrant::diagnostic::Diagnostic;
@@ -73,8 +74,8 @@ impl Recording {
             .to_string()
     }
 
-    /// The text of `calibrant inspect --json`, and the sheet.
-    fn inspect(&self, py: Python<'_>, width: usize) -> PyResult<(String, String, String)> {
+    /// What it contains.
+    fn inspect(&self, py: Python<'_>) -> PyResult<Page> {
         let file = Arc::clone(&self.file);
         let names: Vec<String> = self.source.files().map(file_name).collect();
         let of_reader = self.findings();
@@ -83,8 +84,7 @@ impl Recording {
             // the same, with the names of their files
             inspection.findings.splice(..of_reader.len(), of_reader);
             let json = to_json(&InspectionFile { file: &file, inspection: &inspection });
-            let sheet = recording_sheet(&file, &inspection, &names);
-            Ok((json, sheet.text(width), sheet.html()))
+            Ok(page(json, &inspection.findings, &recording_sheet(&file, &inspection, &names)))
         })
     }
 

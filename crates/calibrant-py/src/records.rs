@@ -99,8 +99,20 @@ impl Records {
     }
 
     /// Writes them as CSV or Parquet; returns the number of rows.
-    fn export(&self, py: Python<'_>, path: PathBuf) -> PyResult<usize> {
+    #[pyo3(signature = (path, sensor=None, station=None, verdict=None, latest=false))]
+    fn export(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        sensor: Option<String>,
+        station: Option<String>,
+        verdict: Option<String>,
+        latest: bool,
+    ) -> PyResult<usize> {
         let from = self.0.clone();
-        run(py, move || Database::open_existing(&from)?.export(&path, &RecordFilter::default()))
+        run(py, move || {
+            let filter = filter(sensor, station, verdict.as_deref(), latest)?;
+            Database::open_existing(&from)?.export(&path, &filter)
+        })
     }
 }

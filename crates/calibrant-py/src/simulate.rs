@@ -70,9 +70,10 @@ impl Simulation {
         self.0.log.as_ref().map(|(of, _)| log(py, of))
     }
 
-    /// Its seed, and what was noticed.
+    /// Its seed, what was noticed, and the distance of the knots of a machine's motion, s.
     fn about(&self) -> String {
-        json!({ "seed": self.0.seed, "notes": self.0.notes }).to_string()
+        let of = &self.0;
+        json!({ "seed": of.seed, "notes": of.notes, "knot_step_s": of.knot_step_s }).to_string()
     }
 
     /// Writes the files of `calibrant simulate`.

@@ -1,19 +1,31 @@
-//! Studies of simulated sensors.
+//! Studies of simulated sensors, and rehearsals of machines.
 
 use crate::experiment::Experiment;
+use crate::failure::invalid;
 use crate::motion::Motion;
 use crate::options::budget;
-use crate::work::{How, run_as};
-use calibrant::io::{StudyFile, to_json};
+use crate::page::{Page, page};
+use crate::work::{How, Run, run_as};
+use calibrant::io::{Plan, StudyFile, to_json};
 use calibrant::report::{About, study_sheet};
-use calibrant::{StudyChoice, StudyPlan};
+use calibrant::session::MotionSource;
+use calibrant::study::Studies;
+use calibrant::{DesignChoice, RehearsalPlan, Result, StudyChoice, StudyPlan, TrajectoryPlan};
 use pyo3::prelude::*;
-use serde_json::json;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Runs the studies of an experiment: the text of `study.json`, what was noticed, and the sheet as text and as a page.
+/// What is chosen in place of what the experiment says.
+struct Choice {
+    motion: Option<MotionSource>,
+    sensors: Option<usize>,
+    starts: Option<usize>,
+    seed: Option<u64>,
+    force: bool,
+}
+
+/// Runs the studies of an experiment; on a machine its rehearsal.
 #[pyfunction]
-#[pyo3(signature = (experiment, *, motion=None, sensors=None, starts=None, seed=None, force=false, threads=None, progress=None, width=100))]
+#[pyo3(signature = (experiment, *, motion=None, sensors=None, starts=None, seed=None, force=false, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "each is an argument of the Python function")]
 pub(crate) fn study(
     py: Python<'_>,
@@ -25,23 +37,58 @@ pub(crate) fn study(
     force: bool,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-    width: usize,
-) -> PyResult<(String, String, String, String)> {
-    let motion = motion.map(|motion| motion.0.clone());
+) -> PyResult<Page> {
+    let choice = Choice { motion: motion.map(|motion| motion.0.clone()), sensors, starts, seed, force };
     let experiment = experiment.clone();
-    let how = How { threads, progress, keeps_the_best: true };
-    run_as(py, how, move |given| {
-        let interruption = given.interruption.clone();
-        let choice = StudyChoice { motion, sensors, seed, starts, budget: budget(force), interruption };
-        let plan = StudyPlan::new(&experiment.read, &choice).map_err(Experiment::placed(&experiment.file))?;
-        let (done, steps) = (AtomicU64::new(0), plan.steps());
-        let studies = plan.run(&|more| {
-            let done = done.fetch_add(more, Ordering::Relaxed) + more;
-            given.progress.tell("sensors", done, steps);
-        })?;
+    run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
+        for (name, number) in [("sensors", choice.sensors), ("starts", choice.starts)] {
+            if number == Some(0) {
+                return Err(invalid(format!("`{name}` is 0"), "give a number from 1"));
+            }
+        }
+        let studies = match experiment.read.plan {
+            Plan::Machine(_) => rehearsed(&experiment, &choice, &given),
+            _ => studied(&experiment, choice, &given),
+        };
+        let studies = studies.map_err(Experiment::placed(&experiment.file))?;
         let about = About::default();
-        let sheet = study_sheet(&studies, &about);
-        let notes = json!(studies.notes).to_string();
-        Ok((to_json(&StudyFile { studies: &studies }), notes, sheet.text(width), sheet.html()))
+        let json = to_json(&StudyFile { studies: &studies });
+        Ok(page(json, &studies.notes, &study_sheet(&studies, &about)))
     })
+}
+
+fn teller(given: &Run, steps: u64) -> impl Fn(u64) + Sync + use<> {
+    let (progress, done) = (given.progress.clone(), AtomicU64::new(0));
+    move |more| progress.tell("sensors", done.fetch_add(more, Ordering::Relaxed) + more, steps)
+}
+
+/// The studies of a commanded motion.
+fn studied(experiment: &Experiment, choice: Choice, given: &Run) -> Result<Studies> {
+    let Choice { motion, sensors, starts, seed, force } = choice;
+    let interruption = given.interruption.clone();
+    let choice = StudyChoice { motion, sensors, seed, starts, budget: budget(force), interruption };
+    let plan = StudyPlan::new(&experiment.read, &choice)?;
+    plan.run(&teller(given, plan.steps()))
+}
+
+/// The rehearsal of a machine.
+fn rehearsed(experiment: &Experiment, choice: &Choice, given: &Run) -> Result<Studies> {
+    if choice.motion.is_some() {
+        let message = "`motion` is of the study of a [motion] experiment";
+        return Err(invalid(message, "leave it away: a rehearsal designs the motions of its machine"));
+    }
+    let interruption = given.interruption.clone();
+    let of_design =
+        DesignChoice { starts: choice.starts, interruption: interruption.clone(), ..DesignChoice::default() };
+    let plan = TrajectoryPlan::new(experiment.read.clone(), &of_design)?;
+    let design = plan.clone().with_progress(given.progress.clone()).design()?;
+    let study = &experiment.read.study;
+    let rehearsal = RehearsalPlan {
+        plan: &plan,
+        sensors: choice.sensors.unwrap_or(study.sensors),
+        seed: choice.seed.unwrap_or(study.seed),
+        interruption,
+        budget: budget(choice.force),
+    };
+    rehearsal.run(&design, &teller(given, rehearsal.sensors as u64))
 }

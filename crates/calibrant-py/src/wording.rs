@@ -16,8 +16,22 @@ pub(crate) fn set() {
 
 /// The text with arguments in place of options: ``option `rate_hz` `` becomes `rate_hz=`.
 fn as_arguments(text: &str) -> String {
+    // one option of the command line, two arguments
+    let text = text.replace("its format with option `from`", "its format with `format=`");
     let named = |text: String, option: &TaskOption| {
-        text.replace(&option.to_string(), &format!("`{}=`", option.name()))
+        text.replace(&option.to_string(), &format!("`{}=`", argument(*option)))
     };
-    TaskOption::ALL.iter().fold(text.to_owned(), named)
+    TaskOption::ALL.iter().fold(text, named)
+}
+
+/// The argument that says what an option says.
+pub(crate) fn argument(option: TaskOption) -> &'static str {
+    match option {
+        TaskOption::Add => "poses",
+        TaskOption::From => "known",
+        TaskOption::Hold => "hold_s",
+        TaskOption::Temperature => "temperature_c",
+        TaskOption::ValidateMotion => "validate_log",
+        option => option.name(),
+    }
 }

@@ -52,6 +52,18 @@ pub(crate) fn run<T: Send + 'static>(
     run_as(py, How::default(), |_| work())
 }
 
+/// Runs work on this thread, for what takes almost no time: only panics are caught.
+pub(crate) fn at_once<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> calibrant::Result<T> + Send,
+) -> PyResult<T> {
+    wording::set();
+    match py.detach(|| catch_unwind(AssertUnwindSafe(work))) {
+        Ok(outcome) => outcome.map_err(|error| raised(py, &error)),
+        Err(panic) => Err(internal(py, &words_of(panic.as_ref()))),
+    }
+}
+
 /// Runs work.
 pub(crate) fn run_as<T: Send + 'static>(
     py: Python<'_>,

@@ -6,11 +6,14 @@ use calibrant_core::diagnostic::design::{CalibrationsApart, CalibrationsEqual};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::interruption::Interruption;
+use calibrant_core::motion::JerkControlledMotion;
+use calibrant_core::number_format::{counted, short};
 use calibrant_design::poses::{
     FewestPoses, PoseDesign, PoseEvaluation, PoseProblem, design_poses, evaluate_poses, fewest_poses,
 };
 use calibrant_design::{
-    Design, DesignProblem, DesignSettings, Goal, ShortestMotion, design, shortest_motion,
+    Design, DesignProblem, DesignSettings, Evaluation, Goal, ShortestMotion, Sweep, SweepVariable, design,
+    evaluate, shortest_motion, sweep, sweep_work,
 };
 use calibrant_io::{CriterionLetter, EarlierCalibration, Experiment};
 use nalgebra::Vector3;
@@ -143,6 +146,19 @@ impl DesignPlan {
         design(problem, &self.settings, progress)
     }
 
+    /// Predicts what a motion determines.
+    ///
+    /// # Errors
+    /// As [`evaluate`], and where its samples are beyond the budget.
+    pub fn evaluate(&self, problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
+        let times_s = motion.times_s();
+        let duration_s = times_s[times_s.len() - 1] - times_s[0];
+        let what = format!("a motion of {} s at {} Hz", short(duration_s), short(problem.rate_hz));
+        let work = Budget::of_samples(duration_s * problem.rate_hz);
+        self.budget.check(work, &what, "give a shorter motion").map_err(Error::Experiment)?;
+        evaluate(problem, motion)
+    }
+
     /// Finds the shortest motion that reaches the goals; `progress` is told of each start.
     ///
     /// # Errors
@@ -157,6 +173,24 @@ impl DesignPlan {
         let work = self.settings.work_on_shortest(problem);
         self.budget.check(work, &what, "take fewer starts or intervals").map_err(Error::Experiment)?;
         shortest_motion(problem, goals, &self.settings, progress)
+    }
+
+    /// Finds the best motion for each value of a quantity; `progress` is told how many values are done. Where it is interrupted, it has those that are finished.
+    ///
+    /// # Errors
+    /// As [`sweep`], and where the work is beyond the budget.
+    pub fn sweep(
+        &self,
+        problem: &DesignProblem<'_>,
+        variable: SweepVariable,
+        values: &[f64],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Sweep> {
+        let work = sweep_work(problem, &self.settings, variable, values)?;
+        let what = counted(values.len(), "value") + " of the sweep";
+        let less = "sweep less far, or take fewer starts";
+        self.budget.check(work, &what, less).map_err(Error::Experiment)?;
+        sweep(problem, &self.settings, variable, values, &|number, _| progress(number))
     }
 
     /// Finds the best poses; `progress` is told of each start.

@@ -162,12 +162,15 @@
 //! reach every task that takes long.
 
 pub mod batch;
+mod conversion;
 mod correction;
 mod design_plan;
 mod design_remarks;
+mod goal_request;
 pub mod inspection;
 mod json_files;
 mod noise_at_rest;
+mod reached;
 #[cfg(feature = "study")]
 mod rehearsal;
 pub mod session;
@@ -189,13 +192,16 @@ pub use calibrant_records as records;
 pub use calibrant_report as report;
 #[cfg(feature = "study")]
 pub use calibrant_study as study;
+pub use conversion::Conversion;
 pub use correction::{Applied, apply, read_for_correction};
 pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};
 pub use design_remarks::{rest_remark, sweep_remarks, undetermined_by};
+pub use goal_request::GoalRequest;
 pub use json_files::{FileKind, json_page};
 /// The linear algebra in the signatures: vectors and matrices.
 pub use nalgebra;
 pub use noise_at_rest::{NoiseAtRest, NoiseOptions, noise, read_for_noise};
+pub use reached::ReachedDesign;
 #[cfg(feature = "study")]
 pub use rehearsal::RehearsalPlan;
 pub use session::{Outcome, Readings, Session, SessionOptions, Source};

@@ -2,22 +2,26 @@
 
 use crate::design_plan::DesignChoice;
 use crate::design_remarks::search_ended;
+use crate::session::MotionSource;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::design::{CollisionsUnknown, LinksWithoutShapes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorKind};
-use calibrant_design::DesignStatus;
+use calibrant_design::{DesignStatus, SweepVariable};
 use calibrant_io::{
     CriterionLetter, EarlierMachine, Experiment, LinksKnown, MachineDesignPlan, Plan, Reached, Trajectory,
     TrajectoryFile, read_trajectory, write_goal, write_json, write_trajectory, write_urscript,
 };
 use calibrant_machine::estimate::MachineSetup;
+use calibrant_machine::log::ReferenceLog;
 use calibrant_machine_design::world::World;
 use calibrant_machine_design::{
     Dwells, PlainTrajectory, SensorBody, TrajectoryCriterion, TrajectoryDesign, TrajectoryEvaluation,
-    TrajectoryNoise, TrajectoryProblem, TrajectorySettings, design_trajectory, evaluate_trajectory,
+    TrajectoryNoise, TrajectoryProblem, TrajectorySettings, TrajectorySweep, design_trajectory,
+    evaluate_trajectory, sweep_durations,
 };
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// The design of a machine's trajectory, as an experiment describes it.
@@ -159,12 +163,45 @@ impl TrajectoryPlan {
         design_trajectory(&self.problem(), &self.settings)
     }
 
-    /// Evaluates a trajectory: what it determines, and which limits it keeps.
+    /// Finds the best trajectory for each duration; `progress` is told how many are done. Where it is interrupted, it has those that are finished.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] for another quantity than the duration, and for a duration that `machine.design.duration_s` may not have.
+    pub fn sweep(
+        &self,
+        variable: SweepVariable,
+        values: &[f64],
+        progress: &dyn Fn(usize),
+    ) -> Result<TrajectorySweep> {
+        let refused =
+            |code, message: String, help| Err(Error::experiment(InputError::new(code, message, help)));
+        if variable != SweepVariable::Duration {
+            let message = format!("a machine is swept over its duration, not over its {}", variable.name());
+            return refused(Refusal::ExperimentUnsuited, message, "sweep the duration: 10, 20 and 40 s");
+        }
+        if let Some(duration_s) = values.iter().find(|duration_s| !DURATIONS_S.contains(*duration_s)) {
+            let message = format!("the sweep has a trajectory of {duration_s} s");
+            return refused(Refusal::ValueOutOfRange, message, "durations from 1 s, at most 3600 s");
+        }
+        Ok(sweep_durations(&self.problem(), &self.settings, values, progress))
+    }
+
+    /// Evaluates a trajectory, in a file or as positions and velocities at its knots: what it determines, and which limits it keeps.
     ///
     /// # Errors
     /// As [`read_trajectory`] and [`evaluate_trajectory`].
-    pub fn evaluate(&self, path: &Path) -> Result<TrajectoryEvaluation> {
-        let trajectory = read_trajectory(path, &self.machine.chain)?;
+    pub fn evaluate(&self, motion: &MotionSource) -> Result<TrajectoryEvaluation> {
+        let chain = &self.machine.chain;
+        let trajectory = match motion {
+            MotionSource::File(path) => read_trajectory(path, chain)?,
+            MotionSource::Logged(ReferenceLog::Joints(log))
+            | MotionSource::OnKnots(ReferenceLog::Joints(log), _) => Trajectory::at_knots(log, chain)?,
+            _ => {
+                let message = "a trajectory of a machine is of its joints";
+                let help = "give positions and velocities of the joints at the knots";
+                return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+            }
+        };
         evaluate_trajectory(&self.problem(), &trajectory.spline)
     }
 
@@ -273,6 +310,8 @@ impl TrajectoryPlan {
     }
 }
 
+/// Durations of a trajectory, s: as `machine.design.duration_s` may be.
+const DURATIONS_S: RangeInclusive<f64> = 1.0..=3600.0;
 /// Range of a criterion where the sensor's is not given: ±2 g and ±500 °/s.
 const USUAL_RANGE: [f64; 2] = [19.613_3, 8.726_646];
 

@@ -11,10 +11,13 @@ import numpy as np
 from .. import _native
 from .._arrays import Path
 from .._calibration import Calibration
-from .._design import Design, PoseDesign, TrajectoryDesign, choice_of
+from .._choice import choice
+from .._design import Design
 from .._exceptions import CalibrantError, experiment_error
 from .._experiment import Experiment
+from .._pose_design import PoseDesign
 from .._progress import Progress
+from .._trajectory import TrajectoryDesign
 from ._hash import sha256
 from ._result import Result
 from ._run import run
@@ -146,7 +149,16 @@ def design(
         Where an argument makes no sense.
     """
     storage = dict(storage_options or {})
-    task = DesignTask(choice_of(known, criterion, gap, starts, None, seed, certificate, force), storage)
+    chosen = choice(
+        known=known,
+        criterion=criterion,
+        gap=gap,
+        starts=starts,
+        seed=seed,
+        certificate=certificate,
+        force=force,
+    )
+    task = DesignTask(chosen, storage)
     named: list[Item]
     if isinstance(items, Mapping):
         named = sorted(items.items())

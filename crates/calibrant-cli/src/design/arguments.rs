@@ -1,6 +1,7 @@
 //! The arguments of `calibrant design`.
 
-use super::{reach_request as reach, sweep_request as sweep};
+use super::sweep_request as sweep;
+use calibrant::GoalRequest;
 use calibrant::io::CriterionLetter;
 use std::path::PathBuf;
 
@@ -36,8 +37,8 @@ pub(crate) struct Arguments {
     /// Find the fewest poses, or the shortest motion, with which a parameter has this standard deviation: scale.x=50ppm, bias.z=0.2mg. Repeatable. It proves a
     /// number below which none can. Of a machine it finds the shortest duration within 6 %, without a proof; scale=50ppm is of every scale factor, gyroscope.bias=1deg/h of
     /// the gyroscope's biases.
-    #[arg(long, value_name = "NAME=SD", value_parser = reach::parse, conflicts_with_all = ["sweep", "evaluate"])]
-    pub(super) reach: Vec<reach::Request>,
+    #[arg(long, value_name = "NAME=SD", value_parser = GoalRequest::parse, conflicts_with_all = ["sweep", "evaluate"])]
+    pub(super) reach: Vec<GoalRequest>,
     /// Number of poses, in place of holds.poses: those to add to an earlier calibration (--from).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200), conflicts_with_all = ["sweep", "evaluate", "reach"])]
     pub(super) add: Option<u32>,

@@ -22,7 +22,7 @@ pub(super) fn run(
 ) -> calibrant::Result<Exit> {
     let motion = read_motion(path, problem.sensor.axes)?;
     // errors of the motion itself come before the search
-    calibrant::design::evaluate(problem, &motion)?;
+    job.evaluate(problem, &motion)?;
     let optimum = match job::run(job, problem) {
         Ok(design) => {
             write(arguments, job, problem, &design, None)?;

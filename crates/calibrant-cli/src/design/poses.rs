@@ -1,18 +1,16 @@
 //! `calibrant design` of a `[holds]` experiment: the best poses.
 
 use super::pose_output::about;
-use super::reach_request::{asked, evidence, goals};
 use super::{Arguments, pose_evaluation};
 use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
-use calibrant::DesignPlan;
-use calibrant::design::poses::{FewestPoses, PoseDesign, PoseProblem};
+use calibrant::design::poses::{PoseDesign, PoseProblem};
 use calibrant::diagnostic::design::SearchInterrupted;
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{PoseDesignFile, Reached, to_json, write_json, write_poses, write_text};
-use calibrant::report::number_format::counted;
 use calibrant::report::{pose_in_words, pose_sheet};
+use calibrant::{DesignPlan, ReachedDesign};
 
 pub(super) fn run(arguments: &Arguments, job: &DesignPlan) -> calibrant::Result<Exit> {
     refuse_options_of_a_motion(arguments)?;
@@ -46,7 +44,7 @@ fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> cal
     let unit = job.experiment.sensor.unit;
     let (design, reached) = search(arguments, job, problem)?;
     let words: Vec<String> = design.directions.iter().map(pose_in_words).collect();
-    let sentence = reached.as_ref().map(|reached| goal_sentence(arguments, &design, problem, reached));
+    let (reached, sentence) = reached.unzip();
     let output = &arguments.output;
     let file = PoseDesignFile { design: &design, reached: reached.as_ref(), problem, unit };
     write_json(&output.join("design.json"), &file)?;
@@ -65,38 +63,21 @@ fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> cal
     Ok(Exit::DONE)
 }
 
-/// The design, and the goals that it reaches, where there are goals.
+/// The design; the goals that it reaches and a sentence on them, where there are goals.
 fn search(
     arguments: &Arguments,
     job: &DesignPlan,
     problem: &PoseProblem,
-) -> calibrant::Result<(PoseDesign, Option<Reached>)> {
+) -> calibrant::Result<(PoseDesign, Option<(Reached, String)>)> {
     if arguments.reach.is_empty() {
         let bar = console::progress(job.settings.starts as u64, "starts");
         let found = job.design_poses(problem, &|done| bar.inc(done));
         bar.finish_and_clear();
         return Ok((found?, None));
     }
-    let goals = goals(&arguments.reach, &problem.list, job.experiment.sensor.unit, &problem.at)?;
     let bar = console::spinner("starts");
-    let found = job.fewest_poses(problem, &goals, &|done| bar.inc(done));
+    let found = job.reach_by_poses(problem, &arguments.reach, &|done| bar.inc(done));
     bar.finish_and_clear();
-    let FewestPoses { design, at_least } = found?;
-    Ok((design, Some(Reached::new(&goals, &problem.list.names(), Some(at_least)))))
-}
-
-/// What came of `--reach`.
-fn goal_sentence(
-    arguments: &Arguments,
-    design: &PoseDesign,
-    problem: &PoseProblem,
-    reached: &Reached,
-) -> String {
-    let found = design.directions.len();
-    let more = if arguments.from.is_empty() { "" } else { "more " };
-    let poses =
-        if found == 1 { format!("One {more}pose reaches") } else { format!("{found} {more}poses reach") };
-    let evidence = evidence(reached.at_least, found, design.starts, |count| counted(count, "pose"));
-    let beside = if problem.gravity_is_given() { "" } else { ", beside the error of gravity" };
-    format!("{poses} {}{beside}.{evidence}", asked(&arguments.reach))
+    let ReachedDesign { design, reached, sentence } = found?;
+    Ok((design, Some((reached, sentence))))
 }

@@ -5,11 +5,10 @@ use super::job::about;
 use super::sweep_request::Request;
 use crate::diagnostics::{tell, tell_all};
 use crate::exit::Exit;
-use crate::{budget, console, interruption};
-use calibrant::design::{DesignProblem, DesignStatus, sweep, sweep_work};
+use crate::{console, interruption};
+use calibrant::design::{DesignProblem, DesignStatus};
 use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::io::{DesignSetting, SweepFile, to_json, write_json, write_sweep_csv, write_text};
-use calibrant::report::number_format::counted;
 use calibrant::report::sweep_sheet;
 use calibrant::{DesignPlan, sweep_remarks};
 
@@ -19,14 +18,9 @@ pub(super) fn run(
     problem: &DesignProblem<'_>,
     request: &Request,
 ) -> calibrant::Result<Exit> {
-    let work = sweep_work(problem, &job.settings, request.variable, &request.values)
-        .map_err(|error| error.in_experiment(&arguments.experiment))?;
-    let what = counted(request.values.len(), "value") + " of the sweep";
-    budget::check(work, &what, "sweep less far, or take fewer starts")?;
     let bar = console::progress(request.values.len() as u64, "values");
-    let outcome = sweep(problem, &job.settings, request.variable, &request.values, &|number, _| {
-        bar.set_position(number as u64);
-    });
+    let outcome =
+        job.sweep(problem, request.variable, &request.values, &|number| bar.set_position(number as u64));
     bar.finish_and_clear();
     let swept = outcome.map_err(|error| error.in_experiment(&arguments.experiment))?;
     if interruption::is_asked() {

@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Arguments, job: DesignPlan) -> calibrant::Result<E
         return trajectory_durations::reach(arguments, plan.with_progress(Progress::default()));
     }
     if let Some(path) = &arguments.evaluate {
-        let evaluation = plan.evaluate(path)?;
+        let evaluation = plan.evaluate(&path.into())?;
         let design = plan.design();
         bar.finish_and_clear();
         let best = design.map_err(|why| tell(MotionNotCompared { why: Phrase(why.to_string()) })).ok();

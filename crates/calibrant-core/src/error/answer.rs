@@ -50,6 +50,7 @@ options! {
     Poses "poses" "The directions of holds.";
     RateHz "rate_hz" "The sample rate in Hz.";
     RateSdPpm "rate_sd_ppm" "The standard deviation of the sample rate in ppm.";
+    Reach "reach" "Standard deviations that a design should reach.";
     Records "records" "The database to which results are added.";
     Sections "sections" "The faces and turns of a session.";
     Seconds "seconds" "How long a search may take.";

@@ -28,6 +28,10 @@ impl ReferenceLogFile {
         let refused =
             |code, message: String, help: &str| Err(Error::recording(InputError::new(code, message, help)));
         let rows = log.times_s().len();
+        if rows < 2 {
+            let message = format!("the log has {rows} times");
+            return refused(Refusal::RecordingShort, message, "give the motion of the whole recording");
+        }
         let (format, lists): (_, Vec<(&str, Vec<f64>, usize)>) = match &log {
             ReferenceLog::Joints(joints) => {
                 let width = joints.names.len();

@@ -15,8 +15,8 @@ const LARGEST: u64 = 1 << 30;
 /// What an earlier calibration found of a machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EarlierMachine {
-    /// The file.
-    pub file: PathBuf,
+    /// The file, where it was one.
+    pub file: Option<PathBuf>,
     /// Links of the chain: the one that stands still, and the one that carries the sensor.
     pub ends: [String; 2],
     /// Name and value of what was found beside the sensor's parameters: `zero.elbow`.
@@ -73,10 +73,19 @@ struct Noise {
 /// # Errors
 /// [`Error::Experiment`] with the file: it cannot be read, is no such calibration, or has numbers that make no sense.
 pub fn read_earlier_machine(path: &Path) -> Result<EarlierMachine> {
-    decoding::parsed(path, (LARGEST, "the calibration"), |bytes| parse(path, bytes))
+    let earlier = decoding::parsed(path, (LARGEST, "the calibration"), parse)?;
+    Ok(EarlierMachine { file: Some(path.to_path_buf()), ..earlier })
 }
 
-fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
+/// Reads the bytes of one.
+///
+/// # Errors
+/// As [`read_earlier_machine`], without the file.
+pub fn parse_earlier_machine(bytes: &[u8]) -> Result<EarlierMachine> {
+    parse(bytes).map_err(Error::Experiment)
+}
+
+fn parse(bytes: &[u8]) -> Checked<EarlierMachine> {
     let help =
         "give a calibration.json of a sensor on a machine: `calibrant calibrate arm.toml recording.csv`";
     let File { schema, machine, inputs } = serde_json::from_slice(bytes)
@@ -145,7 +154,7 @@ fn parse(path: &Path, bytes: &[u8]) -> Checked<EarlierMachine> {
         .filter_map(|noise| noise.growth)
         .fold(None, |most: Option<f64>, one| Some(most.map_or(one, |most| most.max(one))));
     Ok(EarlierMachine {
-        file: path.to_path_buf(),
+        file: None,
         ends,
         quantities: of.quantities.into_iter().map(|found| (found.name, found.value)).collect(),
         lever_m: of.lever_m.into(),
@@ -186,8 +195,8 @@ impl EarlierMachine {
         if let Some(difference) = difference {
             let message = format!("this calibration is of another machine: {difference}");
             let help = "give a calibration of the machine of the experiment";
-            let input_error =
-                InputError::new(Refusal::CalibrationUnsuited, message, help).in_file(&self.file);
+            let mut input_error = InputError::new(Refusal::CalibrationUnsuited, message, help);
+            input_error.file = self.file.clone();
             return Err(Error::experiment(input_error));
         }
         let of = |quantity: MachineQuantity| self.value(&quantity.name(&names)).unwrap_or(0.0);

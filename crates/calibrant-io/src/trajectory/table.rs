@@ -1,12 +1,12 @@
 //! `trajectory.csv`: positions, velocities and accelerations of the joints at the knots.
 
 use super::knots::{between_knots, spline_through_velocities};
-use crate::reference_log::{ReferenceLogOptions, read_reference_log};
+use crate::reference_log::{ReferenceLogFile, ReferenceLogOptions, read_reference_log};
 use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::number_format::counted;
 use calibrant_machine::chain::KinematicChain;
-use calibrant_machine::log::ReferenceLog;
+use calibrant_machine::log::{JointLog, ReferenceLog};
 use calibrant_machine::spline::VectorSpline;
 use std::iter::once;
 use std::path::Path;
@@ -31,6 +31,15 @@ impl Trajectory {
             turns: chain.joints.iter().map(|joint| joint.kind.turns()).collect(),
             spline,
         }
+    }
+
+    /// The trajectory of the joints of this chain that has these positions and velocities at its knots.
+    ///
+    /// # Errors
+    /// As [`read_trajectory`].
+    pub fn at_knots(log: &JointLog, chain: &KinematicChain) -> Result<Self> {
+        ReferenceLogFile::of_log(ReferenceLog::Joints(log.clone()))?;
+        through(log, 0, None, chain)
     }
 
     /// Its positions at and between the knots, as the log of a machine that follows it.
@@ -86,12 +95,24 @@ pub fn write_trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
 /// ```
 pub fn read_trajectory(path: &Path, chain: &KinematicChain) -> Result<Trajectory> {
     let file = read_reference_log(path, &ReferenceLogOptions::default())?;
-    let refused = |code: Refusal, message: String, help: &str| {
-        Err(Error::recording(InputError::new(code, message, help).in_file(path)))
-    };
+    let placed = |error: Error| error.in_recording(path);
     let Some(log) = file.joints() else {
-        return refused(Refusal::FormatUnknown, "these are poses, no joints".into(), HELP);
+        let message = "these are poses, no joints";
+        return Err(placed(Error::recording(InputError::new(Refusal::FormatUnknown, message, HELP))));
     };
+    let left_out = file.rows.saturating_sub(log.times_s.len());
+    through(log, left_out, file.trajectory.clone(), chain).map_err(placed)
+}
+
+/// The trajectory of a chain's joints through these rows, where so many were left out. `spline`: what accelerations beside them say.
+fn through(
+    log: &JointLog,
+    left_out: usize,
+    spline: Option<VectorSpline>,
+    chain: &KinematicChain,
+) -> Result<Trajectory> {
+    let refused =
+        |code: Refusal, message: String| Err(Error::recording(InputError::new(code, message, HELP)));
     let mut places = Vec::with_capacity(chain.joints.len());
     for joint in &chain.joints {
         match log.names.iter().position(|name| *name == joint.name) {
@@ -99,21 +120,21 @@ pub fn read_trajectory(path: &Path, chain: &KinematicChain) -> Result<Trajectory
             None => {
                 let unit = joint.kind.unit();
                 let message = format!("the joint `{}` has no column {}_{unit}", joint.name, joint.name);
-                return refused(Refusal::ColumnMissing, message, HELP);
+                return refused(Refusal::ColumnMissing, message);
             }
         }
     }
     let width = log.names.len();
-    let found = file.trajectory.clone().or_else(|| {
+    let found = spline.or_else(|| {
         let velocities = log.velocities.as_ref()?;
         spline_through_velocities(&log.times_s, &log.positions, velocities, width)
     });
     let Some(spline) = found else {
-        let message = match file.rows.saturating_sub(log.times_s.len()) {
+        let message = match left_out {
             0 => "its rows are not of one cubic spline with knots at these times".to_owned(),
-            left_out => format!("a value is missing or is no number in {}", counted(left_out, "row")),
+            _ => format!("a value is missing or is no number in {}", counted(left_out, "row")),
         };
-        return refused(Refusal::MotionInvalid, message, HELP);
+        return refused(Refusal::MotionInvalid, message);
     };
     let controls = spline.controls.chunks_exact(width);
     let controls = controls.flat_map(|row| places.iter().map(|place| row[*place])).collect();

@@ -96,8 +96,10 @@ fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKi
         Draft::new(FileFormat::Csv, imu_tk::named(&head, sensor_kind))
     };
     draft.keep_only(sensor_kind);
-    // the other sensor's unit, and the columns of one file that holds both, do not apply
-    let options = ImuReadOptions { columns: ColumnMapping::default(), ..options.clone() };
+    // the columns of one file that holds both sensors do not apply; a time that this one has does
+    let time = options.columns.time.clone().filter(|name| head.names.contains(&name.as_str()));
+    let columns = ColumnMapping { time, ..ColumnMapping::default() };
+    let options = ImuReadOptions { columns, ..options.clone() };
     rows(draft, head, source, &options)
 }
 

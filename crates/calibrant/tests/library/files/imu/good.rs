@@ -312,6 +312,21 @@ fn what_is_missing_twice_or_cut_off_is_dropped_with_a_word() {
 }
 
 #[test]
+fn the_time_of_a_pair_may_be_named() {
+    let names = ["ax", "ay", "az"].map(str::to_owned);
+    let columns = ColumnMapping { time: Some("elapsed".into()), accelerometer: Some(names), ..PLAIN.columns };
+    let both = units(ImuUnit::Counts, ImuUnit::Counts);
+    let options = ImuReadOptions { columns, time_unit: Some(TimeUnit::Millisecond), ..both };
+    let read = |second: &[u8]| parse_imu_pair(b"elapsed,x,y,z\n0,1,2,4\n10,1,2,3\n", second, &options);
+    let file = read(b"elapsed,x,y,z\n5,1,2,4\n15,1,2,3\n").expect("good");
+    assert_eq!(file.recording.accelerometer.expect("there").times_s(), [0.0, 0.01]);
+    assert_eq!(file.recording.gyroscope.expect("there").times_s(), [0.005, 0.015]);
+    // a file without that name has its own time
+    let own = read(b"t_ms,x,y,z\n5,1,2,4\n15,1,2,3\n").expect("good");
+    assert_eq!(own.recording.gyroscope.expect("there").times_s(), [0.005, 0.015]);
+}
+
+#[test]
 fn a_pair_may_have_headers_and_different_times() {
     let both = units(ImuUnit::Counts, ImuUnit::Counts);
     let file = parse_imu_pair(

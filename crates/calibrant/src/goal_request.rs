@@ -1,18 +1,28 @@
-//! Parses the request of `calibrant design --reach`.
+//! A standard deviation that a design should reach, as people write it: `scale.x=50ppm`.
 
-use calibrant::design::Goal;
-use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::nearest;
-use calibrant::machine_design::TrajectoryGoal;
-use calibrant::sensor::{ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::{
+    ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
+};
+use calibrant_design::Goal;
+use calibrant_io::nearest;
+use calibrant_machine_design::TrajectoryGoal;
 
 /// A parameter, and the standard deviation that it should have.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Request {
-    pub(super) name: String,
+///
+/// # Examples
+/// ```
+/// use calibrant::GoalRequest;
+///
+/// assert!(GoalRequest::parse("scale.x=50ppm").is_ok());
+/// assert!(GoalRequest::parse("scale.x=5 furlongs").is_err());
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct GoalRequest {
+    name: String,
     value: f64,
     /// As it was written.
-    pub(super) text: String,
+    text: String,
     dimension: Dimension,
 }
 
@@ -47,76 +57,65 @@ const UNITS: [(&str, f64, Dimension); 14] = [
     ("m/s²", 1.0, Dimension::Acceleration),
 ];
 
-/// What stands against fewer than were found: the bound, and below that the search.
-pub(super) fn evidence(
-    at_least: Option<usize>,
-    found: usize,
-    starts: usize,
-    counted: impl Fn(usize) -> String,
-) -> String {
-    // a bound of one says nothing
-    let least = at_least.filter(|least| *least > 1);
-    let bound = match least {
-        Some(least) if least == found => return " Fewer cannot, by the bound.".into(),
-        Some(least) => format!(" Fewer than {} cannot, by the bound.", counted(least)),
-        None => String::new(),
-    };
-    match found {
-        1 => bound,
-        _ => format!("{bound} With {}, none was found in {starts} starts.", counted(found - 1)),
+impl GoalRequest {
+    /// Reads `scale.x=50ppm` or `bias.z=0.2mg`.
+    ///
+    /// # Errors
+    /// What is wrong with the text.
+    pub fn parse(text: &str) -> std::result::Result<Self, String> {
+        let (name, value) =
+            text.split_once('=').ok_or("write NAME=SD, for example scale.x=50ppm or bias.z=0.2mg")?;
+        Self::of(name, value)
     }
-}
 
-/// Reads `scale.x=50ppm` or `bias.z=0.2mg`.
-pub(crate) fn parse(text: &str) -> Result<Request, String> {
-    let (name, value) =
-        text.split_once('=').ok_or("write NAME=SD, for example scale.x=50ppm or bias.z=0.2mg")?;
-    let value = value.trim();
-    let (number, size, dimension) = UNITS
-        .iter()
-        .find_map(|(unit, size, dimension)| {
-            value.strip_suffix(unit).map(|number| (number, *size, *dimension))
-        })
-        .unwrap_or((value, 1.0, Dimension::Own));
-    let number: f64 =
-        number.trim().parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0).ok_or_else(
-            || {
-                let units = UNITS.map(|(unit, ..)| unit).join(", ");
-                format!("\"{value}\" is not a number above 0 with one of the units {units}")
-            },
-        )?;
-    Ok(Request { name: name.trim().to_owned(), value: number * size, text: value.to_owned(), dimension })
-}
+    /// The same of a name, and a value with its unit.
+    ///
+    /// # Errors
+    /// What is wrong with the value.
+    pub fn of(name: &str, value: &str) -> std::result::Result<Self, String> {
+        let value = value.trim();
+        let (number, size, dimension) = UNITS
+            .iter()
+            .find_map(|(unit, size, dimension)| {
+                value.strip_suffix(unit).map(|number| (number, *size, *dimension))
+            })
+            .unwrap_or((value, 1.0, Dimension::Own));
+        let number: Option<f64> = number.trim().parse().ok();
+        let number = number.filter(|number| number.is_finite() && *number > 0.0).ok_or_else(|| {
+            let units = UNITS.map(|(unit, ..)| unit).join(", ");
+            format!("\"{value}\" is not a number above 0 with one of the units {units}")
+        })?;
+        Ok(Self { name: name.trim().to_owned(), value: number * size, text: value.to_owned(), dimension })
+    }
 
-/// What is asked for, in words: `scale.x to 50ppm and bias.z to 0.2mg`.
-pub(super) fn asked(requests: &[Request]) -> String {
-    let words: Vec<String> =
-        requests.iter().map(|request| format!("{} to {}", request.name, request.text)).collect();
-    words.join(" and ")
+    /// In words: `scale.x to 50ppm`.
+    pub(crate) fn in_words(&self) -> String {
+        format!("{} to {}", self.name, self.text)
+    }
 }
 
 /// The goals for these parameters. Shares and accelerations count for readings in counts through the gain of
 /// the parameter's axis, counts per m/s².
-pub(super) fn goals(
-    requests: &[Request],
+pub(crate) fn goals(
+    requests: &[GoalRequest],
     list: &ParameterList,
     unit: ReadingUnit,
     at: &SensorParameters,
-) -> calibrant::Result<Vec<Goal>> {
+) -> Result<Vec<Goal>> {
     requests.iter().map(|request| goal(request, list, unit, at)).collect()
 }
 
 fn goal(
-    request: &Request,
+    request: &GoalRequest,
     list: &ParameterList,
     unit: ReadingUnit,
     at: &SensorParameters,
-) -> calibrant::Result<Goal> {
+) -> Result<Goal> {
     let reject = |message: String, help: String| {
         Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))
     };
     let Some(parameter) = list.position(&request.name) else {
-        let message = format!("--reach: this sensor has no parameter \"{}\"", request.name);
+        let message = format!("option `reach`: this sensor has no parameter \"{}\"", request.name);
         let names = list.names();
         let near = nearest(&request.name, names.iter().map(String::as_str));
         let hint = near.map_or(String::new(), |near| format!("did you mean {near}? "));
@@ -131,7 +130,8 @@ fn goal(
         Dimension::Rate => false,
     };
     if !fits {
-        let message = format!("--reach: {} is not measured in the unit of {}", request.name, request.text);
+        let message =
+            format!("option `reach`: {} is not measured in the unit of {}", request.name, request.text);
         let help = if is_bias { "give mg, ug or m/s2" } else { "give ppm or %" };
         return reject(message, help.into());
     }
@@ -145,10 +145,10 @@ fn goal(
 }
 
 /// The goals for the parameters of an IMU. A name without a sensor, or without an axis, is of all that it fits: `scale`, `gyroscope.bias`, `scale.x`.
-pub(super) fn goals_of_imu(
-    requests: &[Request],
+pub(crate) fn goals_of_imu(
+    requests: &[GoalRequest],
     quantities: &[ImuQuantity],
-) -> calibrant::Result<Vec<TrajectoryGoal>> {
+) -> Result<Vec<TrajectoryGoal>> {
     let mut goals = Vec::new();
     for request in requests {
         let fits = |name: &str| {
@@ -164,7 +164,7 @@ pub(super) fn goals_of_imu(
             let names: Vec<String> = quantities.iter().map(|quantity| quantity.name()).collect();
             let near = nearest(&request.name, names.iter().map(String::as_str));
             let hint = near.map_or(String::new(), |near| format!("did you mean {near}? "));
-            let message = format!("--reach: this sensor has no parameter \"{}\"", request.name);
+            let message = format!("option `reach`: this sensor has no parameter \"{}\"", request.name);
             return refused(message, format!("{hint}its parameters are {}", names.join(", ")));
         }
         let measured = |place: &usize| match quantities[*place] {
@@ -180,7 +180,7 @@ pub(super) fn goals_of_imu(
         goals.extend(fitting.map(|place| TrajectoryGoal { parameter: *place, sd: request.value }));
         if goals.len() == before {
             let name = quantities[places[0]].name();
-            let message = format!("--reach: {name} is not measured in the unit of {}", request.text);
+            let message = format!("option `reach`: {name} is not measured in the unit of {}", request.text);
             let help = match measured(&places[0]) {
                 Dimension::Acceleration => "give mg, ug or m/s2",
                 Dimension::Rate => "give deg/h, deg/s or rad/s",
@@ -196,26 +196,14 @@ pub(super) fn goals_of_imu(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use calibrant::sensor::SensorModel;
+    use calibrant_core::sensor::SensorModel;
     use nalgebra::Matrix3;
-
-    #[test]
-    fn a_bound_of_one_proves_nothing() {
-        let said = |at_least, found| evidence(at_least, found, 30, |count| format!("{count} poses"));
-        assert_eq!(said(Some(9), 9), " Fewer cannot, by the bound.");
-        assert_eq!(said(Some(1), 4), " With 3 poses, none was found in 30 starts.");
-        assert_eq!(
-            said(Some(3), 4),
-            " Fewer than 3 poses cannot, by the bound. With 3 poses, none was found in 30 starts."
-        );
-        assert_eq!(said(Some(1), 1), "");
-    }
 
     #[test]
     fn goals_have_the_units_of_data_sheets() {
         let list = ParameterList::new(3, SensorModel::ScaleBias);
         let of = |text: &str, unit| {
-            let request = parse(text).expect("a request");
+            let request = GoalRequest::parse(text).expect("a request");
             let gain = if unit == ReadingUnit::Counts { 400.0 } else { 1.0 };
             let at = SensorParameters { matrix: Matrix3::identity() * gain, ..SensorParameters::identity() };
             goals(&[request], &list, unit, &at).map(|goals| (goals[0].parameter, goals[0].sd))
@@ -234,7 +222,7 @@ mod tests {
         assert!(of("accelerometer.bias.x=1mg", mps2).is_ok());
         assert!(of("scale.x=1mg", mps2).is_err() && of("scale.q=1ppm", mps2).is_err());
         for wrong in ["scale.x", "scale.x=-1", "scale.x=much", "scale.x=5furlong"] {
-            assert!(parse(wrong).is_err(), "{wrong}");
+            assert!(GoalRequest::parse(wrong).is_err(), "{wrong}");
         }
     }
 }
