@@ -11,7 +11,6 @@ from . import _native
 from ._calibration import Calibration, _number
 from ._diagnostic import Diagnostic, diagnostics
 from ._frames import frame, library_of
-from ._sheet import page_html
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,9 +57,6 @@ class Comparison:
 
     def __str__(self) -> str:
         return self._summary
-
-    def _repr_html_(self) -> str:
-        return page_html(self._html)
 
     def to_json(self) -> str:
         """The text that ``calibrant compare --json`` writes."""

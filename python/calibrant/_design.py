@@ -18,7 +18,6 @@ from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._motion import Joints, Motion, as_native_motion
 from ._progress import Progress, Told
-from ._sheet import page_html
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,7 +39,9 @@ class _Sheet:
         return self._summary
 
     def _repr_html_(self) -> str:
-        return page_html(self._html)
+        from html import escape
+
+        return f'<iframe srcdoc="{escape(self._html)}" style="width:100%;height:40em;border:0"></iframe>'
 
     def to_json(self) -> str:
         """The text of the JSON file of the command line."""

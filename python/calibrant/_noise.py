@@ -13,7 +13,6 @@ from ._calibration import _number, _write
 from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._recording import as_source
-from ._sheet import page_html
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -135,9 +134,6 @@ class Noise:
 
     def __str__(self) -> str:
         return self._summary
-
-    def _repr_html_(self) -> str:
-        return page_html(self._html)
 
     def to_json(self) -> str:
         """The text of ``noise.json``."""

@@ -15,7 +15,6 @@ from ._arrays import Array, Path, as_list, as_table, numbers, table
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import experiment_error
 from ._frames import columns_of, frame, is_frame, library_of
-from ._sheet import page_html
 
 Columns = Mapping[str, Union[str, Sequence[str]]]
 
@@ -88,7 +87,7 @@ class Inspection:
         return self.text
 
     def _repr_html_(self) -> str:
-        return page_html(self.html)
+        return self.html
 
 
 class Recording:

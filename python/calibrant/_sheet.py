@@ -55,12 +55,6 @@ def table_html(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return f"<table><thead><tr>{line('th', head)}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def page_html(page: str) -> str:
-    """A whole page within another: its styles stay its own."""
-    style = "width:100%;height:36em;border:1px solid #d8dee4;resize:vertical"
-    return f'<iframe srcdoc="{escape(page)}" style="{style}"></iframe>'
-
-
 _HEAD = ("parameter", "value", "sd", "unit")
 
 

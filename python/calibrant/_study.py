@@ -12,7 +12,6 @@ from ._calibration import _write
 from ._diagnostic import Diagnostic, diagnostics
 from ._motion import as_native_motion
 from ._progress import Progress, Told
-from ._sheet import page_html
 
 
 class Study:
@@ -29,9 +28,6 @@ class Study:
 
     def __str__(self) -> str:
         return self._summary
-
-    def _repr_html_(self) -> str:
-        return page_html(self._html)
 
     def to_json(self) -> str:
         """The text of ``study.json``."""
