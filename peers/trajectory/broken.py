@@ -1,9 +1,9 @@
 """Broken trajectories: does `calibrant design arm.toml --evaluate` flag each, and for the right reason?
 
 A trajectory is designed with limits that leave room. Bumps of one or several joints, found by a random search, then break one limit each by little and keep all others: position,
-velocity, acceleration, jerk, tip speed, sensor range, floor, self-collision. Which limits a bump breaks is judged here: joint limits from the piecewise polynomials,
+velocity, acceleration, jerk, tip speed, sensor range, self-collision. Which limits a bump breaks is judged here: joint limits from the piecewise polynomials,
 the rest at 4000 times, from homogeneous matrices and their differences. A box grows instead, until the good
-trajectory is too near to it. Other files are not at rest at the end, or are no trajectories.
+trajectory is too near to it; and the whole arm is lowered towards the floor, which may break other limits, too. Other files are not at rest at the end, or are no trajectories.
 
 A row of the table: what was done, the exit status, what evaluation.json says is broken (or the message), and whether this is the reason.
 
@@ -40,11 +40,11 @@ BOX = [0.45, 0.35, 0.2], [0.15, 0.15, 0.2]
 BEYOND = 0.004  # part of a limit by which it is broken at most; m for a distance, so that bodies still do not touch
 BUMPS = {  # joints, and width in knots (0: a constant, 1: two neighbours apart) of the bumps that may break a limit
     "position": ([5, 3, 0], 0), "velocity": ([5], 8), "acceleration": ([5], 3), "jerk": ([0, 5], 1), "tip speed": ([0, 1, 2], 6), "specific force": ([1, 2, 3, 4], 2),
-    "floor": ([1, 2], 0), "self": ([2, 3, 4], 6),
+    "self": ([2, 3, 4], 6),
 }
 REASONS = {  # kind of the limit in evaluation.json, and what `of` has
     "position": ("position", ""), "velocity": ("velocity", ""), "acceleration": ("acceleration", ""), "jerk": ("jerk", ""), "tip speed": ("speed", ""),
-    "specific force": ("specific force", ""), "floor": ("distance", "floor"), "self": ("distance", ""),
+    "specific force": ("specific force", ""), "self": ("distance", ""),
 }
 
 
@@ -313,23 +313,28 @@ def main():
     wrong += not right
     print(f"  {f'box larger by {1e3 * near:.0f} mm':32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
 
+    for size in np.arange(0.02, 1.5, 0.02):
+        low = [points + sign * size * np.eye(points.shape[1])[1] for sign in (1, -1)]
+        low = [one for one in low if arm.distances(curve(one)(np.linspace(0, STEP * (len(one) - 3), 2000)))["floor"].min() < CLEARANCE_M - BEYOND / 2]
+        if low:
+            break
+    write(o.folder / "floor.csv", rows_of(low[0], header))
+    broken, status, names, message = evaluate(o, toml, o.folder / "floor.csv", "floor")
+    right = status != 0 and any("floor" in name for _, name in names)
+    wrong += not right
+    print(f"  {f'shoulder lower by {size:.2f} rad':32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
+
     for wanted, (kind, of) in REASONS.items():
-        of_force = judge.force
-        if wanted == "floor":  # gravity turns with the arm
-            judge.force *= 1.5
-        limits = toml.with_name(f"limits_{wanted.replace(' ', '_')}.toml")
-        limits.write_text(experiment(preset, 1, judge.force))
         changed, beyond = just_broken(judge, points, wanted, rng)
-        judge.force = of_force
         if changed is None:
             print(f"  {wanted}: no bump was found that breaks it alone")
             wrong += 1
             continue
         path = o.folder / f"{wanted.replace(' ', '_')}.csv"
         write(path, rows_of(changed, header))
-        broken, status, names, message = evaluate(o, limits, path, wanted)
+        broken, status, names, message = evaluate(o, toml, path, wanted)
         by = f"{1e3 * beyond:.1f} mm" if kind == "distance" else f"{100 * beyond:.2f} %"
-        right = status != 0 and broken and all(k == kind and of in n for k, n in names) and (wanted == "floor" or not re.search("floor|box", str(names)))
+        right = status != 0 and broken and all(k == kind and of in n for k, n in names) and not re.search("floor|box", str(names))
         wrong += not right
         print(f"  {wanted + ' by ' + by:32} status {status}  {'; '.join(broken) or 'nothing is broken'} {message}  {'right' if right else 'WRONG'}", flush=True)
 
