@@ -44,7 +44,7 @@ def test_a_trajectory_is_that_of_the_command_line(
     for path in again.save(tmp_path / "again"):
         name = pathlib.Path(path).name
         assert pathlib.Path(path).read_bytes() == (tmp_path / "cli" / name).read_bytes()
-    assert "Trajectory" in best.summary() and best.plain is not None and not best.interrupted
+    assert "Predicted standard deviations" in best.summary() and best.plain is not None and not best.interrupted
     best.report(tmp_path / "report.html")
 
 

@@ -97,7 +97,7 @@ pub(crate) fn assess<'py>(
             }
         };
         // errors of the motion itself come before the search
-        evaluate(&problem, &motion)?;
+        plan.evaluate(&problem, &motion)?;
         let optimum = match plan.design(&problem, &counter(&given, "starts", starts(&plan, &problem))) {
             Ok(design) => Ok(design),
             Err(error) if error.is_infeasible() || error.is_not_identifiable() => Err(error.to_string()),
