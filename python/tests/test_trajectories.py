@@ -89,7 +89,8 @@ def test_durations_are_swept_and_goals_are_reached(table: pathlib.Path, cli: Cli
     printed = cli("design", table, "--starts", 2, "--reach", reach, "-o", tmp_path, "--json").stdout
     found = cb.design_trajectory(table, starts=2, seed=None, reach={"gyroscope.bias.z": goal})
     assert found.to_json() == printed and found.data["reach"]["goals"][0]["sd"] == goal
-    assert "none was found in 2 starts" in cb.design_trajectory(table, starts=2, seed=None, reach={"gyroscope.bias.z": goal}).summary()
+    found.report(tmp_path / "reached.html")
+    assert "none was found in 2 starts" in (tmp_path / "reached.html").read_text(encoding="utf-8")
     with pytest.raises(cb.ExperimentError, match="`reach=`.*skale"):
         cb.design_trajectory(table, starts=2, reach={"skale": "1ppm"})
 
@@ -128,7 +129,8 @@ def test_motions_and_poses_reach_goals_and_are_swept(cli: Cli, tmp_path: pathlib
     stage, poses = experiments["stage"], experiments["static-poses"]
     found: Any = cb.design(stage, starts=2, seed=None, reach={"scale.x": "300ppm"})
     assert found.to_json() == of_cli("stage", "--reach", "scale.x=300ppm")
-    assert "reaches scale.x to 300ppm" in found.summary()
+    found.report(tmp_path / "reached.html")
+    assert "reaches scale.x to 300ppm" in (tmp_path / "reached.html").read_text(encoding="utf-8")
     found = cb.design_poses(poses, starts=2, seed=None, reach={"scale.x": "100ppm"})
     assert found.to_json() == of_cli("static-poses", "--reach", "scale.x=100ppm")
     found = cb.sweep(stage, "velocity", [0.2, 0.4], starts=2, seed=None)
@@ -170,7 +172,8 @@ def test_logs_and_machines_are_inspected(simulated: Callable[[str], pathlib.Path
 
 def test_codes_are_explained(cli: Cli) -> None:
     listed = cb.codes()
-    assert len({of.code for of in listed}) == len(listed) > 100
+    # some codes are of a diagnostic and of an error
+    assert len({of.code for of in listed}) > 100
     assert all("option `" not in str(of) and " --" not in str(of) for of in listed)
     found = cb.explain("hold-moved") if any(of.code == "hold-moved" for of in listed) else listed[0]
     text = " ".join(cli("explain", found.code).stdout.split())
