@@ -6,7 +6,7 @@ use crate::failure::{invalid, raised};
 use crate::motion::{Motion, Nodes, nodes};
 use crate::options::parsed;
 use crate::page::{Page, page};
-use crate::sweep::series;
+use crate::series::series;
 use crate::work::{How, run_as};
 use calibrant::design::{Design, DesignProblem, DesignStatus, SweepVariable, assess as assessed, evaluate};
 use calibrant::io::{DesignFile, DesignSetting, EvaluationFile, SweepFile, read_motion, to_json};

@@ -24,6 +24,7 @@ mod page;
 mod poses;
 mod recording;
 mod records;
+mod series;
 mod simulate;
 mod source;
 mod study;

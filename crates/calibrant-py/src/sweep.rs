@@ -5,12 +5,10 @@ use crate::experiment::Experiment;
 use crate::failure::{invalid, raised};
 use crate::options::parsed;
 use crate::page::Page;
-use crate::work::{How, Run, run_as};
+use crate::work::{How, run_as};
 use crate::{design, trajectory};
 use calibrant::Result;
 use calibrant::design::SweepVariable;
-use calibrant::diagnostic::Diagnostic;
-use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::io::Plan;
 use pyo3::prelude::*;
 
@@ -39,15 +37,6 @@ pub(crate) fn sweep(
         Plan::Machine(_) => trajectory::sweep(&experiment, (variable, &values), &choice, &given),
         _ => design::sweep(&experiment, (variable, &values), &choice, &given),
     })
-}
-
-/// Says that a series was interrupted, which is an error before its first value.
-pub(crate) fn series(given: &Run, finished: usize, all: usize) -> Result<Option<Diagnostic>> {
-    if finished == 0 {
-        given.interruption.check()?;
-    }
-    let interrupted = SeriesInterrupted { series: "sweep", items: "values", finished, all };
-    Ok((finished < all).then(|| interrupted.into()))
 }
 
 fn variable(name: &str) -> Result<SweepVariable> {

@@ -7,7 +7,7 @@ use crate::failure::{invalid, raised};
 use crate::motion::{Log, Motion, log};
 use crate::options::parsed;
 use crate::page::{Page, page};
-use crate::sweep::series;
+use crate::series::series;
 use crate::work::{How, Run, run, run_as};
 use calibrant::design::{DesignStatus, SweepVariable};
 use calibrant::diagnostic::design::MotionNotCompared;

@@ -110,7 +110,7 @@ checks! {
         why: Phrase,
     }
     decided "The calibration of a simulated sensor ends with an error."
-    remedy "Read the error. `calibrant simulate --seed` makes the recording again."
+    remedy "Read the error. Simulate the sensor of this seed to look at its recording."
     says format!(
         "{number} of {all} simulated sensors {} not calibrated, and what is said is of the others. {}",
         if *number == 1 { "was" } else { "were" },
