@@ -191,7 +191,7 @@ fn what_is_no_data_set_is_named() {
         assert!(message.contains("part-1.parquet: row 2: ") && message.contains(says), "{message}");
     };
     fails(&|row| row["sensor"] = Value::Null, "invalid type: null, expected a string");
-    fails(&|row| row["verdict"] = json!("fine"), "unknown variant `fine`");
+    fails(&|row| row["verdict"] = json!("fine"), "`fine` is none of `ok`, `doubtful`, `bad`");
     fails(&|row| row["model"] = json!("{}"), "`model` cannot be read");
     fails(&|row| row["names"] = json!(["x", "y"]), "accelerometer.bias.z is in `model` and not in `names`");
     fails(&|row| row["values"] = json!([1.0]), "2 `names` do not fit `values` and `covariance`");

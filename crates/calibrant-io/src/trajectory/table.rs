@@ -192,6 +192,11 @@ mod tests {
         write_trajectory(&path, &Trajectory::of(&chain(), wild())).expect("written");
         let good = std::fs::read_to_string(&path).expect("written");
         let rows: Vec<&str> = good.lines().collect();
+        let without_second = |row: &&str| {
+            let fields: Vec<&str> = row.splitn(3, ',').collect();
+            if fields[0] == "0.4" { format!("0.4,nan,{}", fields[2]) } else { (*row).to_owned() }
+        };
+        let lost: Vec<String> = rows.iter().map(without_second).collect();
         let mut wrong = String::new();
         for (text, wanted) in [
             (good.replace("two_", "three_"), "the joint `two` has no column two_m"),
@@ -201,7 +206,7 @@ mod tests {
                 "its rows are not of one cubic spline with knots at these times",
             ),
             (good.replace("\n0.4,-", "\n0.4,"), "its rows are not of one cubic spline"),
-            (good.replace("\n0.4,-", "\n0.4,nan"), "a value is missing or is no number in 1 row"),
+            (lost.join("\n"), "a value is missing or is no number in 1 row"),
             (good.replace("one_rad,two_m,", "one_x,two_x,"), "no column"),
             ([rows[0], rows[2], rows[1]].join("\n"), "0.2"),
         ] {
