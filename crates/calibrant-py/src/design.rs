@@ -8,7 +8,7 @@ use crate::options::parsed;
 use crate::page::{Page, page};
 use crate::series::series;
 use crate::work::{How, run_as};
-use calibrant::design::{Design, DesignProblem, DesignStatus, SweepVariable, assess as assessed, evaluate};
+use calibrant::design::{Design, DesignProblem, DesignStatus, SweepVariable, assess as assessed};
 use calibrant::io::{DesignFile, DesignSetting, EvaluationFile, SweepFile, read_motion, to_json};
 use calibrant::report::{About, design_sheet, evaluation_sheet, sweep_sheet};
 use calibrant::session::MotionSource;

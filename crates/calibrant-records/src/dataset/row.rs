@@ -154,12 +154,12 @@ impl DatasetRow {
     /// The columns do not fit together.
     pub fn into_record(self) -> Checked<Record> {
         let model = model::read(&self.model).ok_or_else(|| unfit("`model` cannot be read".to_owned()))?;
-        let place = |name: String| {
+        let place = |name: String| -> Checked<usize> {
             let place = self.names.iter().position(|listed| *listed == name);
-            place.ok_or_else(|| unfit(format!("{name} is in `model` and not in `names`")))
+            place.ok_or_else(|| unfit(format!("{name} is in `model` and not in `names`")).into())
         };
         let places: Vec<usize> =
-            model.quantities.iter().map(|of| place(of.name())).collect::<std::result::Result<_, _>>()?;
+            model.quantities.iter().map(|of| place(of.name())).collect::<Checked<_>>()?;
         let size = self.names.len();
         let triangle = self.covariance.as_ref();
         if self.values.len() != size || triangle.is_some_and(|of| of.len() != size * (size + 1) / 2) {
