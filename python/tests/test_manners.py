@@ -109,12 +109,16 @@ def interrupted(call: Callable[[], Any], after_s: float = 1.0) -> tuple[Any, flo
         os.kill(os.getpid(), signal.SIGINT)
 
     timer = threading.Timer(after_s, ask)
-    timer.start()
     found = None
+    # a shell that runs the tests in the background makes them deaf
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer.start()
     try:
         found = call()
     except KeyboardInterrupt:
         pass
+    finally:
+        signal.signal(signal.SIGINT, before)
     ended = time.monotonic()
     assert asked, "it ended before Ctrl-C came"
     return found, ended - asked[0]

@@ -83,7 +83,7 @@ def _designed(experiment: Experiment, choice: str, threads: int | None) -> dict[
     found: Design | PoseDesign | TrajectoryDesign
     times: Any = None
     if experiment.kind == "machine":
-        found = TrajectoryDesign(_native.design_trajectory(experiment._native, choice, threads=threads))
+        found = TrajectoryDesign(*_native.design_trajectory(experiment._native, choice, threads=threads))
         times, axes, track = found.joints.t_s, list(found.joints.names), found.joints.positions
     elif experiment.kind == "holds":
         found = PoseDesign(_native.design_poses(experiment._native, None, choice, threads=threads))

@@ -66,7 +66,7 @@ pub(crate) fn search(
     let sizes = sizes(problem);
     let shared = Shared { problem, sensing, sizes: &sizes };
     let levels = levels(problem);
-    let mut candidates = drawn(shared, settings, levels[0]);
+    let mut candidates = drawn(shared, settings, levels[0], interruption);
     let first = candidates.first().cloned().ok_or_else(|| no_start(shared, levels[0]))?;
     let mut full = FullInformation::new(sensing, problem.chain, first.knots, POINTS[0]);
     if full.at(&first.controls).is_none() {
@@ -86,8 +86,11 @@ pub(crate) fn search(
             candidates = candidates.into_iter().map(Candidate::halved).collect();
         }
         let level = level(place + 3 - levels.len(), settings, interruption);
+        // an interruption leaves out starts that were not begun
+        let begun = |one: &Candidate| place > 0 || one.start == first.start || !interruption.is_asked();
         candidates = candidates
             .into_par_iter()
+            .filter(begun)
             .map(|one| shared.with_full_value(shared.improve(one, &level), level.points))
             .collect();
         sort(&mut candidates);
@@ -222,9 +225,17 @@ fn sort(candidates: &mut [Candidate]) {
 }
 
 /// Starts. Numbers of dwells take turns.
-fn drawn(shared: Shared<'_>, settings: &TrajectorySettings, knots: Knots) -> Vec<Candidate> {
+fn drawn(
+    shared: Shared<'_>,
+    settings: &TrajectorySettings,
+    knots: Knots,
+    interruption: &Interruption,
+) -> Vec<Candidate> {
     let numbers = dwell_numbers(shared.problem);
     let one = |start: usize| {
+        if start > 0 && interruption.is_asked() {
+            return None;
+        }
         let dwells = runs(numbers[start % numbers.len()], knots);
         let mut candidate = Candidate {
             knots,
