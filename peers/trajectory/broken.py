@@ -379,7 +379,7 @@ def files(header, points):
     yield "no velocities", [[x for k, x in enumerate(row) if k <= len(points[0])] for row in good], "velocit|spline"
     unfinite = [list(row) for row in good]
     unfinite[30][2] = float("nan")
-    yield "not a number", unfinite, "number|finite|NaN|nan"
+    yield "not a number", unfinite, "number|finite|NaN|nan|spline"
 
 
 if __name__ == "__main__":
