@@ -284,7 +284,7 @@ impl<'a> Planner<'a> {
         })
     }
 
-    /// Control points of a tour that stays so many intervals at each posture, and at the last one until there are at least so many.
+    /// Control points of a tour. It stays `hold` intervals at each posture. The last posture is repeated until there are `at_least` control points.
     fn controls(&self, tour: &Tour, hold: usize, at_least: usize) -> DMatrix<f64> {
         let mut rows: Vec<Posture> = vec![tour.postures[0].clone(); REST + hold];
         for (pair, intervals) in tour.postures.windows(2).zip(&tour.moves) {

@@ -118,7 +118,7 @@ fn options_of(text: &str, motion: Option<&Motion>) -> Result<SessionOptions> {
     Ok(SessionOptions { motion, ..parsed::<Calibrate>(text)?.options()? })
 }
 
-/// The rows of so many items, several at the same time. One that fails does not stop the others; an interruption does.
+/// The rows of `count` items, several at the same time. An item that fails does not stop the others. An interruption does.
 fn each(
     count: usize,
     what: &'static str,

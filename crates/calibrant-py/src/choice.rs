@@ -90,7 +90,7 @@ impl Choice {
     }
 }
 
-/// Tells of steps, each of which is one more.
+/// Adds up steps that are finished, and tells their number.
 pub(crate) fn counter(given: &Run, what: &'static str, of: u64) -> impl Fn(u64) + Sync + use<> {
     let (progress, done) = (given.progress.clone(), AtomicU64::new(0));
     move |more| {

@@ -140,7 +140,7 @@ fn in_pool<T: Send>(
     drop(sender.send(Told::Done(outcome)));
 }
 
-/// A pool of so many threads; 0: as many as there are cores.
+/// A pool of this number of threads. 0 stands for the number of cores.
 pub(crate) fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
     ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build()
 }

@@ -30,7 +30,7 @@ impl ParquetRows {
         Ok(Self { rows, path: path.to_path_buf() })
     }
 
-    /// The next rows, at most so many; none at the end. A number that is not finite is missing.
+    /// The next rows, at most `most` of them. There are none at the end of the file. A number that is not finite is missing.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the file is damaged.
