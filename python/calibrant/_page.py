@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cached_property
 from typing import Any
 
 from ._arrays import Path
@@ -15,12 +16,17 @@ Found = tuple[str, str, str, str]
 
 
 class Page:
-    """A result. `data` has all of it, with the names of its JSON file."""
+    """A result."""
 
     def __init__(self, found: Found) -> None:
         self._json, notes, self._summary, self._html = found
-        self.data: dict[str, Any] = json.loads(self._json)
         self.diagnostics: tuple[Diagnostic, ...] = diagnostics(json.loads(notes))
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """All of it, with the names of its JSON file."""
+        read: dict[str, Any] = json.loads(self._json)
+        return read
 
     def summary(self) -> str:
         """The sheet that the command line prints."""

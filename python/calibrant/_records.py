@@ -21,9 +21,9 @@ class Records:
     >>> cal = cb.calibrate(cb.simulate("static-poses").recording, sensor="A17")
     >>> with cb.Records(os.path.join(tempfile.mkdtemp(), "line.db")) as records:
     ...     records.add(cal)
-    ...     len(records)
+    ...     records.to_frame()["id"].tolist()
     1
-    1
+    [1]
     """
 
     def __init__(self, path: Path) -> None:
@@ -95,6 +95,7 @@ class Records:
                 rows = list(csv.reader(file))
         names, body = rows[0], rows[1:]
         columns = {name: _typed([row[k] for row in body]) for k, name in enumerate(names)}
+        columns["id"] = [int(number) for number in columns["id"]]
         return frame(columns, None if like is None else library_of(like))
 
     def __enter__(self) -> Records:

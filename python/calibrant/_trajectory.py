@@ -202,7 +202,8 @@ def assess_trajectory(
 def _joints(knots: _native.Knots) -> Joints:
     names, times, positions, velocities = knots
     by_name = [dict(zip(names, table(of, len(names)).T)) for of in (positions, velocities)]
-    return Joints(numbers(times), *by_name)
+    times_s = numbers(times)
+    return Joints(times_s, *by_name, knot_step_s=float(times_s[1] - times_s[0]))
 
 
 def _read(path: str) -> str:

@@ -69,6 +69,10 @@ def test_a_simulation_follows_a_trajectory(table: pathlib.Path, best: cb.Traject
     made = cb.simulate(table, motion=best, seed=3)
     assert isinstance(made.log, cb.Joints) and made.log.knot_step_s is not None
     assert cb.calibrate(made.recording, table, log=made.log).verdict == "ok"
+    # positions and velocities at the knots are the same motion
+    again = cb.simulate(table, motion=best.joints, seed=3).recording
+    for other, wanted in ((again.accelerometer, made.recording.accelerometer), (again.gyroscope, made.recording.gyroscope)):
+        assert other is not None and wanted is not None and np.allclose(other.values, wanted.values, rtol=0.0, atol=1e-9)
 
 
 def test_a_slow_run_is_the_same_path(table: pathlib.Path, best: cb.TrajectoryDesign, cli: Cli, tmp_path: pathlib.Path) -> None:
@@ -158,6 +162,7 @@ def test_logs_and_machines_are_inspected(simulated: Callable[[str], pathlib.Path
     assert cb.inspect(folder / "joints.csv").data == printed
     log = cb.simulate("gantry").log
     own = cb.inspect(log).data
+    assert "Noticed" not in cb.inspect(log)._repr_html_()
     assert own["joints"] == printed["joints"] and own["sampling"] == printed["sampling"]
     assert cb.inspect(folder / "recording.csv").data == json.loads(cli("inspect", folder / "recording.csv", "--json").stdout)
     machine = tmp_path / "arm.urdf"

@@ -1,14 +1,15 @@
 //! What is chosen of a design, which comes as JSON.
 
 use crate::experiment::Experiment;
-use crate::failure::invalid;
-use crate::options::{budget, positive};
-use crate::work::Run;
+use crate::failure::{invalid, raised};
+use crate::options::{budget, parsed, positive};
+use crate::work::{How, Run, run_as};
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     CriterionLetter, EarlierCalibration, EarlierMachine, parse_calibration, parse_earlier_machine,
 };
 use calibrant::{DesignChoice, DesignPlan, Error, GoalRequest, Result, TrajectoryPlan};
+use pyo3::prelude::*;
 use serde::Deserialize;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -88,6 +89,20 @@ impl Choice {
         let plan = TrajectoryPlan::after(experiment.read.clone(), &self.of(given)?, earlier.as_ref());
         plan.map_err(Experiment::placed(&experiment.file))
     }
+}
+
+/// Runs the work of a design. What it has found so far is kept when it is interrupted.
+pub(crate) fn chosen<T: Send + 'static>(
+    py: Python<'_>,
+    experiment: &Experiment,
+    choice: &str,
+    (threads, progress): (Option<usize>, Option<Py<PyAny>>),
+    work: impl FnOnce(&Experiment, &Choice, &Run) -> Result<T> + Send + 'static,
+) -> PyResult<T> {
+    let choice: Choice = parsed(choice).map_err(|error| raised(py, &error))?;
+    let experiment = experiment.clone();
+    let how = How { threads, progress, keeps_the_best: true };
+    run_as(py, how, move |given| work(&experiment, &choice, &given))
 }
 
 /// Adds up steps that are finished, and tells their number.

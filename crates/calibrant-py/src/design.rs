@@ -1,13 +1,12 @@
 //! Designs of a commanded motion: the best one, one beside it, the best as one quantity changes.
 
-use crate::choice::{Choice, counter, teller};
+use crate::choice::{Choice, chosen, counter, teller};
 use crate::experiment::Experiment;
-use crate::failure::{invalid, raised};
+use crate::failure::invalid;
 use crate::motion::{Motion, Nodes, nodes};
-use crate::options::parsed;
 use crate::page::{Page, page};
 use crate::series::series;
-use crate::work::{How, run_as};
+use crate::work::Run;
 use calibrant::design::{Design, DesignProblem, DesignStatus, SweepVariable, assess as assessed};
 use calibrant::io::{DesignFile, DesignSetting, EvaluationFile, SweepFile, read_motion, to_json};
 use calibrant::report::{About, design_sheet, evaluation_sheet, sweep_sheet};
@@ -42,16 +41,14 @@ pub(crate) fn design<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Found<'py>> {
-    let choice: Choice = parsed(choice).map_err(|error| raised(py, &error))?;
-    let experiment = experiment.clone();
-    let (page, best) = run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
+    let (page, best) = chosen(py, experiment, choice, (threads, progress), |experiment, choice, given| {
         let placed = Experiment::placed(&experiment.file);
-        let plan = choice.plan(&experiment, &given)?;
+        let plan = choice.plan(experiment, given)?;
         let problem = plan.problem().map_err(&placed)?;
         let mut notes = plan.notes.clone();
         notes.extend(rest_remark(problem.limits));
         let goals = choice.reach()?;
-        let told = counter(&given, "starts", starts(&plan, &problem));
+        let told = counter(given, "starts", starts(&plan, &problem));
         let (problem, found, reached) = if goals.is_empty() {
             let found = plan.design(&problem, &told).map_err(&placed)?;
             (problem, found, None)
@@ -83,11 +80,10 @@ pub(crate) fn assess<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Found<'py>> {
-    let choice: Choice = parsed(choice).map_err(|error| raised(py, &error))?;
-    let (experiment, source) = (experiment.clone(), motion.0.clone());
-    let (page, best) = run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
+    let (source, how) = (motion.0.clone(), (threads, progress));
+    let (page, best) = chosen(py, experiment, choice, how, move |experiment, choice, given| {
         let placed = Experiment::placed(&experiment.file);
-        let plan = choice.plan(&experiment, &given)?;
+        let plan = choice.plan(experiment, given)?;
         let problem = plan.problem().map_err(&placed)?;
         let motion = match &source {
             MotionSource::File(path) => read_motion(path, problem.sensor.axes)?,
@@ -98,7 +94,7 @@ pub(crate) fn assess<'py>(
         };
         // errors of the motion itself come before the search
         plan.evaluate(&problem, &motion)?;
-        let optimum = match plan.design(&problem, &counter(&given, "starts", starts(&plan, &problem))) {
+        let optimum = match plan.design(&problem, &counter(given, "starts", starts(&plan, &problem))) {
             Ok(design) => Ok(design),
             Err(error) if error.is_infeasible() || error.is_not_identifiable() => Err(error.to_string()),
             Err(error) => return Err(placed(error)),
@@ -120,7 +116,7 @@ pub(crate) fn sweep(
     experiment: &Experiment,
     (variable, values): (SweepVariable, &[f64]),
     choice: &Choice,
-    given: &crate::work::Run,
+    given: &Run,
 ) -> Result<Page> {
     let placed = Experiment::placed(&experiment.file);
     let plan = choice.plan(experiment, given)?;

@@ -1,7 +1,7 @@
 //! Designs of poses, and poses beside the best ones.
 
 use crate::arrays::{Numbers, as_table, vectors};
-use crate::choice::{Choice, counter};
+use crate::choice::{Choice, chosen, counter};
 use crate::experiment::Experiment;
 use crate::failure::raised;
 use crate::options::{Reading, parsed};
@@ -31,14 +31,13 @@ pub(crate) fn design_poses<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Found<'py>> {
-    let choice: Choice = parsed(choice).map_err(|error| raised(py, &error))?;
-    let experiment = experiment.clone();
-    let (page, directions) = run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
+    let how = (threads, progress);
+    let (page, directions) = chosen(py, experiment, choice, how, move |experiment, choice, given| {
         let placed = Experiment::placed(&experiment.file);
-        let plan = choice.plan(&experiment, &given)?;
+        let plan = choice.plan(experiment, given)?;
         let problem = plan.pose_problem(poses).map_err(&placed)?;
         let goals = choice.reach()?;
-        let told = counter(&given, "starts", plan.settings.starts as u64);
+        let told = counter(given, "starts", plan.settings.starts as u64);
         let (design, reached, sentence) = if goals.is_empty() {
             (plan.design_poses(&problem, &told).map_err(&placed)?, None, None)
         } else {

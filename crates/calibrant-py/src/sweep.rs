@@ -1,11 +1,9 @@
 //! Designs for several values of one quantity.
 
-use crate::choice::Choice;
+use crate::choice::chosen;
 use crate::experiment::Experiment;
-use crate::failure::{invalid, raised};
-use crate::options::parsed;
+use crate::failure::invalid;
 use crate::page::Page;
-use crate::work::{How, run_as};
 use crate::{design, trajectory};
 use calibrant::Result;
 use calibrant::design::SweepVariable;
@@ -27,15 +25,14 @@ pub(crate) fn sweep(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Page> {
-    let read = || -> Result<_> {
+    let quantity = quantity.to_owned();
+    chosen(py, experiment, choice, (threads, progress), move |experiment, choice, given| {
         checked(&values)?;
-        Ok((parsed::<Choice>(choice)?, variable(quantity)?))
-    };
-    let (choice, variable) = read().map_err(|error| raised(py, &error))?;
-    let experiment = experiment.clone();
-    run_as(py, How { threads, progress, keeps_the_best: true }, move |given| match experiment.read.plan {
-        Plan::Machine(_) => trajectory::sweep(&experiment, (variable, &values), &choice, &given),
-        _ => design::sweep(&experiment, (variable, &values), &choice, &given),
+        let asked = (variable(&quantity)?, values.as_slice());
+        match experiment.read.plan {
+            Plan::Machine(_) => trajectory::sweep(experiment, asked, choice, given),
+            _ => design::sweep(experiment, asked, choice, given),
+        }
     })
 }
 

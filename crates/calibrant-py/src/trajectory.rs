@@ -1,14 +1,13 @@
 //! Trajectories of a machine: the best one, one beside it, the best of several durations.
 
 use crate::arrays::{Numbers, as_array};
-use crate::choice::{Choice, teller};
+use crate::choice::{Choice, chosen, teller};
 use crate::experiment::Experiment;
-use crate::failure::{invalid, raised};
+use crate::failure::invalid;
 use crate::motion::{Log, Motion, log};
-use crate::options::parsed;
 use crate::page::{Page, page};
 use crate::series::series;
-use crate::work::{How, Run, run, run_as};
+use crate::work::{Run, run};
 use calibrant::design::{DesignStatus, SweepVariable};
 use calibrant::diagnostic::design::MotionNotCompared;
 use calibrant::diagnostic::{Diagnostic, Phrase};
@@ -85,14 +84,12 @@ pub(crate) fn design_trajectory(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Page, Trajectory)> {
-    let choice: Choice = parsed(choice).map_err(|error| raised(py, &error))?;
-    let experiment = experiment.clone();
-    run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
+    chosen(py, experiment, choice, (threads, progress), move |experiment, choice, given| {
         let placed = Experiment::placed(&experiment.file);
         if let Some(times) = slow.filter(|times| !(1.0..=1000.0).contains(times)) {
             return Err(invalid(format!("`slow` is {times}"), "give a number from 1 to 1000"));
         }
-        let plan = choice.trajectory_plan(&experiment, &given)?;
+        let plan = choice.trajectory_plan(experiment, given)?;
         let mut notes = plan.notes();
         let goals = choice.reach()?;
         if slow.is_some() && !goals.is_empty() {
@@ -103,7 +100,7 @@ pub(crate) fn design_trajectory(
             let design = plan.design().map_err(&placed)?;
             (plan, design, None)
         } else {
-            let found = plan.reach(&goals, &teller(&given, "durations", 0)).map_err(&placed)?;
+            let found = plan.reach(&goals, &teller(given, "durations", 0)).map_err(&placed)?;
             let (plan, ReachedDesign { design, reached, sentence }) = found;
             (plan, design, Some((reached, sentence)))
         };
@@ -135,11 +132,10 @@ pub(crate) fn assess_trajectory<'py>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Page, bool, Option<Knots<'py>>)> {
-    let choice: Choice = parsed(choice).map_err(|error| raised(py, &error))?;
-    let (experiment, motion) = (experiment.clone(), motion.0.clone());
+    let (motion, how) = (motion.0.clone(), (threads, progress));
     let (page, is_proved, plan, best) =
-        run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
-            let plan = choice.trajectory_plan(&experiment, &given)?;
+        chosen(py, experiment, choice, how, move |experiment, choice, given| {
+            let plan = choice.trajectory_plan(experiment, given)?;
             let mut notes = plan.notes();
             let evaluation = plan.evaluate(&motion)?;
             let plan = plan.with_progress(given.progress.clone());

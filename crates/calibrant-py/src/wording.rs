@@ -18,8 +18,6 @@ pub(crate) fn set() {
 fn as_arguments(text: &str) -> String {
     // one option of the command line, two arguments
     let text = text.replace("its format with option `from`", "its format with `format=`");
-    // of a batch of the command line, and of a fleet
-    let text = text.replace("option `resume`", "`resume=`");
     let named = |text: String, option: &TaskOption| {
         text.replace(&option.to_string(), &format!("`{}=`", argument(*option)))
     };

@@ -97,7 +97,7 @@ checks! {
         all: usize,
     }
     decided "Somebody interrupted the program."
-    remedy "Let it run to its end. A batch continues with the option `resume`."
+    remedy "Let it run to its end. A batch continues with option `resume`."
     says format!("the {series} was interrupted: {finished} of {all} {items} are finished");
 
     /// Simulated sensors of a rehearsal were not calibrated. What it says is of the others.

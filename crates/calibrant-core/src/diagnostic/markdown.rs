@@ -14,7 +14,7 @@ The severest code is the verdict on a result: `bad` by an error, `doubtful` by a
 
 /// The head of the second part.
 const REFUSALS: &str = "
-# Refusals\n
+## Refusals\n
 calibrant prints an error where there is no result. Its code stands in brackets behind the message, and never changes.
 `summary.csv` and the JSON of several recordings have it in the column `code`. The exit status says whether the experiment (2), the recording (3) or what they can determine (4) is at fault.
 There are fewer codes than messages: errors with the same code ask for the same action.\n

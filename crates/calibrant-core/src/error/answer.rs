@@ -52,6 +52,7 @@ options! {
     RateSdPpm "rate_sd_ppm" "The standard deviation of the sample rate in ppm.";
     Reach "reach" "Standard deviations that a design should reach.";
     Records "records" "The database to which results are added.";
+    Resume "resume" "Continue an earlier run: what is finished is not done again.";
     Sections "sections" "The faces and turns of a session.";
     Seconds "seconds" "How long a search may take.";
     Sensor "sensor" "Which sensor a file is of.";

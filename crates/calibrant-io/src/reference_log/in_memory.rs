@@ -3,8 +3,10 @@
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use crate::recording::checksum::hex_of_lists;
+use crate::trajectory::{between_knots, spline_through_velocities};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_machine::log::ReferenceLog;
+use calibrant_machine::log::{JointLog, ReferenceLog};
+use calibrant_machine::spline::VectorSpline;
 
 impl ReferenceLogFile {
     /// A log that was made, or read, elsewhere.
@@ -78,5 +80,27 @@ impl ReferenceLogFile {
         };
         file.turns = vec![None; file.joints().map_or(0, |log| log.names.len())];
         Ok(file)
+    }
+
+    /// The log of a machine that moved on cubic splines with knots at this distance, s. Positions and velocities at just these knots are the splines themselves: the log
+    /// has its positions at and between the knots then.
+    ///
+    /// # Errors
+    /// As [`of_log`](Self::of_log).
+    pub fn on_knots(log: ReferenceLog, knot_step_s: f64) -> Result<Self> {
+        let file = Self { knot_step_s: Some(knot_step_s), ..Self::of_log(log)? };
+        let spline = |log: &JointLog| {
+            spline_through_velocities(&log.times_s, &log.positions, log.velocities.as_ref()?, log.names.len())
+        };
+        let is_at_them = |spline: &VectorSpline| (spline.knots.step_s / knot_step_s - 1.0).abs() < 1e-5;
+        let spline_of = |log: &JointLog| Some((spline(log).filter(is_at_them)?, log.names.clone()));
+        Ok(match file.joints().and_then(spline_of) {
+            Some((spline, names)) => Self {
+                log: ReferenceLog::Joints(between_knots(&spline, names)),
+                trajectory: Some(spline),
+                ..file
+            },
+            None => file,
+        })
     }
 }

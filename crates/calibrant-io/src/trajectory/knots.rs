@@ -51,7 +51,7 @@ pub(crate) fn spline_through(times_s: &[f64], rows: &[f64], joints: usize) -> Op
 }
 
 /// The same through positions and velocities.
-pub(super) fn spline_through_velocities(
+pub(crate) fn spline_through_velocities(
     times_s: &[f64],
     positions: &[f64],
     velocities: &[f64],

@@ -6,6 +6,6 @@ mod table;
 mod urscript;
 
 pub use goal::{MOST_POINTS, goal_text, write_goal};
-pub(crate) use knots::{between_knots, spline_through};
+pub(crate) use knots::{between_knots, spline_through, spline_through_velocities};
 pub use table::{Trajectory, read_trajectory, write_trajectory};
 pub use urscript::{urscript_text, write_urscript};

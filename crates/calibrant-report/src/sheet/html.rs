@@ -18,6 +18,7 @@ impl Sheet<'_> {
             self.sections.iter().filter(|section| section.shown.on_page()).collect();
         let mut sections: Vec<(&str, String)> =
             shown.par_iter().map(|section| (section.heading.as_str(), body(section))).collect();
+        sections.retain(|(_, body)| !body.is_empty());
         if !self.inputs.is_empty() {
             sections.push(("Inputs", facts(&self.inputs) + "\n"));
         }

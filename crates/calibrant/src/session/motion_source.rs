@@ -48,10 +48,7 @@ impl MotionSource {
         match self {
             Self::File(path) => read_reference_log(path, options),
             Self::Logged(log) => ReferenceLogFile::of_log(log.clone()),
-            Self::OnKnots(log, knot_step_s) => {
-                let file = ReferenceLogFile::of_log(log.clone())?;
-                Ok(ReferenceLogFile { knot_step_s: Some(*knot_step_s), ..file })
-            }
+            Self::OnKnots(log, knot_step_s) => ReferenceLogFile::on_knots(log.clone(), *knot_step_s),
             Self::Commanded(_) => Err(Error::experiment(InputError::new(
                 Refusal::ExperimentUnsuited,
                 "a commanded motion is given in place of the log of a machine",
