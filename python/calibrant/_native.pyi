@@ -1,6 +1,6 @@
 """What the native part offers. It takes and gives JSON and arrays; use the package above it."""
 
-from typing import Any, Callable
+from typing import Any, Callable, Sequence
 
 # the bytes of f64, row by row
 _Given = bytes
@@ -206,7 +206,7 @@ def assess_trajectory(
 
 class Records:
     def __init__(self, path: str) -> None: ...
-    def add(self, texts: list[str]) -> int: ...
+    def add(self, texts: Sequence[str]) -> int: ...
     def list(
         self,
         sensor: str | None = None,
@@ -218,7 +218,7 @@ class Records:
     def drift(self, sensor: str | None = None) -> str: ...
     def fleet(self) -> str: ...
     def count(self) -> int: ...
-    def remove(self, ids: Any) -> None: ...
+    def remove(self, ids: Sequence[int]) -> None: ...
     def export(
         self,
         path: str,
@@ -233,7 +233,7 @@ _Row = tuple[str | None, str | None]
 
 def calibrate_each(
     experiment: Experiment,
-    sources: Any,
+    sources: Sequence[Source],
     options: str,
     *,
     motion: Motion | None = None,

@@ -108,7 +108,6 @@ def run(
 
 
 
-
 def _results(client: Any, calls: Iterable[_Call]) -> Iterator[_Counts]:
     if client is None:
         # chunks one after the other, each on all cores
