@@ -141,6 +141,18 @@ impl MachinePlan {
         }
     }
 
+    /// The files that it names: of the machine, of pairs of links, of limits of joints. Those of meshes stand in the machine's.
+    #[must_use]
+    pub fn files(&self) -> Vec<&Path> {
+        let machine = match &self.urdf {
+            Some(UrdfSource::File(path)) => Some(path),
+            _ => None,
+        };
+        let pairs = self.world.as_ref().and_then(|of| of.srdf.as_ref());
+        let limits = self.limits.as_ref().and_then(|of| of.joint_limits.as_ref());
+        [machine, pairs, limits].into_iter().flatten().map(PathBuf::as_path).collect()
+    }
+
     /// What the machine must not touch, with the shapes of its links.
     ///
     /// # Errors

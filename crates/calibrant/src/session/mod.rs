@@ -68,6 +68,7 @@ mod sections;
 mod setup;
 mod source;
 mod task;
+mod unused;
 mod validation;
 
 pub use calibrated::{Calibrated, MachineOutcome};
@@ -77,3 +78,4 @@ pub use outcome::Outcome;
 pub use residuals::{ResidualSeries, Residuals};
 pub use run::Session;
 pub use source::{Readings, SectionList, Source};
+pub use unused::Given;

@@ -40,12 +40,17 @@ pub struct SessionOptions {
 }
 
 impl SessionOptions {
-    /// In words, but for what the work may take and who waits for it: results do not depend on that.
+    /// In words, but for what the work may take and who waits for it, and for where experiment and motion are: results depend on their content.
     pub(crate) fn in_words(&self) -> String {
+        let knot_step_s = match &self.motion {
+            Some(MotionSource::OnKnots(_, knot_step_s)) => Some(*knot_step_s),
+            _ => None,
+        };
         let (interruption, progress) = (Interruption::default(), Progress::default());
-        let mut options = Self { interruption, progress, ..self.clone() };
+        let mut options =
+            Self { experiment_file: PathBuf::new(), motion: None, interruption, progress, ..self.clone() };
         options.reading.budget = None;
-        format!("{options:?}")
+        format!("{options:?}, knots {knot_step_s:?}")
     }
 
     /// How a calibration on a machine is solved.

@@ -20,7 +20,7 @@ enum Content {
     File,
     Bytes(Vec<u8>),
     Columns(Vec<(String, Vec<f64>)>),
-    Recording(Box<ImuRecording>),
+    Read(Box<ImuFile>),
 }
 
 impl Readings {
@@ -46,7 +46,13 @@ impl Readings {
     /// A recording that was made, or read, elsewhere. Results and errors call it by this name, as they would a file.
     #[must_use]
     pub fn recording(name: impl Into<PathBuf>, recording: impl Into<ImuRecording>) -> Self {
-        Self { path: name.into(), content: Content::Recording(Box::new(recording.into())) }
+        Self::read_already(name, ImuFile::of_recording(recording.into()))
+    }
+
+    /// A recording that was read, with what was noticed in it. What a task says of its files does not count for it.
+    #[must_use]
+    pub fn read_already(name: impl Into<PathBuf>, file: ImuFile) -> Self {
+        Self { path: name.into(), content: Content::Read(Box::new(file)) }
     }
 
     /// The path of the file, or the name of what is in memory.
@@ -71,10 +77,7 @@ impl Readings {
                 let columns = columns.iter().map(|(name, values)| (name.as_str(), values.clone()));
                 Some(HashedFile::of_numbers(name(), &columns.collect::<Vec<_>>()))
             }
-            Content::Recording(recording) => {
-                let file = ImuFile::of_recording(recording.as_ref().clone());
-                Some(HashedFile { file: name(), sha256: file.sha256.concat() })
-            }
+            Content::Read(file) => Some(HashedFile { file: name(), sha256: file.sha256.concat() }),
         }
     }
 
@@ -90,14 +93,15 @@ impl Readings {
                     columns.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
                 imu_from_columns(&columns, options).map_err(|error| error.in_recording(&self.path))
             }
-            Content::Recording(recording) => Ok(ImuFile::of_recording(match options.accelerometer_only {
-                None => recording.as_ref().clone(),
-                Some(only) => {
-                    let accelerometer = recording.accelerometer.clone();
-                    let accelerometer = accelerometer.map(|recording| recording.with_axes(only.axes));
-                    ImuRecording { accelerometer, gyroscope: None, ..recording.as_ref().clone() }
+            Content::Read(file) => {
+                let mut file = file.as_ref().clone();
+                if let Some(only) = options.accelerometer_only {
+                    let accelerometer = file.recording.accelerometer.take();
+                    file.recording.accelerometer = accelerometer.map(|of| of.with_axes(only.axes));
+                    file.recording.gyroscope = None;
                 }
-            })),
+                Ok(file)
+            }
         }
     }
 }

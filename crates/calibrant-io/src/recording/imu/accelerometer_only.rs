@@ -25,29 +25,41 @@ pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOption
         (FileFormat::Csv | FileFormat::ImuTk, true) => {
             imu_tk::in_order(head, SensorKind::Accelerometer, only.axes)?
         }
-        (FileFormat::Csv, false) => named(head),
+        (FileFormat::Csv, false) => named(&head.names),
         _ => return Ok(None),
     };
-    if !columns.iter().any(is_time) || columns.iter().all(|column| axis(column).is_none()) {
-        return Ok(None);
-    }
     for column in &mut columns {
         // names in a comment are no header: without a unit the times are those of `t x y z`
         if is_time(column) && head.first_row.is_some() && options.time_unit.is_none() {
             column.unit = column.unit.or(Some(ColumnUnit::Time(TimeUnit::Second)));
         }
+    }
+    Ok(laid_out(format, columns, only))
+}
+
+/// The layout of a table in memory, as [`plain`].
+pub(super) fn plain_columns(names: &[&str], options: &ImuReadOptions) -> Option<Draft> {
+    let only = options.accelerometer_only.filter(|_| options.columns.is_empty())?;
+    laid_out(FileFormat::Columns, named(names), only)
+}
+
+fn laid_out(format: FileFormat, mut columns: Vec<ImuColumn>, only: AccelerometerOnly) -> Option<Draft> {
+    if !columns.iter().any(is_time) || columns.iter().all(|column| axis(column).is_none()) {
+        return None;
+    }
+    for column in &mut columns {
         if axis(column).is_some_and(|axis| axis.index() >= only.axes) {
             column.unused = Some("the sensor has fewer axes".into());
         }
     }
-    Ok(Some(Draft { plain: Some(only), ..Draft::new(format, columns) }))
+    Some(Draft { plain: Some(only), ..Draft::new(format, columns) })
 }
 
-/// The columns of a text with names. Only those of the time and of the axes are looked at, and of times only
+/// The columns that have names. Only those of the time and of the axes are looked at, and of times only
 /// `t_s` where it is there.
-fn named(head: &Head<'_>) -> Vec<ImuColumn> {
+fn named(names: &[&str]) -> Vec<ImuColumn> {
     let is_plain_time = |name: &&str| name.eq_ignore_ascii_case("t_s");
-    let has_plain_time = head.names.iter().any(is_plain_time);
+    let has_plain_time = names.iter().any(is_plain_time);
     let column = |name: &&str| {
         let column = column_names::column(name);
         let is_needed = match is_time(&column) {
@@ -56,7 +68,7 @@ fn named(head: &Head<'_>) -> Vec<ImuColumn> {
         };
         if is_needed { column } else { ImuColumn::new(name, ColumnMeaning::Other, None) }
     };
-    head.names.iter().map(column).collect()
+    names.iter().map(column).collect()
 }
 
 fn is_time(column: &ImuColumn) -> bool {

@@ -35,8 +35,11 @@ impl Samples {
             return Err(out_of_range(value, row));
         }
         let sensor_kinds = SensorKind::ALL.map(|sensor_kind| {
-            let [x, y, z] = slots_of(sensor_kind).map(|slot| columns[slot].as_slice());
-            x.iter().zip(y).zip(z).map(|((&x, &y), &z)| Vector3::new(x, y, z)).collect()
+            let axes = slots_of(sensor_kind).map(|slot| columns[slot].as_slice());
+            let rows = axes.iter().map(|axis| axis.len()).max().unwrap_or(0);
+            // a sensor with fewer axes reads nothing along the others
+            let reading = |row: usize| axes.map(|axis| axis.get(row).copied().unwrap_or(0.0));
+            (0..rows).map(|row| Vector3::from(reading(row))).collect()
         });
         let [times, .., temperatures, counts] = columns;
         Ok(Self { times, counts, temperatures, sensor_kinds, rows, origin, ..Self::default() })

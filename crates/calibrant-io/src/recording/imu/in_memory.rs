@@ -1,5 +1,6 @@
 //! Recordings that are in memory already: a table of named columns is one more format, and a recording is taken as it is.
 
+use super::accelerometer_only::plain_columns;
 use super::column_names;
 use super::column_values::{SLOTS, Samples};
 use super::file::ImuFile;
@@ -51,8 +52,10 @@ fn read(columns: &[(&str, &[f64])], options: &ImuReadOptions) -> Checked<ImuFile
         let help = "give columns of one length, with NaN where a value is missing";
         return refuse(Refusal::RecordingsUnlike, message, help);
     }
-    let described = columns.iter().map(|(name, _)| column_names::column(name)).collect();
-    let mut draft = Draft::new(FileFormat::Columns, described);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let described = || names.iter().map(|name| column_names::column(name)).collect();
+    let plain = plain_columns(&names, options);
+    let mut draft = plain.unwrap_or_else(|| Draft::new(FileFormat::Columns, described()));
     draft.map(options)?;
     draft.set_time_unit(options)?;
     let mut values: [Vec<f64>; SLOTS] = Default::default();

@@ -55,6 +55,8 @@ pub(super) fn times(
     let has_counter = !samples.counts.is_empty();
     if are_recorded(samples) {
         draft.leave_aside(ColumnMeaning::Counter, "there are sample times");
+        // of the clock that gave them; beside a rate, which is not used, it is of that
+        samples.rate_sd_ppm = options.rate_sd_ppm.filter(|_| options.rate_hz.is_none());
         return of_times(draft, samples, findings);
     }
     let is_empty = !times.is_empty();
