@@ -64,6 +64,49 @@ def test_a_part_that_was_not_finished_does_not_count(line: pathlib.Path, tmp_pat
     assert again.to_table().equals(expected)
 
 
+def test_what_cannot_be_read_is_there_once_until_it_can(line: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    missing, output = tmp_path / "late.csv", tmp_path / "out"
+    items = [line / "1.csv", missing]
+    assert fleet.calibrate(items, "static-poses", output).failed == 1
+    again = fleet.calibrate([*items, line / "2.csv"], "static-poses", output)
+    assert (again.calibrated, again.failed, again.earlier) == (1, 0, 2)
+    missing.write_bytes((line / "3.csv").read_bytes())
+    late = fleet.calibrate(items, "static-poses", output)
+    assert (late.calibrated, late.failed, late.earlier) == (1, 0, 1)
+
+
+def test_a_key_is_of_contents_and_not_of_paths(
+    line: pathlib.Path, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    pathlib.Path("e.toml").write_text(cb.Experiment.preset("static-poses").to_toml(), encoding="utf-8")
+    assert fleet.calibrate([line / "1.csv"], "e.toml", "out").calibrated == 1
+    assert fleet.calibrate([line / "1.csv"], tmp_path / "e.toml", "out").earlier == 1
+    machine = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/><limit lower='-3' upper='3' velocity='{}' effort='1'/></joint></robot>"
+    table = cb.Experiment.preset("rate-table", machine={"urdf": str(tmp_path / "table.urdf"), "base": None, "tip": None})
+    for velocity, done in ((1, 1), (1, 0), (2, 1)):
+        pathlib.Path("table.urdf").write_text(machine.format(velocity), encoding="utf-8")
+        assert fleet.study(table, "study", sensors=1).calibrated + fleet.study(table, "study", sensors=1).failed == done
+
+
+def test_a_data_set_is_not_doubled_and_a_damaged_part_is_named(line: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    fleet.calibrate([line / "1.csv"], "static-poses", tmp_path, covariance=False)
+    with pytest.raises(cb.ExperimentError, match="has results already"):
+        fleet.calibrate([line / "1.csv"], "static-poses", tmp_path, resume=False)
+    assert fleet.calibrate([line / "1.csv"], "static-poses", tmp_path).calibrated == 1, "with its covariance"
+    (tmp_path / "part-0.parquet").write_bytes(b"PAR1")
+    with pytest.raises(cb.ExperimentError, match="part-0.parquet cannot be read.*delete it"):
+        fleet.calibrate([line / "1.csv"], "static-poses", tmp_path)
+
+
+def test_a_path_is_no_pattern_where_there_is_such_a_file(line: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    odd = tmp_path / "1[2].csv"
+    odd.write_bytes((line / "1.csv").read_bytes())
+    assert fleet.calibrate(odd, "static-poses", tmp_path / "out").calibrated == 1
+    with pytest.raises(cb.ExperimentError, match="nothing matches"):
+        fleet.calibrate(f"{tmp_path}/*.txt", "static-poses", tmp_path / "out")
+
+
 def test_an_error_may_be_an_exception_and_what_is_done_stays(line: pathlib.Path, tmp_path: pathlib.Path) -> None:
     with pytest.raises(cb.RecordingError, match="broken.csv"):
         fleet.calibrate(f"{line}/*.csv", "static-poses", tmp_path, on_error="raise")
@@ -98,10 +141,10 @@ def test_copies_are_found_over_chunks_and_calls(line: pathlib.Path, tmp_path: pa
 
 
 def test_paths_may_be_urls(line: pathlib.Path, tmp_path: pathlib.Path) -> None:
-    urls = f"file://{line}/[12].csv"
-    result = fleet.calibrate(urls, "static-poses", f"file://{tmp_path}/out")
+    urls = f"{line.as_uri()}/[12].csv"
+    result = fleet.calibrate(urls, "static-poses", f"{tmp_path.as_uri()}/out")
     assert (result.calibrated, result.failed) == (2, 0)
-    assert fleet.calibrate(urls, "static-poses", f"file://{tmp_path}/out").earlier == 2
+    assert fleet.calibrate(urls, "static-poses", f"{tmp_path.as_uri()}/out").earlier == 2
     here = fleet.calibrate(f"{line}/[12].csv", "static-poses", tmp_path / "here")
     assert here.to_table().drop(["file"]).equals(result.to_table().drop(["file"]))
 
@@ -141,7 +184,7 @@ def test_a_wrong_argument_is_named(change: dict[str, object], says: str, line: p
 def test_a_chunk_is_a_function(line: pathlib.Path) -> None:
     task = fleet.CalibrationTask(cb.Experiment.preset("static-poses"), covariance=False)
     table = fleet.run_chunk([str(line / "1.csv"), str(line / "none.csv")], task)
-    assert table["verdict"].to_pylist()[1] == "none" and table["key"].to_pylist()[1] is None
+    assert table["verdict"].to_pylist()[1] == "none" and len(table["key"].to_pylist()[1]) == 64
     assert table["covariance"].null_count == 2
 
 

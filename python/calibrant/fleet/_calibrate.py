@@ -9,15 +9,16 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence
 
 from .. import _native
-from .._arrays import Path
+from .._arrays import Path, as_json
 from .._calibrate import as_experiment
 from .._exceptions import CalibrationWarning
 from .._experiment import Experiment
 from .._motion import as_native_motion
 from .._progress import Progress
+from ._hash import sha256
 from ._result import Result
 from ._run import run
-from ._storage import content, listed
+from ._storage import anywhere, content, listed
 from ._task import Item, failure, name_of, schema_of
 
 if TYPE_CHECKING:
@@ -59,8 +60,10 @@ class CalibrationTask:
         return [_source(name_of(item), self.storage_options) for item in items]
 
     def keys(self, items: Sequence[Item], opened: Sequence[Any]) -> list[str | None]:
-        """SHA-256 of program, options, experiment, motion and recording."""
-        return [None if of is None else of[0] for of in self._hashes(opened)]
+        """SHA-256 of program, options, experiment with the files that it names, motion and recording."""
+        motion = as_native_motion(self.motion)
+        found = _native.keys(self.experiment._native, list(opened), self._options(), motion=motion)
+        return [of if of is None or self.covariance else sha256(of, "no covariance").hex() for of in found]
 
     def rows(self, items: Sequence[Item], opened: Sequence[Any], threads: int | None) -> list[dict[str, Any]]:
         """The columns of each recording."""
@@ -68,15 +71,10 @@ class CalibrationTask:
             self.experiment._native, opened, self._options(), motion=as_native_motion(self.motion), threads=threads
         )
         rows = [as_row(row, error, self.experiment, self.covariance) for row, error in found]
-        for row, of in zip(rows, opened):
-            if row["code"] is not None:
-                (hashed,) = self._hashes([of])
-                row["recording_sha256"] = None if hashed is None else hashed[1]
+        failed = [number for number, row in enumerate(rows) if row["code"] is not None]
+        for number, sha256 in zip(failed, _native.hashes([opened[number] for number in failed])):
+            rows[number]["recording_sha256"] = sha256
         return rows
-
-    def _hashes(self, opened: Sequence[Any]) -> list[tuple[str, str] | None]:
-        motion = as_native_motion(self.motion)
-        return _native.keys(self.experiment._native, list(opened), self._options(), motion=motion)
 
     def _options(self) -> str:
         return native_options(self.experiment, self.options)
@@ -122,6 +120,7 @@ def calibrate(
         An item without a calibration is a row with verdict ``none``; or it is an exception, after its chunk is written.
     resume : bool
         Leave out what the data set has, by name and key of each item. The key is the SHA-256 of program, options, experiment, motion and recording.
+        ``False``: the data set must be empty.
     allow : list of str
         Codes of diagnostics that do not count for the verdict.
     sensor_from, sensor_key, station : str, optional
@@ -147,7 +146,7 @@ def calibrate(
     """
     storage = dict(storage_options or {})
     options = {"allow": list(allow), "sensor_from": sensor_from, "sensor_key": sensor_key, "station": station}
-    task = CalibrationTask(as_experiment(experiment), options, motion, covariance, storage)
+    task = CalibrationTask(as_experiment(experiment), options, anywhere(motion), covariance, storage)
     result = run(
         task, listed(items, storage), output,
         client=client, per_task=per_task, on_error=on_error, resume=resume, progress=progress,
@@ -206,7 +205,7 @@ def as_row(row: str | None, error: str | None, experiment: Experiment, covarianc
 
 def native_options(experiment: Experiment, options: Mapping[str, Any]) -> str:
     """The options of a calibration as the native part takes them."""
-    return json.dumps({**options, "experiment_file": experiment._path or "", "report": False})
+    return as_json({**options, "experiment_file": experiment._path or "", "report": False})
 
 
 def _source(name: str, storage: Mapping[str, Any]) -> _native.Source:

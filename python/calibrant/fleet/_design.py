@@ -18,7 +18,7 @@ from .._experiment import Experiment
 from .._pose_design import PoseDesign
 from .._progress import Progress
 from .._trajectory import TrajectoryDesign
-from ._hash import sha256
+from ._hash import hash_of_files, sha256
 from ._result import Result
 from ._run import run
 from ._storage import content, listed
@@ -60,10 +60,11 @@ class DesignTask:
         return [_opened(item, self.storage_options) for item in items]
 
     def keys(self, items: Sequence[Item], opened: Sequence[Any]) -> list[str | None]:
-        """SHA-256 of program, options and experiment."""
-        texts = [of.to_toml() if isinstance(of, Experiment) else None for of in opened]
-        begin = _native.program(), self.choice
-        return [None if text is None else sha256(*begin, text).hex() for text in texts]
+        """SHA-256 of program, options, and experiment with the files that it names."""
+        return [self._key(of) if isinstance(of, Experiment) else None for of in opened]
+
+    def _key(self, experiment: Experiment) -> str:
+        return sha256(_native.program(), self.choice, experiment.to_toml(), hash_of_files(experiment)).hex()
 
     def rows(self, items: Sequence[Item], opened: Sequence[Any], threads: int | None) -> list[dict[str, Any]]:
         """The columns of each design."""

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any, Collection, Iterable, Iterator, Literal, 
 
 from .._arrays import Path
 from .._exceptions import experiment_error, of_json
+from .._page import written_to
 from .._progress import Progress, Told
 from ._engines import engine_of
+from ._hash import sha256
 from ._result import Result
-from ._storage import filesystem, parts, write_part
+from ._storage import anywhere, filesystem, parts, write_part
 from ._task import Item, Task, name_of
 
 if TYPE_CHECKING:
@@ -42,12 +44,16 @@ def run_chunk(items: Sequence[Item], task: Task, *, threads: int | None = 1) -> 
         A row for each item.
     """
     opened = task.opened(items)
-    return _table(items, opened, task.keys(items, opened), task, threads)
+    return _table(items, opened, _keys(items, opened, task), task, threads)
 
 
-def _table(
-    items: Sequence[Item], opened: Sequence[Any], keys: Sequence[str | None], task: Task, threads: int | None
-) -> pa.Table:
+def _keys(items: Sequence[Item], opened: Sequence[Any], task: Task) -> list[str]:
+    """The key of each item. One that cannot be read has a key too: its row is there once, until it can be read."""
+    named = ((key, name_of(item)) for item, key in zip(items, task.keys(items, opened)))
+    return [sha256("cannot be read", name).hex() if key is None else key for key, name in named]
+
+
+def _table(items: Sequence[Item], opened: Sequence[Any], keys: Sequence[str], task: Task, threads: int | None) -> pa.Table:
     import pyarrow as pa
 
     found = task.rows(items, opened, threads)
@@ -58,8 +64,8 @@ def _table(
 def work(chunk: Sequence[Item], task: Task, known: _Known, output: str, threads: int | None = 1) -> _Counts:
     """Do what a data set lacks of a chunk, and write its part."""
     opened = task.opened(chunk)
-    keys = task.keys(chunk, opened)
-    new = [k for k, (item, key) in enumerate(zip(chunk, keys)) if key is None or (name_of(item), key) not in known]
+    keys = _keys(chunk, opened, task)
+    new = [k for k, (item, key) in enumerate(zip(chunk, keys)) if (name_of(item), key) not in known]
     earlier = len(chunk) - len(new)
     if not new:
         return 0, 0, earlier, None
@@ -86,14 +92,16 @@ def run(
     if on_error not in ("row", "raise"):
         raise experiment_error(f"`on_error` is {on_error!r}", "give 'row' or 'raise'")
     size = _size(per_task, len(items), client, task)
-    # what all items share is wrong here, and not on a worker
+    # what all items share is read here: an error in it is not one of a worker
     task.keys([], [])
-    place = os.fspath(output)
-    place = place if "://" in place else os.path.abspath(place)
+    place = os.fspath(anywhere(output))
     system, path = filesystem(place, task.storage_options)
-    system.create_dir(path, recursive=True)
+    with written_to(place):
+        system.create_dir(path, recursive=True)
     schema = task.schema()
-    known = _known(system, path, schema) if resume else {}
+    if not resume and parts(system, path):
+        raise experiment_error(f"{place} has results already", "give another `output`, or leave `resume=False` away")
+    known = _known(system, path, schema)
     chunks = (items[at : at + size] for at in range(0, len(items), size))
     calls = ((chunk, task, _of_chunk(known, chunk), place) for chunk in chunks)
     counts = [0, 0, 0]
@@ -117,16 +125,20 @@ def _results(client: Any, calls: Iterable[_Call]) -> Iterator[_Counts]:
 
 def _known(system: Any, path: str, schema: pa.Schema) -> dict[str, str]:
     """The keys that the data set has, by the names of the items; with blanks between several."""
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
     known: dict[str, str] = {}
-    for number, part in enumerate(parts(system, path)):
-        if number == 0:
-            _check(part, pq.read_schema(part, filesystem=system), schema)
-        columns = pq.read_table(part, columns=["file", "key"], filesystem=system)
+    for part in parts(system, path):
+        try:
+            with system.open_input_file(part) as file:
+                opened = pq.ParquetFile(file)
+                _check(part, opened.schema_arrow, schema)
+                columns = opened.read(columns=["file", "key"])
+        except (pa.ArrowException, OSError) as error:
+            raise experiment_error(f"{part} cannot be read: {error}", "delete it, and run the call again", code="file-damaged") from None
         for name, key in zip(columns["file"].to_pylist(), columns["key"].to_pylist()):
-            if key is not None:
-                known[name] = f"{known[name]} {key}" if name in known else key
+            known[name] = f"{known[name]} {key}" if name in known else key
     return known
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Mapping
 
 from .._exceptions import experiment_error
 from .._frames import is_frame
+from .._page import written_to
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -18,10 +19,21 @@ if TYPE_CHECKING:
 _OBJECT_STORES = {"s3", "gcs", "abfs"}
 
 
+def anywhere(path: Any) -> Any:
+    """A path as another process finds it; a URL, or what is no path, as it is."""
+    if path == "":
+        raise experiment_error("a path is empty", "give a path or a URL")
+    is_path = isinstance(path, (str, os.PathLike)) and "://" not in os.fspath(path)
+    return os.path.abspath(path) if is_path else path
+
+
 def filesystem(url: str, options: Mapping[str, Any]) -> tuple[Any, str]:
     """The file system of a URL or a path, and the path in it."""
-    import pyarrow as pa
-    import pyarrow.fs as fs
+    try:
+        import pyarrow as pa
+        import pyarrow.fs as fs
+    except ImportError:
+        raise experiment_error("a fleet needs pyarrow", "install it, as with calibrant[fleet]") from None
 
     if options.get("filesystem") is not None:
         return options["filesystem"], url.split("://", 1)[-1]
@@ -46,7 +58,10 @@ def listed(items: Any, options: Mapping[str, Any]) -> list[str]:
     """The names of items: paths, a pattern, or the column `file` of a frame. A path that is not a URL is absolute, since a worker may be elsewhere."""
     if isinstance(items, (str, os.PathLike)):
         text = os.fspath(items)
-        found = _matching(text, options) if any(sign in text for sign in "*?[") else [text]
+        is_pattern = any(sign in text for sign in "*?[") and not os.path.exists(text)
+        found = _matching(text, options) if is_pattern else [text]
+        if not found:
+            raise experiment_error(f"nothing matches {text!r}", "check the pattern", code="file-unreadable")
     elif is_frame(items):
         import narwhals as nw
 
@@ -55,8 +70,11 @@ def listed(items: Any, options: Mapping[str, Any]) -> list[str]:
             raise experiment_error("the frame has no column `file`", "name the paths `file`", code="column-missing")
         found = [str(item) for item in read["file"].to_list()]
     else:
-        found = [os.fspath(item) for item in items]
-    return sorted({item if "://" in item else os.path.abspath(item) for item in found})
+        try:
+            found = [os.fspath(item) for item in items]
+        except TypeError as error:
+            raise experiment_error(f"`items` makes no sense: {error}", "give paths, a pattern, or a frame") from None
+    return sorted({anywhere(item) for item in found})
 
 
 def _matching(pattern: str, options: Mapping[str, Any]) -> list[str]:
@@ -104,7 +122,13 @@ def write_part(table: pa.Table, place: str, name: str, options: Mapping[str, Any
     system, path = filesystem(place, options)
     target = f"{path}/part-{name}.parquet"
     beside = target if system.type_name in _OBJECT_STORES else f"{path}/.part-{name}.{uuid.uuid4().hex}.tmp"
-    with system.open_output_stream(beside) as stream:
-        pq.write_table(table, stream, compression="zstd")
-    if beside != target:
-        system.move(beside, target)
+    with written_to(target):
+        try:
+            with system.open_output_stream(beside) as stream:
+                pq.write_table(table, stream, compression="zstd")
+            if beside != target:
+                system.move(beside, target)
+        except BaseException:
+            if beside != target and system.get_file_info(beside).is_file:
+                system.delete_file(beside)
+            raise

@@ -8,16 +8,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence
 
 from .. import _native
-from .._arrays import Path
+from .._arrays import Path, as_json, whole
 from .._calibrate import as_experiment
 from .._exceptions import experiment_error
 from .._experiment import Experiment
 from .._motion import as_native_motion
 from .._progress import Progress
 from ._calibrate import as_row, columns, native_options
-from ._hash import seed_of, sha256
+from ._hash import hash_of_files, seed_of, sha256
 from ._result import Result
 from ._run import run
+from ._storage import anywhere, content
 from ._task import Item, name_of, schema_of
 
 if TYPE_CHECKING:
@@ -62,9 +63,9 @@ class StudyTask:
         return [seed_of(self.seed, name_of(item)) for item in items]
 
     def keys(self, items: Sequence[Item], opened: Sequence[int]) -> list[str | None]:
-        """SHA-256 of program, options, experiment, motion and seed."""
-        options = native_options(self.experiment, self.options)
-        shared = sha256(_native.program(), options, self.experiment.sha256, self._motion())
+        """SHA-256 of program, options, experiment with the files that it names, motion and seed."""
+        experiment, options = self.experiment, as_json({**self.options, "covariance": self.covariance})
+        shared = sha256(_native.program(), options, experiment.sha256, hash_of_files(experiment), self._motion())
         return [sha256(shared, str(seed)).hex() for seed in opened]
 
     def rows(self, items: Sequence[Item], opened: Sequence[int], threads: int | None) -> list[dict[str, Any]]:
@@ -80,10 +81,12 @@ class StudyTask:
         return [{**row, "seed": seed} for row, seed in zip(rows, opened)]
 
     def _motion(self) -> bytes:
-        if isinstance(self.motion, (str, os.PathLike)):
-            with open(self.motion, "rb") as file:
-                return file.read()
-        return pickle.dumps(self.motion, protocol=5)
+        if not isinstance(self.motion, (str, os.PathLike)):
+            return pickle.dumps(self.motion, protocol=5)
+        read = content(os.fspath(self.motion), self.storage_options)
+        if read is None:
+            raise experiment_error(f"{self.motion} cannot be read", "check its name", code="file-unreadable")
+        return read
 
 
 def study(
@@ -130,11 +133,10 @@ def study(
     ExperimentError
         Where the experiment, the motion or an argument makes no sense.
     """
-    if not isinstance(sensors, int) or sensors < 1:
-        raise experiment_error(f"`sensors` is {sensors!r}", "give a number from 1")
-    task = StudyTask(as_experiment(experiment), seed, {"allow": list(allow)}, motion, covariance, dict(storage_options or {}))
+    made, storage = as_experiment(experiment), dict(storage_options or {})
+    task = StudyTask(made, whole("seed", seed, 0) or 0, {"allow": list(allow)}, anywhere(motion), covariance, storage)
     # nine digits, so that they are in order as texts, too
-    items = [f"{number:09}" for number in range(1, sensors + 1)]
+    items = [f"{number:09}" for number in range(1, (whole("sensors", sensors) or 0) + 1)]
     return run(
         task, items, output, client=client, per_task=per_task, on_error=on_error, resume=resume, progress=progress
     )
