@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 import warnings
 from typing import Any, Sequence
 
 from . import _native
-from ._arrays import Path
+from ._arrays import Path, as_json, thread_count
 from ._calibration import Calibration
 from ._exceptions import CalibrationWarning, experiment_error
 from ._experiment import Experiment, presets
-from ._frames import is_frame, library_of
 from ._motion import as_native_motion
 from ._progress import Progress, Told
-from ._recording import Recording, as_source, read_recording
+from ._recording import Recording, as_readings, as_source, like_of, origin_of, read_recording
 
 AnyExperiment = Any
 """An :class:`Experiment`, a path of an experiment file, the name of a preset, or ``"auto"``."""
@@ -111,14 +109,14 @@ def calibrate(
         made = made.replace(**{made.kind: {"gravity_mps2": gravity_mps2}})
     if motion is not None and log is not None:
         raise experiment_error("`motion` and `log` are both there", "leave one of them away", code="options-contradict")
-    source, reading, _ = as_source(recording, sections=sections, further=together)
-    other = None if validate is None else as_source(validate)[0]
+    source, reading = as_source(recording, sections=sections, further=together)
+    other = None if validate is None else _native.Source(as_readings(validate))
     options: dict[str, Any] = {
         "experiment_file": made._path or "",
         "reading": reading,
         "folds": folds,
         "accept": None if accept is None else os.fspath(accept),
-        "allow": list(allow),
+        "allow": list(allow or ()),
         "sensor": sensor,
         "sensor_from": sensor_from,
         "sensor_key": sensor_key,
@@ -129,14 +127,14 @@ def calibrate(
         outcome = _native.calibrate(
             made._native,
             source,
-            json.dumps(options),
-            motion=as_native_motion(motion if log is None else log),
+            as_json(options),
+            motion=as_native_motion(motion if log is None else log, origin_of(recording)),
             validate=other,
-            validate_motion=as_native_motion(validate_log),
-            threads=threads,
+            validate_motion=as_native_motion(validate_log, origin_of(validate)),
+            threads=thread_count(threads),
             progress=told,
         )
-    found = Calibration(outcome.json(), outcome, like=_library(recording))
+    found = Calibration(outcome.json(), outcome, like=like_of(recording))
     if found.verdict != "ok":
         codes = ", ".join((found.data.get("verdict") or {}).get("codes") or ())
         warnings.warn(f"the calibration is {found.verdict}: {codes}; see its diagnostics", CalibrationWarning, stacklevel=2)
@@ -156,6 +154,18 @@ def as_experiment(experiment: AnyExperiment) -> Experiment:
     )
 
 
+_DESIGNS = {"holds": "design_poses", "motion": "design", "machine": "design_trajectory"}
+
+
+def experiment_of_kind(experiment: AnyExperiment, kind: str) -> Experiment:
+    """An experiment whose sensor is moved in this way: ``"holds"``, ``"motion"`` or ``"machine"``."""
+    made = as_experiment(experiment)
+    if made.kind != kind:
+        message = f"the experiment has [{made.kind}], and this is for [{kind}]"
+        raise experiment_error(message, f"use `{_DESIGNS[made.kind]}(…)`", code="experiment-unsuited")
+    return made
+
+
 def _experiment_of(recording: Any, experiment: AnyExperiment) -> Experiment:
     if not (isinstance(experiment, str) and experiment == "auto"):
         return as_experiment(experiment)
@@ -167,11 +177,3 @@ def _experiment_of(recording: Any, experiment: AnyExperiment) -> Experiment:
     # what the preset says of the datasheet is of its own sensor
     of_datasheet = ("noise_mps2", "noise_counts", "bias_sd_mps2", "scale_sd", "cross_axis_sd")
     return Experiment.preset(f"static-poses{counts}", sensor=dict.fromkeys(of_datasheet))
-
-
-def _library(recording: Any) -> Any:
-    if isinstance(recording, Recording):
-        return recording._like
-    if isinstance(recording, (str, os.PathLike, bytes, bytearray, memoryview)):
-        return None
-    return library_of(recording) if is_frame(recording) else None

@@ -11,10 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native, _sheet
-from ._arrays import Array, Path, as_list, as_table, numbers, table
+from ._arrays import Array, Path, as_json, as_list, as_table, number, numbers, table
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import BadCalibration, CalibrantError, experiment_error
-from ._frames import frame, is_frame, library_of
+from ._frames import frame, library_of
 from ._page import write
 
 if TYPE_CHECKING:
@@ -113,8 +113,8 @@ class Calibration:
         self._parameters = tuple(
             Parameter(
                 of["name"],
-                _number(of.get("value")),
-                _number(of.get("sd")),
+                number(of.get("value")),
+                number(of.get("sd")),
                 of.get("unit") or "",
                 of.get("nominal"),
                 of.get("prior_share"),
@@ -123,7 +123,7 @@ class Calibration:
         )
         self._by_name = {parameter.name: parameter for parameter in self._parameters}
         self.machine: tuple[Parameter, ...] = tuple(
-            Parameter(of["name"], _number(of.get("value")), _number(of.get("sd")), of.get("unit") or "")
+            Parameter(of["name"], number(of.get("value")), number(of.get("sd")), of.get("unit") or "")
             for of in (self.data.get("machine") or {}).get("quantities") or ()
         )
         self._of_machine = {quantity.name: quantity for quantity in self.machine}
@@ -245,7 +245,7 @@ class Calibration:
                 "value": self.values,
                 "sd": self.sd,
                 "unit": [parameter.unit for parameter in self._parameters],
-                "nominal": np.array([_number(parameter.nominal) for parameter in self._parameters]),
+                "nominal": np.array([number(parameter.nominal) for parameter in self._parameters]),
             },
             like,
         )
@@ -395,26 +395,28 @@ class Calibration:
         frame
             ``t_s``, ``ax_mps2`` …, ``gx_radps`` …, of the library that came in.
         """
-        from ._recording import Recording, read_recording
+        from ._recording import Recording, at_times, read_recording, side_by_side
 
-        for sensor in ("accelerometer", "gyroscope"):
-            if self._corrects().unit(sensor) == "counts":
-                reading.setdefault(f"{sensor}_unit", "counts")
-        read = data if isinstance(data, Recording) else read_recording(data, **reading)
-        like = library_of(data) if is_frame(data) else read._like
+        if isinstance(data, Recording):
+            read = read_recording(data, **reading)
+        else:
+            in_counts = [of for of in ("accelerometer", "gyroscope") if self._corrects().unit(of) == "counts"]
+            read = read_recording(data, **{**{f"{of}_unit": "counts" for of in in_counts}, **reading})
+        like = read._like
         accelerometer, gyroscope = read.accelerometer, read.gyroscope
-        times = (accelerometer or gyroscope).t_s  # type: ignore[union-attr]
-        if accelerometer is not None and gyroscope is not None and not np.array_equal(accelerometer.t_s, gyroscope.t_s):
-            raise experiment_error("the sensors have different times", "resample one of them, or use the command line")
+        t_s, values = side_by_side(accelerometer, gyroscope)
         given: list[Array | None] = []
-        for name, samples in (("accelerometer", accelerometer), ("gyroscope", gyroscope)):
+        for name, samples, table_of in zip(("accelerometer", "gyroscope"), (accelerometer, gyroscope), values):
             unit = self._corrects().unit(name)
-            given.append(samples.values if samples is not None and unit is not None else None)
+            given.append(None if unit is None else table_of)
             if samples is not None and unit is not None and samples.unit != unit:
                 message = f"the readings of the {name} are in {samples.unit}, the calibration is of readings in {unit}"
                 raise experiment_error(message, "give readings in that unit", code="calibration-unsuited")
-        corrected = self._correct(given[0], given[1], read.temperature_c, sd)
-        columns: dict[str, Any] = {"t_s": times}
+        temperature, first = read.temperature_c, accelerometer or gyroscope
+        if temperature is not None and first is not None:
+            temperature = at_times(t_s, first.t_s, temperature)
+        corrected = self._correct(given[0], given[1], temperature, sd)
+        columns: dict[str, Any] = {"t_s": t_s}
         for number, ending in enumerate(("mps2", "radps", "mps2", "radps")):
             found, letter = corrected[number], "ag"[number % 2]
             if found is not None:
@@ -455,7 +457,7 @@ class Calibration:
             The sensor, for files of one sensor that do not name it.
         """
         options = {"format": format, "unit": unit, "sensor": sensor}
-        text, findings = _native.read_calibration(os.fspath(path), json.dumps(options))
+        text, findings = _native.read_calibration(os.fspath(path), as_json(options))
         try:
             with open(path, encoding="utf-8") as file:
                 own = file.read()
@@ -464,7 +466,12 @@ class Calibration:
                 text = own
         except (OSError, ValueError):
             pass
-        found = cls(text)
+        try:
+            found = cls(text)
+            _ = (found.verdict, found.converged, found.diagnostics, found.holds, found.rotations)
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
+            message = f"{os.fspath(path)}: it was changed, or is damaged ({type(error).__name__}: {error})"
+            raise experiment_error(message, "copy or write it again", code="file-damaged") from None
         found._notes = diagnostics(json.loads(findings))
         return found
 
@@ -516,7 +523,7 @@ class Calibration:
             "drop_g_sensitivity": drop_g_sensitivity,
             "temperature_c": temperature_c,
         }
-        paths, notes = _native.convert_calibration(self._text, os.fspath(path), json.dumps(changes))
+        paths, notes = _native.convert_calibration(self._text, os.fspath(path), as_json(changes))
         return Converted(tuple(os.fspath(written) for written in paths), diagnostics(json.loads(notes)))
 
     def __eq__(self, other: object) -> bool:
@@ -526,8 +533,10 @@ class Calibration:
         return hash(self._text)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Calibration, (self._text,))
+        return (_again, (self._text, self._notes, self._like))
 
 
-def _number(value: float | None) -> float:
-    return float("nan") if value is None else float(value)
+def _again(text: str, notes: tuple[Diagnostic, ...], like: Any) -> Calibration:
+    found = Calibration(text, like=like)
+    found._notes = notes
+    return found

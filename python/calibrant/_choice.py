@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any, Iterable, Mapping, Union
 
+from ._arrays import as_json
 from ._calibration import Calibration
 from ._exceptions import experiment_error
 
@@ -16,12 +16,12 @@ Known = Union[Calibration, Iterable[Calibration]]
 
 def choice(*, known: Known = (), certificate: bool = True, reach: Reach | None = None, **others: Any) -> str:
     """The choice as JSON. What is ``None`` is as the experiment says."""
-    earlier = [known] if isinstance(known, Calibration) else list(known)
+    earlier = [known] if isinstance(known, Calibration) else list(known or ())
     for calibration in earlier:
         if not isinstance(calibration, Calibration):
             raise experiment_error(f"`known` has {type(calibration).__name__}", "give calibrations")
     goals = [] if reach is None else [_goal(name, sd) for name, sd in _items(reach)]
-    return json.dumps(
+    return as_json(
         {
             "known": [calibration.to_json() for calibration in earlier],
             "without_certificate": not certificate,

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._calibration import Calibration, _number
+from ._arrays import number
+from ._calibration import Calibration
+from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._page import Page
 
@@ -36,16 +38,16 @@ class Comparison(Page):
         super().__init__(page)
         self._like = like
         overall = self.data.get("overall") or {}
-        self.chi2 = _number(overall.get("chi2"))
+        self.chi2 = number(overall.get("chi2"))
         self.degrees_of_freedom = int(overall.get("degrees_of_freedom") or 0)
-        self.p_value = _number(overall.get("p_value"))
+        self.p_value = number(overall.get("p_value"))
 
     def to_frame(self, like: Any = None) -> Any:
         """The quantities as a frame: name, unit, a, a_sd, b, b_sd, difference, difference_sd, difference_in_sd, p_value."""
         rows = self.data["quantities"]
         numbers = ("a", "a_sd", "b", "b_sd", "difference", "difference_sd", "difference_in_sd", "p_value")
         columns: dict[str, Any] = {name: [row[name] for row in rows] for name in ("name", "unit")}
-        columns.update({name: np.array([_number(row.get(name)) for row in rows]) for name in numbers})
+        columns.update({name: np.array([number(row.get(name)) for row in rows]) for name in numbers})
         return frame(columns, self._like if like is None else library_of(like))
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -68,9 +70,16 @@ def compare(a: Calibration, b: Calibration, *, names: tuple[str, str] = ("a", "b
     names : (str, str)
         What the sheet calls them.
 
+    Returns
+    -------
+    Comparison
+
     Raises
     ------
     ExperimentError
         Where they have no sensor in common.
     """
+    for given in (a, b):
+        if not isinstance(given, Calibration):
+            raise experiment_error(f"{type(given).__name__} is no calibration", "give calibrations: `Calibration.load(path)`")
     return Comparison(_native.compare((a.to_json(), names[0]), (b.to_json(), names[1])), a._like)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._arrays import numbers, table
-from ._calibrate import as_experiment
+from ._arrays import numbers, table, thread_count
+from ._calibrate import experiment_of_kind
 from ._choice import Known, Reach, choice
 from ._exceptions import experiment_error
 from ._motion import Motion, as_native_motion
@@ -104,6 +104,10 @@ def design(
     progress : bool or callable
         ``True`` for a bar of tqdm, or a callable that takes steps done, steps in all, and what is done.
 
+    Returns
+    -------
+    Design
+
     Raises
     ------
     ExperimentError
@@ -131,9 +135,9 @@ def design(
         certificate=certificate,
         force=force,
     )
-    made = as_experiment(experiment)
+    made = experiment_of_kind(experiment, "motion")
     with Told(progress) as told:
-        return Design(_native.design(made._native, chosen, threads=threads, progress=told))
+        return Design(_native.design(made._native, chosen, threads=thread_count(threads), progress=told))
 
 
 def assess(
@@ -153,7 +157,19 @@ def assess(
     """Put a motion of your own beside the best one.
 
     `data` has the motion's criterion, covariance and use of limits, as in ``evaluation.json``; the rest is of the best motion.
-    Parameters are those of :func:`design`; `motion` is a :class:`Motion`, a path or a frame.
+
+    Parameters
+    ----------
+    experiment : Experiment, path or str
+        An experiment with ``[motion]`` and ``[limits]``.
+    motion : Motion, path or frame
+        The motion.
+    known, criterion, starts, seconds, seed, certificate, force, threads, progress
+        As in :func:`design`.
+
+    Returns
+    -------
+    Design
     """
     given = as_native_motion(motion)
     if given is None:
@@ -167,6 +183,6 @@ def assess(
         certificate=certificate,
         force=force,
     )
-    made = as_experiment(experiment)
+    made = experiment_of_kind(experiment, "motion")
     with Told(progress) as told:
-        return Design(_native.assess(made._native, given, chosen, threads=threads, progress=told))
+        return Design(_native.assess(made._native, given, chosen, threads=thread_count(threads), progress=told))

@@ -136,13 +136,20 @@ _CLASSES: dict[str, type[CalibrantError]] = {
     "output": OutputError,
 }
 
-# the presets, as Python has them
-_INIT = re.compile(r"`calibrant init ([a-z-]+)`")
+# commands that have the name of a function
+_COMMANDS = re.compile(r"`calibrant (init|records|calibrate|design|inspect|noise|simulate)(?: ([a-z-]+))?[^`]*`")
 
 
 def in_words_of_python(text: str) -> str:
     """A remedy that names commands, in words of Python."""
-    return _INIT.sub(r'`Experiment.preset("\1")`', text)
+    return _COMMANDS.sub(_function, text)
+
+
+def _function(command: re.Match[str]) -> str:
+    name, more = command.groups()
+    if name == "init":
+        return f'`Experiment.preset("{more}")`'
+    return f"`Records.{more}`" if name == "records" else f"`{name}(…)`"
 
 
 def of_json(text: str) -> CalibrantError:

@@ -7,7 +7,7 @@ import os
 from typing import Any, Mapping
 
 from . import _native
-from ._arrays import Path
+from ._arrays import Path, plain
 from ._exceptions import ExperimentError, experiment_error, place_in_words
 
 Section = Mapping[str, Any]
@@ -59,6 +59,8 @@ class Experiment:
         if isinstance(source, bytes):
             return cls._made(_decoded(source, None), None)
         path = os.fspath(source)
+        if "\n" in path:
+            raise experiment_error("this is the text of an experiment file, not its path", "give it as bytes: text.encode()")
         try:
             with open(path, "rb") as file:
                 content = file.read()
@@ -89,6 +91,10 @@ class Experiment:
         """How the sensor is moved: ``"holds"``, ``"motion"`` or ``"machine"``."""
         return str(self._about["plan"]).strip("[]")
 
+    @property
+    def _files(self) -> list[str]:
+        return list(self._about["files"])
+
     def __getitem__(self, section: str) -> Any:
         return self.to_dict()[section]
 
@@ -108,7 +114,9 @@ class Experiment:
         return f"<pre>{escape(self._text)}</pre>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Experiment._made, (self._text, self._path, self._written))
+        # another process may be elsewhere
+        path = None if self._path is None else os.path.abspath(self._path)
+        return (Experiment._made, (self._text, path, self._written))
 
     @classmethod
     def _made(cls, text: str, path: str | None, written: bool = True) -> Experiment:
@@ -150,21 +158,10 @@ def _decoded(content: bytes, path: str | None) -> str:
 
 def _merged(text: str, sections: Mapping[str, Section | None]) -> str:
     try:
-        given = json.dumps(sections, default=_plain, allow_nan=False)
+        given = json.dumps(sections, default=plain, allow_nan=False)
     except (TypeError, ValueError) as error:
         raise experiment_error(f"the sections cannot be written: {error}", "give numbers, texts, lists and dicts") from None
     return _native.merged(text, given)
-
-
-def _plain(value: Any) -> Any:
-    """Arrays and numbers of numpy, paths and mappings as JSON has them."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, Mapping):
-        return dict(value)
-    raise TypeError(f"{type(value).__name__} is no value of an experiment")
 
 
 def _without_place(error: Exception) -> Exception:

@@ -17,7 +17,16 @@ def is_frame(data: object) -> bool:
         nw.from_native(data, eager_only=True)  # type: ignore[call-overload]
     except TypeError:
         return False
+    except nw.exceptions.NarwhalsError:
+        pass  # it is one, and is refused where it is read
     return True
+
+
+def _read(data: object) -> Any:
+    try:
+        return nw.from_native(data, eager_only=True)  # type: ignore[call-overload]
+    except nw.exceptions.NarwhalsError as error:
+        raise recording_error(f"the frame cannot be read: {error}", "give each column a name of its own") from None
 
 
 def library_of(data: object) -> Any:
@@ -25,18 +34,39 @@ def library_of(data: object) -> Any:
     return nw.from_native(data, eager_only=True).implementation  # type: ignore[call-overload]
 
 
-def columns_of(data: object) -> list[tuple[str, Array]]:
-    """The columns of numbers. Dates become seconds since the first."""
-    read = nw.from_native(data, eager_only=True)  # type: ignore[call-overload]
+def first_date_ns(data: object) -> int | None:
+    """The first time of a frame whose times are dates, ns."""
+    series = _dates(_read(data))
+    known = None if series is None else series.drop_nulls()
+    return None if known is None or len(known) == 0 else int(known.dt.timestamp("ns").to_numpy()[0])
+
+
+def _dates(read: Any, name: str | None = None) -> Any:
+    """The column of dates that are times: the one of this name; else the first, where there is no `t_s`."""
+    of_dates = [column for column in read.columns if isinstance(read.schema[column], nw.Datetime)]
+    if name is not None:
+        return read[name] if name in of_dates else None
+    return None if not of_dates or "t_s" in read.columns else read[of_dates[0]]
+
+
+def columns_of(data: object, origin_ns: int | None = None, time: str | None = None) -> list[tuple[str, Array]]:
+    """The columns of numbers. Dates, of the column `time` where that is given, become the seconds `t_s` since `origin_ns`, or since the first."""
+    read = _read(data)
+    names = list(read.columns)
+    if not all(isinstance(name, str) for name in names):
+        raise recording_error("the columns have no names", "name them: t_s, ax, ay, az", code="column-missing")
     columns: list[tuple[str, Array]] = []
-    for name in read.columns:
+    for name in names:
         series = read[name]
         if series.dtype.is_numeric() or series.dtype == nw.Boolean:
             columns.append((name, np.ascontiguousarray(series.cast(nw.Float64).to_numpy(), dtype=np.float64)))
-        elif isinstance(series.dtype, nw.Datetime) and not any(known == "t_s" for known, _ in columns):
-            times = series.dt.timestamp("ns").to_numpy().astype(np.int64)
-            first = times[0] if len(times) else 0
-            columns.append(("t_s", (times - first) / 1e9))
+    dates = _dates(read, time)
+    if dates is not None:
+        missing = dates.is_null().to_numpy()
+        since = origin_ns if origin_ns is not None else first_date_ns(data) or 0
+        # whole numbers first: seconds since 1970 have too many digits
+        times = dates.dt.timestamp("ns").fill_null(since).to_numpy().astype(np.int64)
+        columns.insert(0, ("t_s", np.where(missing, np.nan, (times - since) / 1e9)))
     if not columns:
         raise recording_error("the frame has no column of numbers", "give times and readings", code="column-missing")
     return columns

@@ -38,11 +38,16 @@ class Motion:
     """
 
     def __init__(self, t_s: npt.ArrayLike, acceleration_mps2: npt.ArrayLike) -> None:
-        given = np.asarray(acceleration_mps2)
+        given: Any = acceleration_mps2
         self.axes = 3
-        if given.ndim == 1 or given.shape[1:] == (1,):
+        try:
+            shape = np.shape(given)
+        except ValueError:
+            shape = ()  # rows of different lengths: refused below
+        if len(shape) == 1 or shape[1:] == (1,):
             self.axes = 1
-            given = np.column_stack([given.reshape(-1), np.zeros((given.size, 2))])
+            one = as_list("acceleration_mps2", np.reshape(given, -1))
+            given = np.column_stack([one, np.zeros((one.size, 2))])
         self.t_s: Array = as_list("t_s", t_s)
         self.acceleration_mps2: Array = as_table("acceleration_mps2", given)
         self._native = self._made()
@@ -151,8 +156,8 @@ def _side_by_side(names: tuple[str, ...], lists: Mapping[str, npt.ArrayLike]) ->
     return np.ascontiguousarray(np.column_stack(columns)) if columns else np.zeros((0, 0))
 
 
-def as_native_motion(motion: Any) -> _native.Motion | None:
-    """A motion of any kind: commanded, logged, a file, a frame of joints or poses."""
+def as_native_motion(motion: Any, origin_ns: int | None = None) -> _native.Motion | None:
+    """A motion of any kind: commanded, logged, a file, a frame of joints or poses. `origin_ns`: from when the times of a recording count whose times are dates."""
     if motion is None:
         return None
     if isinstance(motion, Motion):
@@ -161,7 +166,7 @@ def as_native_motion(motion: Any) -> _native.Motion | None:
         made: _native.Motion = motion._as_native()
         return made
     if is_frame(motion):
-        return _of_frame(dict(columns_of(motion)))
+        return _of_frame(dict(columns_of(motion, origin_ns)))
     if isinstance(motion, (str, os.PathLike)):
         return _native.Motion.file(os.fspath(motion))
     raise experiment_error(f"{type(motion).__name__} is no motion", "give a Motion, Poses, Joints, a frame or a path")

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
 from . import _native
-from ._arrays import Array, Path, as_list
-from ._calibration import _number
+from ._arrays import Array, Path, as_json, as_list, number, thread_count
 from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._page import Page, write
@@ -167,6 +165,10 @@ def noise(
     threads : int, optional
         Number of threads; all cores by default.
 
+    Returns
+    -------
+    Noise
+
     Raises
     ------
     RecordingError
@@ -174,16 +176,19 @@ def noise(
     """
     if sensor not in (None, "accelerometer", "gyroscope"):
         raise experiment_error(f"`sensor` is {sensor!r}", "give 'accelerometer' or 'gyroscope'")
-    source, reading, _ = as_source(recording)
+    hold = None if hold_s is None else as_list("hold_s", hold_s).tolist()
+    if hold is not None and len(hold) != 2:
+        raise experiment_error(f"`hold_s` is {hold_s!r}", "give start and end, s")
+    source, reading = as_source(recording)
     return Noise(
         _native.noise(
             source,
-            json.dumps(reading),
+            as_json(reading),
             sensor=sensor,
-            hold_s=hold_s,
+            hold_s=None if hold is None else (hold[0], hold[1]),
             gain=_gain("gain", gain),
             gyroscope_gain=_gain("gyroscope_gain", gyroscope_gain),
-            threads=threads,
+            threads=thread_count(threads),
         )
     )
 
@@ -196,9 +201,9 @@ def _gain(name: str, given: float | Sequence[float] | None) -> list[float] | Non
 
 
 def _side_by_side(tables: list[Any], name: str) -> Array:
-    columns = [[_number(value) for value in table.get(name) or []] for table in tables]
+    columns = [[number(value) for value in table.get(name) or []] for table in tables]
     return np.array(columns).T if columns else np.zeros((0, 0))
 
 
 def _coefficients(rows: list[Any], name: str) -> Array:
-    return np.array([_number((of.get(name) or {}).get("value")) for of in rows])
+    return np.array([number((of.get(name) or {}).get("value")) for of in rows])

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import json
+import os
+from contextlib import contextmanager
 from functools import cached_property
-from typing import Any
+from typing import Any, Iterator
 
+from . import _native
 from ._arrays import Path
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import OutputError
 from ._sheet import page_html
 
-# the text of the JSON file, diagnostics as JSON, the sheet as text and as a page
-Found = tuple[str, str, str, str]
-
 
 class Page:
     """A result."""
 
-    def __init__(self, found: Found) -> None:
+    def __init__(self, found: _native.Page) -> None:
         self._json, notes, self._summary, self._html = found
         self.diagnostics: tuple[Diagnostic, ...] = diagnostics(json.loads(notes))
 
@@ -48,12 +48,34 @@ class Page:
 
 
 def write(path: Path, text: str) -> None:
-    """Write a text."""
-    import os
+    """Write a text, with the same bytes on all systems: whole, or not at all."""
+    with written_to(path):
+        place = os.path.realpath(path)
+        is_device = os.path.exists(place) and not os.path.isfile(place)
+        beside = place if is_device else f"{place}.{os.getpid()}.tmp"
+        try:
+            with open(beside, "w", encoding="utf-8", newline="") as file:
+                file.write(text)
+            # what was there stays until the new one is whole
+            os.replace(beside, place)
+        finally:
+            if beside != place and os.path.exists(beside):
+                os.remove(beside)
 
+
+def make_directory(path: Path) -> None:
+    """Make a directory where there is none."""
+    with written_to(path):
+        os.makedirs(path, exist_ok=True)
+
+
+@contextmanager
+def written_to(path: Path) -> Iterator[None]:
+    """Raise :exc:`OutputError` where the system refuses what is written there."""
     try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        yield
+    except OutputError:
+        raise
     except OSError as error:
         failed = OutputError(f"cannot write {os.fspath(path)}: {error.strerror or error}")
         failed.code, failed.remedy, failed.path = "output-unwritable", "choose another place", os.fspath(path)

@@ -91,6 +91,8 @@ def residuals(calibration: Calibration, ax: Axes | None) -> Axes:
 def parameters(calibration: Calibration, ax: Axes | None) -> Axes:
     """Standard deviation of each parameter, in its unit."""
     known = [of for of in calibration.parameters if np.isfinite(of.sd) and of.sd > 0.0]
+    if not known:
+        raise experiment_error("the calibration states no standard deviations", "there is nothing to draw")
     ax = _axes(ax, height=_height(len(known)))
     units = list(dict.fromkeys(of.unit for of in known))
     for unit, colour in zip(units, (BLUE, ORANGE, GREEN, PURPLE, SKY, GREY)):

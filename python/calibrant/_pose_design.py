@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _native
-from ._arrays import Array, as_table, table
-from ._calibrate import as_experiment
+from ._arrays import Array, as_json, as_table, table, thread_count, whole
+from ._calibrate import experiment_of_kind
 from ._choice import Known, Reach, choice
 from ._frames import frame, is_frame, library_of
 from ._page import Page
@@ -85,6 +84,10 @@ def design_poses(
     criterion, starts, seed, force, threads, progress
         As in :func:`design`.
 
+    Returns
+    -------
+    PoseDesign
+
     Examples
     --------
     >>> import calibrant as cb
@@ -92,9 +95,9 @@ def design_poses(
     (12, 3)
     """
     chosen = choice(known=known, criterion=criterion, reach=reach, starts=starts, seed=seed, force=force)
-    made = as_experiment(experiment)
+    made = experiment_of_kind(experiment, "holds")
     with Told(progress) as told:
-        return PoseDesign(_native.design_poses(made._native, poses, chosen, threads=threads, progress=told))
+        return PoseDesign(_native.design_poses(made._native, whole("poses", poses), chosen, threads=thread_count(threads), progress=told))
 
 
 def assess_poses(experiment: Any, poses: Any, *, seed: int | None = 1, threads: int | None = None) -> PoseDesign:
@@ -112,6 +115,10 @@ def assess_poses(experiment: Any, poses: Any, *, seed: int | None = 1, threads: 
     threads : int, optional
         Number of threads; all cores by default.
 
+    Returns
+    -------
+    PoseDesign
+
     Examples
     --------
     >>> import calibrant as cb
@@ -120,11 +127,11 @@ def assess_poses(experiment: Any, poses: Any, *, seed: int | None = 1, threads: 
     True
     """
     chosen = choice(seed=seed)
-    native = as_experiment(experiment)._native
+    native = experiment_of_kind(experiment, "holds")._native
     if isinstance(poses, Recording) or is_path_or_bytes(poses) or is_frame(poses):
-        source, reading, _ = as_source(poses)
+        source, reading = as_source(poses)
         return PoseDesign(
-            _native.assess_poses(native, chosen, source=source, reading=json.dumps(reading), threads=threads)
+            _native.assess_poses(native, chosen, source=source, reading=as_json(reading), threads=thread_count(threads))
         )
     directions = as_table("poses", poses).tobytes()
-    return PoseDesign(_native.assess_poses(native, chosen, directions=directions, threads=threads))
+    return PoseDesign(_native.assess_poses(native, chosen, directions=directions, threads=thread_count(threads)))

@@ -10,10 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._arrays import Array, Path, as_list, as_table, numbers, table
+from ._arrays import Array, Path, as_json, as_list, as_table, numbers, table
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import experiment_error
-from ._frames import columns_of, frame, is_frame, library_of
+from ._frames import columns_of, first_date_ns, frame, is_frame, library_of
 from ._page import Page
 
 Columns = Mapping[str, Union[str, Sequence[str]]]
@@ -54,6 +54,8 @@ class Inspection(Page):
         As ``calibrant inspect --json`` writes it.
     """
 
+    _in_counts = False
+
     @property
     def holds(self) -> list[dict[str, Any]]:
         """The stationary intervals; empty without an accelerometer."""
@@ -63,8 +65,14 @@ class Inspection(Page):
     def missing_orientations(self) -> tuple[str, ...]:
         """The sides of the sensor that no hold has up: ``"+x"``, ``"-z"``. A hold belongs to the side that is nearest to up."""
         seen = set()
+        means = np.array([hold["mean"] for hold in self.holds]).reshape(-1, 3)
+        middle, half = np.zeros(3), np.ones(3)
+        if len(means) > 1 and self._in_counts:
+            # counts have an offset
+            least, most = means.min(axis=0), means.max(axis=0)
+            middle, half = 0.5 * (least + most), np.maximum(0.5 * (most - least), 1e-9 * np.abs(means).max())
         for hold in self.holds:
-            mean = np.array(hold["mean"])
+            mean = (np.array(hold["mean"]) - middle) / half
             axis = int(np.argmax(np.abs(mean)))
             seen.add(("+" if mean[axis] > 0 else "-") + "xyz"[axis])
         return tuple(side for side in ("+x", "-x", "+y", "-y", "+z", "-z") if side not in seen)
@@ -89,10 +97,12 @@ class Recording:
         name: str,
         rebuild: tuple[Any, ...],
         like: Any = None,
+        origin_ns: int | None = None,
     ) -> None:
         self._source, self._reading, self.name = source, reading, name
-        self._rebuild, self._like = rebuild, like
-        self._read = _native.read_recording(source, json.dumps(reading))
+        # the first time, where it is a date
+        self._rebuild, self._like, self._origin_ns = rebuild, like, origin_ns
+        self._read = _native.read_recording(source, as_json(reading))
         self._about: dict[str, Any] = json.loads(self._read.about())
 
     @property
@@ -128,7 +138,9 @@ class Recording:
 
     def inspect(self) -> Inspection:
         """What it contains: columns, sampling, ranges, holds, coverage, and what to expect of a calibration."""
-        return Inspection(self._read.inspect())
+        found = Inspection(self._read.inspect())
+        found._in_counts = self.accelerometer is not None and self.accelerometer.unit == "counts"
+        return found
 
     def between(self, start_s: float, end_s: float) -> Recording:
         """The samples from `start_s` to `end_s`, s."""
@@ -136,39 +148,36 @@ class Recording:
         first = accelerometer or gyroscope
         assert first is not None
         keep = (first.t_s >= start_s) & (first.t_s <= end_s)
-        arguments: dict[str, Any] = {"name": self.name}
-        if temperature is not None:
-            arguments["temperature_c"] = temperature[keep]
+        parts = {}
         for sensor, of in (("accelerometer", accelerometer), ("gyroscope", gyroscope)):
             if of is not None:
                 kept = (of.t_s >= start_s) & (of.t_s <= end_s)
-                arguments[sensor], arguments[f"{sensor}_unit"] = of.values[kept], of.unit
-                if of is not first and not np.array_equal(of.t_s, first.t_s):
-                    arguments["gyroscope_t_s"] = of.t_s[kept]
-        return recording(first.t_s[keep], **arguments)
+                parts[sensor] = Samples(of.t_s[kept], of.values[kept], of.unit)
+        temperature = None if temperature is None else temperature[keep]
+        about = self._about
+        return of_samples(
+            self.name, parts, temperature, about["axes"], about["rate_sd_ppm"], like=self._like, origin_ns=self._origin_ns
+        )
 
     def to_frame(self) -> Any:
         """The samples as a frame: of the library that came in, or else pandas, polars or pyarrow. Sensors with different times need :attr:`accelerometer` and :attr:`gyroscope`."""
         accelerometer, gyroscope, temperature = self.accelerometer, self.gyroscope, self.temperature_c
-        columns: dict[str, Any] = {}
-        for letter, of in (("a", accelerometer), ("g", gyroscope)):
-            if of is None:
-                continue
-            if "t_s" in columns and not np.array_equal(columns["t_s"], of.t_s):
-                raise experiment_error("the sensors have different times", "take `accelerometer` and `gyroscope`")
-            columns["t_s"] = of.t_s
-            unit = {"m/s²": "mps2", "rad/s": "radps"}.get(of.unit, of.unit)
-            columns.update({f"{letter}{axis}_{unit}": of.values[:, k] for k, axis in enumerate("xyz")})
+        t_s, values = side_by_side(accelerometer, gyroscope)
+        columns: dict[str, Any] = {"t_s": t_s}
+        for letter, of, table_of in zip("ag", (accelerometer, gyroscope), values):
+            if of is not None and table_of is not None:
+                unit = {"m/s²": "mps2", "rad/s": "radps"}.get(of.unit, of.unit)
+                axes = "xyz" if letter == "g" else "xyz"[: self._about["axes"]]
+                columns.update({f"{letter}{axis}_{unit}": table_of[:, k] for k, axis in enumerate(axes)})
         if temperature is not None:
-            columns["temp_c"] = temperature
+            first = accelerometer or gyroscope
+            assert first is not None
+            columns["temp_c"] = at_times(t_s, first.t_s, temperature)
         return frame(columns, self._like)
 
     def save(self, path: Path) -> None:
         """Write it as CSV, in SI units or counts."""
         self._read.write(os.fspath(path))
-
-    def _readings(self) -> list[_native.Readings]:
-        return _readings_of(self._rebuild)[0]
 
     def __len__(self) -> int:
         first = self.accelerometer or self.gyroscope
@@ -178,7 +187,7 @@ class Recording:
         return f"Recording({self.name!r}: {len(self)} samples, {self.format})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuilt, (self._rebuild, self._reading))
+        return (_rebuilt, (self._rebuild, self._reading, self._like, self._origin_ns))
 
 
 def read_recording(
@@ -217,7 +226,7 @@ def read_recording(
     rate_hz : float, optional
         Sample rate in Hz, where there are no times.
     rate_sd_ppm : float, optional
-        How well that rate is known, ppm.
+        How well that rate is known, ppm; 50 000 by default. Where there are times, and no `rate_hz` is given, how well their clock is; 0 by default.
     times : {"even", "as-logged"}, optional
         Even sample times or the logged ones.
     instance : str, optional
@@ -269,6 +278,7 @@ def recording(
     gyroscope: npt.ArrayLike | None = None,
     *,
     rate_hz: float | None = None,
+    rate_sd_ppm: float | None = None,
     accelerometer_unit: str = "m/s²",
     gyroscope_unit: str = "rad/s",
     temperature_c: npt.ArrayLike | None = None,
@@ -283,11 +293,13 @@ def recording(
     t_s : (n,) array, optional
         Times, s, increasing; ``None`` with `rate_hz`.
     accelerometer : (n, 3) array, optional
-        Specific force, in `accelerometer_unit`. NaN: no reading.
+        Specific force, in `accelerometer_unit`. NaN, or a masked value: no reading. Of a sensor with one axis (n,): in m/s² or counts, with `t_s`.
     gyroscope : (n, 3) array, optional
         Angular rate, in `gyroscope_unit`.
     rate_hz : float, optional
         Sample rate in Hz, in place of times.
+    rate_sd_ppm : float, optional
+        How well that rate, or the clock of the times, is known, ppm; 50 000 by default of a rate, 0 of times.
     accelerometer_unit : str
         ``"m/s²"``, ``"g"``, ``"mg"`` or ``"counts"``.
     gyroscope_unit : str
@@ -300,6 +312,10 @@ def recording(
         What results and errors call it.
     force : bool
         Take it in spite of its size.
+
+    Returns
+    -------
+    Recording
 
     Raises
     ------
@@ -316,7 +332,9 @@ def recording(
     """
     if accelerometer is None and gyroscope is None:
         raise experiment_error("neither `accelerometer` nor `gyroscope` is there", "give at least one of them")
-    reading = _reading(rate_hz=rate_hz, force=force)
+    if accelerometer is not None and np.ndim(accelerometer) == 1 and gyroscope is None:
+        return _one_axis(name, t_s, as_list("accelerometer", accelerometer), accelerometer_unit, rate_sd_ppm)
+    reading = _reading(rate_hz=rate_hz, rate_sd_ppm=rate_sd_ppm, force=force)
     parts: list[list[tuple[str, Array]]] = []
     own_times = gyroscope_t_s is not None and accelerometer is not None
     for letter, given, unit, unit_name in (
@@ -329,17 +347,24 @@ def recording(
         reading[unit_name] = unit
         if not parts or own_times:
             own = gyroscope_t_s if letter == "g" and gyroscope_t_s is not None else t_s
-            parts.append([] if own is None else [("t_s", as_list("t_s", own))])
+            # a copy: the caller may fill its array again
+            parts.append([] if own is None else [("t_s", as_list("t_s", own).copy())])
         parts[-1] += [(f"{letter}{axis}", np.ascontiguousarray(readings[:, k])) for k, axis in enumerate("xyz")]
     if temperature_c is not None:
         parts[0].append(("temp_c", as_list("temperature_c", temperature_c)))
-    rebuild = ("columns", name, parts)
-    return _rebuilt(rebuild, reading)
+    return _rebuilt((name, [("columns", part) for part in parts]), reading)
+
+
+def _one_axis(name: str, t_s: npt.ArrayLike | None, readings: Array, unit: str, rate_sd_ppm: float | None) -> Recording:
+    if t_s is None or unit not in ("m/s²", "counts"):
+        raise experiment_error("a recording of one axis needs `t_s`, and readings in m/s² or counts", "give them, or a file")
+    samples = Samples(as_list("t_s", t_s), np.column_stack([readings, np.zeros((len(readings), 2))]), unit)
+    return of_samples(name, {"accelerometer": samples}, None, 1, rate_sd_ppm)
 
 
 def _reading(**options: Any) -> dict[str, Any]:
     columns = options.pop("columns", None)
-    reading = {key: value for key, value in options.items() if value not in (None, False)}
+    reading = {key: value for key, value in options.items() if value is not None and value is not False}
     if columns:
         reading["columns"] = {
             key: value if isinstance(value, str) else list(value) for key, value in columns.items()
@@ -349,27 +374,40 @@ def _reading(**options: Any) -> dict[str, Any]:
 
 def _read_recording(source: Any, gyroscope: Any, name: str | None, reading: dict[str, Any]) -> Recording:
     if isinstance(source, Recording):
-        return source
-    like = library_of(source) if not is_path_or_bytes(source) and is_frame(source) else None
-    parts = [_part(source)] + ([] if gyroscope is None else [_part(gyroscope)])
-    return _rebuilt(("parts", name, parts), reading, like)
+        if reading:
+            raise experiment_error("the recording is read already", f"leave away {', '.join(f'`{key}`' for key in reading)}")
+        if gyroscope is None:
+            return source
+    origin_ns = origin_of(source)
+    parts = [_part(source, reading)] + ([] if gyroscope is None else [_part(gyroscope, reading, origin_ns)])
+    return _rebuilt((name, parts), reading, like_of(source), origin_ns)
 
 
 def as_source(
-    source: Any, gyroscope: Any = None, sections: Path | None = None, further: Sequence[Any] = ()
-) -> tuple[_native.Source, dict[str, Any], str]:
-    """Anything that is a recording, as the native part takes it; what is known of its reading; and its name. A path is not read yet."""
+    source: Any, sections: Path | None = None, further: Sequence[Any] = ()
+) -> tuple[_native.Source, dict[str, Any]]:
+    """Anything that is a recording, as the native part takes it, and what is known of its reading. A path is not read yet."""
     if isinstance(source, Recording):
         if sections is None and not further:
-            return source._source, source._reading, source.name
-        readings, reading, name = source._readings(), source._reading, source.name
+            return source._source, source._reading
+        readings, reading = _readings_of(source._rebuild)[0], source._reading
     else:
-        parts = [_part(source)] + ([] if gyroscope is None else [_part(gyroscope)])
-        readings, name = _readings_of(("parts", None, parts))
-        reading = {}
-    added = [_readings_of(("parts", None, [_part(of)]))[0][0] for of in further]
+        readings, reading = [as_readings(source)], {}
     place = None if sections is None else os.fspath(sections)
-    return _native.Source(readings[0], readings[1] if len(readings) > 1 else None, added, place), reading, name
+    added = [as_readings(of) for of in further]
+    return _native.Source(readings[0], readings[1] if len(readings) > 1 else None, added, place), reading
+
+
+def as_readings(source: Any) -> _native.Readings:
+    """A recording beside another one: one that was read keeps its units and its rate."""
+    return _readings_of((None, [_part(source)]))[0][0]
+
+
+def like_of(source: Any) -> Any:
+    """The library of a frame, also of one that was read."""
+    if isinstance(source, Recording):
+        return source._like
+    return library_of(source) if not is_path_or_bytes(source) and is_frame(source) else None
 
 
 def is_path_or_bytes(source: Any) -> bool:
@@ -377,27 +415,36 @@ def is_path_or_bytes(source: Any) -> bool:
     return isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview))
 
 
-def _part(source: Any) -> tuple[str, Any]:
-    """Path, bytes or columns: what can be pickled."""
+def origin_of(source: Any) -> int | None:
+    """The first time of a frame whose times are dates, ns."""
+    if isinstance(source, Recording):
+        return source._origin_ns
+    return first_date_ns(source) if not is_path_or_bytes(source) and is_frame(source) else None
+
+
+def _part(source: Any, reading: dict[str, Any] | None = None, origin_ns: int | None = None) -> tuple[str, Any]:
+    """Path, bytes, columns or a recording: what can be pickled."""
     if isinstance(source, (str, os.PathLike)):
         return ("path", os.fspath(source))
     if isinstance(source, (bytes, bytearray, memoryview)):
         return ("bytes", bytes(source))
     if isinstance(source, Recording):
-        kind, _, parts = source._rebuild
-        if len(parts) == 1:
-            return ("columns", parts[0]) if kind == "columns" else parts[0]
+        return ("recording", source)
     if not is_frame(source):
         message = f"{type(source).__name__} is no recording"
-        raise experiment_error(message, "give a path, bytes, a frame, or arrays by `recording(…)`")
-    return ("columns", columns_of(source))
+        collected = next((f"`.{how}()` of it" for how in ("collect", "pl") if hasattr(source, how)), "a frame")
+        raise experiment_error(message, f"give a path, bytes, {collected}, or arrays by `recording(…)`")
+    named = (reading or {}).get("columns") or {}
+    columns = columns_of(source, origin_ns, named.get("time"))
+    if named.get("time") not in (None, *(name for name, _ in columns)):
+        named["time"] = "t_s"  # a date
+    return ("columns", columns)
 
 
 def _readings_of(rebuild: tuple[Any, ...]) -> tuple[list[_native.Readings], str]:
-    kind, name, parts = rebuild
-    if kind == "columns":
-        parts = [("columns", part) for part in parts]
-    called = name or (os.path.basename(parts[0][1]) if parts[0][0] == "path" else "recording")
+    name, parts = rebuild
+    of, first = parts[0]
+    called = name or (os.path.basename(first) if of == "path" else first.name if of == "recording" else "recording")
     made = []
     for number, (of, content) in enumerate(parts):
         other = called if number == 0 else f"{called} (gyroscope)"
@@ -405,14 +452,54 @@ def _readings_of(rebuild: tuple[Any, ...]) -> tuple[list[_native.Readings], str]
             made.append(_native.Readings.file(content))
         elif of == "bytes":
             made.append(_native.Readings.bytes(other, content))
+        elif of == "recording":
+            made.append(_native.Readings.read_already(content.name, content._read))
+        elif of == "samples":
+            made.append(_native.Readings.samples(other, *content))
         else:
             columns = [(of_column, values.tobytes()) for of_column, values in content]
             made.append(_native.Readings.columns(other, columns))
     return made, called
 
 
-def _rebuilt(rebuild: tuple[Any, ...], reading: dict[str, Any], like: Any = None) -> Recording:
+def _rebuilt(
+    rebuild: tuple[Any, ...], reading: dict[str, Any], like: Any = None, origin_ns: int | None = None
+) -> Recording:
     readings, name = _readings_of(rebuild)
     source = _native.Source(readings[0], readings[1] if len(readings) > 1 else None)
-    return Recording(source, reading, name, rebuild, like)
+    return Recording(source, reading, name, rebuild, like, origin_ns)
+
+
+def of_samples(
+    name: str,
+    sensors: Mapping[str, Samples],
+    temperature_c: Array | None,
+    axes: int,
+    rate_sd_ppm: float | None = None,
+    *,
+    like: Any = None,
+    origin_ns: int | None = None,
+) -> Recording:
+    """A recording of samples as they are: nothing is recognised, and nothing is repaired."""
+    listed = [(of, samples.unit, samples.t_s.tobytes(), samples.values.tobytes()) for of, samples in sensors.items()]
+    temperatures = None if temperature_c is None else temperature_c.tobytes()
+    return _rebuilt((name, [("samples", (listed, axes, temperatures, rate_sd_ppm))]), {}, like, origin_ns)
+
+
+def at_times(t_s: Array, own_s: Array, values: Array) -> Array:
+    """Values of samples at these times, which are theirs and others; NaN at the others."""
+    if len(t_s) == len(own_s):
+        return values
+    found = np.full((len(t_s), *values.shape[1:]), np.nan)
+    found[np.searchsorted(t_s, own_s)] = values
+    return found
+
+
+def side_by_side(*sensors: Samples | None) -> tuple[Array, list[Array | None]]:
+    """The times of sensors, and the values of each, with NaN where one lacks a sample. Sensors of different rates are refused."""
+    given = [of for of in sensors if of is not None]
+    t_s = np.unique(np.concatenate([of.t_s for of in given]))
+    if len(t_s) > 1.1 * max(len(of.t_s) for of in given):
+        raise experiment_error("the sensors have different times", "take `accelerometer` and `gyroscope`, or resample one")
+    return t_s, [None if of is None else at_times(t_s, of.t_s, of.values) for of in sensors]
 

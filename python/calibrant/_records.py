@@ -9,6 +9,7 @@ from typing import Any, Iterable, Literal
 from . import _native
 from ._arrays import Path
 from ._calibration import Calibration
+from ._exceptions import experiment_error
 from ._frames import frame, library_of
 
 
@@ -34,8 +35,12 @@ class Records:
         """Add calibrations; returns how many are new. One of the same recording replaces the earlier one."""
         texts: list[str] = []
         for given in calibrations:
-            several = [given] if isinstance(given, Calibration) else given
-            texts += [calibration.to_json() for calibration in several]
+            several = [given] if isinstance(given, (Calibration, str)) else given
+            for calibration in several:
+                if not isinstance(calibration, Calibration):
+                    message = f"{type(calibration).__name__} is no calibration"
+                    raise experiment_error(message, "give calibrations: `Calibration.load(path)`")
+                texts.append(calibration.to_json())
         return self._native.add(texts)
 
     def list(
@@ -94,8 +99,7 @@ class Records:
             with open(path, newline="", encoding="utf-8") as file:
                 rows = list(csv.reader(file))
         names, body = rows[0], rows[1:]
-        columns = {name: _typed([row[k] for row in body]) for k, name in enumerate(names)}
-        columns["id"] = [int(number) for number in columns["id"]]
+        columns = {name: _typed(name, [row[k] for row in body]) for k, name in enumerate(names)}
         return frame(columns, None if like is None else library_of(like))
 
     def __enter__(self) -> Records:
@@ -104,12 +108,14 @@ class Records:
     def __exit__(self, *_: object) -> None:
         """Nothing is left open: each call opens and closes the file."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Records, (os.path.abspath(self.path),))
+
     def __repr__(self) -> str:
         return f"Records({self.path!r})"
 
 
-def _typed(cells: Any) -> Any:
-    try:
-        return [float(cell) if cell else None for cell in cells]
-    except ValueError:
-        return [cell or None for cell in cells]
+def _typed(name: str, cells: Any) -> Any:
+    # a parameter is of a sensor: `accelerometer.bias.x_mps2`. Serial numbers and hashes are texts, also where they look like numbers
+    kind: Any = int if name == "id" else float if "." in name else str
+    return [kind(cell) if cell else None for cell in cells]

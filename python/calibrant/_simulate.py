@@ -9,11 +9,12 @@ from typing import Any, Iterator, Mapping
 import numpy.typing as npt
 
 from . import _native
-from ._arrays import Path, as_table, numbers, table
+from ._arrays import Path, as_table, numbers, table, whole
 from ._calibrate import as_experiment
 from ._diagnostic import Diagnostic, diagnostics
 from ._motion import Joints, Motion, Poses, as_native_motion
-from ._recording import Recording, Samples, recording as recording_of
+from ._page import make_directory
+from ._recording import Recording, Samples, of_samples
 
 
 class Truth(Mapping[str, float]):
@@ -55,11 +56,12 @@ class Simulation:
         What was noticed.
     """
 
-    def __init__(self, made: _native.Simulation) -> None:
-        self._made = made
+    def __init__(self, made: _native.Simulation, asked: dict[str, Any]) -> None:
+        self._made, self._asked = made, asked
         self.truth = Truth(json.loads(made.truth()))
         about = json.loads(made.about())
         self.seed: int = about["seed"]
+        self._axes: int = about["axes"]
         self.diagnostics: tuple[Diagnostic, ...] = diagnostics(about["notes"])
         nodes, log = made.motion(), made.log()
         self.motion = None if nodes is None else Motion(numbers(nodes[0]), table(nodes[1]))
@@ -84,17 +86,17 @@ class Simulation:
             samples = Samples._of(self._made.samples(sensor))
             if samples is not None:
                 found[sensor] = samples
-        first = next(iter(found.values()))
         temperature = self._made.temperature_c()
-        arguments: dict[str, Any] = {"temperature_c": None if temperature is None else numbers(temperature)}
-        for sensor, samples_of in found.items():
-            arguments[sensor], arguments[f"{sensor}_unit"] = samples_of.values, samples_of.unit
-        return recording_of(first.t_s, **arguments)
+        return of_samples("recording", found, None if temperature is None else numbers(temperature), self._axes)
 
     def save(self, directory: Path) -> None:
         """Write the files of ``calibrant simulate``: ``recording.csv``, ``truth.json``, and ``motion.csv``, ``joints.csv`` or ``poses.csv``."""
-        os.makedirs(directory, exist_ok=True)
+        make_directory(directory)
         self._made.write(os.fspath(directory))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # the same arguments give the same bits
+        return (_simulated, (self._asked,))
 
     def __repr__(self) -> str:
         return f"Simulation(seed {self.seed})"
@@ -126,22 +128,31 @@ def simulate(
     force : bool
         Do it in spite of its size.
 
+    Returns
+    -------
+    Simulation
+
     Examples
     --------
     >>> import calibrant as cb
     >>> cb.simulate("imu", seed=2)
     Simulation(seed 2)
     """
-    return Simulation(
-        _native.simulate(
-            as_experiment(experiment)._native,
-            motion=as_native_motion(motion),
-            poses=None if poses is None else as_table("poses", poses).tobytes(),
-            seed=seed,
-            recording=recording,
-            force=force,
-        )
+    return _simulated(
+        {
+            "experiment": as_experiment(experiment),
+            "motion": motion,
+            "poses": None if poses is None else as_table("poses", poses).tobytes(),
+            "seed": whole("seed", seed, 0),
+            "recording": whole("recording", recording),
+            "force": force,
+        }
     )
+
+
+def _simulated(asked: dict[str, Any]) -> Simulation:
+    arguments = {**asked, "motion": as_native_motion(asked["motion"])}
+    return Simulation(_native.simulate(arguments.pop("experiment")._native, **arguments), asked)
 
 
 def _values(data: dict[str, Any]) -> dict[str, float]:

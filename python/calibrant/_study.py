@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import _native
+from ._arrays import thread_count, whole
 from ._calibrate import as_experiment
 from ._motion import as_native_motion
 from ._page import Page
@@ -45,17 +46,21 @@ def study(
         Number of threads; all cores by default. Results do not depend on it.
     progress : bool or callable
         As in :func:`design`.
+
+    Returns
+    -------
+    Study
     """
     with Told(progress) as told:
         return Study(
             _native.study(
                 as_experiment(experiment)._native,
                 motion=as_native_motion(motion),
-                sensors=sensors,
-                starts=starts,
-                seed=seed,
+                sensors=whole("sensors", sensors),
+                starts=whole("starts", starts),
+                seed=whole("seed", seed, 0),
                 force=force,
-                threads=threads,
+                threads=thread_count(threads),
                 progress=told,
             )
         )

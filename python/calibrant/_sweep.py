@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._arrays import Array, as_list
+from ._arrays import Array, as_list, thread_count
 from ._calibrate import as_experiment
 from ._choice import Known, choice
 from ._frames import frame, library_of
@@ -101,6 +101,10 @@ def sweep(
     known, criterion, starts, seed, certificate, force, threads, progress
         As in :func:`design`.
 
+    Returns
+    -------
+    Sweep
+
     Examples
     --------
     >>> import calibrant as cb
@@ -114,4 +118,4 @@ def sweep(
     made = as_experiment(experiment)
     listed = as_list("values", values).tolist()
     with Told(progress) as told:
-        return Sweep(quantity, _native.sweep(made._native, quantity, listed, chosen, threads=threads, progress=told))
+        return Sweep(quantity, _native.sweep(made._native, quantity, listed, chosen, threads=thread_count(threads), progress=told))

@@ -6,13 +6,13 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._arrays import Path, numbers, table
-from ._calibrate import as_experiment
+from ._arrays import Path, numbers, table, thread_count
+from ._calibrate import experiment_of_kind
 from ._calibration import Calibration
 from ._choice import Reach, choice
-from ._exceptions import OutputError, experiment_error
+from ._exceptions import experiment_error
 from ._motion import Joints, as_native_motion
-from ._page import Page
+from ._page import Page, make_directory, write
 from ._progress import Progress, Told
 
 if TYPE_CHECKING:
@@ -53,19 +53,11 @@ class TrajectoryDesign(Page):
     def save(self, directory: Path) -> list[str]:
         """Write ``trajectory.csv``, ``follow_joint_trajectory.yaml``, ``trajectory.script`` for arms of Universal Robots, ``plain_trajectory.csv`` and ``design.json``; returns the paths."""
         place = os.fspath(directory)
-        try:
-            os.makedirs(place, exist_ok=True)
-            if self._found is not None:
-                return [os.fspath(path) for path in self._found.write(place)]
-            for name, text in self._texts.items():
-                with open(os.path.join(place, name), "w", encoding="utf-8", newline="") as file:
-                    file.write(text)
-        except OutputError:
-            raise
-        except OSError as error:
-            failed = OutputError(f"cannot write into {place}: {error.strerror or error}")
-            failed.code, failed.remedy, failed.path = "output-unwritable", "choose another place", place
-            raise failed from error
+        make_directory(place)
+        if self._found is not None:
+            return [os.fspath(path) for path in self._found.write(place)]
+        for name, text in self._texts.items():
+            write(os.path.join(place, name), text)
         return [os.path.join(place, name) for name in self._texts]
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -83,7 +75,7 @@ class TrajectoryDesign(Page):
         texts = self._texts
         if self._found is not None:
             with tempfile.TemporaryDirectory() as place:
-                texts = {os.path.basename(path): _read(path) for path in self._found.write(place)}
+                texts = {os.path.basename(path): _read(os.fspath(path)) for path in self._found.write(place)}
         return {**self.__dict__, "_found": None, "_texts": texts}
 
     def __repr__(self) -> str:
@@ -141,6 +133,10 @@ def design_trajectory(
     starts, seconds, seed, threads, progress
         As in :func:`design`.
 
+    Returns
+    -------
+    TrajectoryDesign
+
     Raises
     ------
     ExperimentError
@@ -156,9 +152,9 @@ def design_trajectory(
         seconds=seconds,
         seed=seed,
     )
-    made = as_experiment(experiment)
+    made = experiment_of_kind(experiment, "machine")
     with Told(progress) as told:
-        found = _native.design_trajectory(made._native, chosen, slow=slow, threads=threads, progress=told)
+        found = _native.design_trajectory(made._native, chosen, slow=slow, threads=thread_count(threads), progress=told)
     return TrajectoryDesign(*found)
 
 
@@ -184,6 +180,10 @@ def assess_trajectory(
         Positions and velocities of the joints at even times, the knots of cubic splines; or a ``trajectory.csv``.
     known, criterion, starts, seconds, seed, threads, progress
         As in :func:`design_trajectory`.
+
+    Returns
+    -------
+    TrajectoryAssessment
     """
     given = as_native_motion(trajectory.joints if isinstance(trajectory, TrajectoryDesign) else trajectory)
     if given is None:
@@ -191,10 +191,10 @@ def assess_trajectory(
     chosen = choice(
         known=() if known is None else known, criterion=criterion, starts=starts, seconds=seconds, seed=seed
     )
-    made = as_experiment(experiment)
+    made = experiment_of_kind(experiment, "machine")
     with Told(progress) as told:
         page, is_proved, best = _native.assess_trajectory(
-            made._native, given, chosen, threads=threads, progress=told
+            made._native, given, chosen, threads=thread_count(threads), progress=told
         )
     return TrajectoryAssessment(page, is_proved, None if best is None else _joints(best))
 

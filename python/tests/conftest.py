@@ -14,7 +14,7 @@ import calibrant as cb
 
 def _cli(*arguments: object, status: int | None = 0) -> subprocess.CompletedProcess[str]:
     call = [sys.executable, "-m", "calibrant", *(str(argument) for argument in arguments)]
-    done = subprocess.run(call, capture_output=True, text=True)
+    done = subprocess.run(call, capture_output=True, encoding="utf-8")
     assert status is None or done.returncode == status, done.stderr
     return done
 

@@ -106,7 +106,7 @@ def interrupted(call: Callable[[], Any], after_s: float = 1.0) -> tuple[Any, flo
 
     def ask() -> None:
         asked.append(time.monotonic())
-        os.kill(os.getpid(), signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
 
     timer = threading.Timer(after_s, ask)
     found = None

@@ -13,14 +13,13 @@ use calibrant::{Result, SimulationOptions, simulate};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A row of the data set as JSON, or an error as JSON.
 type Row = (Option<String>, Option<String>);
 
 /// Calibrates from each recording. Copies are calibrated, too: a chunk does not know the others.
 #[pyfunction]
-#[pyo3(signature = (experiment, sources, options, *, motion=None, threads=None, progress=None))]
+#[pyo3(signature = (experiment, sources, options, *, motion=None, threads=None))]
 pub(crate) fn calibrate_each(
     py: Python<'_>,
     experiment: &Experiment,
@@ -28,15 +27,14 @@ pub(crate) fn calibrate_each(
     options: &str,
     motion: Option<&Motion>,
     threads: Option<usize>,
-    progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Row>> {
     let options = options_of(options, motion).map_err(|error| raised(py, &error))?;
     let sources: Vec<_> = sources.iter().map(|source| source.0.clone()).collect();
     let experiment = experiment.clone();
-    run_as(py, How { threads, progress, keeps_the_best: false }, move |given| {
+    run_as(py, How { threads, ..How::default() }, move |given| {
         let options = SessionOptions { interruption: given.interruption.clone(), ..options };
         let session = Session::with(experiment.read, options)?;
-        each(sources.len(), "recordings", &given, |number| {
+        each(sources.len(), &given, |number| {
             DatasetRow::parse(&session.calibrate(&sources[number])?.json()).map(|row| json!(row))
         })
     })
@@ -44,7 +42,7 @@ pub(crate) fn calibrate_each(
 
 /// Draws a sensor of each seed, simulates its recording, and calibrates from it. The row has the true value of each parameter, too.
 #[pyfunction]
-#[pyo3(signature = (experiment, sensors, options, *, motion=None, threads=None, progress=None))]
+#[pyo3(signature = (experiment, sensors, options, *, motion=None, threads=None))]
 pub(crate) fn study_each(
     py: Python<'_>,
     experiment: &Experiment,
@@ -52,13 +50,12 @@ pub(crate) fn study_each(
     options: &str,
     motion: Option<&Motion>,
     threads: Option<usize>,
-    progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Row>> {
     let options = options_of(options, motion).map_err(|error| raised(py, &error))?;
     let experiment = experiment.clone();
-    run_as(py, How { threads, progress, keeps_the_best: false }, move |given| {
+    run_as(py, How { threads, ..How::default() }, move |given| {
         let options = SessionOptions { interruption: given.interruption.clone(), ..options };
-        each(sensors.len(), "sensors", &given, |number| {
+        each(sensors.len(), &given, |number| {
             let (name, seed) = &sensors[number];
             simulated(&experiment, name, *seed, &options)
         })
@@ -88,7 +85,7 @@ fn simulated(experiment: &Experiment, name: &str, seed: u64, options: &SessionOp
     Ok(row)
 }
 
-/// The key of each result, and the hash of its recording, without its computation; `None` where a file cannot be read.
+/// The key of each result, without its computation; `None` where a file cannot be read.
 #[pyfunction]
 #[pyo3(signature = (experiment, sources, options, *, motion=None))]
 pub(crate) fn keys(
@@ -97,19 +94,28 @@ pub(crate) fn keys(
     sources: Vec<PyRef<'_, Source>>,
     options: &str,
     motion: Option<&Motion>,
-) -> PyResult<Vec<Option<(String, String)>>> {
+) -> PyResult<Vec<Option<String>>> {
     let options = options_of(options, motion).map_err(|error| raised(py, &error))?;
     let sources: Vec<_> = sources.iter().map(|source| source.0.clone()).collect();
     let experiment = experiment.clone();
     run(py, move || {
         let session = Session::with(experiment.read, options)?;
         let shared = session.key();
-        let key = |source: &GivenSource| {
-            let files = source.hashed()?;
-            let sha256: Vec<_> = files.iter().map(|file| file.sha256.as_str()).collect();
-            Some((shared.as_ref()?.with(&files).as_str().to_owned(), sha256.join(" ")))
-        };
+        let key = |source: &GivenSource| Some(shared.as_ref()?.with(&source.hashed()?).as_str().to_owned());
         Ok(in_parallel(sources.len(), |number| key(&sources[number])))
+    })
+}
+
+/// The hash of each recording; `None` where a file cannot be read.
+#[pyfunction]
+pub(crate) fn hashes(py: Python<'_>, sources: Vec<PyRef<'_, Source>>) -> PyResult<Vec<Option<String>>> {
+    let sources: Vec<_> = sources.iter().map(|source| source.0.clone()).collect();
+    run(py, move || {
+        let hash = |source: &GivenSource| {
+            let files = source.hashed()?;
+            Some(files.into_iter().map(|file| file.sha256).collect::<Vec<_>>().join(" "))
+        };
+        Ok(sources.iter().map(hash).collect())
     })
 }
 
@@ -119,13 +125,7 @@ fn options_of(text: &str, motion: Option<&Motion>) -> Result<SessionOptions> {
 }
 
 /// The rows of `count` items, several at the same time. An item that fails does not stop the others. An interruption does.
-fn each(
-    count: usize,
-    what: &'static str,
-    given: &Run,
-    of: impl Fn(usize) -> Result<Value> + Sync,
-) -> Result<Vec<Row>> {
-    let done = AtomicU64::new(0);
+fn each(count: usize, given: &Run, of: impl Fn(usize) -> Result<Value> + Sync) -> Result<Vec<Row>> {
     // the threads of `in_parallel` are of no pool, and the global one would hang a process after `fork`
     let threads = (rayon::current_num_threads() / count.max(1)).max(1);
     let alone = |number: usize| -> std::result::Result<Result<Value>, String> {
@@ -136,7 +136,6 @@ fn each(
     let row = |number: usize| -> Result<Row> {
         given.interruption.check()?;
         let found = alone(number);
-        given.progress.tell(what, done.fetch_add(1, Ordering::Relaxed) + 1, count as u64);
         Ok(match found {
             Ok(Ok(row)) => (Some(row.to_string()), None),
             Ok(Err(error)) => (None, Some(as_json(&error).to_string())),

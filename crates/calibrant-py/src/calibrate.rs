@@ -7,7 +7,7 @@ use crate::motion::Motion;
 use crate::options::{Calibrate, parsed};
 use crate::source::Source;
 use crate::work::{How, Run, run, run_as};
-use calibrant::session::{Outcome as Found, Session, SessionOptions};
+use calibrant::session::{Given, Outcome as Found, Session, SessionOptions};
 use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
@@ -44,10 +44,18 @@ pub(crate) fn calibrate(
     let (experiment, source) = (experiment.clone(), source.0.clone());
     let how = How { threads, progress, keeps_the_best: false };
     run_as(py, how, move |Run { interruption, progress }| {
+        let given = Given {
+            motion: options.motion.is_some(),
+            validate_motion: options.validate_motion.is_some(),
+            gyroscope: false, // a recording has it, or has it not
+            sections: source.sections.is_some(),
+        };
+        let mut notes = given.unused_by(&experiment.read);
         let options = SessionOptions { interruption, progress, ..options };
         let session = Session::with(experiment.read, options)?;
         let mut outcome = session.calibrate(&source)?;
-        outcome.notes.splice(0..0, session.notes().iter().cloned());
+        notes.extend_from_slice(session.notes());
+        outcome.notes.splice(0..0, notes);
         Ok(Outcome(Arc::new(outcome)))
     })
 }

@@ -192,11 +192,6 @@ impl Correction {
         })
     }
 
-    /// Does it depend on temperature?
-    fn follows_temperature(&self) -> bool {
-        self.correction.follows_temperature()
-    }
-
     /// The unit of a sensor's readings; `None` where it is not calibrated.
     fn unit(&self, sensor: &str) -> Option<&'static str> {
         self.imu.unit(crate::recording::sensor_kind(sensor)).map(|unit| unit.symbol())

@@ -3,7 +3,7 @@
 use crate::failure::{invalid, raised};
 use crate::work::at_once;
 use calibrant::Result;
-use calibrant::io::{Experiment as Read, PRESETS, nearest, preset};
+use calibrant::io::{Experiment as Read, PRESETS, Plan, nearest, preset};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -27,13 +27,15 @@ impl Experiment {
         Ok(Self { read, file: path.unwrap_or_default() })
     }
 
-    /// Kind of plan, sensors, hash.
+    /// Kind of plan, sensors, hash, and the files that it names.
     fn about(&self) -> String {
         let of = &self.read;
-        let origin = of.origin();
+        let files = match &of.plan {
+            Plan::Machine(plan) => plan.files(),
+            _ => Vec::new(),
+        };
         json!({
-            "plan": of.plan.section(), "is_imu": of.imu.is_some(), "axes": of.sensor.axes,
-            "file": origin.file, "sha256": origin.sha256,
+            "plan": of.plan.section(), "is_imu": of.imu.is_some(), "sha256": of.origin().sha256, "files": files,
         })
         .to_string()
     }

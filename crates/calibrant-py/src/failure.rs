@@ -45,9 +45,10 @@ fn asked(option: TaskOption) -> &'static str {
 pub(crate) fn as_json(error: &Error) -> Value {
     let code = error.code();
     let about = |kind: &str, of: &InputError| {
-        let answers = of.answers.iter().map(
-            |answer| json!({ "option": asked(answer.option), "values": answer.values, "more": answer.more }),
-        );
+        let answers = of
+            .answers
+            .iter()
+            .map(|answer| json!({ "option": asked(answer.option), "values": answer.values }));
         json!({
             "kind": kind, "code": code.name(), "message": of.message, "remedy": of.help, "key": of.key,
             "path": of.file.as_ref().map(|file| file.display().to_string()), "line": of.line, "column": of.column,

@@ -54,7 +54,7 @@ mod _native {
     #[pymodule_export]
     use super::{command_line, program};
     #[pymodule_export]
-    use crate::batch::{calibrate_each, keys, study_each};
+    use crate::batch::{calibrate_each, hashes, keys, study_each};
     #[pymodule_export]
     use crate::calibrate::{Outcome, calibrate};
     #[pymodule_export]

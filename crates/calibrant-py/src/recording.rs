@@ -41,7 +41,7 @@ pub(crate) fn sensor_kind(name: &str) -> SensorKind {
 #[pyclass(frozen)]
 pub(crate) struct Recording {
     source: GivenSource,
-    file: Arc<ImuFile>,
+    pub(crate) file: Arc<ImuFile>,
 }
 
 /// Reads a recording.
@@ -68,10 +68,14 @@ impl Recording {
         self.file.recording.temperature_c.as_ref().map(|of| as_array(py, of))
     }
 
-    /// What the reader noticed, its format, and the hash of each file.
+    /// What the reader noticed, its format, how well the rate of its clock is known, and the hash of each file.
     fn about(&self) -> String {
-        json!({ "findings": self.findings(), "format": self.file.format.name(), "sha256": self.file.sha256 })
-            .to_string()
+        let of = &self.file;
+        json!({
+            "findings": self.findings(), "format": of.format.name(), "rate_sd_ppm": of.rate_sd_ppm, "sha256": of.sha256,
+            "axes": of.recording.accelerometer.as_ref().map_or(3, |of| of.axes()),
+        })
+        .to_string()
     }
 
     /// What it contains.

@@ -70,10 +70,11 @@ impl Simulation {
         self.0.log.as_ref().map(|(of, _)| log(py, of))
     }
 
-    /// Its seed, what was noticed, and the distance of the knots of a machine's motion, s.
+    /// Its seed, what was noticed, the distance of the knots of a machine's motion, s, and the axes of the accelerometer.
     fn about(&self) -> String {
         let of = &self.0;
-        json!({ "seed": of.seed, "notes": of.notes, "knot_step_s": of.knot_step_s }).to_string()
+        let axes = of.recording.accelerometer.as_ref().map_or(3, |of| of.axes());
+        json!({ "seed": of.seed, "notes": of.notes, "knot_step_s": of.knot_step_s, "axes": axes }).to_string()
     }
 
     /// Writes the files of `calibrant simulate`.

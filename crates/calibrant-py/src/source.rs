@@ -1,6 +1,10 @@
 //! Where a recording is: a file, bytes, or arrays.
 
-use crate::arrays::list;
+use crate::arrays::{list, vectors};
+use crate::recording::Recording;
+use crate::work::at_once;
+use calibrant::io::ImuFile;
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording as Samples};
 use calibrant::session::{Readings as Given, SectionList, Source as GivenSource};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -30,6 +34,41 @@ impl Readings {
         let columns: Vec<(&str, &[f64])> =
             columns.iter().map(|(name, values)| (*name, values.as_slice())).collect();
         Self(Given::columns(name, &columns))
+    }
+
+    /// Samples as they are: sensor, unit, times in s and readings of each; the number of axes; temperatures in °C; how well the rate of the clock is known, ppm.
+    #[staticmethod]
+    #[pyo3(signature = (name, sensors, axes, temperature_c=None, rate_sd_ppm=None))]
+    fn samples(
+        py: Python<'_>,
+        name: PathBuf,
+        sensors: Vec<(String, String, PyBackedBytes, PyBackedBytes)>,
+        axes: usize,
+        temperature_c: Option<&[u8]>,
+        rate_sd_ppm: Option<f64>,
+    ) -> PyResult<Self> {
+        at_once(py, || {
+            let temperature_c = temperature_c.map(list);
+            let mut recording = ImuRecording { temperature_c, ..ImuRecording::default() };
+            for (sensor, unit, times_s, readings) in &sensors {
+                let unit = ReadingUnit::ALL.into_iter().find(|known| known.symbol() == unit);
+                let unit = unit.unwrap_or(ReadingUnit::Counts);
+                let axes = if sensor == "gyroscope" { 3 } else { axes };
+                let samples = Samples::new(list(times_s), vectors(readings), axes, unit)?;
+                match sensor.as_str() {
+                    "gyroscope" => recording.gyroscope = Some(samples),
+                    _ => recording.accelerometer = Some(samples),
+                }
+            }
+            let file = ImuFile { rate_sd_ppm, ..ImuFile::of_recording(recording) };
+            Ok(Self(Given::read_already(name, file)))
+        })
+    }
+
+    /// What was read keeps its units and its clock beside another recording.
+    #[staticmethod]
+    fn read_already(name: PathBuf, recording: &Recording) -> Self {
+        Self(Given::read_already(name, recording.file.as_ref().clone()))
     }
 }
 

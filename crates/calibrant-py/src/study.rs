@@ -1,5 +1,6 @@
 //! Studies of simulated sensors, and rehearsals of machines.
 
+use crate::choice::counter;
 use crate::experiment::Experiment;
 use crate::failure::invalid;
 use crate::motion::Motion;
@@ -12,7 +13,6 @@ use calibrant::session::MotionSource;
 use calibrant::study::Studies;
 use calibrant::{DesignChoice, RehearsalPlan, Result, StudyChoice, StudyPlan, TrajectoryPlan};
 use pyo3::prelude::*;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What is chosen in place of what the experiment says.
 struct Choice {
@@ -57,18 +57,13 @@ pub(crate) fn study(
     })
 }
 
-fn teller(given: &Run, steps: u64) -> impl Fn(u64) + Sync + use<> {
-    let (progress, done) = (given.progress.clone(), AtomicU64::new(0));
-    move |more| progress.tell("sensors", done.fetch_add(more, Ordering::Relaxed) + more, steps)
-}
-
 /// The studies of a commanded motion.
 fn studied(experiment: &Experiment, choice: Choice, given: &Run) -> Result<Studies> {
     let Choice { motion, sensors, starts, seed, force } = choice;
     let interruption = given.interruption.clone();
     let choice = StudyChoice { motion, sensors, seed, starts, budget: budget(force), interruption };
     let plan = StudyPlan::new(&experiment.read, &choice)?;
-    plan.run(&teller(given, plan.steps()))
+    plan.run(&counter(given, "sensors", plan.steps()))
 }
 
 /// The rehearsal of a machine.
@@ -90,5 +85,5 @@ fn rehearsed(experiment: &Experiment, choice: &Choice, given: &Run) -> Result<St
         interruption,
         budget: budget(choice.force),
     };
-    rehearsal.run(&design, &teller(given, rehearsal.sensors as u64))
+    rehearsal.run(&design, &counter(given, "sensors", rehearsal.sensors as u64))
 }

@@ -83,7 +83,8 @@ pub(crate) fn run_as<T: Send + 'static>(
     };
     let given = Run { interruption: interruption.clone(), progress };
     let threads = how.threads.unwrap_or(0);
-    std::thread::spawn(move || in_pool(threads, &sender, || work(given)));
+    let begun = std::thread::Builder::new().spawn(move || in_pool(threads, &sender, || work(given)));
+    begun.map_err(|error| internal(py, &format!("no thread can be started: {error}")))?;
     let mut ended: Option<(PyErr, Instant)> = None;
     let mut looked = Instant::now();
     loop {
