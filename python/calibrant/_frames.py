@@ -24,7 +24,7 @@ def is_frame(data: object) -> bool:
 
 def _read(data: object) -> Any:
     try:
-        return nw.from_native(data, eager_only=True)  # type: ignore[call-overload]
+        return nw.from_native(data, eager_only=True)
     except nw.exceptions.NarwhalsError as error:
         raise recording_error(f"the frame cannot be read: {error}", "give each column a name of its own") from None
 
@@ -39,6 +39,11 @@ def first_date_ns(data: object) -> int | None:
     series = _dates(_read(data))
     known = None if series is None else series.drop_nulls()
     return None if known is None or len(known) == 0 else int(known.dt.timestamp("ns").to_numpy()[0])
+
+
+def has_dates(data: object, name: str) -> bool:
+    """Is this a column of dates?"""
+    return _dates(_read(data), name) is not None
 
 
 def _dates(read: Any, name: str | None = None) -> Any:

@@ -13,7 +13,7 @@ from . import _native
 from ._arrays import Array, Path, as_json, as_list, as_table, numbers, table
 from ._diagnostic import Diagnostic, diagnostics
 from ._exceptions import experiment_error
-from ._frames import columns_of, first_date_ns, frame, is_frame, library_of
+from ._frames import columns_of, first_date_ns, frame, has_dates, is_frame, library_of
 from ._page import Page
 
 Columns = Mapping[str, Union[str, Sequence[str]]]
@@ -435,10 +435,10 @@ def _part(source: Any, reading: dict[str, Any] | None = None, origin_ns: int | N
         collected = next((f"`.{how}()` of it" for how in ("collect", "pl") if hasattr(source, how)), "a frame")
         raise experiment_error(message, f"give a path, bytes, {collected}, or arrays by `recording(…)`")
     named = (reading or {}).get("columns") or {}
-    columns = columns_of(source, origin_ns, named.get("time"))
-    if named.get("time") not in (None, *(name for name, _ in columns)):
-        named["time"] = "t_s"  # a date
-    return ("columns", columns)
+    time = named.get("time")
+    if time is not None and has_dates(source, time):
+        named["time"] = "t_s"
+    return ("columns", columns_of(source, origin_ns, time))
 
 
 def _readings_of(rebuild: tuple[Any, ...]) -> tuple[list[_native.Readings], str]:
