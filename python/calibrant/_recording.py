@@ -453,7 +453,7 @@ def _readings_of(rebuild: tuple[Any, ...]) -> tuple[list[_native.Readings], str]
         elif of == "bytes":
             made.append(_native.Readings.bytes(other, content))
         elif of == "recording":
-            made.append(_native.Readings.read_already(content.name, content._read))
+            made.append(content._read.readings(content.name))
         elif of == "samples":
             made.append(_native.Readings.samples(other, *content))
         else:

@@ -4,7 +4,7 @@ use crate::arrays::{Numbers, as_array, as_table};
 use crate::failure::raised;
 use crate::options::{Reading, parsed};
 use crate::page::{Page, page};
-use crate::source::Source;
+use crate::source::{Readings, Source};
 use crate::work::run;
 use calibrant::diagnostic::Diagnostic;
 use calibrant::inspection::recording_sheet;
@@ -12,7 +12,7 @@ use calibrant::io::{
     ImuFile, InspectionFile, file_name, inspect, to_json, write_imu_recording, write_recording,
 };
 use calibrant::sensor::{ImuRecording, SensorKind};
-use calibrant::session::Source as GivenSource;
+use calibrant::session::{Readings as Given, Source as GivenSource};
 use pyo3::prelude::*;
 use serde_json::json;
 use std::path::PathBuf;
@@ -41,7 +41,7 @@ pub(crate) fn sensor_kind(name: &str) -> SensorKind {
 #[pyclass(frozen)]
 pub(crate) struct Recording {
     source: GivenSource,
-    pub(crate) file: Arc<ImuFile>,
+    file: Arc<ImuFile>,
 }
 
 /// Reads a recording.
@@ -76,6 +76,11 @@ impl Recording {
             "axes": of.recording.accelerometer.as_ref().map_or(3, |of| of.axes()),
         })
         .to_string()
+    }
+
+    /// It, beside another recording: it keeps its units and its clock.
+    fn readings(&self, name: PathBuf) -> Readings {
+        Readings(Given::read_already(name, self.file.as_ref().clone()))
     }
 
     /// What it contains.

@@ -1,7 +1,6 @@
 //! Where a recording is: a file, bytes, or arrays.
 
 use crate::arrays::{list, vectors};
-use crate::recording::Recording;
 use crate::work::at_once;
 use calibrant::io::ImuFile;
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording as Samples};
@@ -63,12 +62,6 @@ impl Readings {
             let file = ImuFile { rate_sd_ppm, ..ImuFile::of_recording(recording) };
             Ok(Self(Given::read_already(name, file)))
         })
-    }
-
-    /// What was read keeps its units and its clock beside another recording.
-    #[staticmethod]
-    fn read_already(name: PathBuf, recording: &Recording) -> Self {
-        Self(Given::read_already(name, recording.file.as_ref().clone()))
     }
 }
 
