@@ -190,3 +190,13 @@ def test_a_design_of_another_kind_names_the_function() -> None:
     for call, name in ((cb.design, "design_poses"), (cb.design_trajectory, "design_poses")):
         with pytest.raises(cb.ExperimentError, match=rf"use `{name}"):
             call("imu")
+
+
+def test_recordings_without_samples_or_with_absurd_times_are_refused(imu: cb.Recording) -> None:
+    for call in (lambda: imu.between(1e6, 2e6), lambda: cb.recording([], [])):
+        with pytest.raises(cb.RecordingError, match="has 0 samples"):
+            call()
+    assert imu.accelerometer is not None
+    absurd = cb.recording(1e-271 * np.arange(3000), imu.accelerometer.values[:3000])
+    with pytest.raises(cb.RecordingError):
+        cb.calibrate(absurd, "static-poses")

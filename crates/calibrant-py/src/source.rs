@@ -2,6 +2,8 @@
 
 use crate::arrays::{list, vectors};
 use crate::work::at_once;
+use calibrant::Error;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::ImuFile;
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording as Samples};
 use calibrant::session::{Readings as Given, SectionList, Source as GivenSource};
@@ -54,6 +56,11 @@ impl Readings {
                 let unit = unit.unwrap_or(ReadingUnit::Counts);
                 let axes = if sensor == "gyroscope" { 3 } else { axes };
                 let samples = Samples::new(list(times_s), vectors(readings), axes, unit)?;
+                if samples.len() < 2 {
+                    let message = format!("the {sensor} has {} samples", samples.len());
+                    let input_error = InputError::new(Refusal::RecordingShort, message, "give two at least");
+                    return Err(Error::recording(input_error));
+                }
                 match sensor.as_str() {
                     "gyroscope" => recording.gyroscope = Some(samples),
                     _ => recording.accelerometer = Some(samples),

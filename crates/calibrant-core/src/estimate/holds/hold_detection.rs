@@ -90,7 +90,8 @@ pub(super) fn still_segments(
 ) -> (Vec<(usize, usize)>, usize) {
     let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate_hz).round() as usize).max(5);
     let mut segments = Vec::new();
-    if recording.len() < 2 * window {
+    // of absurd times a window has more samples than can be counted twice
+    if recording.len() / 2 < window {
         return (segments, window);
     }
     let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
