@@ -198,5 +198,5 @@ def test_recordings_without_samples_or_with_absurd_times_are_refused(imu: cb.Rec
             call()
     assert imu.accelerometer is not None
     absurd = cb.recording(1e-271 * np.arange(3000), imu.accelerometer.values[:3000])
-    with pytest.raises(cb.RecordingError):
+    with pytest.raises(cb.NotIdentifiable, match="no hold was found"):
         cb.calibrate(absurd, "static-poses")
