@@ -1,4 +1,4 @@
-//! A library that Python loads finds Python's own names when it is loaded: on macOS the linker is told so.
+//! Python provides its own symbols when it loads this library. On macOS the linker must be told not to look for them.
 
 fn main() {
     pyo3_build_config::add_extension_module_link_args();

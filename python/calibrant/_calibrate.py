@@ -162,7 +162,9 @@ def experiment_of_kind(experiment: AnyExperiment, kind: str) -> Experiment:
     made = as_experiment(experiment)
     if made.kind != kind:
         message = f"the experiment has [{made.kind}], and this is for [{kind}]"
-        raise experiment_error(message, f"use `{_DESIGNS[made.kind]}(…)`", code="experiment-unsuited")
+        design = _DESIGNS[made.kind]
+        remedy = f"use `{design}(…)`, or `{design.replace('design', 'assess')}(…)` for what you have"
+        raise experiment_error(message, remedy, code="experiment-unsuited")
     return made
 
 

@@ -333,7 +333,8 @@ def recording(
     if accelerometer is None and gyroscope is None:
         raise experiment_error("neither `accelerometer` nor `gyroscope` is there", "give at least one of them")
     if accelerometer is not None and np.ndim(accelerometer) == 1 and gyroscope is None:
-        return _one_axis(name, t_s, as_list("accelerometer", accelerometer), accelerometer_unit, rate_sd_ppm)
+        readings = as_list("accelerometer", accelerometer)
+        return _one_axis(name, t_s, readings, accelerometer_unit, temperature_c, rate_sd_ppm)
     reading = _reading(rate_hz=rate_hz, rate_sd_ppm=rate_sd_ppm, force=force)
     parts: list[list[tuple[str, Array]]] = []
     own_times = gyroscope_t_s is not None and accelerometer is not None
@@ -351,15 +352,25 @@ def recording(
             parts.append([] if own is None else [("t_s", as_list("t_s", own).copy())])
         parts[-1] += [(f"{letter}{axis}", np.ascontiguousarray(readings[:, k])) for k, axis in enumerate("xyz")]
     if temperature_c is not None:
-        parts[0].append(("temp_c", as_list("temperature_c", temperature_c)))
+        parts[0].append(("temp_c", as_list("temperature_c", temperature_c).copy()))
     return _rebuilt((name, [("columns", part) for part in parts]), reading)
 
 
-def _one_axis(name: str, t_s: npt.ArrayLike | None, readings: Array, unit: str, rate_sd_ppm: float | None) -> Recording:
+def _one_axis(
+    name: str,
+    t_s: npt.ArrayLike | None,
+    readings: Array,
+    unit: str,
+    temperature_c: npt.ArrayLike | None,
+    rate_sd_ppm: float | None,
+) -> Recording:
     if t_s is None or unit not in ("m/s²", "counts"):
         raise experiment_error("a recording of one axis needs `t_s`, and readings in m/s² or counts", "give them, or a file")
     samples = Samples(as_list("t_s", t_s), np.column_stack([readings, np.zeros((len(readings), 2))]), unit)
-    return of_samples(name, {"accelerometer": samples}, None, 1, rate_sd_ppm)
+    temperatures = None if temperature_c is None else as_list("temperature_c", temperature_c)
+    if temperatures is not None and len(temperatures) != len(readings):
+        raise experiment_error(f"there are {len(temperatures)} temperatures for {len(readings)} readings", "give one for each")
+    return of_samples(name, {"accelerometer": samples}, temperatures, 1, rate_sd_ppm)
 
 
 def _reading(**options: Any) -> dict[str, Any]:
