@@ -7,7 +7,7 @@ use crate::motion::{Motion, Nodes, nodes};
 use crate::page::{Page, page};
 use crate::series::series;
 use crate::work::Run;
-use calibrant::design::{Design, DesignProblem, DesignStatus, SweepVariable, assess as assessed};
+use calibrant::design::{Design, DesignProblem, DesignStatus, SweepVariable, assess as assessed, evaluate};
 use calibrant::io::{DesignFile, DesignSetting, EvaluationFile, SweepFile, read_motion, to_json};
 use calibrant::report::{About, design_sheet, evaluation_sheet, sweep_sheet};
 use calibrant::session::MotionSource;
@@ -93,7 +93,7 @@ pub(crate) fn assess<'py>(
             }
         };
         // errors of the motion itself come before the search
-        plan.evaluate(&problem, &motion)?;
+        evaluate(&problem, &motion)?;
         let optimum = match plan.design(&problem, &counter(given, "starts", starts(&plan, &problem))) {
             Ok(design) => Ok(design),
             Err(error) if error.is_infeasible() || error.is_not_identifiable() => Err(error.to_string()),

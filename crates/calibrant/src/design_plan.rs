@@ -6,14 +6,13 @@ use calibrant_core::diagnostic::design::{CalibrationsApart, CalibrationsEqual};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::interruption::Interruption;
-use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::number_format::{counted, short};
+use calibrant_core::number_format::counted;
 use calibrant_design::poses::{
     FewestPoses, PoseDesign, PoseEvaluation, PoseProblem, design_poses, evaluate_poses, fewest_poses,
 };
 use calibrant_design::{
-    Design, DesignProblem, DesignSettings, Evaluation, Goal, ShortestMotion, Sweep, SweepVariable, design,
-    evaluate, shortest_motion, sweep, sweep_work,
+    Design, DesignProblem, DesignSettings, Goal, ShortestMotion, Sweep, SweepVariable, design,
+    shortest_motion, sweep, sweep_work,
 };
 use calibrant_io::{CriterionLetter, EarlierCalibration, Experiment};
 use nalgebra::Vector3;
@@ -144,19 +143,6 @@ impl DesignPlan {
     pub fn design(&self, problem: &DesignProblem<'_>, progress: &(dyn Fn(u64) + Sync)) -> Result<Design> {
         self.check_work(problem)?;
         design(problem, &self.settings, progress)
-    }
-
-    /// Predicts what a motion determines.
-    ///
-    /// # Errors
-    /// As [`evaluate`], and where its samples are beyond the budget.
-    pub fn evaluate(&self, problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
-        let times_s = motion.times_s();
-        let duration_s = times_s[times_s.len() - 1] - times_s[0];
-        let what = format!("a motion of {} s at {} Hz", short(duration_s), short(problem.rate_hz));
-        let work = Budget::of_samples(duration_s * problem.rate_hz);
-        self.budget.check(work, &what, "give a shorter motion").map_err(Error::Experiment)?;
-        evaluate(problem, motion)
     }
 
     /// Finds the shortest motion that reaches the goals; `progress` is told of each start.

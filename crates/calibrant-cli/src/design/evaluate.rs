@@ -6,7 +6,7 @@ use super::output::{exit_of, write};
 use crate::console;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
-use calibrant::design::{DesignProblem, assess};
+use calibrant::design::{DesignProblem, assess, evaluate};
 use calibrant::diagnostic::Phrase;
 use calibrant::diagnostic::design::MotionNotCompared;
 use calibrant::io::{DesignSetting, EvaluationFile, read_motion, to_json, write_json, write_text};
@@ -22,7 +22,7 @@ pub(super) fn run(
 ) -> calibrant::Result<Exit> {
     let motion = read_motion(path, problem.sensor.axes)?;
     // errors of the motion itself come before the search
-    job.evaluate(problem, &motion)?;
+    evaluate(problem, &motion)?;
     let optimum = match job::run(job, problem) {
         Ok(design) => {
             write(arguments, job, problem, &design, None)?;

@@ -16,4 +16,4 @@ pub(crate) use hold::to_ms;
 pub use jerk_controlled::{JerkControlledMotion, MotionState, MotionTable};
 pub use limits::{AxisLimits, Limits, Rest};
 pub use motion_clock::MotionClock;
-pub use sample_times::{IntervalSums, sample_times};
+pub use sample_times::{IntervalSums, sample_count, sample_times};

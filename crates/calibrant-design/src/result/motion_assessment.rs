@@ -8,7 +8,7 @@ use calibrant_core::information::{
 };
 use calibrant_core::json::if_some;
 use calibrant_core::json_object;
-use calibrant_core::motion::{JerkControlledMotion, Limits, Trust, sample_times};
+use calibrant_core::motion::{JerkControlledMotion, Limits, Trust, sample_count};
 use calibrant_core::sensor::Parameter;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -207,7 +207,7 @@ fn reasons(
     let facts = MotionFacts {
         model: problem.sensor.model,
         nodes: motion.acceleration_mps2(),
-        samples: sample_times(motion, problem.rate_hz).len(),
+        samples: sample_count(motion, problem.rate_hz) as usize,
         view,
     };
     let groups = with_biases(&groups, &list, &slots, problem.gravity.as_ref());
