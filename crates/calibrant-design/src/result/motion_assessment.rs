@@ -8,7 +8,7 @@ use calibrant_core::information::{
 };
 use calibrant_core::json::if_some;
 use calibrant_core::json_object;
-use calibrant_core::motion::{JerkControlledMotion, Limits, Trust, sample_count};
+use calibrant_core::motion::{JerkControlledMotion, Limits, MotionClock, Trust, sample_count};
 use calibrant_core::sensor::Parameter;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -156,11 +156,15 @@ fn limits_of(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Resu
 pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
     let setting = problem.setting()?;
     let mut information = setting.information(motion)?;
+    // what is left of a doubtful motion is a difference: its rounding errors are of the size of what a known motion gives
+    let known = MotionInformation { trust: Trust::Known, clock: MotionClock::default(), ..setting.clone() };
+    let mut reference = known.information(motion)?.diagonal();
     let gravity = problem.gravity_marginal();
     if let Some(prior) = gravity.as_ref().map(|gravity| &gravity.prior).or(problem.prior.as_ref()) {
         information += prior;
+        reference += prior.diagonal();
     }
-    let groups = undetermined(&information, &information.diagonal());
+    let groups = undetermined(&information, &reference);
     let mut c = if groups.is_empty() { covariance(&information) } else { None };
     if let Some(gravity) = &gravity {
         c = c.map(|c| gravity.covariance(&c));

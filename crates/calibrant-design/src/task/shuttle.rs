@@ -125,7 +125,7 @@ fn shape(n: usize, ramp: usize, hold: usize) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use calibrant_core::motion::Rest;
+    use calibrant_core::motion::{KnownEnds, Rest, Trust};
     use calibrant_core::sensor::Sensor;
 
     /// Of one run within 2 m/s² and 20 m/s³, with ramps of 0.1 s and holds of 0.4 s: velocity 1 m/s, and 0.6 m of way, by hand.
@@ -180,6 +180,25 @@ mod tests {
             assert!(largest > 1.0, "{one} {other}: {largest}");
         }
         assert!(limit_use(&limits, 3, &motion).iter().all(|found| found.violation < 1e-9));
+    }
+
+    /// It begins and ends at acceleration 0. Where only these ends are known, the readings tell the bias, and nothing of the scale factor.
+    #[test]
+    fn a_shuttle_of_which_only_the_ends_are_known_leaves_scale_factors_undetermined() {
+        let sensor = Sensor::memsic_mxd2020u();
+        let limits = Limits { acceleration_mps2: Some(Vector3::repeat(30.0)), ..Limits::default() };
+        for duration_s in [1.0, 20.0, 300.0] {
+            let problem = DesignProblem {
+                trust: Trust::Unknown,
+                known_ends: KnownEnds::Both,
+                ..DesignProblem::new(&sensor, &limits, duration_s).expect("nominal")
+            };
+            for found in shuttles(&problem, &limits).expect("valid") {
+                let parameters: Vec<_> =
+                    found.undetermined.iter().flat_map(|group| &group.parameters).collect();
+                assert_eq!(parameters, ["scale.x", "scale.y", "scale.z"]);
+            }
+        }
     }
 
     /// On three axes with cross-axis sensitivities one axis moves at a time, which determines all of them.
