@@ -51,25 +51,30 @@ fn best(model: SensorModel, trust: Trust, limits: &Limits, intervals: usize, int
     design
 }
 
-/// Starts of a full sensor end within 1e-7 of each other, where the interior-point method no longer tells one motion from the next.
-fn check(design: &Design, reference: f64, iterations_of_a_start: usize) {
+fn check(design: &Design, reference: f64, within: f64, iterations_of_a_start: usize) {
     let (value, starts) = (design.optimal.value, &design.starts);
-    assert!((value / reference - 1.0).abs() < 1e-7, "{value:e} {reference:e} {starts:?}");
+    assert!((value / reference - 1.0).abs() < within, "{value:e} {reference:e} {starts:?}");
     let iterations: usize = starts.iter().map(|start| start.iterations).sum();
     assert!(iterations < iterations_of_a_start * starts.len(), "{iterations} of {} starts", starts.len());
 }
 
 #[test]
 fn axes_on_their_own_have_the_value_of_the_semidefinite_program() {
-    check(&best(SensorModel::ScaleBias, Trust::Known, &limits(true), 5, 1.0), 4.135_521_630_244_7e-7, 5);
-    check(&best(SensorModel::ScaleBias, NOISY, &limits(true), 5, 1.0), 0.911_030_622_713_7, 200);
+    check(
+        &best(SensorModel::ScaleBias, Trust::Known, &limits(true), 5, 1.0),
+        4.135_521_630_244_7e-7,
+        1e-8,
+        5,
+    );
+    check(&best(SensorModel::ScaleBias, NOISY, &limits(true), 5, 1.0), 0.911_030_622_713_7, 1e-8, 200);
 }
 
 #[test]
 fn a_full_sensor_has_the_value_of_the_semidefinite_program() {
-    check(&best(SensorModel::Full, Trust::Known, &limits(true), 5, 1.0), 3.621_266_909_964e-6, 30);
+    // its starts end within 1e-7 of each other, where the interior-point method no longer tells one motion from the next
+    check(&best(SensorModel::Full, Trust::Known, &limits(true), 5, 1.0), 3.621_266_909_964e-6, 1e-7, 30);
     // the bias decides, whatever the motion
-    check(&best(SensorModel::Full, Trust::Known, &limits(false), 10, 1.0), 3.960_396_039_603_97e-8, 5);
+    check(&best(SensorModel::Full, Trust::Known, &limits(false), 10, 1.0), 3.960_396_039_603_97e-8, 1e-8, 5);
 }
 
 #[test]
