@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_billion_samples_take_no_time() {
+    fn a_trillion_samples_take_no_time() {
         let motion = JerkControlledMotion::uniform(0.5, vec![Vector3::zeros(); 3]).expect("a motion");
         // the integrals over a second: 1/2, 1/3 and 1/6
         for sums in IntervalSums::all(&motion, 2e12) {
