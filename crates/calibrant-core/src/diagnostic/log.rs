@@ -46,6 +46,22 @@ checks! {
         100.0 * share
     );
 
+    /// Positions of a log that have no orientation beside them are smoother than the others: a program filled them in. They are left out.
+    PositionsFilled "positions-filled" Note {
+        /// Number of rows whose position is left out.
+        rows: usize,
+        /// Their share of all.
+        share: f64,
+    }
+    decided "Between orientations that were not seen, the noise of the positions is less than half that of the others, by divided differences of the fourth \
+        order; or there are too few to tell."
+    remedy "Export the log without filled gaps."
+    says format!(
+        "{} of the log ({} %) have a position and no orientation, and no noise: a program filled them in where markers were lost. These positions are left out",
+        counted(*rows, "row"),
+        significant(100.0 * share, 2)
+    );
+
     /// The log has positions that the machine's file does not allow.
     BeyondLimits "beyond-limits" Warning {
         /// The joint.

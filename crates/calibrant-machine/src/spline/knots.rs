@@ -33,11 +33,21 @@ impl UniformKnots {
         self.start_s + self.step_s * self.intervals as f64
     }
 
+    /// Time from the first knot to the last, s.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.step_s * self.intervals as f64
+    }
+
     /// The interval that a time lies in; the first or the last for times outside.
     #[must_use]
     pub fn interval(&self, time_s: f64) -> usize {
-        let place = (time_s - self.start_s) / self.step_s;
-        (place.max(0.0) as usize).min(self.intervals - 1)
+        self.interval_after(time_s - self.start_s)
+    }
+
+    /// The interval that lies this time after the first knot.
+    pub(crate) fn interval_after(&self, after_s: f64) -> usize {
+        ((after_s / self.step_s).max(0.0) as usize).min(self.intervals - 1)
     }
 
     /// Time of interval `i`'s beginning, s.
@@ -49,8 +59,13 @@ impl UniformKnots {
     /// The weights of the control points at a time. Outside the knots the polynomial of the first or last interval continues.
     #[must_use]
     pub fn weights(&self, time_s: f64) -> Weights {
-        let interval = self.interval(time_s);
-        let u = (time_s - self.knot_s(interval)) / self.step_s;
+        self.weights_after(time_s - self.start_s)
+    }
+
+    /// The weights this time after the first knot. Times since 1970 are steps of 0.24 µs; the difference of two of them is exact.
+    pub(crate) fn weights_after(&self, after_s: f64) -> Weights {
+        let interval = self.interval_after(after_s);
+        let u = (after_s - self.step_s * interval as f64) / self.step_s;
         Weights::at(interval, u, self.step_s, self.degree)
     }
 

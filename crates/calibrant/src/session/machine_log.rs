@@ -3,13 +3,14 @@
 use super::motion_source::MotionSource;
 use super::source::Readings;
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::log::PositionsFilled;
 use calibrant_core::diagnostic::machine::PosesInterpolated;
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_io::{
     MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log, unusable_log,
 };
 use calibrant_machine::chain::KinematicChain;
-use calibrant_machine::log::{ReferenceLog, recover_interpolated};
+use calibrant_machine::log::{ReferenceLog, leave_out_filled, recover_interpolated};
 use std::path::PathBuf;
 
 /// A log as its file holds it.
@@ -74,6 +75,13 @@ impl LogFile {
             notes.push(found.in_file(file_name(&self.path)));
             recovered_rate_hz = Some(stream.rate_hz());
             log = ReferenceLog::Poses(stream.log);
+        }
+        if let ReferenceLog::Poses(poses) = &mut log {
+            let (rows, all) = (leave_out_filled(poses), poses.times_s.len());
+            if rows > 0 {
+                let found = Diagnostic::from(PositionsFilled { rows, share: rows as f64 / all as f64 });
+                notes.push(found.in_file(file_name(&self.path)));
+            }
         }
         let input = MachineLogInput {
             file: file_name(&self.path),

@@ -8,6 +8,9 @@ use crate::log::ReferenceLog;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Recording, SensorKind};
 
+/// Delays that are nearer lead to the same minimum, s.
+const APART_S: f64 = 0.02;
+
 /// Model and state before the first step.
 pub(crate) struct Initial<'a> {
     pub(crate) model: Model<'a>,
@@ -37,7 +40,7 @@ impl<'a> Initial<'a> {
         let placement = Placement::new(problem, &motion, &covered, gravity.vector(&nominal));
         let mut parameters = match from {
             Some(parameters) => parameters.clone(),
-            None => MachineParameters { delays_s: [placement.delay_s()?; 2], ..nominal.clone() },
+            None => MachineParameters { delays_s: [placement.delays_s()?[0]; 2], ..nominal.clone() },
         };
         if setup.mounting == MountingPrior::Unknown {
             // a matrix that was found with other knots belongs to their mounting
@@ -59,6 +62,17 @@ impl<'a> Initial<'a> {
         let log = WeighedLog { log: problem.log, sd, rounding_sd, growth: Vec::new() };
         let model = Model { streams, log, layout, gravity, trust: setup.trust, middle_s, covered };
         Ok(Self { model, state: State { motion, parameters }, outliers })
+    }
+
+    /// Other places to begin: at the delays that correlate almost as well, if not better. A spline that is too smooth for the motion may have shown a wrong one.
+    pub(crate) fn elsewhere(&self, problem: &MachineProblem<'a>) -> Vec<MachineParameters> {
+        let Model { covered, gravity, layout, .. } = &self.model;
+        let placement = Placement::new(problem, &self.state.motion, covered, gravity.vector(&layout.nominal));
+        let found = placement.delays_s().unwrap_or_default().into_iter();
+        let is_other =
+            |delay_s: &f64| self.state.parameters.delays_s.iter().all(|own| (own - delay_s).abs() > APART_S);
+        let from = |delay_s| MachineParameters { delays_s: [delay_s; 2], ..layout.nominal.clone() };
+        found.filter(is_other).map(from).collect()
     }
 }
 

@@ -4,7 +4,7 @@
 //! the frequency. The sensor tells both: its residuals against the smoothed log are least at the best distance. Noisy trust, where the sensor determines the
 //! motion with the log, needs less smoothing: half that distance.
 
-use super::{Initial, check_log, fitted};
+use super::{Initial, MotionOfLog, check_log, fitted};
 use crate::estimate::least_squares::{Model, Pass, State, equations_at, stepped};
 use crate::estimate::problem::refused;
 use crate::estimate::{MachineParameters, MachineProblem, MachineTrust};
@@ -67,10 +67,15 @@ fn on<'a>(
     degree: Degree,
     parameters: Option<&MachineParameters>,
 ) -> Result<Initial<'a>> {
+    Initial::on(problem, fit(problem, step_s, degree)?, parameters)
+}
+
+/// Splines through the log on knots of this distance.
+fn fit(problem: &MachineProblem<'_>, step_s: f64, degree: Degree) -> Result<MotionOfLog> {
     let first = problem.log.times_s()[0];
     let knots = UniformKnots::covering(first, first + duration(problem).0, step_s, degree);
     let nothing = || refused("the log has no usable sample", "look at it with `calibrant inspect`");
-    Initial::on(problem, fitted(problem.log, problem.chain, knots).ok_or_else(nothing)?, parameters)
+    fitted(problem.log, problem.chain, knots).ok_or_else(nothing)
 }
 
 /// A distance of knots, and what was found with it.
@@ -89,12 +94,29 @@ pub(super) fn candidate(
     step_s: f64,
     known: Option<&MachineParameters>,
 ) -> Result<Option<Candidate>> {
-    let Initial { mut model, mut state, .. } = on(problem, step_s, Degree::Quintic, known)?;
-    let solved = trusted(&mut model, &mut state, STEPS[usize::from(known.is_some())], SAMPLES);
+    let fit = fit(problem, step_s, Degree::Quintic)?;
+    let first = Initial::on(problem, fit.clone(), known)?;
+    let elsewhere = first.elsewhere(problem);
+    let mut best = tried(problem, first, step_s, STEPS[usize::from(known.is_some())]);
+    for from in elsewhere {
+        let other = tried(problem, Initial::on(problem, fit.clone(), Some(&from))?, step_s, STEPS[0]);
+        let least = best.as_ref().map_or(f64::INFINITY, |best| best.score);
+        best = other.filter(|other| other.score < least).or(best);
+    }
+    Ok(best)
+}
+
+/// What is found after some steps. `None` where nothing is determined.
+fn tried(problem: &MachineProblem<'_>, from: Initial<'_>, step_s: f64, steps: usize) -> Option<Candidate> {
+    let Initial { mut model, mut state, .. } = from;
+    trusted(&mut model, &mut state, steps, SAMPLES)?;
+    let setup = problem.setup;
     let sd = || model.streams.iter().flat_map(|stream| stream.sd.iter());
-    let score = sd().map(|sd| sd.ln()).sum();
-    let found = Candidate { step_s, score, components: sd().count(), parameters: state.parameters };
-    Ok(solved.map(|()| found))
+    // of delays that fit alike, the likelier one: the logarithms are those of each of the samples
+    let deviation = (state.parameters.delays_s[0] - setup.delay_s) / setup.delay_sd_s;
+    let unlikely = if setup.delay_sd_s > 0.0 { 0.5 * deviation * deviation / SAMPLES as f64 } else { 0.0 };
+    let score = sd().map(|sd| sd.ln()).sum::<f64>() + unlikely;
+    Some(Candidate { step_s, score, components: sd().count(), parameters: state.parameters })
 }
 
 struct Search<'p, 'a> {

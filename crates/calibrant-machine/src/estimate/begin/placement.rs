@@ -14,6 +14,9 @@ const SAME_MOTION: f64 = 0.5;
 const OTHER_UNIT: f64 = 5.0;
 /// The delay is searched this many standard deviations about what is expected.
 const SEARCHED: f64 = 4.0;
+/// Of a motion that repeats itself other delays correlate almost as well: those of at least this part of the best correlation, and so many of them.
+const ALMOST: f64 = 0.8;
+const DELAYS: usize = 4;
 
 /// The sensor that tells time and direction best, in the units of what it measures, and the motion of the tip.
 pub(crate) struct Placement<'a> {
@@ -60,11 +63,11 @@ impl<'a> Placement<'a> {
         })
     }
 
-    /// The delay by correlation, s.
-    pub(crate) fn delay_s(&self) -> Result<f64> {
+    /// The delays by correlation, s: the best one, and others that are almost as good.
+    pub(crate) fn delays_s(&self) -> Result<Vec<f64>> {
         let setup = self.problem.setup;
         let (Some(recording), true) = (self.recording(), setup.delay_sd_s > 0.0) else {
-            return Ok(setup.delay_s);
+            return Ok(vec![setup.delay_s]);
         };
         let range_s = SEARCHED * setup.delay_sd_s;
         let at = |time_s| self.at(time_s);
@@ -72,10 +75,10 @@ impl<'a> Placement<'a> {
         let is_force = self.sensor == SensorKind::Accelerometer && setup.mounting != MountingPrior::Unknown;
         let turned = |v: &Vector3<f64>| setup.tip_from_sensor * v;
         let found = match is_force {
-            true => delay((&recording, &turned), (&at, &|v| *v), setup.delay_s, range_s),
-            false => delay((&recording, &magnitude), (&at, &magnitude), setup.delay_s, range_s),
+            true => delays((&recording, &turned), (&at, &|v| *v), setup.delay_s, range_s),
+            false => delays((&recording, &magnitude), (&at, &magnitude), setup.delay_s, range_s),
         };
-        let Some((delay_s, correlation)) = found else {
+        let Some(&(delay_s, correlation)) = found.first() else {
             let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
             let message = format!(
                 "the recording ({}) and the log ({}) hardly overlap",
@@ -103,7 +106,8 @@ impl<'a> Placement<'a> {
                 "check the units of both: degrees or radians, and the gain of counts",
             ));
         }
-        Ok(delay_s)
+        let almost = found.iter().filter(|(_, other)| *other >= ALMOST * correlation);
+        Ok(almost.take(DELAYS).map(|(delay_s, _)| *delay_s).collect())
     }
 
     /// Root mean square of the gyroscope's readings over that of the motion's rate; 1 for an accelerometer, which feels gravity above all.
@@ -145,20 +149,22 @@ pub(crate) fn magnitude(v: &Vector3<f64>) -> Vector3<f64> {
     Vector3::x() * v.norm()
 }
 
-/// The delay at which the readings and the reference, each as it is compared, agree best: motion time less sensor time, s; and the correlation there.
+/// The delays at which the readings and the reference, each as it is compared, agree better than at those beside: motion time less sensor time, s; and the
+/// correlation there. The best stands first.
 ///
-/// The maximum is searched between `−range_s` and `range_s` about `around_s`.
-pub(crate) fn delay(
+/// The maxima are searched between `−range_s` and `range_s` about `around_s`.
+pub(crate) fn delays(
     (recording, of_reading): (&Recording, View<'_>),
     (reference, of_reference): (&impl At, View<'_>),
     around_s: f64,
     range_s: f64,
-) -> Option<(f64, f64)> {
-    let (first, last) = (*recording.times_s().first()?, *recording.times_s().last()?);
+) -> Vec<(f64, f64)> {
+    let times = recording.times_s();
+    let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Vec::new() };
     let count = ((last - first) / STEP_S) as usize + 1;
     // the mean of the readings in each step
     let mut sums = vec![(Vector3::zeros(), 0_usize); count];
-    for (time, reading) in recording.times_s().iter().zip(recording.readings()) {
+    for (time, reading) in times.iter().zip(recording.readings()) {
         let place = (((time - first) / STEP_S).round() as usize).min(count - 1);
         sums[place].0 += of_reading(reading);
         sums[place].1 += 1;
@@ -171,17 +177,21 @@ pub(crate) fn delay(
     let reference: Vec<Option<Vector3<f64>>> = (0..count + 2 * lags).map(of).collect();
     let scores: Vec<Option<f64>> =
         (0..=2 * lags).map(|lag| correlation(&sensor, &reference[lag..])).collect();
-    let best = (0..scores.len())
-        .filter(|k| scores[*k].is_some())
-        .max_by(|a, b| scores[*a].unwrap_or(-1.0).total_cmp(&scores[*b].unwrap_or(-1.0)))?;
-    // the top of the parabola through the best three
     let at = |k: usize| scores.get(k).copied().flatten();
-    let refined = match (best.checked_sub(1).and_then(at), at(best), at(best + 1)) {
-        (Some(a), Some(b), Some(c)) if 2.0 * b - a - c > 0.0 => 0.5 * (c - a) / (2.0 * b - a - c),
-        _ => 0.0,
+    let peak = |k: usize| -> Option<(f64, f64)> {
+        let (before, score, after) = (k.checked_sub(1).and_then(at), at(k)?, at(k + 1));
+        let is_peak = before.is_none_or(|of| of < score) && after.is_none_or(|of| of <= score);
+        // the top of the parabola through the three
+        let refined = match (before, after) {
+            (Some(a), Some(c)) if 2.0 * score - a - c > 0.0 => 0.5 * (c - a) / (2.0 * score - a - c),
+            _ => 0.0,
+        };
+        let lag = k as f64 + refined.clamp(-0.5, 0.5) - lags as f64;
+        is_peak.then_some((around_s + lag * STEP_S, score))
     };
-    let lag = best as f64 + refined.clamp(-0.5, 0.5) - lags as f64;
-    Some((around_s + lag * STEP_S, scores[best]?))
+    let mut peaks: Vec<(f64, f64)> = (0..scores.len()).filter_map(peak).collect();
+    peaks.sort_by(|one, other| other.1.total_cmp(&one.1));
+    peaks
 }
 
 /// Correlation coefficient where both have values; `None` for fewer than 50 of them, or no variation.
@@ -237,8 +247,8 @@ mod tests {
         let recording =
             Recording::new(times_s.clone(), readings.collect(), 3, unit).expect("samples in order");
         let at = |t| Some(motion(t));
-        let found = delay((&recording, &magnitude), (&at, &magnitude), 0.0, 1.0);
-        let (found, score) = found.expect("it moves");
+        let found = delays((&recording, &magnitude), (&at, &magnitude), 0.0, 1.0);
+        let (found, score) = *found.first().expect("it moves");
         // half a sample: the coarse delay is where the iteration begins
         assert!((found - 0.1234).abs() < 4e-3 && score > 0.99, "{found} {score}");
         let pairs: Vec<_> =

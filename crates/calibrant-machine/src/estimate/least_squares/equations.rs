@@ -44,15 +44,15 @@ impl Model<'_> {
     pub(crate) fn places(&self, state: &State) -> Places {
         let knots = state.motion.knots();
         // the same function of time tells the interval here and in the weights: samples may lie on knots
-        let before = |time_s: f64, i: usize| match i {
-            0 => time_s < knots.start_s,
-            i if i == knots.intervals => time_s <= knots.end_s(),
-            i => knots.interval(time_s) < i,
+        let before = |after_s: f64, i: usize| match i {
+            0 => after_s < 0.0,
+            i if i == knots.intervals => after_s <= knots.duration_s(),
+            i => knots.interval_after(after_s) < i,
         };
-        let of = |length: usize, time: &dyn Fn(usize) -> f64| -> Vec<usize> {
+        let of = |length: usize, after_s: &dyn Fn(usize) -> f64| -> Vec<usize> {
             let mut place = 0;
             let boundaries = (0..=knots.intervals).map(|i| {
-                while place < length && before(time(place), i) {
+                while place < length && before(after_s(place), i) {
                     place += 1;
                 }
                 place
@@ -60,9 +60,9 @@ impl Model<'_> {
             boundaries.collect()
         };
         let streams = (self.streams.iter().enumerate())
-            .map(|(s, stream)| of(stream.recording.len(), &|k| self.motion_time(s, k, state)));
+            .map(|(s, stream)| of(stream.recording.len(), &|k| self.after_start_s(s, k, state)));
         let times = self.log.log.times_s();
-        Places { streams: streams.collect(), log: of(times.len(), &|k| times[k]) }
+        Places { streams: streams.collect(), log: of(times.len(), &|k| times[k] - knots.start_s) }
     }
 
     /// Consecutive intervals whose rows are multiplied at once: each alone where its control points are unknown.
@@ -149,7 +149,7 @@ impl Model<'_> {
             let stride = pass.stride(stream.recording.len());
             let samples = places.of_stream(s, intervals);
             for k in (samples.start.next_multiple_of(stride)..samples.end).step_by(stride) {
-                let weights = knots.weights(self.motion_time(s, k, state));
+                let weights = knots.weights_after(self.after_start_s(s, k, state));
                 if !self.covered[weights.interval] {
                     continue;
                 }

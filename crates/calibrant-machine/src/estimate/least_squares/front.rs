@@ -107,11 +107,17 @@ impl Front {
         }
     }
 
-    /// Right side and information of the border as they stand: their increments are those of the intervals.
+    /// Right side and information of the border by the intervals so far, all their blocks eliminated. The increments are what each interval adds to what is
+    /// known before it: independent where the residuals are.
     pub(crate) fn border(&self) -> Block {
         let (chain, border) = (self.slots.len(), self.border);
-        let information = self.matrix.view((chain, chain), (border, border)).into_owned();
-        Block { score: self.border_right(), information }
+        // a slot that is empty has an infinite pivot, and tells nothing
+        let factor = lower_factor(self.matrix.view((0, 0), (chain, chain)).into_owned());
+        let mut above = self.matrix.view((0, chain), (chain, border + 1)).into_owned();
+        factor.solve_lower_triangular_unchecked_mut(&mut above);
+        let left =
+            self.matrix.view((chain, chain), (border, border + 1)) - above.columns(0, border).tr_mul(&above);
+        Block { score: left.column(border).into_owned(), information: left.columns(0, border).into_owned() }
     }
 
     fn border_right(&self) -> DVector<f64> {
@@ -329,6 +335,33 @@ mod tests {
                 }
             });
             assert_eq!(visited, intervals + order - 1);
+        }
+    }
+
+    #[test]
+    fn what_an_interval_adds_is_what_it_tells_beside_those_before() {
+        let (intervals, order, n, border) = (6, 4, 2, 3);
+        let mut front = Front::new(n, order, border);
+        let size = n * (intervals + order - 1);
+        let mut dense = DMatrix::zeros(size + border + 1, size + border + 1);
+        for (i, part) in made_up(intervals, order, n, border, 12).iter().enumerate() {
+            let equations = part * part.transpose();
+            front.add(&equations);
+            let to = |k: usize| if k < order * n { i * n + k } else { size + k - order * n };
+            for row in 0..equations.nrows() {
+                for column in 0..equations.nrows() {
+                    dense[(to(row), to(column))] += equations[(row, column)];
+                }
+            }
+            // the control points that these intervals depend on, eliminated
+            let known = n * (i + order);
+            let inverse = dense.view((0, 0), (known, known)).into_owned().try_inverse().expect("enough rows");
+            let across = dense.view((0, size), (known, border + 1)).into_owned();
+            let expected = dense.view((size, size), (border, border + 1))
+                - across.columns(0, border).tr_mul(&(inverse * &across));
+            let Block { score, information } = front.border();
+            assert!((score - expected.column(border)).amax() < 1e-9 * expected.amax(), "{i}");
+            assert!((information - expected.columns(0, border)).amax() < 1e-9 * expected.amax(), "{i}");
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Gauss–Newton steps, halved where they do not lower the cost.
 
 use super::{Block, Equations, Model, Pass, Solved, State};
-use crate::estimate::problem::MachineSettings;
+use crate::estimate::MachineQuantity;
+use crate::estimate::problem::{MachineSettings, place};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
 
@@ -50,12 +51,13 @@ pub(crate) fn minimise(
 ) -> Result<Option<Minimum>> {
     let MachineSettings { max_iterations, tolerance, interruption, progress, .. } = settings;
     let pass = Pass::all(model.trust);
+    let tolerance = |here: &Minimum| tolerance.max(rounding(model, here));
     let Some(mut here) = equations_at(model, start, pass) else { return Ok(None) };
     for iteration in 1..=*max_iterations {
         interruption.check()?;
         progress.tell("steps", iteration as u64, *max_iterations as u64);
         here.iterations = iteration;
-        if here.last_step < *tolerance {
+        if here.last_step < tolerance(&here) {
             here.status = CalibrationStatus::Converged;
             return Ok(Some(here));
         }
@@ -77,8 +79,20 @@ pub(crate) fn minimise(
         };
         here = Minimum { iterations: iteration, ..tried };
     }
-    if here.last_step < *tolerance {
+    if here.last_step < tolerance(&here) {
         here.status = CalibrationStatus::Converged;
     }
     Ok(Some(here))
+}
+
+/// The step that rounding of the delays makes, in standard deviations: between two clocks of which one counts from 1970 a delay has steps of 0.24 µs.
+fn rounding(model: &Model<'_>, here: &Minimum) -> f64 {
+    let of_delay = |(k, quantity): (usize, &MachineQuantity)| match quantity {
+        MachineQuantity::Delay(sensor) => {
+            let delay_s = here.state.parameters.delays_s[place(*sensor)];
+            f64::EPSILON * delay_s.abs() * here.solved.information[(k, k)].sqrt()
+        }
+        _ => 0.0,
+    };
+    model.layout.quantities.iter().enumerate().map(of_delay).fold(0.0, f64::max)
 }

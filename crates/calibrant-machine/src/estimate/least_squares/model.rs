@@ -1,7 +1,7 @@
 //! The least-squares problem: streams, log, and what is known beforehand.
 
 use super::{WeighedLog, predicted};
-use crate::estimate::problem::{Layout, TiltedGravity};
+use crate::estimate::problem::{Layout, TiltedGravity, place};
 use crate::estimate::{MachineParameters, MachineTrust};
 use crate::log::ReferenceLog;
 use crate::reference::{Carrier, Motion};
@@ -46,6 +46,17 @@ impl Model<'_> {
         state.parameters.motion_time(stream.sensor, stream.recording.times_s()[k], self.middle_s)
     }
 
+    /// The same after the first knot. It is not rounded to the steps of large times: as a function of the delay it has none.
+    pub(crate) fn after_start_s(&self, s: usize, k: usize, state: &State) -> f64 {
+        let stream = &self.streams[s];
+        let since = |from_s: f64| stream.recording.times_s()[k] - from_s;
+        let parameters = &state.parameters;
+        let start_s = state.motion.knots().start_s;
+        since(start_s)
+            + parameters.clock_rate * since(self.middle_s)
+            + parameters.delays_s[place(stream.sensor)]
+    }
+
     /// What carries the sensor in a state.
     pub(crate) fn carrier(&self, State { motion, parameters }: &State) -> Carrier {
         motion.carrier(self.gravity.vector(parameters), parameters.mount, &parameters.corrections)
@@ -56,9 +67,10 @@ impl Model<'_> {
         let (stream, knots, carrier) = (&self.streams[s], state.motion.knots(), self.carrier(state));
         let length = stream.recording.len();
         let residual = |joints: &mut [Vec<f64>; 4], sample: usize| {
-            let time_s = self.motion_time(s, sample, state);
-            let weights = knots.weights(time_s);
-            let used = (knots.start_s..=knots.end_s()).contains(&time_s) && self.covered[weights.interval];
+            let after_s = self.after_start_s(s, sample, state);
+            let weights = knots.weights_after(after_s);
+            let used = (0.0..=knots.duration_s()).contains(&after_s) && self.covered[weights.interval];
+            let time_s = knots.start_s + after_s;
             used.then(|| {
                 let at = state.motion.sensor(&weights, &carrier, joints);
                 let predicted = predicted(stream.sensor, &at.specific_force, &at.rate, &state.parameters);
