@@ -126,6 +126,35 @@ checks! {
         }
     );
 
+    /// Bytes follow the end of a bag. They are not read.
+    BytesUnread "bytes-unread" Warning {
+        /// Their number.
+        bytes: usize,
+        /// Do they begin as a bag does?
+        is_bag: bool,
+    }
+    decided "The container ends before the file does."
+    remedy "Give each bag a file of its own; `mcap merge` makes one of several."
+    says match is_bag {
+        true => format!("a second bag follows the first in this file: its {bytes} bytes are not read"),
+        false => format!("{bytes} bytes follow the end of the bag: they are not read"),
+    };
+
+    /// Rows or messages were not in the order of their times. They were sorted.
+    RowsSorted "rows-sorted" Note {
+        /// How many come after a later one.
+        rows: usize,
+        /// Of how many.
+        of: usize,
+        /// The times by which they were sorted.
+        by: String,
+    }
+    decided "The times are those of one clock, and each has one place among the others."
+    says format!(
+        "{rows} of {} come after a later one: they were sorted by {by}",
+        counted(*of, "row")
+    );
+
     /// Samples are missing: the time makes a jump.
     SamplingGap "sampling-gap" Note {
         /// Length of the gap, s.

@@ -84,13 +84,20 @@ fn wraps_in_32_bits(ticks: &[f64], per_second: f64) -> Option<f64> {
     back.all(|[one, next]| (0.0..=per_second).contains(&(next + WIDTH - one))).then_some(WIDTH)
 }
 
-/// The error for a time that goes backwards, s.
-pub(crate) fn backwards(before: f64, t: f64) -> InputError {
-    InputError::new(
-        Refusal::TimesNotIncreasing,
-        format!("time goes backwards, from {before:?} s to {t:?} s"),
-        "are these files put together, or did a counter wrap? split the file here",
-    )
+/// The error for times that go backwards, with the first that does, s.
+pub(crate) fn backwards((before, t): (f64, f64), times: impl Iterator<Item = f64> + Clone) -> InputError {
+    /// Clocks begin anew, or are set, this often at most.
+    const FEW: usize = 3;
+    let times_back = times.clone().zip(times.skip(1)).filter(|(one, next)| next < one).count();
+    let often = if times_back > 1 { format!(" {times_back} times, first") } else { ",".to_owned() };
+    let help = match times_back > FEW {
+        true => {
+            "write the rows in the order in which the samples were taken: they cannot be sorted by these times"
+        }
+        false => "are these files put together, or did a counter wrap? split the file here",
+    };
+    let message = format!("time goes backwards{often} from {before:?} s to {t:?} s");
+    InputError::new(Refusal::TimesNotIncreasing, message, help)
 }
 
 /// Ticks that continue where the clock restarts, and the number of restarts. A step back of more than half

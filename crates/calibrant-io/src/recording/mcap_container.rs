@@ -1,21 +1,28 @@
 //! Reads the messages of ROS 2 bags in MCAP containers, of the types that a reader asks for, in CDR.
 
 use super::cdr::Unreadable;
-use super::mcap_footer::Cut;
+use super::mcap_footer::{Cut, unread_after};
+use super::mcap_order::Logged;
 use super::mcap_records::chunk_lengths_add_up;
 use crate::text::decoding::{Checked, refuse};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::counted;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{MAGIC, McapError};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Bytes that the container's reader receives at once.
 const PIECE: usize = 1 << 20;
 /// A record may have this many bytes, even where the compressed file has fewer: a map that was latched.
 const LARGEST_RECORD: usize = 1 << 28;
+/// Bytes of a message that was compressed by itself, at most.
+const LARGEST_MESSAGE: usize = 1 << 24;
+/// A frame of zstd begins with this.
+const ZSTD: &[u8] = &[0x28, 0xb5, 0x2f, 0xfd];
 /// Opcode of a record with a schema.
 const SCHEMA: u8 = 3;
 /// Opcode of a record with a channel.
@@ -47,7 +54,10 @@ pub(crate) struct Bag<'t, M> {
     /// Name of each schema.
     schemas: BTreeMap<u16, String>,
     channels: BTreeMap<u16, Channel<'t, M>>,
+    /// The messages of each topic that is wanted, in the order of the file.
+    messages: BTreeMap<String, Vec<Logged<M>>>,
     cut: Option<Cut>,
+    unread: Option<Diagnostic>,
 }
 
 struct Channel<'t, M> {
@@ -55,12 +65,11 @@ struct Channel<'t, M> {
     schema: String,
     /// `None` where its messages are not wanted.
     message_type: Option<&'t MessageType<M>>,
-    messages: Vec<M>,
 }
 
 /// The messages of each topic that is wanted, and all topics, for errors.
 pub(crate) struct Topics<M> {
-    pub(crate) messages: BTreeMap<String, Vec<M>>,
+    pub(crate) messages: BTreeMap<String, Vec<Logged<M>>>,
     /// Names of the types that are wanted.
     types: String,
     /// All topics with the names of their types.
@@ -74,7 +83,8 @@ impl<'t, M> Bag<'t, M> {
         }
         let cut = Cut::of(bytes);
         let is_cut = cut.is_some();
-        let mut bag = Self { types, schemas: BTreeMap::new(), channels: BTreeMap::new(), cut };
+        let (schemas, channels, messages) = Default::default();
+        let mut bag = Self { types, schemas, channels, messages, cut, unread: unread_after(bytes) };
         let mut rest = bytes;
         let options = LinearReaderOptions::default()
             .with_record_length_limit(bytes.len().max(LARGEST_RECORD))
@@ -103,11 +113,14 @@ impl<'t, M> Bag<'t, M> {
     /// `whose` is what its messages are of.
     pub(crate) fn cut(&self, whose: &str) -> Checked<Option<Cut>> {
         match &self.cut {
-            Some(cut) if self.channels.values().all(|channel| channel.messages.is_empty()) => {
-                Err(cut.input_error(whose).into())
-            }
+            Some(cut) if self.messages.values().all(Vec::is_empty) => Err(cut.input_error(whose).into()),
             cut => Ok(cut.clone()),
         }
+    }
+
+    /// What there is to say of bytes behind the end of the container.
+    pub(crate) fn unread(&self) -> Option<Diagnostic> {
+        self.unread.clone()
     }
 
     fn take(&mut self, opcode: u8, data: &[u8]) -> Checked<()> {
@@ -132,19 +145,23 @@ impl<'t, M> Bag<'t, M> {
                     return refuse(Refusal::FormatUnsupported, message, "only CDR is read");
                 }
                 let topic = channel.topic.clone();
-                let new = || Channel { topic, schema, message_type, messages: Vec::new() };
+                if message_type.is_some() {
+                    self.messages.entry(topic.clone()).or_default();
+                }
+                let new = || Channel { topic, schema, message_type };
                 self.channels.entry(channel.id).or_insert_with(new);
             }
             Record::Message { header, data } => {
-                let Some(channel) = self.channels.get_mut(&header.channel_id) else { return Ok(()) };
+                let Some(channel) = self.channels.get(&header.channel_id) else { return Ok(()) };
                 let Some(message_type) = channel.message_type else { return Ok(()) };
-                let number = channel.messages.len() + 1;
-                let message = (message_type.read)(&data).map_err(|why| {
-                    let message = format!("message {number} of `{}` cannot be read: {why}", channel.topic);
+                let Some(of_topic) = self.messages.get_mut(&channel.topic) else { return Ok(()) };
+                let message = unpacked(&data).and_then(|data| (message_type.read)(&data)).map_err(|why| {
+                    let (number, topic) = (of_topic.len() + 1, &channel.topic);
+                    let message = format!("message {number} of `{topic}` cannot be read: {why}");
                     let help = format!("was it recorded as {} by ROS 2?", message_type.name);
                     InputError::new(Refusal::FileDamaged, message, help)
                 })?;
-                channel.messages.push(message);
+                of_topic.push(Logged { log_time_ns: header.log_time, message });
             }
             _ => (),
         }
@@ -155,17 +172,13 @@ impl<'t, M> Bag<'t, M> {
     pub(crate) fn topics(self) -> Topics<M> {
         let types: Vec<&str> = self.types.iter().map(|one| one.name).collect();
         let all = self.channels.values().map(|channel| format!("{} ({})", channel.topic, channel.schema));
-        let mut topics = Topics { messages: BTreeMap::new(), types: types.join(", "), all: all.collect() };
-        for mut channel in self.channels.into_values().filter(|channel| channel.message_type.is_some()) {
-            topics.messages.entry(channel.topic).or_default().append(&mut channel.messages);
-        }
-        topics
+        Topics { types: types.join(", "), all: all.collect(), messages: self.messages }
     }
 }
 
 impl<M> Topics<M> {
     /// The messages of one topic, which has to be named where there are several of `what`.
-    pub(crate) fn one(mut self, topic: Option<&str>, what: &str) -> Checked<Vec<M>> {
+    pub(crate) fn one(mut self, topic: Option<&str>, what: &str) -> Checked<Vec<Logged<M>>> {
         let types = &self.types;
         let named = |names: &[String]| quoted(names, 10);
         if let Some(topic) = topic {
@@ -200,6 +213,14 @@ impl<M> Topics<M> {
             InputError::new(Refusal::TopicUnknown, message, format!("record the topic of the {what}")).into()
         })
     }
+}
+
+/// The bytes of a message. rosbag2 may compress each one by itself, which nothing but their beginning says: one in CDR begins with a zero.
+fn unpacked(data: &[u8]) -> Result<Cow<'_, [u8]>, Unreadable> {
+    if !data.starts_with(ZSTD) {
+        return Ok(Cow::Borrowed(data));
+    }
+    zstd::bulk::decompress(data, LARGEST_MESSAGE).map(Cow::Owned).map_err(|_| "it is compressed, and damaged")
 }
 
 /// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves the bytes that

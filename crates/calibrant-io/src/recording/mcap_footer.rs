@@ -3,7 +3,7 @@
 //! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
 
 use super::mcap_records::{HEAD, raw_records};
-use calibrant_core::diagnostic::reader::FileUnfinished;
+use calibrant_core::diagnostic::reader::{BytesUnread, FileUnfinished};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{InputError, Refusal};
 use mcap::MAGIC;
@@ -20,21 +20,33 @@ pub(crate) struct Cut {
     is_after_data: bool,
 }
 
+/// The warning about what follows the end of a container: a second one, or other bytes.
+pub(crate) fn unread_after(bytes: &[u8]) -> Option<Diagnostic> {
+    let rest = bytes.get(end(bytes).ok()?..)?;
+    let is_bag = rest.starts_with(MAGIC);
+    (!rest.is_empty()).then(|| BytesUnread { bytes: rest.len(), is_bag }.into())
+}
+
+/// The end of a whole container, or its missing part.
+fn end(bytes: &[u8]) -> Result<usize, Cut> {
+    let (mut at, mut is_after_data) = (MAGIC.len(), false);
+    for record in raw_records(bytes.get(at..).unwrap_or_default()) {
+        if !record.is_whole() {
+            return Err(Cut { length: bytes.len(), within: Some((record.opcode, at)), is_after_data });
+        }
+        at += HEAD + record.content.len();
+        is_after_data |= record.opcode == op::DATA_END;
+        if record.opcode == op::FOOTER && bytes[at..].starts_with(MAGIC) {
+            return Ok(at + MAGIC.len());
+        }
+    }
+    Err(Cut { length: bytes.len(), within: None, is_after_data })
+}
+
 impl Cut {
     /// The missing part of a container; `None` where it is whole.
     pub(crate) fn of(bytes: &[u8]) -> Option<Self> {
-        let (mut at, mut is_after_data) = (MAGIC.len(), false);
-        for record in raw_records(bytes.get(at..)?) {
-            if !record.is_whole() {
-                return Some(Self { length: bytes.len(), within: Some((record.opcode, at)), is_after_data });
-            }
-            at += HEAD + record.content.len();
-            is_after_data |= record.opcode == op::DATA_END;
-            if record.opcode == op::FOOTER && bytes[at..].starts_with(MAGIC) {
-                return None;
-            }
-        }
-        Some(Self { length: bytes.len(), within: None, is_after_data })
+        end(bytes).err()
     }
 
     /// The warning where messages could be read: their number, and their duration, s.

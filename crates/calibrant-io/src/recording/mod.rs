@@ -31,6 +31,8 @@ pub(crate) mod mcap_container;
 #[cfg(feature = "mcap")]
 mod mcap_footer;
 #[cfg(feature = "mcap")]
+pub(crate) mod mcap_order;
+#[cfg(feature = "mcap")]
 mod mcap_records;
 pub(crate) mod named_sensor;
 pub(crate) mod recording_quality;
@@ -42,6 +44,7 @@ pub(crate) mod tally;
 pub(crate) mod text_header;
 pub(crate) mod text_source;
 pub(crate) mod text_times;
+pub(crate) mod time_order;
 pub(crate) mod time_unit;
 
 pub(crate) use imu::imu_column;

@@ -11,12 +11,13 @@ use super::rows::Rows;
 use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
 use crate::recording::tally::Tally;
+use crate::recording::time_order::{is_clock_out_of_order, late};
 use crate::recording::{TimeUnit, recording_quality};
 use crate::text::decoding::{Checked, refuse};
 use crate::trajectory::{between_knots, spline_through};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::log::QuaternionNorm;
-use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, ValuesMissing};
+use calibrant_core::diagnostic::reader::{LineTruncated, MissingValue, RowsSorted, ValuesMissing};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::rate_hz;
 use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
@@ -40,7 +41,7 @@ pub(super) fn assemble(
     let clock = ClockColumn { name: time_name, unit: time_unit, wraps_at: None, origin: rows.origin };
     let clock = clock.seconds(std::mem::take(&mut rows.times), &rows.lines, &mut findings)?;
     let rows = Rows { times: clock.times_s, ..rows };
-    let kept = with_times(&rows, &mut findings)?;
+    let kept = with_times(&rows, time_name, &mut findings)?;
     let width = content.width();
     let value = |row: usize| &rows.values[row * width..][..width];
     for &row in &kept {
@@ -99,8 +100,8 @@ pub(super) fn assemble(
     })
 }
 
-/// The rows that have a time; an error where a time goes backwards, or where all are the same.
-fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>> {
+/// The rows that have a time, in its order; an error where that is not one, or where all times are the same.
+fn with_times(rows: &Rows, clock: &str, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>> {
     let mut untimed = Tally::default();
     let mut kept: Vec<usize> = Vec::with_capacity(rows.times.len());
     for (row, &t) in rows.times.iter().enumerate() {
@@ -108,10 +109,17 @@ fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>
             untimed.add(rows.lines.line(row));
             continue;
         }
-        if let Some(&before) = kept.last().filter(|before| rows.times[**before] > t) {
-            return Err(at(backwards(rows.times[before], t), rows, row).into());
-        }
         kept.push(row);
+    }
+    let times: Vec<f64> = kept.iter().map(|&row| rows.times[row]).collect();
+    if is_clock_out_of_order(&times) {
+        let rows_sorted =
+            RowsSorted { rows: late(times.into_iter()), of: kept.len(), by: format!("`{clock}`") };
+        findings.push(rows_sorted.into());
+        kept.sort_by(|&one, &next| rows.times[one].total_cmp(&rows.times[next]));
+    } else if let Some(k) = (1..times.len()).find(|&k| times[k] < times[k - 1]) {
+        let first = (times[k - 1], times[k]);
+        return Err(at(backwards(first, times.iter().copied()), rows, kept[k]).into());
     }
     untimed.report(findings, None, |count| ValuesMissing { missing: MissingValue::Time, count });
     match (kept.first(), kept.last()) {

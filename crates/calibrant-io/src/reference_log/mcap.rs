@@ -12,14 +12,16 @@ use super::messages::{JointState, Message, Pose, TYPES};
 use super::rows::Rows;
 use crate::recording::TimeUnit;
 use crate::recording::mcap_container::{Bag, Topics};
+use crate::recording::mcap_order::{Logged, by_log_time};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::Refusal;
 use std::collections::BTreeMap;
 
 pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFile> {
     let bag = Bag::read(bytes, TYPES)?;
-    let cut = bag.cut("a motion")?;
+    let (cut, unread) = (bag.cut("a motion")?, bag.unread());
     let messages = by_frame(bag.topics(), topic).one(topic, "log of a motion")?;
+    let (messages, sorted) = by_log_time(messages, Message::stamp_ns);
     let number = messages.len();
     let (mut joints, mut poses) = (Vec::new(), Vec::new());
     for message in messages {
@@ -47,22 +49,25 @@ pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFil
     )?;
     let times_s = file.log.times_s();
     let duration_s = times_s.last().zip(times_s.first()).map_or(0.0, |(last, first)| last - first);
+    file.findings.extend(sorted);
     file.findings.extend(cut.map(|cut| cut.finding(number, duration_s)));
+    file.findings.extend(unread);
     Ok(file)
 }
 
 /// The same topics, but with one for each frame in place of a topic with many.
 fn by_frame(mut topics: Topics<Message>, asked: Option<&str>) -> Topics<Message> {
-    let mut frames: BTreeMap<String, Vec<Message>> = BTreeMap::new();
+    let mut frames: BTreeMap<String, Vec<Logged<Message>>> = BTreeMap::new();
     for (topic, messages) in &mut topics.messages {
-        for message in std::mem::take(messages) {
+        for Logged { log_time_ns, message } in std::mem::take(messages) {
             match message {
                 Message::Transforms(poses) => {
                     for (frame, pose) in poses {
-                        frames.entry(format!("{topic}:{frame}")).or_default().push(Message::Pose(pose));
+                        let message = Logged { log_time_ns, message: Message::Pose(pose) };
+                        frames.entry(format!("{topic}:{frame}")).or_default().push(message);
                     }
                 }
-                message => messages.push(message),
+                message => messages.push(Logged { log_time_ns, message }),
             }
         }
     }

@@ -20,6 +20,17 @@ pub(super) enum Message {
     Transforms(Vec<(String, Pose)>),
 }
 
+impl Message {
+    /// `header.stamp`, ns; of several poses, that of the first.
+    pub(super) fn stamp_ns(&self) -> i64 {
+        match self {
+            Self::Joints(joints) => joints.stamp_ns,
+            Self::Pose(pose) => pose.stamp_ns,
+            Self::Transforms(poses) => poses.first().map_or(0, |(_, pose)| pose.stamp_ns),
+        }
+    }
+}
+
 /// Positions of joints.
 pub(super) struct JointState {
     pub(super) stamp_ns: i64,

@@ -1,6 +1,7 @@
 //! Reads a table of Parquet by rows: each is an object of its columns.
 
 use crate::files::guarded_parquet::{damaged, guarded};
+use crate::files::parquet_decimal::{big_endian, decimal};
 use crate::text::decoding::{Checked, open_file};
 use calibrant_core::error::{Error, Result};
 use parquet::file::reader::SerializedFileReader;
@@ -49,12 +50,17 @@ fn object(row: parquet::errors::Result<Row>) -> Checked<Value> {
 fn value(field: &Field) -> Value {
     match field {
         Field::Bool(of) => (*of).into(),
+        Field::Byte(of) => (*of).into(),
+        Field::Short(of) => (*of).into(),
         Field::Int(of) => (*of).into(),
         Field::Long(of) => (*of).into(),
+        Field::UByte(of) => (*of).into(),
+        Field::UShort(of) => (*of).into(),
         Field::UInt(of) => (*of).into(),
         Field::ULong(of) => (*of).into(),
         Field::Float(of) => f64::from(*of).into(),
         Field::Double(of) => (*of).into(),
+        Field::Decimal(of) => big_endian(of.data()).map(|whole| decimal(whole, of.scale())).into(),
         Field::Str(of) => of.as_str().into(),
         Field::ListInternal(list) => list.elements().iter().map(value).collect(),
         _ => Value::Null,

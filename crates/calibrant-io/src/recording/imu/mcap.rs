@@ -12,6 +12,7 @@ use super::imu_message::{self, ImuMessage};
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::mcap_container::{Bag, MessageType};
+use crate::recording::mcap_order::by_log_time;
 use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
@@ -21,11 +22,12 @@ use calibrant_core::sensor::{Axis, SensorKind};
 const TYPES: &[MessageType<ImuMessage>] =
     &[MessageType { name: "sensor_msgs/msg/Imu", read: imu_message::imu }];
 
-/// Columns and values of the bag's IMU, and a warning where the bag has no end.
-pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Option<Diagnostic>)> {
+/// Columns and values of the bag's IMU, and what there is to say of the bag: that its messages were sorted, that it has no end, or something behind it.
+pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Vec<Diagnostic>)> {
     let bag = Bag::read(bytes, TYPES)?;
-    let cut = bag.cut("an IMU")?;
+    let (cut, unread) = (bag.cut("an IMU")?, bag.unread());
     let messages = bag.topics().one(options.topic.as_deref(), "IMU")?;
+    let (messages, sorted) = by_log_time(messages, |message| message.stamp_ns);
     let origin = messages.first().map_or(0, |message| message.stamp_ns);
     let mut columns: [Vec<f64>; SLOTS] = Default::default();
     columns[TIME] = messages.iter().map(|message| (message.stamp_ns - origin) as f64).collect();
@@ -56,5 +58,6 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
     described.push(ImuColumn::new("orientation", ColumnMeaning::Orientation, None));
     let last_s = messages.last().map_or(0.0, |message| (message.stamp_ns - origin) as f64 / 1e9);
     let cut = cut.map(|cut| cut.finding(messages.len(), last_s));
-    Ok((Draft::new(FileFormat::Mcap, described), Samples::from_columns(columns, origin)?, cut))
+    let findings = sorted.into_iter().chain(cut).chain(unread).collect();
+    Ok((Draft::new(FileFormat::Mcap, described), Samples::from_columns(columns, origin)?, findings))
 }

@@ -47,6 +47,8 @@ mod packet_times;
 mod parquet;
 #[cfg(feature = "parquet")]
 mod parquet_pages;
+#[cfg(feature = "parquet")]
+mod parquet_type;
 mod read;
 mod reading_unit;
 mod recording_assembly;

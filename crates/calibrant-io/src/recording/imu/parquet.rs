@@ -1,29 +1,28 @@
-//! Reads Parquet files: columns named as in CSV, numbers of any width, times as numbers or time stamps.
+//! Reads Parquet files: columns named as in CSV, numbers of any width, whole or decimal, times as numbers or time stamps.
 
-use super::column::{ColumnMeaning, ImuColumn};
-use super::column_names;
+use super::column::ColumnMeaning;
 use super::column_values::{SLOTS, Samples, TIME};
 use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::parquet_pages::Pages;
-use super::unit::ColumnUnit;
+use super::parquet_type::{LIST, Whole, check_numbers, describe, time};
 use crate::files::guarded_parquet::{damaged, guarded};
+use crate::recording::text_times::DAY_NS;
 use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::{Checked, refuse};
 use bytes::Bytes;
 use calibrant_core::budget::Budget;
-use calibrant_core::error::Refusal;
-use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
+use calibrant_core::error::{InputError, Refusal};
+use parquet::basic::{Compression, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::schema::types::ColumnDescriptor;
 
 /// Number of values that are read at once.
 const BATCH: usize = 1 << 16;
 /// Whole numbers above this are not exact as `f64`.
-const EXACT: u64 = 1 << 53;
+const EXACT: u128 = 1 << 53;
 
 /// An opened file and the meaning of its columns.
 pub(super) struct Opened {
@@ -43,31 +42,6 @@ pub(super) fn open(bytes: &[u8]) -> Checked<Opened> {
     })
 }
 
-/// A column: its name as in CSV, and the unit of a time stamp from its type.
-fn describe(column: &ColumnDescriptor) -> ImuColumn {
-    let name = column.path().string();
-    if column.max_rep_level() > 0 {
-        let mut described = ImuColumn::new(&name, ColumnMeaning::Other, None);
-        described.unused = Some("a list, not a number for each row".into());
-        return described;
-    }
-    let mut described = column_names::column(&name);
-    let unit = match column.logical_type_ref() {
-        Some(LogicalType::Timestamp(stamp)) => match stamp.unit {
-            StampUnit::MILLIS => TimeUnit::Millisecond,
-            StampUnit::MICROS => TimeUnit::Microsecond,
-            StampUnit::NANOS => TimeUnit::Nanosecond,
-        },
-        _ => return described,
-    };
-    // a time stamp is a time whatever its name
-    described.unit = Some(ColumnUnit::Time(unit));
-    if described.meaning == ColumnMeaning::Other {
-        described = ImuColumn::new(&name, ColumnMeaning::Time, described.unit);
-    }
-    described
-}
-
 /// Reads the values of the columns that have a slot. A few bytes can state billions of equal values, so the
 /// budget is that of the rows and of the unpacked columns.
 pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) -> Checked<Samples> {
@@ -77,12 +51,19 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) ->
         let mut columns: [Vec<f64>; SLOTS] = Default::default();
         let mut origin = 0;
         for (at, slot) in slots.iter().enumerate().filter_map(|(at, slot)| Some((at, (*slot)?))) {
+            let descriptor = file.reader.metadata().file_metadata().schema_descr().column(at);
+            check_numbers(&descriptor, slot == TIME)?;
             let mut column = Column {
                 name: &file.draft.columns[at].name,
                 is_time: slot == TIME,
+                whole: Whole::of(&descriptor),
                 origin: None,
                 values: Vec::new(),
                 most: rows,
+            };
+            let least = match descriptor.physical_type() {
+                Type::FIXED_LEN_BYTE_ARRAY => usize::try_from(descriptor.type_length()).unwrap_or(0).max(1),
+                _ => 4,
             };
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
@@ -93,9 +74,9 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) ->
                         "write it again with zstd, snappy or no compression",
                     );
                 }
-                let descriptor = file.reader.metadata().file_metadata().schema_descr().column(at);
                 let pages = group.get_column_page_reader(at).map_err(|error| damaged(&error))?;
-                column.read(get_column_reader(descriptor, Box::new(Pages(pages))))?;
+                let pages = Pages { pages, least };
+                column.read(get_column_reader(descriptor.clone(), Box::new(pages)))?;
             }
             if slot == TIME {
                 origin = column.origin.unwrap_or(0);
@@ -104,6 +85,38 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) ->
         }
         Samples::from_columns(columns, origin)
     })
+}
+
+impl Opened {
+    /// A time of day begins anew at midnight.
+    pub(super) fn find_midnight(&mut self) {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        let is_clock = |at: &usize| {
+            let column = &self.draft.columns[*at];
+            column.meaning == ColumnMeaning::Time && column.is_used()
+        };
+        let unit = (0..self.draft.columns.len()).filter(is_clock).find_map(|at| time(&schema.column(at)));
+        if let Some((unit, true)) = unit {
+            let per_ns = TimeUnit::per_second(unit).map_or(1.0, |per_second| per_second / 1e9);
+            self.draft.time_wraps_at = Some(DAY_NS * per_ns);
+        }
+    }
+
+    /// The error where no column is of a sensor, and some hold lists.
+    pub(super) fn with_lists(&self, mut input_error: Box<InputError>) -> Box<InputError> {
+        let is_list = |at: &usize| self.draft.columns[*at].unused.as_deref() == Some(LIST);
+        let list = (0..self.draft.columns.len()).find(is_list);
+        if let Some(list) = list.filter(|_| input_error.code == Refusal::ColumnMissing) {
+            let schema = self.reader.metadata().file_metadata().schema_descr();
+            let path = schema.column(list);
+            let parts = path.path().parts().iter().map(String::as_str).take_while(|part| *part != "list");
+            let name = parts.collect::<Vec<_>>().join(".");
+            input_error.help = format!(
+                "`{name}` holds a list in each row: write a column for each axis, in SQL \"{name}\"[1] AS ax_mps2, \"{name}\"[2] AS ay_mps2, …"
+            );
+        }
+        input_error
+    }
 }
 
 /// The number of rows that the file states.
@@ -136,6 +149,7 @@ fn check(file: &Opened, slots: &[Option<usize>], rows: usize, budget: Budget) ->
 struct Column<'n> {
     name: &'n str,
     is_time: bool,
+    whole: Whole,
     /// The number that is subtracted from times that are too large to be exact as `f64`.
     origin: Option<i64>,
     values: Vec<f64>,
@@ -145,30 +159,37 @@ struct Column<'n> {
 
 impl Column<'_> {
     fn read(&mut self, reader: ColumnReader) -> Checked<()> {
+        let whole = self.whole;
         match reader {
             ColumnReader::DoubleColumnReader(reader) => self.take(reader, |_, value| *value),
             ColumnReader::FloatColumnReader(reader) => self.take(reader, |_, value| f64::from(*value)),
-            ColumnReader::Int32ColumnReader(reader) => self.take(reader, |_, value| f64::from(*value)),
+            ColumnReader::Int32ColumnReader(reader) => {
+                self.take(reader, |column, value| column.number(whole.of_i32(*value)))
+            }
             ColumnReader::Int64ColumnReader(reader) => {
-                self.take(reader, |column, value| column.whole(*value))
+                self.take(reader, |column, value| column.number(whole.of_i64(*value)))
             }
-            _ => {
-                let message = format!("column `{}` does not hold numbers", self.name);
-                refuse(
-                    Refusal::NumberMalformed,
-                    message,
-                    "is it the right column? numbers are float, double, int32 or int64",
-                )
+            ColumnReader::Int96ColumnReader(reader) => {
+                self.take(reader, |column, value| column.number(value.to_nanos().into()))
             }
+            ColumnReader::ByteArrayColumnReader(reader) => {
+                self.take(reader, |_, value| whole.of_bytes(value.data()))
+            }
+            ColumnReader::FixedLenByteArrayColumnReader(reader) => {
+                self.take(reader, |_, value| whole.of_bytes(value.data()))
+            }
+            ColumnReader::BoolColumnReader(reader) => self.take(reader, |_, _| f64::NAN), // was refused by its type
         }
     }
 
-    fn whole(&mut self, value: i64) -> f64 {
-        if !self.is_time {
-            return value as f64;
+    /// The number of a whole one; ticks of a clock that are too large to be exact are counted from the first.
+    fn number(&mut self, value: i128) -> f64 {
+        if !self.is_time || self.whole.scale.is_some() {
+            return self.whole.number(value);
         }
-        let origin = *self.origin.get_or_insert(if value.unsigned_abs() > EXACT { value } else { 0 });
-        (i128::from(value) - i128::from(origin)) as f64
+        let first = || i64::try_from(value).ok().filter(|_| value.unsigned_abs() > EXACT).unwrap_or(0);
+        let origin = *self.origin.get_or_insert_with(first);
+        (value - i128::from(origin)) as f64
     }
 
     fn take<T: DataType>(

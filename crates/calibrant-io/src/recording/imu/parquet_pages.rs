@@ -5,14 +5,19 @@ use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::errors::{ParquetError, Result};
 
 /// The pages of a column. Dictionaries are checked before they are decoded.
-pub(super) struct Pages(pub(super) Box<dyn PageReader>);
+pub(super) struct Pages {
+    pub(super) pages: Box<dyn PageReader>,
+    /// The fewest bytes that a value takes.
+    pub(super) least: usize,
+}
 
 impl PageReader for Pages {
     fn get_next_page(&mut self) -> Result<Option<Page>> {
-        let page = self.0.get_next_page()?;
+        let page = self.pages.get_next_page()?;
         match &page {
-            // only numbers are read, and one takes four bytes at least
-            Some(Page::DictionaryPage { buf, num_values, .. }) if *num_values as usize > buf.len() / 4 => {
+            Some(Page::DictionaryPage { buf, num_values, .. })
+                if *num_values as usize > buf.len() / self.least =>
+            {
                 let (values, bytes) = (num_values, buf.len());
                 Err(ParquetError::General(format!("a dictionary of {values} values has {bytes} bytes")))
             }
@@ -21,15 +26,15 @@ impl PageReader for Pages {
     }
 
     fn peek_next_page(&mut self) -> Result<Option<PageMetadata>> {
-        self.0.peek_next_page()
+        self.pages.peek_next_page()
     }
 
     fn skip_next_page(&mut self) -> Result<()> {
-        self.0.skip_next_page()
+        self.pages.skip_next_page()
     }
 
     fn at_record_boundary(&mut self) -> Result<bool> {
-        self.0.at_record_boundary()
+        self.pages.at_record_boundary()
     }
 }
 

@@ -23,6 +23,8 @@ use crate::recording::time_unit::TimeUnit;
 #[cfg(not(all(feature = "mcap", feature = "parquet")))]
 use crate::text::decoding::without;
 use crate::text::decoding::{Checked, refuse};
+#[cfg(feature = "mcap")]
+use calibrant_core::diagnostic::Severity;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
@@ -137,15 +139,15 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
             "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
         );
     }
-    let (mut draft, samples, cut) = mcap::read(bytes, options)?;
+    let (mut draft, samples, findings) = mcap::read(bytes, options)?;
     draft.slots()?;
     let mut file = finish(draft, samples, options).map_err(|mut input_error| {
-        if let Some(cut) = &cut {
-            input_error.help = format!("{}; {cut}", input_error.help);
+        for lost in findings.iter().filter(|found| found.severity() == Severity::Warning) {
+            input_error.help = format!("{}; {lost}", input_error.help);
         }
         input_error
     })?;
-    file.findings.extend(cut);
+    file.findings.extend(findings);
     Ok(file)
 }
 
@@ -159,7 +161,8 @@ fn read_parquet(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     let mut file = parquet::open(bytes)?;
     file.draft.map(options)?;
     file.draft.set_time_unit(options)?;
-    let slots = file.draft.slots()?;
+    let slots = file.draft.slots().map_err(|input_error| file.with_lists(input_error))?;
+    file.find_midnight();
     let samples = parquet::samples(&file, &slots, options.budget.unwrap_or_default())?;
     finish(file.draft, samples, options)
 }

@@ -5,6 +5,7 @@ use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
+use crate::recording::row_parser::Sense;
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
@@ -15,6 +16,8 @@ use nalgebra::Vector3;
 const FAST_RADPS: f64 = 40.0;
 /// A gyroscope that reads faster rates than this in deg/s is not in deg/s either.
 const FAST_DEGPS: f64 = 8000.0;
+/// No gyroscope has a range beyond this, rad/s: 57 300 deg/s.
+const FASTEST_RADPS: f64 = 1000.0;
 /// Whole numbers larger than this are most likely counts.
 const COUNTS: f64 = 2500.0;
 /// Gravity was removed from a sensor that reads less than this, m/s², half of the time.
@@ -167,4 +170,24 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         );
     }
     Ok(())
+}
+
+/// Returns an error for a gyroscope in rad/s that reads faster rates than any has, in more samples than a few bad ones.
+pub(super) fn check_rates(recording: &Recording, stated: ImuUnit) -> Checked<()> {
+    if stated == ImuUnit::Counts {
+        return Ok(());
+    }
+    let is_beyond = |y: &&Vector3<f64>| y.norm() > FASTEST_RADPS;
+    let beyond = recording.readings().iter().filter(is_beyond).count();
+    if beyond < 2 || !Sense::is_lost(beyond, recording.len()) {
+        return Ok(());
+    }
+    let (unit, most) = (stated.symbol(), FASTEST_RADPS / stated.reading().1);
+    let message = format!(
+        "the gyroscope is said to be in {unit}, but {beyond} of its {} readings are beyond {} {unit}, which no gyroscope measures: are these counts, or in another unit?",
+        recording.len(),
+        plain(round(most), 6)
+    );
+    let help = "correct the unit: a column's name may end in _degps, _mdps or _counts, and gyroscope_unit in [columns] counts where the columns are named there";
+    refuse(Refusal::UnitImplausible, message, help)
 }

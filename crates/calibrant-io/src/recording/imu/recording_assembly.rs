@@ -5,7 +5,7 @@ use super::column_values::Samples;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::packet_times::Packets;
-use super::reading_unit::{check_gravity, question, stated_unit, unit_option};
+use super::reading_unit::{check_gravity, check_rates, question, stated_unit, unit_option};
 use super::sample_clock;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::clock_column::backwards;
@@ -66,6 +66,9 @@ pub(super) fn assemble(
     if units.contains(&None) {
         return Err(ask(None, samples, &sensor_kinds, &units).into());
     }
+    if has_times {
+        findings.extend(sample_clock::put_in_order(draft, &mut times, samples));
+    }
     let is_plain = draft.plain.is_some();
     let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));
     if has_times && !is_plain && (0..samples.rows).all(alike) {
@@ -99,6 +102,7 @@ pub(super) fn assemble(
             }
             recording.accelerometer = Some(readings);
         } else {
+            check_rates(&readings, *unit)?;
             recording.gyroscope = Some(readings);
         }
         for axis in calibrant_core::sensor::Axis::ALL {
@@ -217,7 +221,9 @@ fn increasing(
             match *before {
                 _ if samples.sensor(sensor_kind)[row].iter().any(|value| value.is_nan()) => (),
                 Some(other) if t < times[other] => {
-                    return Err(samples.lines.at(backwards(times[other], t), row).into());
+                    let holds = |row: &usize| !times[*row].is_nan() && samples.holds(sensor_kind, *row);
+                    let of_sensor = (0..times.len()).filter(holds).map(|row| times[row]);
+                    return Err(samples.lines.at(backwards((times[other], t), of_sensor), row).into());
                 }
                 Some(other) if t == times[other] => repeated = Some(other),
                 _ => (*before, is_new) = (Some(row), true),

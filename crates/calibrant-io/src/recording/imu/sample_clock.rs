@@ -5,13 +5,16 @@ use super::column_names;
 use super::column_values::Samples;
 use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
+use super::format::FileFormat;
 use super::options::{ImuReadOptions, TYPED_RATE_SD_PPM, USUAL_RATE_SD_PPM};
 use crate::recording::clock_column::{ClockColumn, unwrap};
+use crate::recording::time_order::{is_clock_out_of_order, late};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, RateUnlikeTimes, quoted};
+use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, RateUnlikeTimes, RowsSorted, quoted};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
+use calibrant_core::sensor::SensorKind;
 
 /// Key of a rate that a comment states.
 pub(super) const COMMENT: &str = "rate in a comment";
@@ -24,14 +27,21 @@ const SAME_RATE: f64 = 1e-3;
 const FEWEST: usize = 20;
 
 /// Takes out a column that its name alone makes a time: `T` may be a temperature. A clock goes forward: hardly a step in three goes back,
-/// and not all times are the same.
+/// and not all times are the same; or it does so once its rows are in order.
 pub(super) fn leave_no_clock(draft: &mut Draft, samples: &mut Samples, options: &ImuReadOptions) {
     let Some(column) = draft.column(ColumnMeaning::Time) else { return };
-    let is_stated = column_names::column(&column.name).unit.is_some() || options.columns.time.is_some();
+    let by_type = match draft.format {
+        FileFormat::Mcap => true,
+        FileFormat::Parquet => column.unit.is_some() && options.time_unit.is_none(),
+        _ => false,
+    };
+    let is_stated =
+        by_type || column_names::column(&column.name).unit.is_some() || options.columns.time.is_some();
     let known: Vec<f64> = samples.times.iter().copied().filter(|t| t.is_finite()).collect();
     let count = |is: fn(f64) -> bool| known.array_windows().filter(|[one, next]| is(next - one)).count();
     let (forward, back) = (count(|step| step > 0.0), count(|step| step < 0.0));
-    if !is_stated && known.len() >= FEWEST && (forward == 0 || 3 * back > forward) {
+    let is_none = known.len() >= FEWEST && (forward == 0 || 3 * back > forward);
+    if !is_stated && is_none && !is_clock_out_of_order(&known) {
         draft.leave_aside(ColumnMeaning::Time, "its values go back and forth, or stay: it is no clock");
         samples.times.clear();
     }
@@ -123,6 +133,27 @@ pub(super) fn not_used(given_hz: f64, found_hz: f64) -> Diagnostic {
         true => RateUnlikeTimes { given_hz, found_hz }.into(),
         false => ClockSource { clock: ClockSourceKind::RateUnused }.into(),
     }
+}
+
+/// Puts rows in the order of their times, where these are those of one clock, but not in order. A sensor may have rows of its own, so each counts alone.
+pub(super) fn put_in_order(draft: &Draft, times: &mut [f64], samples: &mut Samples) -> Option<Diagnostic> {
+    let of_sensor = |sensor_kind: SensorKind| -> Vec<f64> {
+        let holds = |row: &usize| !times[*row].is_nan() && samples.holds(sensor_kind, *row);
+        (0..times.len()).filter(holds).map(|row| times[row]).collect()
+    };
+    let out_of_order: Vec<Vec<f64>> =
+        SensorKind::ALL.map(of_sensor).into_iter().filter(|times| !times.is_sorted()).collect();
+    let first = out_of_order.first()?;
+    if !out_of_order.iter().all(|times| is_clock_out_of_order(times)) {
+        return None;
+    }
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&one, &next| times[one].total_cmp(&times[next]));
+    let sorted: Vec<f64> = rows.iter().map(|&row| times[row]).collect();
+    times.copy_from_slice(&sorted);
+    samples.reorder(&rows);
+    let clock = draft.column(ColumnMeaning::Time).map_or("", |column| column.name.as_str());
+    Some(RowsSorted { rows: late(first.iter().copied()), of: first.len(), by: format!("`{clock}`") }.into())
 }
 
 /// Puts samples at even times, where these are asked for, or where the logged times are steps of a coarse clock.
