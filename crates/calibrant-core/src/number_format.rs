@@ -213,7 +213,7 @@ fn decimals_for(value: f64, digits: usize) -> usize {
     (digits as i32 - 1 - exponent(rounded + rounded.signum() * unit * 1e-6)).clamp(0, 12) as usize
 }
 
-fn without_trailing_zeros(text: &str) -> String {
+pub(crate) fn without_trailing_zeros(text: &str) -> String {
     match text.split_once(" × ") {
         Some((mantissa, power)) => format!("{} × {power}", trimmed(mantissa)),
         None => trimmed(text).to_string(),

@@ -1,8 +1,9 @@
 //! Checks of the samples of a recording: spikes, coarse readings, lost samples, temperatures.
 
 use super::check::checks;
-use crate::number_format::counted;
-use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
+use super::value::Diagnostic;
+use crate::number_format::{counted, significant, without_trailing_zeros};
+use crate::sensor::{Axis, ReadingUnit, Repeats, SensorKind, Thermal};
 
 checks! {
     /// Spikes were replaced, or invalid samples were removed.
@@ -40,6 +41,62 @@ checks! {
             unit.symbol()
         )
     };
+
+    /// The sensor is stuck at times: its readings repeat bit by bit while the times go on.
+    ReadingsStuck "readings-stuck" Warning {
+        sensor_kind: SensorKind,
+        /// The axis; without it, all.
+        axis: Option<Axis>,
+        /// Number of the samples, which are left out.
+        samples: usize,
+        /// The same as a share of the recording.
+        share: f64,
+        /// Number of the runs.
+        runs: usize,
+        /// Begin of the longest, s.
+        start_s: f64,
+        /// Its end, s.
+        end_s: f64,
+    }
+    decided "By the noise of the other readings, so long a run of equal ones is not expected once in a thousand recordings. More than 1 % of the samples are in such runs."
+    remedy "Look for a sensor or logger that stops, or for a bus that fails. The samples are left out."
+    says stuck(*sensor_kind, *axis, (*samples, *share), *runs, (*start_s, *end_s));
+
+    /// The sensor is stuck for a few samples, which are left out.
+    ReadingsStuckBriefly "readings-stuck-briefly" Note {
+        sensor_kind: SensorKind,
+        /// The axis; without it, all.
+        axis: Option<Axis>,
+        /// Number of the samples, which are left out.
+        samples: usize,
+        /// The same as a share of the recording.
+        share: f64,
+        /// Number of the runs.
+        runs: usize,
+        /// Begin of the longest, s.
+        start_s: f64,
+        /// Its end, s.
+        end_s: f64,
+    }
+    decided "As `readings-stuck`, of at most 1 % of the samples."
+    remedy "Look for a sensor or logger that stops, or for a bus that fails."
+    says stuck(*sensor_kind, *axis, (*samples, *share), *runs, (*start_s, *end_s));
+
+    /// The sensor is read more often than it measures: each reading occurs several times. One of each is used.
+    ReadingsPolled "readings-polled" Note {
+        sensor_kind: SensorKind,
+        /// How often each reading occurs, in the mean.
+        times_each: f64,
+        /// Rate of the sensor, Hz.
+        rate_hz: f64,
+    }
+    decided "Nearly all runs of equal readings have one length, and the readings show noise."
+    remedy "Record at the rate of the sensor."
+    says format!(
+        "{sensor_kind}: each reading occurs {} times: the sensor gives {} Hz. The repeats are left out.",
+        without_trailing_zeros(&significant(*times_each, 3)),
+        without_trailing_zeros(&significant(*rate_hz, 4))
+    );
 
     /// Samples of the gyroscope look like spikes, but are knocks: with them the rotations meet gravity better.
     KnocksKept "knocks-kept" Note {
@@ -186,6 +243,30 @@ impl Spikes {
     }
 }
 
+impl ReadingsStuck {
+    /// What readings that repeat say of a sensor.
+    #[must_use]
+    pub fn of(found: &Repeats, sensor_kind: SensorKind) -> Vec<Diagnostic> {
+        /// Share of the samples from which on the recording is in doubt.
+        const DOUBTED: f64 = 0.01;
+        let polled = found.each.map(|times_each| {
+            Diagnostic::from(ReadingsPolled { sensor_kind, times_each, rate_hz: found.rate_hz })
+        });
+        let stuck = found.stuck.iter().map(|stuck| {
+            let (axis, runs, samples) = (stuck.axis, stuck.runs, stuck.samples);
+            let share = samples as f64 / found.of_samples as f64;
+            let (start_s, end_s) = (stuck.start_s, stuck.end_s);
+            match share > DOUBTED {
+                true => Self { sensor_kind, axis, samples, share, runs, start_s, end_s }.into(),
+                false => {
+                    ReadingsStuckBriefly { sensor_kind, axis, samples, share, runs, start_s, end_s }.into()
+                }
+            }
+        });
+        polled.into_iter().chain(stuck).collect()
+    }
+}
+
 impl CalibrationExtrapolated {
     /// Temperatures far beyond those at which a calibration was made; `None` where they are not.
     #[must_use]
@@ -194,6 +275,25 @@ impl CalibrationExtrapolated {
         let is_beyond = thermal.extrapolates_to(coldest_c) || thermal.extrapolates_to(hottest_c);
         is_beyond.then_some(Self { low_c, high_c, coldest_c, hottest_c })
     }
+}
+
+/// Where a sensor is stuck, in words.
+fn stuck(
+    sensor_kind: SensorKind,
+    axis: Option<Axis>,
+    (samples, share): (usize, f64),
+    runs: usize,
+    (start_s, end_s): (f64, f64),
+) -> String {
+    let what = axis
+        .map_or_else(|| "its readings repeat".to_owned(), |axis| format!("axis {axis} repeats its reading"));
+    let longest = if runs == 1 { "" } else { "the longest " };
+    format!(
+        "the {sensor_kind} is stuck in {}: {what} bit by bit while the times go on, {longest}from {start_s:.2} to {end_s:.2} s. {} ({} %) are left out.",
+        counted(runs, "place"),
+        counted(samples, "sample"),
+        significant(100.0 * share, 2)
+    )
 }
 
 /// The number that a reading was written with: the largest integer of 32 bits has ten digits.

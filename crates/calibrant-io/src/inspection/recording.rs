@@ -5,7 +5,7 @@ use super::sampling::Sampling;
 use crate::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
 use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldsUndetermined};
-use calibrant_core::diagnostic::samples::Spikes as SpikesFound;
+use calibrant_core::diagnostic::samples::{ReadingsStuck, Spikes as SpikesFound};
 use calibrant_core::diagnostic::{Diagnostic, HoldReason, HoldSpan, Phrase};
 use calibrant_core::error::{Error, Result};
 use calibrant_core::estimate::{
@@ -100,8 +100,12 @@ pub fn inspect(file: &ImuFile) -> Inspection {
         .into_iter()
         .filter_map(|sensor_kind| Some(SensorInspection::of(sensor_kind, recording.sensor(sensor_kind)?)))
         .collect();
-    let (clean, spikes) = recording.without_spikes();
     let mut findings: Vec<Diagnostic> = file.all_findings().cloned().collect();
+    let distinct = recording.without_repeats();
+    let repeats = distinct.iter().flat_map(|(_, found)| found);
+    findings.extend(repeats.flat_map(|(sensor_kind, repeats)| ReadingsStuck::of(repeats, *sensor_kind)));
+    let recording = distinct.as_ref().map_or(recording, |(distinct, _)| distinct);
+    let (clean, spikes) = recording.without_spikes();
     findings.extend(spikes.iter().filter_map(|(sensor_kind, spikes)| {
         let unit = recording.sensor(*sensor_kind)?.unit();
         Some(SpikesFound::of(spikes, *sensor_kind, unit).into())

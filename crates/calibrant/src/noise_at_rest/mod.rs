@@ -7,9 +7,11 @@ mod read;
 pub use options::NoiseOptions;
 pub use read::read_for_noise;
 
+use calibrant_core::diagnostic::samples::ReadingsStuck;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::noise::{Moments, Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
+use std::borrow::Cow;
 
 /// The noise of each sensor in one interval at rest.
 #[derive(Debug)]
@@ -42,6 +44,11 @@ pub struct NoiseAtRest {
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAtRest> {
+    let (distinct, repeats) = match recording.without_repeats() {
+        Some((distinct, repeats)) => (Cow::Owned(distinct), repeats),
+        None => (Cow::Borrowed(recording), Vec::new()),
+    };
+    let recording = distinct.as_ref();
     let is_asked = |sensor_kind: &SensorKind| options.sensor.is_none_or(|asked| asked == *sensor_kind);
     let there: Vec<(SensorKind, &Recording)> = SensorKind::ALL
         .into_iter()
@@ -67,6 +74,8 @@ pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAt
         if let Some((_, gain)) = options.gains.iter().find(|(of, _)| *of == sensor_kind) {
             found = found.with_gain(recording, gain)?;
         }
+        let repeats = repeats.iter().filter(|(of, _)| *of == sensor_kind);
+        found.warnings.extend(repeats.flat_map(|(of, repeats)| ReadingsStuck::of(repeats, *of)));
         let moving = options.hold_s.and_then(|_| holds::moves(&holds, &found.segment));
         if let Some(moving) = moving {
             found.caveat = Some(moving.clone());

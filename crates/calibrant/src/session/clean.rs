@@ -6,6 +6,16 @@ use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::{ImuRecording, Sensor, SensorKind, Spikes};
 use std::borrow::Cow;
 
+/// Takes readings out of a recording that only repeat, and says so.
+pub(crate) fn take_out_repeats(recording: &mut ImuRecording) -> Vec<Diagnostic> {
+    let Some((clean, found)) = recording.without_repeats() else { return Vec::new() };
+    *recording = clean;
+    found
+        .iter()
+        .flat_map(|(sensor_kind, repeats)| samples::ReadingsStuck::of(repeats, *sensor_kind))
+        .collect()
+}
+
 /// Takes spikes and invalid readings out of a recording. Gives a diagnostic for each sensor that has some.
 pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<Diagnostic> {
     let (clean, outliers) = recording.without_spikes();
@@ -18,8 +28,9 @@ pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<Diagnostic>
 
 /// The same of a recording on a machine, where the movements of both sensors count.
 pub(crate) fn take_out_outliers_in_motion(recording: &mut ImuRecording) -> Vec<Diagnostic> {
+    let mut found = take_out_repeats(recording);
     let (clean, outliers) = recording.without_spikes_in_motion();
-    let found = diagnostics(recording, &outliers);
+    found.extend(diagnostics(recording, &outliers));
     if let Cow::Owned(clean) = clean {
         *recording = clean;
     }

@@ -1,7 +1,7 @@
 //! The stages from a recording to a calibration, whatever the sensors.
 
 use super::calibrated::Calibrated;
-use super::clean::keep_knocks;
+use super::clean::{keep_knocks, take_out_repeats};
 use super::duplicates::refuse_duplicate;
 use super::kind::Kind;
 use super::noise::NoiseInHold;
@@ -60,6 +60,7 @@ impl<'e> Task<'e> {
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_rate_sd(recorded.rate_sd);
         let mut before = self.kind.missing(&recorded.recording);
+        before.extend(take_out_repeats(&mut recorded.recording));
         let knocks = match self.kind {
             Kind::Imu(..) => recorded.recording.gyroscope_with_knocks(),
             _ => None,
@@ -81,7 +82,7 @@ impl<'e> Task<'e> {
                 None => recorded.recording.gyroscope = cut,
             }
         }
-        let (mut calibration, noise) = outcome?;
+        let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
         setup.set_white_noise(noise.white_noise);
@@ -161,7 +162,8 @@ impl<'e> Task<'e> {
         let mut other = self.reader.read_other(source, calibration.sensor_kinds())?;
         notes.extend(other.findings.iter().cloned());
         let mut setup = setup.of_other();
-        let outliers = setup.prepare(self.accelerometer, &mut other.recording);
+        let mut outliers = take_out_repeats(&mut other.recording);
+        outliers.extend(setup.prepare(self.accelerometer, &mut other.recording));
         notes.extend(outliers.into_iter().map(in_file));
         for &sensor_kind in calibration.sensor_kinds() {
             let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
