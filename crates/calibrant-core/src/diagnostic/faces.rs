@@ -53,29 +53,21 @@ checks! {
         listed(worst, ", or ")
     );
 
-    /// The face alignment differs from the given one.
+    /// The faces scatter by more than the given alignment.
     TiltContradicted "tilt-contradicted" Warning {
         /// Standard deviation of the tilt that the faces show, rad.
         shown_rad: f64,
         /// Given standard deviation of the tilt, rad.
         given_rad: f64,
     }
-    decided "The χ² of the faces is too large or too small for the given alignment."
-    remedy "Correct holds.face_sd_deg."
-    says {
-        let (by, remedy) = match shown_rad > given_rad {
-            true => ("by", "The standard deviations are too small. Correct holds.face_sd_deg."),
-            false => (
-                "by only",
-                "The standard deviations are too large. Remove the key: the scatter of the faces then gives the value.",
-            ),
-        };
-        format!(
-            "the faces scatter {by} {:.2}° about each axis, but holds.face_sd_deg says {:.2}°. {remedy}",
-            shown_rad.to_degrees(),
-            given_rad.to_degrees()
-        )
-    };
+    decided "The χ² of the faces is too large for the given alignment: p < 0.001."
+    remedy "Correct holds.face_sd_deg, and the times and directions of the holds."
+    says format!(
+        "the faces scatter by {:.2}° about each axis, but holds.face_sd_deg says {:.2}°. The standard deviations follow \
+         the scatter. Correct holds.face_sd_deg, and check times and directions of the holds.",
+        shown_rad.to_degrees(),
+        given_rad.to_degrees()
+    );
 
     /// The faces are too few to estimate their alignment. The program assumes a value.
     TiltAssumed "tilt-assumed" Warning {

@@ -170,6 +170,23 @@ checks! {
         100.0 * lost_share
     );
 
+    /// The thermometer lags the sensor. The calibration is at the temperatures of the sensor.
+    ThermometerLags "thermometer-lags" Note {
+        /// The lag, s.
+        lag_s: f64,
+        /// Its standard deviation, s.
+        sd_s: f64,
+    }
+    decided "By the recording alone, a lag of zero is improbable (p < 0.001)."
+    remedy "Correct slowly changing temperatures only, or record the temperature of the sensor's own chip. \
+        temperature.lag_s and lag_sd_s state the lag."
+    says format!(
+        "the thermometer {} the sensor by {:.1} ± {sd_s:.1} s. Biases and gains are at the sensor's temperature, \
+         T + ({lag_s:+.1} s) dT/dt. `apply` takes temperatures as recorded: it is right where they change slowly.",
+        if *lag_s > 0.0 { "lags" } else { "is ahead of" },
+        lag_s.abs()
+    );
+
     /// The recording goes beyond the temperatures of its holds. The polynomials extrapolate there.
     TemperatureExtrapolated "temperature-extrapolated" Warning {
         /// Lowest temperature of the recording, °C.

@@ -1,6 +1,7 @@
 //! What a calibration says of the holds: each of them, their scatter, and the face alignment.
 
 use super::bias_drift::BiasDrift;
+use super::imu::ThermometerLag;
 use super::uncalibrated::Uncalibrated;
 use crate::diagnostic::{Change, HoldReason};
 use crate::motion::{Gravity, Hold};
@@ -35,6 +36,8 @@ pub struct HoldCalibration {
     pub before: Uncalibrated,
     /// Mean temperature of each hold, °C, if the model has temperature terms.
     pub temperatures_c: Option<Vec<f64>>,
+    /// The lag of the thermometer, by which they are those of the sensor. `None` where none was estimated.
+    pub thermometer: Option<ThermometerLag>,
     /// The estimated drift of the accelerometer's bias, which was subtracted from the holds. `None` if no drift was allowed for.
     pub drift: Option<Box<BiasDrift>>,
     /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
@@ -70,6 +73,9 @@ impl HoldCalibration {
 pub struct FaceTilt {
     /// Standard deviation of the tilt about each axis, rad.
     pub sd_rad: f64,
+    /// Standard deviation of the part that opposite faces share, rad about each axis: a box off square. Scatter does not show it. Half a degree is assumed,
+    /// or half of the variance of a given alignment.
+    pub shared_sd_rad: f64,
     /// The source of this value.
     pub source: TiltSource,
     /// Degrees of freedom of its estimate from the scatter, or 0 if it was not estimated.
@@ -110,6 +116,17 @@ impl FaceTilt {
             }
             TiltSource::Assumed => "assumed, since the faces are too few".into(),
         }
+    }
+
+    /// What is assumed of the part that no scatter shows; `None` where the alignment is given.
+    #[must_use]
+    pub fn assumed_in_words(&self) -> Option<String> {
+        (self.source != TiltSource::Given).then(|| {
+            format!(
+                "{:.1}° is assumed for what opposite faces share, which no scatter shows (a box off square); holds.face_sd_deg states it",
+                self.shared_sd_rad.to_degrees()
+            )
+        })
     }
 }
 

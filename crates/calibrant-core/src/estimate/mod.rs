@@ -63,9 +63,9 @@ pub use holds::{
 };
 pub use imu::{
     ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,
-    NoiseSource, RotationResult, ThermalModel, TimeOffset, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch,
-    calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds, find_imu_holds,
-    swapped_sensors,
+    NoiseSource, RotationResult, ThermalModel, ThermometerLag, TimeOffset, Turn, TurnResult, WhiteNoise,
+    WhiteNoiseSearch, calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds,
+    find_imu_holds, swapped_sensors,
 };
 pub use json::FitInUnit;
 pub use motion_outliers::without_motion_outliers;

@@ -8,6 +8,7 @@ mod jerk_controlled;
 mod limits;
 mod motion_clock;
 mod sample_times;
+mod turn_axis;
 
 pub use commanded_motion::{CommandedMotion, InputNoise, KnownEnds, Trust};
 pub use gravity::{EARTH_RATE_RADPS, Gravity, MotionGravity, earth_rate};
@@ -17,3 +18,4 @@ pub use jerk_controlled::{JerkControlledMotion, MotionState, MotionTable};
 pub use limits::{AxisLimits, Limits, Rest};
 pub use motion_clock::MotionClock;
 pub use sample_times::{IntervalSums, sample_count, sample_times};
+pub(crate) use turn_axis::turn_axis_sd_rad;

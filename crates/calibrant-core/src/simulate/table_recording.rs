@@ -3,6 +3,7 @@
 use super::imu_setup::Stimuli;
 use super::recording::normal;
 use super::{ImuSimulation, Rng};
+use crate::motion::turn_axis_sd_rad;
 use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
@@ -71,9 +72,11 @@ pub fn simulate_table(
                 world_from_sensor *= UnitQuaternion::from_scaled_axis(over);
             }
             TableAction::Turn { axis, angle_rad, angle_sd_rad } => {
-                let missed = Vector3::from_fn(|_, _| angle_sd_rad * normal());
+                let missed = Vector3::from_fn(|_, _| normal());
                 let along = axis * axis.dot(&missed);
-                let made = axis * angle_rad + along + (missed - along) * angle_rad;
+                let axis_sd_rad = turn_axis_sd_rad(angle_rad, angle_sd_rad);
+                let made =
+                    axis * angle_rad + along * angle_sd_rad + (missed - along) * (axis_sd_rad * angle_rad);
                 path.push((step.start_s, step.end_s, world_from_sensor, made));
                 world_from_sensor *= UnitQuaternion::from_scaled_axis(made);
             }

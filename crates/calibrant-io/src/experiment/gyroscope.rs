@@ -13,7 +13,7 @@ use super::similar_word::nearest;
 use super::temperature::TemperatureSection;
 use crate::ImuUnit;
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, Turn};
+use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, ThermometerLag, Turn};
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -124,6 +124,8 @@ pub struct ImuPlan {
     pub known: Vec<KnownTerm>,
     /// The part of the model that follows temperature.
     pub thermal: ThermalModel,
+    /// The lag of the thermometer.
+    pub thermometer: ThermometerLag,
 }
 
 impl ImuPlan {
@@ -140,6 +142,7 @@ impl ImuPlan {
             turns: self.turns.clone(),
             known: self.known.clone(),
             thermal: self.thermal,
+            thermometer: self.thermometer,
             ..ImuSetup::default()
         })
     }
@@ -186,6 +189,7 @@ impl GyroscopeSection {
             section_angle_sd_rad: self.turn_sd_deg.map_or(TURN_SD_DEG, f64::from).to_radians(),
             known: known.map_or(Ok(Vec::new()), |section| known_terms(section, &thermal))?,
             thermal,
+            thermometer: temperature.map(TemperatureSection::thermometer).unwrap_or_default(),
         })
     }
 

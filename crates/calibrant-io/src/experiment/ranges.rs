@@ -57,6 +57,10 @@ ranges! {
     pub struct GravityComponent: Bounds::from(-LARGEST_GRAVITY, LARGEST_GRAVITY, "m/s²");
     /// Standard uncertainty of gravity.
     pub struct GravitySd: Bounds::from(0.0, 1.0, "m/s²");
+    /// Lag of a thermometer.
+    pub struct Lag: Bounds::from(-600.0, 600.0, "s");
+    /// Standard deviation of a lag.
+    pub struct LagSd: Bounds::from(0.0, 600.0, "s");
     /// A geographic latitude.
     pub struct Latitude: Bounds::from(-90.0, 90.0, "degrees");
     /// A height above the sea.

@@ -1,8 +1,8 @@
 //! `[temperature]`: which biases and gains of an IMU follow temperature, and by which polynomials.
 
 use super::number::{Count, Within};
-use super::ranges::Celsius;
-use calibrant_core::estimate::ThermalModel;
+use super::ranges::{Celsius, Lag, LagSd};
+use calibrant_core::estimate::{ThermalModel, ThermometerLag};
 use calibrant_core::sensor::HIGHEST_ORDER;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +23,10 @@ pub struct TemperatureSection {
     pub gyroscope_bias: Option<Order>,
     /// Order of the gyroscope's gains.
     pub gyroscope_scale: Option<Order>,
+    /// By how much the thermometer lags the sensor; 0 by default.
+    pub lag_s: Option<Within<Lag>>,
+    /// Its standard deviation; 0 for the lag as it is stated.
+    pub lag_sd_s: Option<Within<LagSd>>,
 }
 
 impl TemperatureSection {
@@ -35,6 +39,15 @@ impl TemperatureSection {
             accelerometer_scale: order(self.accelerometer_scale),
             gyroscope_bias: order(self.gyroscope_bias),
             gyroscope_scale: order(self.gyroscope_scale),
+        }
+    }
+
+    /// What is known of the thermometer.
+    pub(super) fn thermometer(&self) -> ThermometerLag {
+        let unknown = ThermometerLag::default();
+        ThermometerLag {
+            lag_s: self.lag_s.map_or(unknown.lag_s, f64::from),
+            sd_s: self.lag_sd_s.map_or(unknown.sd_s, f64::from),
         }
     }
 }

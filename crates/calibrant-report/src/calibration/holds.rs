@@ -43,8 +43,9 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
             "tilt of the faces, sd",
             format!("{}°", significant(tilt.sd_rad.to_degrees(), 2)),
             &format!(
-                "Face alignment about each axis: {}. It decides the standard deviations of the cross-axis terms. Along gravity, only the square of a tilt acts.",
-                tilt.source_in_words()
+                "Face alignment about each axis: {}. It decides the standard deviations of the cross-axis terms. Along gravity, only the square of a tilt acts.{}",
+                tilt.source_in_words(),
+                tilt.assumed_in_words().map_or_else(String::new, |assumed| format!(" And {assumed}."))
             ),
         );
     }

@@ -115,9 +115,15 @@ pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> 
     let range = thermal.range_c.map_or_else(String::new, |[low, high]| {
         format!(". The holds were at {} to {} °C", celsius(low), celsius(high))
     });
+    let lag = calibration.holds()?.thermometer.map_or_else(String::new, |lag| {
+        format!(
+            ". The thermometer lags the sensor by {} s, which their standard deviations carry; temperature.lag_sd_s states how well that is known",
+            with_sd(lag.lag_s, lag.sd_s)
+        )
+    });
     Some(format!(
         "Biases and gains are those at T₀ = {} °C. With τ = T − T₀, a bias increases by bias_per_k τ + bias_per_k2 τ², and a gain is multiplied by \
-         1 + scale_per_k τ + scale_per_k2 τ²{range}.",
+         1 + scale_per_k τ + scale_per_k2 τ²{range}{lag}.",
         celsius(thermal.reference_c)
     ))
 }
@@ -164,11 +170,13 @@ pub(super) fn bias_drift(calibration: &Calibration) -> Option<(String, &'static 
 
 /// How well the sensor was placed on its faces.
 fn face_alignment(tilt: &FaceTilt) -> String {
-    if tilt.sd_rad == 0.0 && tilt.degrees_of_freedom > 0 {
-        return "noise alone explains the scatter of the faces, so no tilt shows".into();
-    }
-    let sd = significant(tilt.sd_rad.to_degrees(), 2);
-    format!("the face alignment is {sd}° about each axis, {}", tilt.source_in_words())
+    let shown = if tilt.sd_rad == 0.0 && tilt.degrees_of_freedom > 0 {
+        "noise alone explains the scatter of the faces, so no tilt shows".into()
+    } else {
+        let sd = significant(tilt.sd_rad.to_degrees(), 2);
+        format!("the face alignment is {sd}° about each axis, {}", tilt.source_in_words())
+    };
+    [Some(shown), tilt.assumed_in_words()].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
 /// Whether model and assumed noise explain the data.

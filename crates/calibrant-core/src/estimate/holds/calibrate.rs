@@ -148,6 +148,7 @@ fn assemble(
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),
             temperatures_c: None,
+            thermometer: None,
             drift: drift.map(Box::new),
             change: change.map(Box::new),
         }),

@@ -27,12 +27,12 @@ pub(crate) struct Uncertainty {
 
 impl Uncertainty {
     /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps; `rate_sd`: relative uncertainty of the sample rate;
-    /// `drifts`: errors of the estimates by the uncertainty of the accelerometer's drift.
+    /// `systematic`: errors of the estimates by one standard deviation of what all data share: the accelerometer's drift, the alignment of faces, the thermometer.
     pub(crate) fn of(
         model: &ImuModel<'_>,
         solution: &Solution,
         (g, rate_sd): (&Gravity, f64),
-        (coarse, drifts): (&[CoarseAxis], Vec<DVector<f64>>),
+        (coarse, systematic): (&[CoarseAxis], Vec<DVector<f64>>),
     ) -> Result<Self> {
         let imu = &solution.fit.state.imu;
         let mut covariance = information::covariance(&solution.fit.information).ok_or_else(singular)?;
@@ -47,7 +47,7 @@ impl Uncertainty {
         // the uncertainty of gravity
         let slope = gravity_slope(&model.quantities, &prior_share, imu, g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
-        for slope in drifts {
+        for slope in systematic {
             covariance += &slope * slope.transpose();
         }
         let slope = rate_slope(model, imu);

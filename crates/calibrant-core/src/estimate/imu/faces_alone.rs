@@ -9,6 +9,7 @@ use crate::estimate::holds::{beyond, magnitude_rms};
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::initial::known_faces::from_faces;
 use crate::estimate::imu::model::singular;
+use crate::estimate::imu::shared_face_errors::SharedError;
 use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
 use crate::estimate::result::{Calibration, CalibrationStatus, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
@@ -80,6 +81,19 @@ fn solved(
         quantity.add_to(&mut sensor, *value);
     }
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
+    let shared_rad = first.alignment.map_or(0.0, |alignment| alignment.tilt.shared_sd_rad);
+    let of_noise = covariance.clone();
+    for error in SharedError::all(shared_rad) {
+        let mut by = DVector::zeros(list.len());
+        for (force, weight) in used.forces.iter().zip(&weights) {
+            let weighted = weight * (sensor.matrix * error.of(force));
+            for (sum, quantity) in by.iter_mut().zip(list.quantities()) {
+                *sum += quantity.derivative(force).dot(&weighted);
+            }
+        }
+        let step = &of_noise * by;
+        covariance += &step * step.transpose();
+    }
     let quantities = list.of_accelerometer();
     let slope = gravity_slope(&quantities, &[], &imu, &problem.holds.gravity);
     covariance += &slope * slope.transpose() * problem.holds.gravity.sd_mps2.powi(2);

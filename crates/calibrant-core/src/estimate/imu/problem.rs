@@ -3,6 +3,7 @@
 use crate::diagnostic::TurnSpan;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
+use crate::estimate::imu::thermometer_lag::ThermometerLag;
 use crate::estimate::problem::FacesProblem;
 use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{
@@ -86,6 +87,8 @@ pub struct ImuSetup {
     pub known: Vec<KnownTerm>,
     /// The temperature terms.
     pub thermal: ThermalModel,
+    /// What is known of the lag of the thermometer behind the sensor, beside these terms.
+    pub thermometer: ThermometerLag,
     /// Relative standard deviation of the recording's sample rate, if that is nominal; 0 if a clock was recorded. The gains of the gyroscope are
     /// uncertain by this share.
     pub rate_sd: f64,
@@ -104,6 +107,7 @@ impl Default for ImuSetup {
             turns: Vec::new(),
             known: Vec::new(),
             thermal: ThermalModel::default(),
+            thermometer: ThermometerLag::default(),
             rate_sd: 0.0,
             white_noise: None,
         }
@@ -211,7 +215,7 @@ pub struct Turn {
     /// The angle, positive by the right-hand rule, rad.
     pub angle_rad: f64,
     /// Standard uncertainty of the angle and of the axis' direction, rad. Across the axis, the uncertainty is this times the angle: 0.5° of the axis is
-    /// 3.1° of a full turn.
+    /// 3.1° of a full turn. Over several turns the axis' is that of the angle for each turn, but half a degree at least, where that is less.
     pub angle_sd_rad: f64,
 }
 

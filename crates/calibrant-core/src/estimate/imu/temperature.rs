@@ -3,6 +3,7 @@
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::imu::estimated::set_fixed;
 use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::imu::temperature_rate::temperature_rates;
 use crate::motion::Hold;
 use crate::sensor::{
     ImuParameters, ImuQuantity, ImuRecording, Recording, SensorKind, SensorParameters, Temperatures, Thermal,
@@ -22,11 +23,35 @@ pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Resu
     })
 }
 
+/// The temperatures of the sensor, by those of a thermometer that lags it: `T + t_l dT/dt`, °C.
+pub(in crate::estimate) fn at_sensor(shown: &Temperatures<'_>, lag_s: f64) -> Vec<f64> {
+    if lag_s == 0.0 {
+        return shown.values_c.to_vec();
+    }
+    let rates = temperature_rates(shown.times_s, shown.values_c);
+    shown.values_c.iter().zip(rates).map(|(shown, rate)| shown + lag_s * rate).collect()
+}
+
 /// The temperatures of a problem with temperature terms.
 pub(crate) struct RecordingTemperature<'a> {
-    temperatures: Option<Temperatures<'a>>,
+    recorded: Option<Recorded<'a>>,
+    /// The lag of the thermometer by which these are the sensor's, s.
+    pub(crate) lag_s: f64,
     /// Only the fixed terms.
     pub(crate) start: Thermal,
+}
+
+/// Temperatures of the sensor, and what the thermometer shows of their rate, K/s.
+struct Recorded<'a> {
+    times_s: &'a [f64],
+    values_c: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl Recorded<'_> {
+    fn temperatures(&self) -> Temperatures<'_> {
+        Temperatures { times_s: self.times_s, values_c: &self.values_c }
+    }
 }
 
 impl<'a> RecordingTemperature<'a> {
@@ -35,9 +60,16 @@ impl<'a> RecordingTemperature<'a> {
         let model = problem.setup.thermal;
         let mut start = Thermal::none();
         if model.is_none() {
-            return Ok(Self { temperatures: None, start });
+            return Ok(Self { recorded: None, lag_s: 0.0, start });
         }
-        let temperatures = needed_temperatures(problem.recording)?;
+        let shown = needed_temperatures(problem.recording)?;
+        let lag_s = problem.setup.thermometer.lag_s;
+        let recorded = Recorded {
+            times_s: shown.times_s,
+            values_c: at_sensor(&shown, lag_s),
+            rates: temperature_rates(shown.times_s, shown.values_c),
+        };
+        let temperatures = recorded.temperatures();
         let of_holds: Vec<f64> =
             holds.iter().map(|hold| temperatures.mean(hold.start_s, hold.end_s)).collect();
         let mean = of_holds.iter().sum::<f64>() / of_holds.len().max(1) as f64;
@@ -46,14 +78,22 @@ impl<'a> RecordingTemperature<'a> {
             of_holds.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
         let mut imu = ImuParameters { thermal: start, ..ImuParameters::identity() };
         set_fixed(&mut imu, &problem.setup.known);
-        let temperature = Self { temperatures: Some(temperatures), start: imu.thermal };
+        let temperature = Self { recorded: Some(recorded), lag_s, start: imu.thermal };
         temperature.enough(problem, &of_holds)?;
         Ok(temperature)
     }
 
     /// Mean temperature between two times.
     pub(crate) fn mean(&self, start_s: f64, end_s: f64) -> f64 {
-        self.temperatures.map_or(self.start.reference_c, |temperatures| temperatures.mean(start_s, end_s))
+        let recorded = self.recorded.as_ref();
+        recorded.map_or(self.start.reference_c, |recorded| recorded.temperatures().mean(start_s, end_s))
+    }
+
+    /// Mean rate that the thermometer shows between these times, K/s; `None` where nothing follows temperature.
+    pub(crate) fn rates(&self, spans: impl Iterator<Item = (f64, f64)>) -> Option<Vec<f64>> {
+        let recorded = self.recorded.as_ref()?;
+        let rates = Temperatures { times_s: recorded.times_s, values_c: &recorded.rates };
+        Some(spans.map(|(start_s, end_s)| rates.mean(start_s, end_s)).collect())
     }
 
     /// Mean temperature of a hold.
@@ -63,7 +103,7 @@ impl<'a> RecordingTemperature<'a> {
 
     /// Lowest and highest temperature of the whole recording.
     pub(crate) fn of_recording(&self) -> Option<[f64; 2]> {
-        let values = self.temperatures?.values_c.iter();
+        let values = self.recorded.as_ref()?.values_c.iter();
         values.map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
     }
 
@@ -126,7 +166,8 @@ pub(crate) fn at_reference(
     temperature: &RecordingTemperature<'_>,
 ) -> Recording {
     let mut adjusted = recording.clone();
-    let Some(temperatures) = temperature.temperatures else { return adjusted };
+    let Some(recorded) = &temperature.recorded else { return adjusted };
+    let temperatures = recorded.temperatures();
     let terms = thermal.sensor(sensor_kind);
     for (reading, &time_s) in adjusted.readings.iter_mut().zip(&recording.times_s) {
         let tau_k = thermal.tau_k(temperatures.at(time_s));

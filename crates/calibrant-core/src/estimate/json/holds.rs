@@ -35,6 +35,9 @@ json_object! {
         /// The time of which the biases are, where a drift was subtracted.
         biases_at_s: if_some(of.holds.drift.as_ref().map(|drift| drift.biases_at_s())),
         faces: if_some(of.holds.tilt),
+        /// By how much the thermometer lags the sensor, where parameters follow temperature: the sensor is at T + t dT/dt.
+        thermometer_lag_s: if_some(of.holds.thermometer.map(|lag| lag.lag_s)),
+        thermometer_lag_sd_s: if_some(of.holds.thermometer.map(|lag| lag.sd_s)),
         /// Of the magnitudes of the used holds. With 0, the fit to them is exact and checks nothing.
         degrees_of_freedom: of.holds.degrees_of_freedom,
         magnitude_residual_rms_mps2: of.holds.magnitude_residual_rms_mps2,
@@ -51,6 +54,8 @@ json_object! {
     /// The face alignment of the holds.
     FaceTilt as tilt {
         tilt_sd_rad: tilt.sd_rad,
+        /// Part that opposite faces share, as in a box off square: no scatter shows it.
+        shared_sd_rad: tilt.shared_sd_rad,
         /// Where the tilt of the faces comes from.
         source: tilt.source.name(),
         /// Equations whose scatter determined it.

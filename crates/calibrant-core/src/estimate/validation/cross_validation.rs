@@ -2,7 +2,7 @@
 
 use super::caveats_of_calibration::Caveats;
 use super::folds::{Block, blocks, sorted};
-use super::inputs::{from_holds, of_holds, singular, temperatures};
+use super::inputs::{from_holds, of_holds, singular, temperatures, view};
 use super::judgement::judged;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
@@ -66,10 +66,11 @@ fn cross_validated_imu(
         let still_noise = still_noise.unwrap_or_else(Vector3::zeros);
         Ok(Prediction { still_noise, ..Prediction::of(&trained, from_holds(&trained)?, &setup) })
     };
+    let at_sensor = temperatures(calibration, problem)?;
     let data = Unused {
         gyroscope: Some(gyroscope),
         turning_holds: calibration.gyroscope.as_ref().map_or(&[], |of| &of.still.turning_holds),
-        temperatures: temperatures(calibration, problem)?,
+        temperatures: at_sensor.as_ref().map(view),
         ..Unused::of_accelerometer(accelerometer, &all)
     };
     crossed(calibration, folds, &data, &train)

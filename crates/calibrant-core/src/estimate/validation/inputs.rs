@@ -1,18 +1,28 @@
 //! What a validation begins with: holds, temperatures, and a calibration that corrects something.
 
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::estimate::imu::needed_temperatures;
+use crate::estimate::imu::{at_sensor, needed_temperatures};
 use crate::estimate::{Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuProblem, Stimulus};
 use crate::motion::Hold;
 use crate::sensor::Temperatures;
 
-/// The temperatures of a recording, where the calibration follows them.
+/// The temperatures of the sensor in a recording, where the calibration follows them: sample times, and values in °C with the thermometer's lag taken off.
 pub(super) fn temperatures<'a>(
     calibration: &Calibration,
     problem: &ImuProblem<'a>,
-) -> Result<Option<Temperatures<'a>>> {
-    let follows = from_holds(calibration)?.temperatures_c.is_some();
-    follows.then(|| needed_temperatures(problem.recording)).transpose()
+) -> Result<Option<(&'a [f64], Vec<f64>)>> {
+    let holds = from_holds(calibration)?;
+    if holds.temperatures_c.is_none() {
+        return Ok(None);
+    }
+    let shown = needed_temperatures(problem.recording)?;
+    let lag_s = holds.thermometer.map_or(problem.setup.thermometer.lag_s, |lag| lag.lag_s);
+    Ok(Some((shown.times_s, at_sensor(&shown, lag_s))))
+}
+
+/// A view of them.
+pub(super) fn view<'a>((times_s, values_c): &'a (&'a [f64], Vec<f64>)) -> Temperatures<'a> {
+    Temperatures { times_s, values_c }
 }
 
 /// The holds, of which there are some.

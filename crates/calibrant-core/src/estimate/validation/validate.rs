@@ -2,7 +2,7 @@
 
 use super::caveats_of_calibration::Caveats;
 use super::explanations;
-use super::inputs::{at_least_one, from_holds, of_holds, singular, temperatures};
+use super::inputs::{at_least_one, from_holds, of_holds, singular, temperatures, view};
 use super::judgement::judged;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
@@ -37,9 +37,10 @@ pub fn validate_imu(calibration: &Calibration, problem: &ImuProblem<'_>) -> Resu
         (None, None) => find_imu_holds(problem.recording, setup.minimum_hold_s)?,
     };
     let holds = at_least_one(holds, setup)?;
+    let at_sensor = temperatures(calibration, problem)?;
     let unused = Unused {
         gyroscope: Some(gyroscope),
-        temperatures: temperatures(calibration, problem)?,
+        temperatures: at_sensor.as_ref().map(view),
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
     if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {

@@ -240,6 +240,7 @@ pub(super) fn holds_in_counts() -> Calibration {
             source: "the readings as they are".into(),
         },
         temperatures_c: None,
+        thermometer: None,
         change: None,
     };
     let parameters = SensorParameters {

@@ -16,6 +16,7 @@ use crate::estimate::imu::result::{GyroscopeCalibration, RotationResult, TurnRes
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::estimate::imu::thermometer_lag::ThermometerLag;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};
@@ -35,6 +36,7 @@ pub(crate) struct Finished<'a> {
     pub(crate) solution: &'a Solution,
     pub(crate) uncertainty: Uncertainty,
     pub(crate) clock: Option<ClockDifference>,
+    pub(crate) thermometer: Option<ThermometerLag>,
     /// Changes of the sensors.
     pub(crate) changes: Vec<Change>,
 }
@@ -91,6 +93,7 @@ impl Finished<'_> {
             })),
             recovered: Recovered::Holds(HoldCalibration {
                 temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
+                thermometer: self.thermometer,
                 ..holds
             }),
             changes: self.changes,

@@ -11,6 +11,7 @@ use crate::estimate::imu::model::{Fit, ImuModel};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::estimate::imu::thermometer_lag::LagEstimate;
 use crate::estimate::result::Calibration;
 use crate::sensor::Recording;
 
@@ -35,6 +36,8 @@ pub(crate) struct Evidence<'a> {
     pub(crate) turns: Diagnostics,
     /// The gyroscope's clock beside the accelerometer's.
     pub(crate) clock: Option<ClockDifference>,
+    /// The thermometer's lag, where it was estimated.
+    pub(crate) lag: Option<&'a LagEstimate>,
     /// The result, but for its warnings.
     pub(crate) calibration: &'a Calibration,
 }

@@ -4,11 +4,11 @@ use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::{
     axis_order, changes, chi_squared, coarse_steps, common_factor, convergence, extrapolation, gains,
     gyroscope_noise, hold_intervals, holds_left_out, lost_samples, motion_in_hold, rate_dependence,
-    rotations_left_out, scatter, time_offset, turns_of_known_angle,
+    rotations_left_out, scatter, thermometer, time_offset, turns_of_known_angle,
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 21] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 22] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,
@@ -30,6 +30,7 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 21] = [
     gyroscope_noise::check,
     coarse_steps::check,
     extrapolation::check,
+    thermometer::check,
 ];
 
 /// What all checks say.

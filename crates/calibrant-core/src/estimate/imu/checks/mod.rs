@@ -30,6 +30,7 @@ pub(crate) mod rate_dependence;
 pub(crate) mod rotations_left_out;
 pub(crate) mod scatter;
 pub(crate) mod swapped_sensors;
+pub(crate) mod thermometer;
 pub(crate) mod time_offset;
 pub(crate) mod time_offset_by_activity;
 pub(crate) mod turns_of_known_angle;

@@ -14,6 +14,10 @@
 //! `E[v + τ²] = S/(ν − 2) · P(χ²_{ν−2} < S/v)/P(χ²_ν < S/v)`
 //!
 //! which is `S/(ν − 2)` for large tilts. Six faces that scatter like their noise get `τ² = v`.
+//!
+//! The scatter shows the part of the tilts that differs between opposite faces. Faces of a box that is off square share theirs, and no scatter shows it
+//! (`shared_face_errors`). Its standard deviation is assumed where no alignment is given. A given alignment is that of a face as a whole: half of its
+//! variance is added as shared, so that six faces have cross-axis terms as uncertain as one face, whether they share their errors or not.
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::faces::{TiltAssumed, TiltContradicted};
@@ -28,11 +32,8 @@ const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// Fewest degrees of freedom for a variance of the scatter.
 const FEWEST_DEGREES: usize = 3;
 
-/// Faces contradict the given tilt if they scatter by this multiple of it.
-const CONTRADICTED: f64 = 2.5;
-
-/// Faces also contradict the given tilt if only this share of sessions scatters as little.
-const TOO_LITTLE: f64 = 1e-3;
+/// Faces contradict the given tilt if only this share of sessions scatters as much, or as little.
+const BY_CHANCE: f64 = 1e-3;
 
 /// Largest number of rounds, which estimate the two scatters in turn.
 const ROUNDS: usize = 30;
@@ -127,7 +128,15 @@ impl Degrees {
                 along_mps2: scatter.along_mps2 * factor(self.along).sqrt(),
                 of_square: scatter.of_square * of_square,
             },
-            tilt: FaceTilt { sd_rad: scatter.tilt_rad, source, degrees_of_freedom },
+            tilt: FaceTilt {
+                sd_rad: scatter.tilt_rad,
+                shared_sd_rad: match source {
+                    TiltSource::Given => scatter.tilt_rad * std::f64::consts::FRAC_1_SQRT_2,
+                    TiltSource::Recording | TiltSource::Assumed => ASSUMED_RAD,
+                },
+                source,
+                degrees_of_freedom,
+            },
             along_degrees: self.along,
             shown_rad: (source == TiltSource::Recording).then_some(scatter.tilt_rad),
             contradicted: false,
@@ -153,14 +162,20 @@ pub(crate) fn align_faces<T>(
     };
     // the scatter, whatever the given tilt
     let shown = match degrees.source(None) {
-        TiltSource::Recording => search(degrees, None, gravity, &mut fit).map(|(shown, ..)| shown.tilt_rad),
+        TiltSource::Recording => search(degrees, None, gravity, &mut fit),
         TiltSource::Given | TiltSource::Assumed => None,
     };
     let (found, chi2, fitted) = search(degrees, Some(given_rad), gravity, &mut fit)?;
-    let alignment = degrees.alignment(found, TiltSource::Given, None);
-    let is_less = probability(degrees.across(), chi2.all - chi2.along) < TOO_LITTLE;
-    let contradicted = shown.is_some_and(|shown_rad| is_less || shown_rad > CONTRADICTED * given_rad);
-    Some((FaceAlignment { shown_rad: shown, contradicted, ..alignment }, fitted))
+    let mut alignment = degrees.alignment(found, TiltSource::Given, None);
+    let Some((shown, shown_chi2, _)) = shown else { return Some((alignment, fitted)) };
+    let below = probability(degrees.across(), chi2.all - chi2.along);
+    alignment.shown_rad = Some(shown.tilt_rad);
+    alignment.contradicted = below < BY_CHANCE || below > 1.0 - BY_CHANCE;
+    if alignment.contradicted && shown.tilt_rad > given_rad {
+        let tilt2 = mean_square(degrees, &shown, &shown_chi2, noise);
+        alignment.widened = degrees.alignment(shown, TiltSource::Recording, Some(tilt2)).widened;
+    }
+    Some((alignment, fitted))
 }
 
 /// The scatter, its χ² and its fit.
@@ -223,10 +238,10 @@ impl FaceAlignment {
         1.0 - shown_rad.unwrap_or(self.scatter.tilt_rad).powi(2)
     }
 
-    /// The warning about a scatter that contradicts the given tilt.
+    /// The warning about a scatter beyond the given tilt. A smaller one says nothing of the errors that opposite faces share.
     pub(crate) fn contradiction(&self) -> Option<Diagnostic> {
         let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.scatter.tilt_rad);
-        Some(Diagnostic::from(TiltContradicted { shown_rad, given_rad }))
+        (shown_rad > given_rad).then(|| Diagnostic::from(TiltContradicted { shown_rad, given_rad }))
     }
 }
 

@@ -120,6 +120,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         detected: false,
         before: Uncalibrated::accelerometer(problem.sensor, &sensor),
         temperatures_c: None,
+        thermometer: None,
         change: None,
     };
     Ok(InitialAccelerometer {

@@ -5,6 +5,7 @@ use crate::estimate::imu::model::{GyroscopeNoise, TurnData};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::rotations::spans::Integrable;
 use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::motion::turn_axis_sd_rad;
 use crate::sensor::ImuParameters;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -70,8 +71,9 @@ pub(crate) fn turn_data(
             let bias = start.at(temperature_c).gyroscope.bias * duration_s;
             let gain = (integral - bias).norm() / turn.angle_rad.abs();
             let along = (integral - bias).try_normalize(0.0).unwrap_or_default().map(|share| share * share);
-            let across = (Vector3::repeat(1.0) - along) * turn.angle_rad.powi(2);
-            variance += (along + across) * (gain * turn.angle_sd_rad).powi(2);
+            let axis_sd_rad = turn_axis_sd_rad(turn.angle_rad, turn.angle_sd_rad);
+            let across = (Vector3::repeat(1.0) - along) * (axis_sd_rad * turn.angle_rad).powi(2);
+            variance += (along * turn.angle_sd_rad.powi(2) + across) * gain.powi(2);
             Ok(TurnData {
                 integral,
                 duration_s,
