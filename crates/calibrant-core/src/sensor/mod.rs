@@ -25,6 +25,7 @@ mod reference_temperature;
 mod sample_rate;
 mod saturation;
 mod sensor_kind;
+mod shared_errors;
 mod spikes;
 mod temperature_model;
 
@@ -48,5 +49,6 @@ pub use recording_temperatures::{Temperatures, WORKING_C};
 pub use sample_rate::{missing, rate_hz};
 pub use saturation::Saturation;
 pub use sensor_kind::{Axis, ReadingUnit, SensorKind};
+pub use shared_errors::SharedErrors;
 pub use spikes::Spikes;
 pub use temperature_model::{HIGHEST_ORDER, SensorThermal, Thermal, ThermalPart, ThermalTerm};
