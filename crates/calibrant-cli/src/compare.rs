@@ -6,7 +6,7 @@ use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::estimate::Comparison;
+use calibrant::estimate::{Comparison, Place};
 use calibrant::io::{ComparisonFile, to_json};
 use calibrant::report::comparison_sheet;
 use std::path::PathBuf;
@@ -23,6 +23,9 @@ pub(crate) struct Arguments {
     b: PathBuf,
     #[command(flatten)]
     reading: Reading,
+    /// Both were made at one place: what is not known of it, such as its gravity, is one error of both (default: by the stations that the files name).
+    #[arg(long)]
+    one_place: bool,
     /// Print JSON instead of the table.
     #[arg(long)]
     json: bool,
@@ -35,8 +38,13 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let (a, b) = (arguments.reading.read(&arguments.a)?.imu, arguments.reading.read(&arguments.b)?.imu);
-    let comparison = Comparison::of(&a, &b);
+    let (a, b) = (arguments.reading.read(&arguments.a)?, arguments.reading.read(&arguments.b)?);
+    let place = match arguments.one_place {
+        true => Place::One,
+        false => Place::of_stations(a.station.as_deref(), b.station.as_deref()),
+    };
+    let (a, b) = (a.imu, b.imu);
+    let comparison = Comparison::at(place, &a, &b);
     if comparison.quantities.is_empty() {
         let message = format!(
             "{} and {} have no sensor in common: {}; {}",

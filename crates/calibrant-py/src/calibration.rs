@@ -6,7 +6,7 @@ use crate::options::parsed;
 use crate::page::{Page, page};
 use crate::work::{at_once, run};
 use calibrant::error::{InputError, Refusal};
-use calibrant::estimate::Comparison;
+use calibrant::estimate::{Comparison, Place};
 use calibrant::io::{
     CalibratedImuFile, ComparisonFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts,
     parse_calibrated_imu, read_calibrated_imu, to_json, write_calibrated_imu,
@@ -160,8 +160,9 @@ pub(crate) fn convert_calibration(
 pub(crate) fn compare(py: Python<'_>, a: (String, String), b: (String, String)) -> PyResult<Page> {
     run(py, move || {
         let ((a, name_a), (b, name_b)) = (a, b);
-        let (one, other) = (of_json(&a)?.imu, of_json(&b)?.imu);
-        let comparison = Comparison::of(&one, &other);
+        let (one, other) = (of_json(&a)?, of_json(&b)?);
+        let place = Place::of_stations(one.station.as_deref(), other.station.as_deref());
+        let comparison = Comparison::at(place, &one.imu, &other.imu);
         if comparison.quantities.is_empty() {
             let message = format!("{name_a} and {name_b} have no sensor in common");
             let help = "compare calibrations of one sensor";

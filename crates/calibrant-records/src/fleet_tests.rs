@@ -16,6 +16,7 @@ fn warm() -> CalibratedImu {
     warm.quantities.extend(terms);
     let size = warm.quantities.len();
     warm.covariance = Some(DMatrix::identity(size, size) * 1e-12);
+    warm.shared = None;
     warm
 }
 

@@ -61,6 +61,7 @@ fn record(k: usize, with_gyroscope: bool) -> Record {
             quantities,
             covariance: Some(&root * root.transpose()),
             degrees_of_freedom: None,
+            shared: None,
             frame: "that of the accelerometer".into(),
         },
     }

@@ -2,13 +2,13 @@
 //!
 //! It is calibrant JSON with zero in place of each estimate. Added to zero, the estimates come back to the last bit.
 
-use calibrant_core::sensor::{CalibratedImu, CovarianceDegrees, ImuFields, Thermal};
+use calibrant_core::sensor::{CalibratedImu, CovarianceDegrees, ImuFields, SharedErrors, Thermal};
 use calibrant_io::{ImuCore, to_json};
 use nalgebra::DMatrix;
 
 /// The text of the model of an IMU.
 pub(crate) fn text_of(imu: &CalibratedImu) -> String {
-    let mut model = CalibratedImu { covariance: None, degrees_of_freedom: None, ..imu.clone() };
+    let mut model = CalibratedImu { covariance: None, degrees_of_freedom: None, shared: None, ..imu.clone() };
     for quantity in &imu.quantities {
         quantity.add_to(&mut model.parameters, -quantity.value(&imu.parameters));
     }
@@ -32,6 +32,7 @@ pub(crate) struct Further {
     pub(crate) degrees: Option<[f64; 3]>,
     /// The lower triangle by rows.
     pub(crate) covariance: Option<Vec<f64>>,
+    pub(crate) shared: Option<SharedErrors>,
 }
 
 impl Further {
@@ -51,6 +52,7 @@ impl Further {
             range_c: thermal.range_c.filter(|_| imu.follows_temperature()),
             degrees: imu.degrees_of_freedom.map(degrees),
             covariance: imu.covariance.as_ref().map(triangle),
+            shared: imu.shared.clone(),
         }
     }
 
@@ -79,6 +81,7 @@ impl Further {
         imu.degrees_of_freedom = self.degrees.map(|[accelerometer, gyroscope_at_rest, gyroscope_matrix]| {
             CovarianceDegrees { accelerometer, gyroscope_at_rest, gyroscope_matrix }
         });
+        imu.shared = self.shared;
         Some(imu)
     }
 }

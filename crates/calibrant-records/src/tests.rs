@@ -5,6 +5,7 @@ use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{
     CalibratedImu, CovarianceDegrees, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
+    SharedErrors,
 };
 use calibrant_io::{HashedFile, UtcTime};
 use nalgebra::DMatrix;
@@ -29,6 +30,10 @@ pub(super) fn imu(k: usize) -> CalibratedImu {
             accelerometer: 21.0,
             gyroscope_at_rest: f64::INFINITY,
             gyroscope_matrix: 7.0,
+        }),
+        shared: Some(SharedErrors {
+            sources: vec!["gravity 9.80665 ± 0.019 m/s²".into(), "zero.wrist ± 0.001".into()],
+            root: DMatrix::from_fn(33, 2, |i, j| 1e-5 / (1 + i + 5 * j + k) as f64),
         }),
         frame: "the base of the robot".into(),
     }
@@ -82,6 +87,7 @@ fn a_record_comes_back_to_the_last_bit() {
     symmetric.imu.quantities.retain(|quantity| !of_accelerometer(quantity));
     let size = symmetric.imu.quantities.len();
     symmetric.imu.covariance = symmetric.imu.covariance.map(|sigma| sigma.view((0, 0), (size, size)).into());
+    symmetric.imu.shared = None;
     let mut warm = record("T", 4);
     warm.imu.quantities.extend(ImuQuantity::all_thermal(true, false));
     let size = warm.imu.quantities.len();
@@ -89,13 +95,14 @@ fn a_record_comes_back_to_the_last_bit() {
     (warm.imu.parameters.thermal.reference_c, warm.imu.parameters.thermal.range_c) =
         (31.7, Some([-10.1, 60.3]));
     warm.imu.covariance = Some(DMatrix::identity(size, size) * 0.1);
+    warm.imu.shared = None;
     let bare = Record {
         recorded: None,
         station: None,
         experiment: None,
         motion_file: None,
         verdict: without_codes(Usability::Doubtful),
-        imu: CalibratedImu { covariance: None, degrees_of_freedom: None, ..imu(5) },
+        imu: CalibratedImu { covariance: None, degrees_of_freedom: None, shared: None, ..imu(5) },
         ..record("U", 5)
     };
     for (k, expected) in [record("A", 1), record("A", 2), symmetric, warm, bare].into_iter().enumerate() {
@@ -186,8 +193,8 @@ fn another_schema_is_refused_and_says_so() {
     drop(records);
     let (code, message) = refused(&path);
     assert_eq!(code, Refusal::FormatUnsupported);
-    assert!(message.contains("version 7 of the schema, and this calibrant reads version 3"), "{message}");
-    // versions 0 and 1 of our own file were never released
+    assert!(message.contains("version 7 of the schema, and this calibrant reads version 4"), "{message}");
+    // versions 0 to 2 of our own file were never released
     for version in [0, 1] {
         let opened = Connection::open(&path);
         opened.and_then(|it| it.pragma_update(None, "user_version", version)).expect("written");
@@ -212,6 +219,8 @@ fn damage_is_an_error() {
         "UPDATE parameters SET sd = -sd WHERE calibration = 7 AND place = 3",
         "UPDATE calibrations SET covariance = zeroblob(length(covariance)) WHERE id = 7",
         "UPDATE calibrations SET recorded = '2020-01-01' WHERE id = 7",
+        "UPDATE shared_errors SET sources = replace(sources, 'wrist', 'elbow') WHERE calibration = 7",
+        "DELETE FROM shared_errors WHERE calibration = 7",
         "UPDATE models SET text = replace(text, 'robot', 'rabot')",
     ] {
         let transaction = records.connection.transaction().expect("begun");

@@ -164,6 +164,7 @@ fn true_sensor(parameters: &Value, in_gauge: bool) -> Result<ImuParameters, Box<
         quantities: ImuQuantity::full_list(true, true, false),
         covariance: None,
         degrees_of_freedom: None,
+        shared: None,
         frame: "that of MuJoCo".into(),
     };
     Ok(if in_gauge { imu.in_gauge(MountingPrior::GAUGE)?.parameters } else { parameters })

@@ -47,7 +47,8 @@ impl Conversion {
     /// [`Error::Experiment`] where a file of noise cannot be read, or where the sensor is missing or cannot be written alone.
     pub fn change(&self, file: &mut CalibratedImuFile) -> Result<Vec<Diagnostic>> {
         let mut notes = Vec::new();
-        if let Some(noise) = self.densities(&file.imu)? {
+        if let Some(mut noise) = self.densities(&file.imu)? {
+            notes.append(&mut noise.findings);
             file.noise = Some(noise);
         }
         if self.drop_g_sensitivity {

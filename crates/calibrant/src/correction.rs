@@ -2,7 +2,9 @@
 
 use crate::session::Source;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::correction::{SensorAbsent, SensorUncalibrated, SpikesCorrected};
+use calibrant_core::diagnostic::correction::{
+    BiasesSupposed, SensorAbsent, SensorUncalibrated, SpikesCorrected,
+};
 use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
@@ -50,6 +52,7 @@ pub fn apply<'a>(imu: &CalibratedImu, recording: &'a ImuRecording) -> Result<App
         match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
             (Some(_), None) => notes.push(SensorAbsent { sensor_kind }.into()),
             (None, Some(_)) => notes.push(SensorUncalibrated { sensor_kind }.into()),
+            (Some(_), Some(_)) if !imu.has_bias(sensor_kind) => notes.push(BiasesSupposed { sensor_kind }.into()),
             _ => {}
         }
     }

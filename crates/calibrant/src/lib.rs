@@ -140,7 +140,7 @@
 //! # parameters.accelerometer.bias.x = 0.1;
 //! # let imu = calibrant::sensor::CalibratedImu {
 //! #     parameters, accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared), gyroscope_unit: None, quantities: vec![],
-//! #     covariance: None, degrees_of_freedom: None, frame: String::new(),
+//! #     covariance: None, degrees_of_freedom: None, shared: None, frame: String::new(),
 //! # };
 //! # let (t, y) = (vec![0.0, 0.01], vec![Vector3::new(0.3, 0.0, 9.8); 2]);
 //! // imu: io::read_calibrated_imu reads it from a file of any program

@@ -87,6 +87,45 @@ checks! {
     decided "Both have a covariance."
     remedy "Nothing, where the recordings are different."
     says "significance supposes different recordings; two calibrations of the same one differ by less";
+
+    /// A calibration that did not converge is kept in the records, but no change and no aging is made of it.
+    RecordUnused "record-unused" Warning {
+        /// How its estimation ended.
+        status: String,
+    }
+    decided "Its status is not `converged`."
+    remedy "Read its report, calibrate the recording again, and remove this one from the records."
+    says format!("it did not converge ({status}): it is kept, but no change and no aging is made of it");
+
+    /// Two calibrations state the same uncertainty of their place, such as that of its gravity, and nobody says whether it is one place. At one place
+    /// both have the same error, and it hides no change. Their difference counts as that of two places.
+    PlaceUnknown "place-unknown" Note {
+        /// What is not exactly known of the place: `gravity 9.80665 ± 0.019 m/s²`.
+        sources: Vec<String>,
+        /// Probability of a larger difference at two places if nothing changed.
+        p_value: f64,
+        /// The same at one place.
+        p_value_at_one: f64,
+    }
+    decided "The sources of error that both share are looked at, and the names of the stations."
+    remedy "State gravity (`gravity_mps2` with its uncertainty, or `latitude_deg`). Or say that the place is one: option `station` of calibrate and \
+        of records add, option `one-place` of compare."
+    says format!(
+        "nobody says whether both were made at one place, where {} is one error of both. p is {} at two places, which is what counts here, and {} \
+         at one: name the station, or state gravity",
+        named(sources),
+        probability(p_value),
+        probability(p_value_at_one)
+    );
+}
+
+/// The first of these sources, and how many more there are.
+fn named(sources: &[String]) -> String {
+    match sources {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first, others @ ..] => format!("{first} (and {} more)", others.len()),
+    }
 }
 
 /// What is not known of the uncertainty of a calibration.

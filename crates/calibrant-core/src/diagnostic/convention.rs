@@ -71,6 +71,30 @@ checks! {
     remedy "Check it."
     says format!("the file does not say {what}: {}", supposed.0);
 
+    /// The verdict on a calibration that is read forbids its use.
+    VerdictBad "verdict-bad" Warning {
+        /// The codes that decide it.
+        codes: Vec<String>,
+    }
+    decided "The file says its verdict."
+    remedy "Read the codes in its report, and calibrate again."
+    says format!("the verdict on this calibration is bad ({}): calibrate again before you use it", codes.join(", "));
+
+    /// A random walk is written that some axes of a sensor do not show: a format has one number for three axes.
+    WalkOfSomeAxes "walk-of-some-axes" Note {
+        sensor_kind: SensorKind,
+        /// The axes on which it is not determined: `x`.
+        axes: String,
+        /// Is the number that is written an upper limit of these?
+        is_limit: bool,
+    }
+    decided "Of each axis that determines it the value is taken, of the others the upper limit; the largest is written."
+    remedy "Record at rest for longer where the limit decides."
+    says match is_limit {
+        true => format!("the random walk of the {sensor_kind} is an upper limit: {axes} does not determine it, and could have that much"),
+        false => format!("the random walk of the {sensor_kind} is that of the axes that show one; {axes} has less"),
+    };
+
     /// A lever arm in a calibration is left out.
     LeverArmIgnored "lever-arm-ignored" Note {
         /// Where it stands.

@@ -20,6 +20,17 @@ checks! {
     remedy "Give a calibration of both sensors."
     says format!("the calibration has no {sensor_kind}; its readings are not written");
 
+    /// A calibration does not state the biases of a sensor that is corrected: they count as zero.
+    BiasesSupposed "biases-supposed" Warning {
+        sensor_kind: SensorKind,
+    }
+    decided "The file has gains of the sensor and no biases, as Kalibr's."
+    remedy "Give a calibration with biases, or write them into the file (`b` below accelerometers and gyroscopes)."
+    says format!(
+        "the calibration does not state the biases of the {sensor_kind}: zeros are supposed, and the corrected values are off by what \
+         they are"
+    );
+
     /// Readings that are corrected have spikes.
     SpikesCorrected "spikes-corrected" Warning {
         sensor_kind: SensorKind,

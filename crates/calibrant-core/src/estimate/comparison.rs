@@ -4,6 +4,9 @@
 //! one frame, the lower gauge of one sensor: `χ² = dᵀ (Σ_A + Σ_B)⁺ d`, with `d` their difference. This includes all parameters of either covariance.
 //! It assumes different recordings. For the same recording, `χ²` is too small.
 //!
+//! At one place the two have errors in common: gravity that is not exactly known, the geometry of a machine ([`SharedErrors`](crate::sensor::SharedErrors)).
+//! With `Σ_A = R_A + U_A U_Aᵀ` the covariance of the difference is then `R_A + R_B + (U_A − U_B)(U_A − U_B)ᵀ`: what both share does not hide a change.
+//!
 //! A covariance that comes from a scatter of few residuals is itself uncertain ([`CovarianceDegrees`](crate::sensor::CovarianceDegrees)). A difference then follows Student's t, and χ²/n
 //! Fisher's F. The degrees of freedom of a sum of variances are those of Welch and Satterthwaite (`gum`).
 //! The parts of an IMU have scatters of their own, and each adds the χ² of its own probability.
@@ -11,14 +14,16 @@
 //! If both have temperature terms, B is first converted to the reference temperature of A. If only one has, it is taken at its own reference.
 
 use super::effective_degrees;
+use super::gravity_error::tells_its_place;
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
 use crate::diagnostic::comparison::{
-    ComparedAtTemperature, NotBroughtTogether, NotInBoth, RecordingsSupposed, SignificanceUncertain,
-    UnitsApart, UnknownUncertainty,
+    ComparedAtTemperature, NotBroughtTogether, NotInBoth, PlaceUnknown, RecordingsSupposed,
+    SignificanceUncertain, UnitsApart, UnknownUncertainty,
 };
 use crate::diagnostic::{Diagnostic, Phrase};
 use crate::error::Error;
 use crate::form::{As, finite};
+use crate::json::if_some;
 use crate::sensor::{
     CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
 };
@@ -33,8 +38,39 @@ pub struct Comparison {
     pub quantities: Vec<ComparedQuantity>,
     /// All parameters together; `None` without a covariance (see [`notes`](Comparison::notes)).
     pub overall: Option<OverallDifference>,
+    /// The same if both were made at one place; `None` where it is known whether they were, or where they share no error.
+    pub overall_at_one_place: Option<OverallDifference>,
     /// What could not be compared, and what the comparison assumes.
     pub notes: Vec<Diagnostic>,
+}
+
+/// Were two calibrations made at one place? What is not known of the place is then one error of both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// They were.
+    One,
+    /// They were made at two.
+    Two,
+    /// Nobody says it.
+    Unknown,
+}
+
+impl Place {
+    /// By the names of their stations.
+    #[must_use]
+    pub fn of_stations(one: Option<&str>, other: Option<&str>) -> Self {
+        match (one, other) {
+            (Some(one), Some(other)) if one == other => Self::One,
+            (Some(_), Some(_)) => Self::Two,
+            _ => Self::Unknown,
+        }
+    }
+
+    /// The same, where a source of errors that both state tells its place by itself.
+    fn told_by(self, sources: &[Matched]) -> Self {
+        let told = sources.iter().any(|(source, ..)| tells_its_place(source));
+        if self == Self::Unknown && told { Self::One } else { self }
+    }
 }
 
 /// One invariant in two calibrations.
@@ -69,6 +105,8 @@ crate::json_object! {
         quantities: &comparison.quantities,
         /// All parameters together; none without a covariance.
         overall: comparison.overall,
+        /// The same if both were made at one place, where that is not known and they share errors.
+        overall_at_one_place: if_some(comparison.overall_at_one_place),
         /// What could not be compared, and what the comparison assumes.
         notes: &comparison.notes,
     }
@@ -126,7 +164,7 @@ pub struct OverallDifference {
 }
 
 impl Comparison {
-    /// Compares two calibrations.
+    /// Compares two calibrations of which it is not known whether they were made at one place ([`at`](Self::at)).
     ///
     /// # Examples
     /// ```
@@ -141,6 +179,7 @@ impl Comparison {
     ///     quantities,
     ///     covariance: Some(DMatrix::identity(6, 6) * 1e-6),
     ///     degrees_of_freedom: None,
+    ///     shared: None,
     ///     frame: String::new(),
     /// };
     /// let mut b = a.clone();
@@ -151,6 +190,13 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn of(a: &CalibratedImu, b: &CalibratedImu) -> Self {
+        Self::at(Place::Unknown, a, b)
+    }
+
+    /// Compares two calibrations. Where they were made at one place, the errors that both share do not count. Where that is not known they count as
+    /// those of two places, and a note says what they would be at one.
+    #[must_use]
+    pub fn at(place: Place, a: &CalibratedImu, b: &CalibratedImu) -> Self {
         let mut notes: Vec<Diagnostic> = Vec::new();
         for sensor_kind in SensorKind::ALL {
             let mut lacks =
@@ -170,12 +216,15 @@ impl Comparison {
             }
         }
         let (a, b) = &brought_together(a, b, &mut notes);
+        let matched = matched(a, b);
+        let place = place.told_by(&matched);
+        let common = if place == Place::One { matched.clone() } else { Vec::new() };
         let of_b = b.invariants();
         let quantities: Vec<_> = a
             .invariants()
             .into_iter()
             .filter_map(|in_a| Some((in_a, *of_b.iter().find(|in_b| in_b.invariant == in_a.invariant)?)))
-            .map(|(in_a, in_b)| compared(a, b, in_a, in_b))
+            .map(|(in_a, in_b)| compared(a, b, in_a, in_b, &common))
             .collect();
         let without = |of| SignificanceUncertain { of, unknown: UnknownUncertainty::Covariance }.into();
         notes.push(match (&a.covariance, &b.covariance) {
@@ -185,9 +234,25 @@ impl Comparison {
             (Some(_), Some(_)) => RecordingsSupposed {}.into(),
         });
         notes.extend([("A", a), ("B", b)].into_iter().filter_map(|(name, imu)| about_degrees(name, imu)));
-        let overall = overall(a, b, &mut notes);
-        Self { quantities, overall, notes }
+        let overall = difference(a, b, &common, &mut notes);
+        let unknown = place == Place::Unknown && !matched.is_empty();
+        let overall_at_one_place = overall.filter(|_| unknown).and_then(|_| difference(a, b, &matched, &mut Vec::new()));
+        if let Some((apart, together)) = overall.zip(overall_at_one_place) {
+            let sources = matched.into_iter().map(|(source, ..)| source).collect();
+            notes.push(PlaceUnknown { sources, p_value: apart.p_value, p_value_at_one: together.p_value }.into());
+        }
+        Self { quantities, overall, overall_at_one_place, notes }
     }
+}
+
+/// A source of errors that two calibrations share where their place is one, with its column in either.
+type Matched = (String, usize, usize);
+
+fn matched(a: &CalibratedImu, b: &CalibratedImu) -> Vec<Matched> {
+    let (Some(of_a), Some(of_b)) = (&a.shared, &b.shared) else { return Vec::new() };
+    let in_b = |source: &String| of_b.sources.iter().position(|other| other == source);
+    let sources = of_a.sources.iter().enumerate();
+    sources.filter_map(|(k, source)| Some((source.clone(), k, in_b(source)?))).collect()
 }
 
 /// Both at one temperature, with their temperature terms where both have some.
@@ -226,6 +291,7 @@ fn compared(
     b: &CalibratedImu,
     in_a: InvariantValue,
     in_b: InvariantValue,
+    common: &[Matched],
 ) -> ComparedQuantity {
     let invariant = in_a.invariant;
     let comparable =
@@ -236,12 +302,17 @@ fn compared(
         (None, Some(_)) if covers(a, invariant) => None,
         (Some(_), None) if covers(b, invariant) => None,
         (None, None) => None,
-        (one, other) => Some(one.unwrap_or(0.0).hypot(other.unwrap_or(0.0))),
+        (one, other) => Some([one, other].map(Option::unwrap_or_default)),
     };
+    let (of_a, of_b) = (a.shared_errors_of(invariant), b.shared_errors_of(invariant));
+    let sum = |of: &dyn Fn(f64, f64) -> f64| common.iter().map(|(_, k, j)| of(of_a[*k], of_b[*j])).sum::<f64>();
+    let apart = sum(&|u, v| (u - v).powi(2));
+    let shared = [sum(&|u, _| u * u), sum(&|_, v| v * v)];
+    let variances = sd.map(|sd| [0, 1].map(|k| (sd[k] * sd[k] - shared[k]).max(0.0) + 0.5 * apart));
+    let sd = variances.map(|[one, other]| (one + other).sqrt()).filter(|sd| *sd > 0.0);
     let in_sd = difference.zip(sd).map(|(difference, sd)| difference / sd);
     let part = invariant.covariance_part();
-    let variances = [in_a, in_b].map(|of| of.sd.unwrap_or(0.0).powi(2));
-    let degrees_of_freedom = together(&[variances], [a, b], part);
+    let degrees_of_freedom = together(&[variances.unwrap_or_default()], [a, b], part);
     let p_value = in_sd.and_then(|in_sd| f_p_value(in_sd * in_sd, 1, degrees_of_freedom));
     let (unit_a, unit_b) = (invariant.unit(a), invariant.unit(b));
     ComparedQuantity {
@@ -301,7 +372,12 @@ fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
 }
 
 /// All parameters together, in the lower gauge of the first sensor that both have in one unit.
-fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<Diagnostic>) -> Option<OverallDifference> {
+fn difference(
+    a: &CalibratedImu,
+    b: &CalibratedImu,
+    common: &[Matched],
+    notes: &mut Vec<Diagnostic>,
+) -> Option<OverallDifference> {
     if a.covariance.is_none() && b.covariance.is_none() {
         return None;
     }
@@ -332,8 +408,12 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<Diagnostic>) ->
             }
         });
     }
-    let [of_a, of_b] = [&a, &b].map(|imu| covariance_of(imu, &list));
-    let sigma = &of_a + &of_b;
+    let u = shared_of(&a, &list, common.iter().map(|(_, k, _)| *k));
+    let v = shared_of(&b, &list, common.iter().map(|(_, _, k)| *k));
+    let of_a = covariance_of(&a, &list) - &u * u.transpose();
+    let of_b = covariance_of(&b, &list) - &v * v.transpose();
+    let apart = u - v;
+    let sigma = &of_a + &of_b + &apart * apart.transpose();
     let difference = DVector::from_iterator(
         list.len(),
         list.iter().map(|quantity| quantity.value(&b.parameters) - quantity.value(&a.parameters)),
@@ -346,7 +426,7 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<Diagnostic>) ->
         if own.is_empty() {
             continue;
         }
-        let variances: Vec<_> = own.iter().map(|&k| [of_a[(k, k)], of_b[(k, k)]]).collect();
+        let variances: Vec<_> = own.iter().map(|&k| [of_a[(k, k)], of_b[(k, k)]].map(|of| of.max(0.0))).collect();
         let behind = together(&variances, [&a, &b], part);
         places.extend(own);
         // what this part adds, beside the parts before it
@@ -376,6 +456,17 @@ fn covariance_of(imu: &CalibratedImu, list: &[ImuQuantity]) -> DMatrix<f64> {
     let places: Vec<Option<usize>> = list.iter().map(place).collect();
     DMatrix::from_fn(list.len(), list.len(), |i, j| match (&imu.covariance, places[i], places[j]) {
         (Some(covariance), Some(row), Some(column)) => covariance[(row, column)],
+        _ => 0.0,
+    })
+}
+
+/// What these shared sources do to these quantities: a column for each.
+fn shared_of(imu: &CalibratedImu, list: &[ImuQuantity], sources: impl Iterator<Item = usize>) -> DMatrix<f64> {
+    let sources: Vec<usize> = sources.collect();
+    let place = |quantity: &ImuQuantity| imu.quantities.iter().position(|of| of == quantity);
+    let places: Vec<Option<usize>> = list.iter().map(place).collect();
+    DMatrix::from_fn(list.len(), sources.len(), |i, k| match (&imu.shared, places[i]) {
+        (Some(shared), Some(row)) => shared.root[(row, sources[k])],
         _ => 0.0,
     })
 }
@@ -420,6 +511,7 @@ mod tests {
             quantities,
             covariance: Some(&root * root.transpose()),
             degrees_of_freedom: None,
+            shared: None,
             frame: String::new(),
         }
     }

@@ -1,7 +1,7 @@
 //! The effect of an error of the assumed gravity on the parameters.
 
 use crate::motion::Gravity;
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind};
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind, SharedErrors};
 use nalgebra::DVector;
 
 /// Derivative of each quantity with respect to the assumed gravity, `∂p/∂g = −p/g`.
@@ -27,6 +27,30 @@ pub(super) fn gravity_slope(
             }
         }),
     )
+}
+
+/// The words for a gravity as a source of shared errors: another calibration that states the same has the same error where its place is the same.
+#[must_use]
+pub fn gravity_source(gravity: &Gravity) -> String {
+    format!("gravity {} ± {} m/s²", gravity.magnitude_mps2, gravity.sd_mps2)
+}
+
+/// Does a source say by itself which place it is of? Gravity does where somebody stated it or its latitude; the default is that of any place.
+#[must_use]
+pub fn tells_its_place(source: &str) -> bool {
+    source.starts_with("gravity ") && source != gravity_source(&Gravity::SOMEWHERE)
+}
+
+/// What an unknown error of gravity does to a calibration against gravity at rest: all calibrations at one place have it. `None` where gravity is exact.
+#[must_use]
+pub fn shared_gravity(
+    quantities: &[ImuQuantity],
+    prior_share: &[f64],
+    imu: &ImuParameters,
+    gravity: &Gravity,
+) -> Option<SharedErrors> {
+    let column = gravity_slope(quantities, prior_share, imu, gravity) * gravity.sd_mps2;
+    SharedErrors::of_source(gravity_source(gravity), column.as_slice())
 }
 
 #[cfg(test)]

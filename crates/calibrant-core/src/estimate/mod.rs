@@ -50,12 +50,13 @@ mod validation;
 pub use crate::diagnostic::{Change, Changed, Course};
 pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
-pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
+pub use comparison::{ComparedQuantity, Comparison, OverallDifference, Place};
 pub use datasheet::{
     ALLOWED_SPREADS, allows_gain, beyond_datasheet, common_factor, implausible_bias, implausible_gains,
     noise_not_as_given,
 };
 pub use effective_degrees::degrees_of_sum;
+pub use gravity_error::{gravity_source, shared_gravity, tells_its_place};
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,

@@ -1,5 +1,6 @@
 //! The result of a calibration.
 
+use super::gravity_error::{gravity_source, shared_gravity};
 use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use super::{RecoveredClock, RecoveredGravity, datasheet};
@@ -7,7 +8,7 @@ use crate::diagnostic::{Change, Diagnostic};
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
     Axis, CalibratedImu, CovarianceDegrees, CovariancePart, Gauge, ImuParameters, ImuQuantity, Parameter,
-    Quantity, ReadingUnit, SensorKind, SensorModel,
+    Quantity, ReadingUnit, SensorKind, SensorModel, SharedErrors,
 };
 use nalgebra::{DMatrix, Vector3};
 
@@ -231,8 +232,31 @@ impl Calibration {
             quantities: self.quantities.clone(),
             covariance: Some(self.covariance.clone()),
             degrees_of_freedom: Some(self.degrees_behind()),
+            shared: self.shared_errors(),
             frame: self.frame(),
         }
+    }
+
+    /// The error of gravity: in the gains where it is the stimulus, in the biases where a motion is.
+    fn shared_errors(&self) -> Option<SharedErrors> {
+        let recovered = match &self.recovered {
+            Recovered::Holds(holds) => {
+                return shared_gravity(&self.quantities, &self.prior_share, &self.imu, &holds.gravity);
+            }
+            Recovered::Motion(motion) => motion.gravity.as_ref()?,
+        };
+        let gravity = recovered.gravity.magnitude();
+        let along = self.imu.accelerometer.matrix * recovered.gravity.force_mps2 * (gravity.sd_mps2 / gravity.magnitude_mps2);
+        let column = |(k, quantity): (usize, &ImuQuantity)| match quantity {
+            ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(axis)) => {
+                // a prior of the bias leaves σ² = s²u²/(s² + u²), and the part u s²/(s² + u²) of the error u
+                let squared = along[axis.index()].powi(2);
+                -along[axis.index()] * (self.covariance[(k, k)] / squared.max(f64::MIN_POSITIVE)).min(1.0)
+            }
+            _ => 0.0,
+        };
+        let column: Vec<f64> = self.quantities.iter().enumerate().map(column).collect();
+        SharedErrors::of_source(gravity_source(&gravity), &column)
     }
 
     /// Degrees of freedom behind the covariance.

@@ -7,7 +7,7 @@
 
 use super::{
     Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorParameters,
-    SensorThermal, Thermal, ThermalPart,
+    SensorThermal, SharedErrors, Thermal, ThermalPart,
 };
 use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
 
@@ -135,24 +135,35 @@ pub(super) fn all_quantities() -> Vec<ImuQuantity> {
 /// covariance.
 pub(super) fn covariance(imu: &CalibratedImu) -> Option<EntryMatrix> {
     let sigma = imu.covariance.as_ref()?;
-    let embedding: Vec<_> = imu.quantities.iter().map(|&quantity| of_quantity(quantity)).collect();
-    let embedding = DMatrix::from_fn(ENTRIES, embedding.len(), |entry, k| embedding[k][entry]);
+    let embedding = embedding(imu);
     let entries = &embedding * sigma * embedding.transpose();
     Some(EntryMatrix::from_fn(|i, j| 0.5 * (entries[(i, j)] + entries[(j, i)])))
 }
 
-/// Covariance of these quantities after a change of the entries with this derivative. The first entry of a
-/// quantity gives its value: both entries of a symmetric pair are the same.
+/// What one unit of each quantity of an IMU adds to the entries: a column for each.
+fn embedding(imu: &CalibratedImu) -> DMatrix<f64> {
+    let columns: Vec<_> = imu.quantities.iter().map(|&quantity| of_quantity(quantity)).collect();
+    DMatrix::from_fn(ENTRIES, columns.len(), |entry, k| columns[k][entry])
+}
+
+/// Covariance and shared errors of these quantities after a change of the entries with this derivative. The first
+/// entry of a quantity gives its value: both entries of a symmetric pair are the same.
 pub(super) fn transformed(
     imu: &CalibratedImu,
     jacobian: impl FnOnce() -> EntryMatrix,
     quantities: &[ImuQuantity],
-) -> Option<DMatrix<f64>> {
-    let (sigma, jacobian) = (covariance(imu)?, jacobian());
+) -> (Option<DMatrix<f64>>, Option<SharedErrors>) {
+    let Some(sigma) = covariance(imu) else { return (None, None) };
+    let jacobian = jacobian();
     let sigma = jacobian * sigma * jacobian.transpose();
     let place: Vec<usize> = quantities.iter().map(|&quantity| of_quantity(quantity).imax()).collect();
     let symmetric = |i: usize, j: usize| 0.5 * (sigma[(i, j)] + sigma[(j, i)]);
-    Some(DMatrix::from_fn(place.len(), place.len(), |i, j| symmetric(place[i], place[j])))
+    let covariance = DMatrix::from_fn(place.len(), place.len(), |i, j| symmetric(place[i], place[j]));
+    let shared = imu.shared.as_ref().map(|shared| SharedErrors {
+        sources: shared.sources.clone(),
+        root: (jacobian * embedding(imu) * &shared.root).select_rows(&place),
+    });
+    (Some(covariance), shared)
 }
 
 impl ImuQuantity {

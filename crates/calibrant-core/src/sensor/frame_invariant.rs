@@ -149,7 +149,7 @@ impl Invariant {
     }
 
     /// Its value, and its derivative with respect to the entries of the IMU.
-    fn with_gradient(self, imu: &ImuParameters) -> (f64, EntryVector) {
+    pub(super) fn with_gradient(self, imu: &ImuParameters) -> (f64, EntryVector) {
         let mut gradient = EntryVector::zeros();
         let row = |sensor_kind: SensorKind, axis: Axis| {
             imu.sensor(sensor_kind).matrix.row(axis.index()).transpose()

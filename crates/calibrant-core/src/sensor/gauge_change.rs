@@ -189,11 +189,12 @@ impl CalibratedImu {
     pub fn in_gauge_of(&self, reference: SensorKind, gauge: Gauge) -> Result<Self> {
         let rotated = RotatedImu::new(&self.parameters, reference, gauge)?;
         let quantities = self.rotated_quantities(&rotated);
-        let covariance = entry_vector::transformed(self, || rotated.jacobian(), &quantities);
+        let (covariance, shared) = entry_vector::transformed(self, || rotated.jacobian(), &quantities);
         Ok(Self {
             parameters: rotated.imu,
             quantities,
             covariance,
+            shared,
             frame: format!(
                 "fixed by the {} gauge of the {reference}: its S and the inverse have this form, with a positive diagonal",
                 gauge.name()
@@ -285,6 +286,7 @@ pub(super) mod tests {
             quantities,
             covariance: Some(&root * root.transpose()),
             degrees_of_freedom: None,
+            shared: None,
             frame: String::new(),
         }
     }

@@ -8,7 +8,7 @@
 use super::spikes::{Spikes, without};
 use super::{
     Axis, CovarianceDegrees, CovariancePart, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters,
-    Thermal, ThermalPart, ThermalTerm,
+    SharedErrors, Thermal, ThermalPart, ThermalTerm,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -287,6 +287,8 @@ pub struct CalibratedImu {
     pub covariance: Option<DMatrix<f64>>,
     /// Degrees of freedom behind the covariance; `None` where they are not known.
     pub degrees_of_freedom: Option<CovarianceDegrees>,
+    /// The part of the covariance that other calibrations at the same place share; `None` where none is known.
+    pub shared: Option<SharedErrors>,
     /// The true frame, in words.
     pub frame: String,
 }
@@ -300,7 +302,7 @@ impl CalibratedImu {
         quantities: Vec<ImuQuantity>,
         frame: impl Into<String>,
     ) -> Self {
-        let (covariance, degrees_of_freedom, frame) = (None, None, frame.into());
+        let (covariance, degrees_of_freedom, shared, frame) = (None, None, None, frame.into());
         Self {
             parameters,
             accelerometer_unit,
@@ -308,6 +310,7 @@ impl CalibratedImu {
             quantities,
             covariance,
             degrees_of_freedom,
+            shared,
             frame,
         }
     }
@@ -378,5 +381,6 @@ impl CalibratedImu {
             .covariance
             .as_ref()
             .map(|sigma| DMatrix::from_fn(kept.len(), kept.len(), |i, j| sigma[(kept[i], kept[j])]));
+        self.shared = self.shared.as_ref().map(|shared| shared.restricted(kept));
     }
 }

@@ -57,6 +57,7 @@ json_object! {
         /// Covariance of the parameters; none where it is not known.
         covariance: Form::<Option<Vec<Vec<f64>>>>::form(&of.imu.covariance),
         covariance_degrees_of_freedom: if_some(of.imu.degrees_of_freedom),
+        shared_errors: if_some(of.imu.shared.as_ref()),
     }
 }
 

@@ -26,6 +26,7 @@ mod repeats;
 mod sample_rate;
 mod saturation;
 mod sensor_kind;
+mod shared_errors;
 mod spikes;
 mod temperature_model;
 
@@ -50,5 +51,6 @@ pub use repeats::{Repeats, Stuck};
 pub use sample_rate::{missing, rate_hz};
 pub use saturation::Saturation;
 pub use sensor_kind::{Axis, ReadingUnit, SensorKind};
+pub use shared_errors::SharedErrors;
 pub use spikes::Spikes;
 pub use temperature_model::{HIGHEST_ORDER, SensorThermal, Thermal, ThermalPart, ThermalTerm};

@@ -114,9 +114,9 @@ impl CalibratedImu {
         let converted = AtReference::new(&self.parameters, reference_c)?;
         let jacobian = converted.jacobian();
         let quantities = self.referred_quantities(&jacobian);
-        let covariance = entry_vector::transformed(self, || jacobian, &quantities);
+        let (covariance, shared) = entry_vector::transformed(self, || jacobian, &quantities);
         let frame = self.referred_frame(&converted.after);
-        Ok(Self { parameters: converted.after, quantities, covariance, frame, ..*self })
+        Ok(Self { parameters: converted.after, quantities, covariance, shared, frame, ..*self })
     }
 
     /// The true frame in words. A frame that a symmetric matrix fixes stays where it is. Gains that follow

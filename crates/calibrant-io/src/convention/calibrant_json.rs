@@ -9,7 +9,7 @@
 use super::arrays::missing;
 use super::imu_noise::ImuNoise;
 use super::json_core::ImuCore;
-use super::usable_calibration::usable;
+use super::usable_calibration::{plausible_covariance, usable};
 use super::words::{input_error, invalid};
 use super::{CalibratedImuFile, ImuFormat, truth};
 use crate::results::calibration::CalibrationFile;
@@ -17,11 +17,15 @@ use crate::results::heading::{Heading, JsonFile, RECORD_KIND};
 use crate::results::json;
 use crate::results::machine_calibration::MachineCalibrationFile;
 use crate::text::decoding::Checked;
+use calibrant_core::diagnostic::convention::{FormatSupposed, VerdictBad};
+use calibrant_core::diagnostic::{Diagnostic, Phrase, Usability};
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::estimate::CalibrationStatus;
 use calibrant_core::json::{flat, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{CalibratedImu, ImuFields};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 /// The kinds of files with a calibration. All said `calibration` once.
 const KINDS: [&str; 4] =
@@ -53,10 +57,21 @@ struct Header {
     schema: Option<serde_json::Value>,
     kind: Option<String>,
     status: Option<String>,
+    verdict: Option<VerdictCore>,
+    station: Option<String>,
     prior: Option<String>,
+    /// What was found of a machine.
+    machine: Option<IgnoredAny>,
     /// Only the file of a simulation has one.
     seed: Option<serde_json::Value>,
     noise: Option<ImuNoise>,
+}
+
+#[derive(Deserialize)]
+struct VerdictCore {
+    usability: Option<String>,
+    #[serde(default)]
+    codes: Vec<String>,
 }
 
 pub(super) fn write(file: &CalibratedImuFile) -> String {
@@ -77,8 +92,10 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         ));
     }
     let (imu, inputs) = core.into_imu()?;
+    let findings = header.findings();
     let noise = header.noise.map(ImuNoise::checked).transpose()?;
-    Ok(CalibratedImuFile { imu, noise, inputs, format: ImuFormat::CalibrantJson, findings: Vec::new() })
+    let (station, format) = (header.station, ImuFormat::CalibrantJson);
+    Ok(CalibratedImuFile { imu, noise, inputs, station, format, findings })
 }
 
 /// The calibrated sensors of a `calibration.json`, also one of a single axis, and whether the datasheet was
@@ -93,10 +110,12 @@ pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
 /// The sensors of the text of a `calibration.json`, also of one that did not converge or cannot be used.
 ///
 /// # Errors
-/// The text is no calibration of calibrant.
+/// The text is no calibration of calibrant, or contradicts itself.
 pub fn parse_estimates(text: &str) -> Checked<CalibratedImu> {
     let header = Header { status: None, ..Header::of(text)? };
-    Ok(header.core(text)?.into_imu()?.0)
+    let (imu, _) = header.core(text)?.into_imu()?;
+    plausible_covariance(&imu)?;
+    Ok(imu)
 }
 
 impl Header {
@@ -107,6 +126,32 @@ impl Header {
     /// Is it the file of a simulation? Only that has a seed.
     fn is_truth(&self) -> bool {
         self.seed.is_some()
+    }
+
+    /// Did it converge, or is there nothing to converge?
+    fn has_converged(&self) -> bool {
+        self.status.as_ref().is_none_or(|status| status == CalibrationStatus::Converged.name())
+    }
+
+    /// What is missing, and a verdict that forbids its use.
+    fn findings(&self) -> Vec<Diagnostic> {
+        let mut findings: Vec<Diagnostic> = Vec::new();
+        let mut supposed = |what, supposed: &str| {
+            findings.push(FormatSupposed { what, supposed: Phrase(supposed.to_owned()) }.into());
+        };
+        if self.kind.is_none() {
+            supposed("its kind", "it is taken for a calibration");
+        }
+        let is_judged = [CalibrationFile::KIND, MachineCalibrationFile::KIND, RECORD_KIND];
+        let usability = self.verdict.as_ref().and_then(|verdict| verdict.usability.as_deref());
+        let is_one_of_them = self.kind.as_ref().is_none_or(|kind| is_judged.contains(&kind.as_str()));
+        if usability.is_none() && is_one_of_them {
+            supposed("a verdict", "nobody says that it may be used");
+        }
+        if let Some(verdict) = self.verdict.as_ref().filter(|_| usability == Some(Usability::Bad.name())) {
+            findings.push(VerdictBad { codes: verdict.codes.clone() }.into());
+        }
+        findings
     }
 
     /// The core of a file of this schema, of a calibration that converged.
@@ -128,7 +173,11 @@ impl Header {
             let message = format!("the kind of this file is {kind:?}, and that is no calibration");
             return Err(invalid(message, HELP));
         }
-        if let Some(status) = self.status.as_ref().filter(|status| *status != "converged") {
+        if self.kind.as_deref() == Some(MachineCalibrationFile::KIND) && self.machine.is_none() {
+            let message = "the kind of this file is \"machine\", and it has no `machine`: it is of another kind";
+            return Err(invalid(message, HELP));
+        }
+        if let Some(status) = self.status.as_ref().filter(|_| !self.has_converged()) {
             let message = format!("this calibration did not converge: its status is \"{status}\"");
             return Err(invalid(message, "calibrate again; its report says what is wrong"));
         }

@@ -19,6 +19,8 @@ pub struct CalibratedImuFile {
     pub noise: Option<ImuNoise>,
     /// The recordings from which it came, where the file names them.
     pub inputs: Vec<Input>,
+    /// The station where they were made, where the file names it.
+    pub station: Option<String>,
     /// The format of the file.
     pub format: ImuFormat,
     /// What the reader assumed or ignored.
@@ -29,7 +31,7 @@ impl CalibratedImuFile {
     /// This calibration in this format, with nothing beside it.
     #[must_use]
     pub fn new(imu: CalibratedImu, format: ImuFormat) -> Self {
-        Self { imu, noise: None, inputs: Vec::new(), format, findings: Vec::new() }
+        Self { imu, noise: None, inputs: Vec::new(), station: None, format, findings: Vec::new() }
     }
 }
 

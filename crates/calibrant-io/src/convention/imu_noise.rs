@@ -35,6 +35,12 @@ pub struct ImuNoise {
     pub measured_at_hz: [Option<f64>; 2],
     /// The ROS topic of the readings.
     pub rostopic: Option<String>,
+    /// Upper limits of the random walks of accelerometer and gyroscope that no axis determines, in their units.
+    #[serde(skip)]
+    pub walk_limits: [Option<f64>; 2],
+    /// What was supposed of axes that do not determine a random walk.
+    #[serde(skip)]
+    pub findings: Vec<Diagnostic>,
 }
 
 impl ImuNoise {
@@ -59,6 +65,17 @@ impl ImuNoise {
             update_rate_hz: self.update_rate_hz.or(other.update_rate_hz),
             measured_at_hz: [0, 1].map(|k| self.measured_at_hz[k].or(other.measured_at_hz[k])),
             rostopic: self.rostopic.or(other.rostopic),
+            walk_limits: [0, 1].map(|k| self.walk_limits[k].or(other.walk_limits[k])),
+            findings: self.findings.into_iter().chain(other.findings).collect(),
+        }
+    }
+
+    /// The upper limit of a field that is not determined.
+    pub(super) fn limit(&self, name: &str) -> Option<f64> {
+        match name {
+            "accelerometer_random_walk" => self.walk_limits[0],
+            "gyroscope_random_walk" => self.walk_limits[1],
+            _ => None,
         }
     }
 

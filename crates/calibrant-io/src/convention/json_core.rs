@@ -11,13 +11,18 @@ use super::temperature::TemperatureCore;
 use super::words::{invalid, unit_named};
 use crate::results::input::Input;
 use crate::text::decoding::Checked;
+use calibrant_core::estimate::shared_gravity;
 use calibrant_core::form::block;
+use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
-    SensorParameters, correction_name,
+    SensorParameters, SharedErrors, correction_name,
 };
 use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
+
+/// A standard deviation and the root of its variance differ by rounding to the digits that people keep.
+const AS_WRITTEN: f64 = 1e-5;
 
 /// The fields of a calibrated IMU in a file. All are optional, so that the reader can name what is missing.
 #[derive(Debug, Deserialize)]
@@ -31,7 +36,22 @@ pub struct ImuCore {
     parameters: Option<Vec<ParameterCore>>,
     covariance: Option<Vec<Vec<Option<f64>>>>,
     covariance_degrees_of_freedom: Option<DegreesCore>,
+    shared_errors: Option<SharedCore>,
+    /// Earlier versions wrote no shared errors: their gravity stands here.
+    holds: Option<HoldsCore>,
     inputs: Option<Vec<Input>>,
+}
+
+#[derive(Debug, Deserialize)]
+struct SharedCore {
+    sources: Vec<String>,
+    root: Rows,
+}
+
+#[derive(Debug, Deserialize)]
+struct HoldsCore {
+    gravity_mps2: Option<f64>,
+    gravity_sd_mps2: Option<f64>,
 }
 
 /// One sensor. Each quantity has the field in its unit.
@@ -64,6 +84,7 @@ struct ParameterCore {
     unit: Option<String>,
     value: Option<f64>,
     sd: Option<f64>,
+    prior_share: Option<f64>,
 }
 
 impl ImuCore {
@@ -105,6 +126,9 @@ impl ImuCore {
         let listed = self.parameters.ok_or_else(|| missing("parameters"))?;
         let names: Vec<_> = listed.iter().filter_map(|parameter| parameter.name.clone()).collect();
         let symmetric = self.gauge.as_deref() == Some(Gauge::Symmetric.name());
+        let stated_sd: Vec<Option<f64>> = listed.iter().map(|parameter| parameter.sd).collect();
+        let prior_share: Vec<f64> =
+            listed.iter().map(|parameter| parameter.prior_share.unwrap_or_default()).collect();
         for (i, parameter) in listed.into_iter().enumerate() {
             let quantity = parameter.into_quantity(i, &imu, symmetric.then_some(&names))?;
             if imu.quantities.contains(&quantity) {
@@ -117,8 +141,14 @@ impl ImuCore {
         }
         imu.covariance =
             self.covariance.map(|rows| covariance_of(&rows, imu.quantities.len())).transpose()?;
+        check_sd(&imu, &stated_sd)?;
         imu.degrees_of_freedom =
             self.covariance_degrees_of_freedom.map(DegreesCore::into_degrees).transpose()?;
+        imu.shared = match (self.shared_errors, self.holds) {
+            (Some(shared), _) => Some(shared.into_errors(&imu)?),
+            (None, Some(holds)) => holds.shared_errors(&imu, &prior_share),
+            (None, None) => None,
+        };
         if let Some(gauge) = self.gauge {
             let matrix = imu.parameters.sensor(imu.reference()).matrix;
             if !Gauge::ALL.into_iter().any(|known| known.name() == gauge && known.is_form_of(&matrix)) {
@@ -133,6 +163,58 @@ impl ImuCore {
         }
         Ok((imu, self.inputs.unwrap_or_default()))
     }
+}
+
+impl SharedCore {
+    /// The shared errors of this IMU: they are a part of its covariance.
+    fn into_errors(self, imu: &CalibratedImu) -> Checked<SharedErrors> {
+        let (size, sources) = (imu.quantities.len(), self.sources.len());
+        let reject = |message: String| invalid(message, "calibrate again, or remove `shared_errors`");
+        if self.root.len() != size || self.root.iter().any(|row| row.len() != sources) {
+            return Err(reject(format!("`shared_errors.root` is not {size} × {sources}, one row for each parameter")));
+        }
+        let root = DMatrix::from_fn(size, sources, |i, j| self.root[i][j]);
+        let variance = |i: usize| imu.covariance.as_ref().map_or(0.0, |sigma| sigma[(i, i)]);
+        let too_large = |i: &usize| root.row(*i).norm_squared() > variance(*i) * (1.0 + AS_WRITTEN);
+        if let Some(i) = (0..size).find(too_large) {
+            let name = imu.quantities[i].name();
+            return Err(reject(format!("`shared_errors.root` has more of {name} than its variance")));
+        }
+        Ok(SharedErrors { sources: self.sources, root })
+    }
+}
+
+impl HoldsCore {
+    /// The error of gravity, where it fits into the covariance.
+    fn shared_errors(&self, imu: &CalibratedImu, prior_share: &[f64]) -> Option<SharedErrors> {
+        let (magnitude_mps2, sd_mps2) = (self.gravity_mps2?, self.gravity_sd_mps2?);
+        let gravity = Some(Gravity { magnitude_mps2, sd_mps2 }).filter(|_| magnitude_mps2 > 0.0 && sd_mps2 > 0.0)?;
+        let shared = shared_gravity(&imu.quantities, prior_share, &imu.parameters, &gravity)?;
+        let sigma = imu.covariance.as_ref()?;
+        let fits = |i: usize| shared.root.row(i).norm_squared() <= sigma[(i, i)] * (1.0 + AS_WRITTEN);
+        (0..imu.quantities.len()).all(fits).then_some(shared)
+    }
+}
+
+/// Is each stated standard deviation the root of its variance? Numbers that were exchanged, or scaled, are not.
+fn check_sd(imu: &CalibratedImu, stated: &[Option<f64>]) -> Checked<()> {
+    for (i, (quantity, sd)) in imu.quantities.iter().zip(stated).enumerate() {
+        let Some(sd) = *sd else { continue };
+        let name = quantity.name();
+        if sd < 0.0 {
+            return Err(invalid(format!("the sd of {name} is negative"), "correct it"));
+        }
+        let Some(variance) = imu.covariance.as_ref().map(|sigma| sigma[(i, i)]) else { continue };
+        let root = variance.max(0.0).sqrt();
+        if (sd - root).abs() > AS_WRITTEN * root {
+            let message = format!(
+                "the sd of {name} is {sd} in `parameters`, and its variance in `covariance` gives {root}: \
+                 the one or the other was changed, or parameters were exchanged"
+            );
+            return Err(invalid(message, "calibrate again, or give the file as it was written"));
+        }
+    }
+    Ok(())
 }
 
 impl SensorCore {
@@ -231,9 +313,6 @@ impl ParameterCore {
         let quantity = quantity_of(&name, imu, symmetric).ok_or_else(|| {
             invalid(format!("\"{name}\" is no parameter of this IMU"), "names are accelerometer.bias.x, …")
         })?;
-        if self.sd.is_some_and(|sd| sd < 0.0) {
-            return Err(invalid(format!("the sd of {name} is negative"), "correct it"));
-        }
         let wanted = imu.unit_of(quantity);
         if unit != wanted {
             return Err(invalid(

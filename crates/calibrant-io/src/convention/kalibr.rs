@@ -10,7 +10,8 @@
 //!
 //! Readings are in m/s² and rad/s, `A` in (rad/s)/(m/s²). Kalibr estimates biases as curves in time and does
 //! not write them. Our files have them under a key `calibrant`, which its readers ignore. The unit of
-//! readings that are counts is there, too. The file cannot carry the covariance.
+//! readings that are counts is there, too. The file cannot carry the covariance. Other programs write biases as
+//! `b` beside `M`; these are read. Numbers under a key that is not known are an error: they may be part of the model.
 //!
 //! # References
 //! `rehder2016`, `kalibr`
@@ -32,6 +33,7 @@ use calibrant_core::sensor::{
 use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -58,6 +60,7 @@ struct Imu {
 struct Accelerometers {
     #[serde(rename = "M")]
     m: Option<Vec<Vec<f64>>>,
+    b: Option<Vec<f64>>,
     rx_i: Option<IgnoredAny>,
 }
 
@@ -65,6 +68,7 @@ struct Accelerometers {
 struct Gyroscopes {
     #[serde(rename = "M")]
     m: Option<Vec<Vec<f64>>>,
+    b: Option<Vec<f64>>,
     #[serde(rename = "A")]
     a: Option<Vec<Vec<f64>>>,
     #[serde(rename = "C_gyro_i")]
@@ -123,6 +127,63 @@ fn parse(text: &str) -> Checked<Imu> {
     }
 }
 
+/// The keys of an IMU, and those below its sensors, which Kalibr, calibrant and other programs write.
+const KEYS: [(&str, &[&str]); 3] = [
+    (
+        "",
+        &[
+            "model",
+            "T_i_b",
+            "accelerometer_noise_density",
+            "accelerometer_random_walk",
+            "gyroscope_noise_density",
+            "gyroscope_random_walk",
+            "update_rate",
+            "rostopic",
+            "time_offset",
+            "accelerometers",
+            "gyroscopes",
+            "calibrant",
+        ],
+    ),
+    ("accelerometers", &["M", "b", "rx_i", "ry_i", "rz_i"]),
+    ("gyroscopes", &["M", "b", "A", "C_gyro_i"]),
+];
+
+/// Refuses numbers under a key that is not known: without them the correction could be another.
+fn refuse_unknown_numbers(text: &str) -> Checked<()> {
+    // what is no YAML was refused before
+    let Ok(Value::Object(mut keys)) = serde_saphyr::from_str(text) else { return Ok(()) };
+    if keys.len() == 1
+        && let Some((_, Value::Object(below))) = keys.iter().next()
+    {
+        keys = below.clone();
+    }
+    for (part, known) in KEYS {
+        let below = if part.is_empty() { Some(&keys) } else { keys.get(part).and_then(Value::as_object) };
+        let holds_numbers = |value: &Value| matches!(value, Value::Array(_) | Value::Object(_)) && has_number(value);
+        let is_unknown = |(key, value): &(&String, &Value)| !known.contains(&key.as_str()) && holds_numbers(value);
+        if let Some((key, _)) = below.into_iter().flatten().find(is_unknown) {
+            let place = if part.is_empty() { key.clone() } else { format!("{part}.{key}") };
+            return Err(invalid(
+                format!("`{place}` has numbers, and this program does not know what they mean"),
+                "biases are `b` beside `M`: y = M C s + b, in the unit of the readings. Rename it to what it is; remove \
+                 it if no correction needs it",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn has_number(value: &Value) -> bool {
+    match value {
+        Value::Number(_) => true,
+        Value::Array(values) => values.iter().any(has_number),
+        Value::Object(entries) => entries.values().any(has_number),
+        _ => false,
+    }
+}
+
 impl Imu {
     fn noise(&self) -> Checked<Option<ImuNoise>> {
         let noise = ImuNoise {
@@ -136,6 +197,41 @@ impl Imu {
         }
         .checked()?;
         Ok((noise != ImuNoise::default()).then_some(noise))
+    }
+
+    /// The noise beside a calibration. A zero stands where a program did not know it.
+    fn noise_beside(&mut self, findings: &mut Vec<Diagnostic>) -> Checked<Option<ImuNoise>> {
+        let fields = [
+            ("accelerometer_noise_density", &mut self.accelerometer_noise_density),
+            ("accelerometer_random_walk", &mut self.accelerometer_random_walk),
+            ("gyroscope_noise_density", &mut self.gyroscope_noise_density),
+            ("gyroscope_random_walk", &mut self.gyroscope_random_walk),
+            ("update_rate", &mut self.update_rate),
+        ];
+        for (what, field) in fields {
+            if field.take_if(|value| *value == 0.0).is_some() {
+                let supposed = Phrase("0 in its place counts as not stated".into());
+                findings.push(FormatSupposed { what, supposed }.into());
+            }
+        }
+        self.noise()
+    }
+
+    /// The bias of a sensor that stands beside its matrix or under our own key, and where it stands.
+    fn bias<'a>(
+        sensor_kind: SensorKind,
+        beside_matrix: Option<&'a Vec<f64>>,
+        own: Option<&'a Vec<f64>>,
+    ) -> Checked<Option<(&'a Vec<f64>, String)>> {
+        let own_field = format!("calibrant.{sensor_kind}_bias");
+        let field = format!("{sensor_kind}s.b");
+        match (beside_matrix, own) {
+            (Some(one), Some(other)) if one != other => {
+                Err(invalid(format!("`{field}` and `{own_field}` are two biases of one sensor"), "remove the wrong one"))
+            }
+            (Some(bias), _) => Ok(Some((bias, field))),
+            (None, own) => Ok(own.map(|bias| (bias, own_field))),
+        }
     }
 }
 
@@ -151,8 +247,9 @@ pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
 }
 
 pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
-    let imu = parse(text)?;
-    let noise = imu.noise()?;
+    let mut imu = parse(text)?;
+    let mut findings = Vec::new();
+    let noise = imu.noise_beside(&mut findings)?;
     let Some(accelerometers) = &imu.accelerometers else {
         let model = imu.model.as_deref().unwrap_or("calibrated");
         return Err(invalid(
@@ -160,7 +257,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             "run Kalibr with --imu-models scale-misalignment",
         ));
     };
-    let mut findings = Vec::new();
+    refuse_unknown_numbers(text)?;
     let needed = |rows: &Option<Vec<Vec<f64>>>, field: &str| match rows {
         Some(rows) => matrix3(rows, field),
         None => Err(invalid(format!("`{field}` is missing"), HELP)),
@@ -176,15 +273,24 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let m_a = needed(&accelerometers.m, "accelerometers.M")?;
     let beside = imu.calibrant.as_ref();
     let unit = |sensor_kind: SensorKind, stated: Option<&String>| unit_of(sensor_kind, stated, options.units);
-    let bias =
-        |stated: Option<&Vec<f64>>, field: &str| stated.map_or(Ok(Vector3::zeros()), |b| vector3(b, field));
     let stated_biases = [
-        beside.and_then(|beside| beside.accelerometer_bias.as_ref()),
-        beside.and_then(|beside| beside.gyroscope_bias.as_ref()),
+        Imu::bias(
+            SensorKind::Accelerometer,
+            accelerometers.b.as_ref(),
+            beside.and_then(|beside| beside.accelerometer_bias.as_ref()),
+        )?,
+        Imu::bias(
+            SensorKind::Gyroscope,
+            imu.gyroscopes.as_ref().and_then(|gyroscopes| gyroscopes.b.as_ref()),
+            beside.and_then(|beside| beside.gyroscope_bias.as_ref()),
+        )?,
     ];
+    let bias = |stated: &Option<(&Vec<f64>, String)>| {
+        stated.as_ref().map_or(Ok(Vector3::zeros()), |(bias, field)| vector3(bias, field))
+    };
     let mut parameters = ImuParameters::identity();
     parameters.accelerometer = SensorParameters {
-        bias: bias(stated_biases[0], "calibrant.accelerometer_bias")?,
+        bias: bias(&stated_biases[0])?,
         matrix: m_a * c_i_b,
     };
     let accelerometer_unit =
@@ -195,7 +301,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             let c_gyro_i = optional(&gyroscopes.c_gyro_i, "gyroscopes.C_gyro_i", Matrix3::identity())?;
             rotation(&c_gyro_i, "gyroscopes.C_gyro_i")?;
             parameters.gyroscope = SensorParameters {
-                bias: bias(stated_biases[1], "calibrant.gyroscope_bias")?,
+                bias: bias(&stated_biases[1])?,
                 matrix: needed(&gyroscopes.m, "gyroscopes.M")? * c_gyro_i * c_i_b,
             };
             parameters.g_sensitivity =
@@ -300,7 +406,11 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         match value {
             Some(value) => put(&mut out, format_args!("  {name}: {}\n", number(value))),
             None => {
-                put(&mut out, format_args!("  # {name}: not known, and Kalibr needs it\n"));
+                let known = match noise.limit(name) {
+                    Some(limit) => format!("not determined, at most {}", number(limit)),
+                    None => "not known".into(),
+                };
+                put(&mut out, format_args!("  # {name}: {known}, and Kalibr needs it\n"));
                 absent.push(name);
             }
         }

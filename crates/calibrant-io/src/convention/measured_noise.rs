@@ -7,6 +7,7 @@ use super::words::invalid;
 use crate::results::json::{self, SCHEMA};
 use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::convention::WalkOfSomeAxes;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{Axis, CalibratedImu, ReadingUnit, SensorKind};
 use serde::Deserialize;
@@ -46,13 +47,14 @@ struct AxisNoise {
 #[derive(Deserialize)]
 struct Coefficient {
     value: Option<f64>,
+    upper_limit: Option<f64>,
 }
 
 /// Reads the densities of `noise.json` in SI: the largest of the three axes. The gain for readings in counts
 /// is that of the calibration.
 ///
-/// A coefficient that is not determined on every axis is not given. Kalibr's users put a multiple of the
-/// datasheet's value there.
+/// A random walk that an axis does not determine counts by its upper limit on that axis. Where no axis determines it, it is not given, and its limit is.
+/// White noise that is not determined on every axis is not given.
 ///
 /// # Errors
 /// [`Error::Experiment`](calibrant_core::Error::Experiment) with the file. It is not readable or not a `noise.json`. Its noise is not that of a
@@ -103,7 +105,25 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
             sensor.axes.iter().map(|axis| Some(of(axis).value? / gain(axis.axis))).collect();
         densities?.into_iter().reduce(f64::max)
     };
-    let (density, walk) = (largest(|axis| &axis.random_walk), largest(|axis| &axis.rate_random_walk));
+    let density = largest(|axis| &axis.random_walk);
+    let of_axes = |of: fn(&Coefficient) -> Option<f64>| {
+        let scaled = |axis: &AxisNoise| Some((axis.axis, of(&axis.rate_random_walk)? / gain(axis.axis)));
+        sensor.axes.iter().filter_map(scaled).collect::<Vec<_>>()
+    };
+    let most = |of: &[(Axis, f64)]| of.iter().map(|(_, walk)| *walk).reduce(f64::max);
+    let (shown, limited) = (
+        of_axes(|walk| walk.value),
+        of_axes(|walk| walk.upper_limit.filter(|limit| walk.value.is_none() && *limit > 0.0)),
+    );
+    let walk = most(&shown).map(|shown| most(&limited).map_or(shown, |limit| shown.max(limit)));
+    if walk.is_none() {
+        noise.walk_limits[sensor_kind as usize] = most(&limited);
+    } else if shown.len() < sensor.axes.len() {
+        let hidden = sensor.axes.iter().filter(|axis| axis.rate_random_walk.value.is_none());
+        let axes = hidden.map(|axis| axis.axis.to_string()).collect::<Vec<_>>().join(", ");
+        let is_limit = most(&limited) == walk;
+        noise.findings.push(WalkOfSomeAxes { sensor_kind, axes, is_limit }.into());
+    }
     match sensor_kind {
         SensorKind::Accelerometer => {
             (noise.accelerometer_density, noise.accelerometer_random_walk) = (density, walk)

@@ -61,6 +61,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         quantities: Vec::new(),
         covariance: None,
         degrees_of_freedom: None,
+        shared: None,
         frame: match &file.gauge {
             Some(gauge) => {
                 format!("fixed by the {gauge} gauge of the accelerometer, with a positive diagonal")

@@ -46,10 +46,12 @@ pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
     }
     temperature(imu)?;
     ImuCorrection::of(imu).map_err(|error| invalid(error.to_string(), ""))?;
-    match &imu.covariance {
-        Some(covariance) => covariance_of(covariance, imu.quantities.len()),
-        None => Ok(()),
-    }
+    plausible_covariance(imu)
+}
+
+/// Is the covariance one of its quantities, where there is one?
+pub(super) fn plausible_covariance(imu: &CalibratedImu) -> Checked<()> {
+    imu.covariance.as_ref().map_or(Ok(()), |covariance| covariance_of(covariance, imu.quantities.len()))
 }
 
 /// Are the temperature terms finite, and the gains positive over their range?

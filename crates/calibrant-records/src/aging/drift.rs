@@ -1,10 +1,10 @@
 //! The drift of all sensors: which of them changed most.
 
-use super::history::{aging, has_converged};
+use super::history::{aging, change, has_converged};
 use super::sensor_aging::QuantityAging;
 use crate::database::{KeptRecord, RecordFilter, Records};
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Comparison, OverallDifference};
+use calibrant_core::estimate::OverallDifference;
 use calibrant_io::UtcTime;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -27,6 +27,9 @@ pub struct SensorDrift {
     pub largest_aging: Option<QuantityAging>,
     /// Probability of so significant an aging of one of the quantities, if none ages: that of the largest, times their number (Bonferroni).
     pub aging_p_value: Option<f64>,
+    /// The smaller of the probabilities of the last change and of the aging, if all was done at one place; `None` where it is known where it was done, or
+    /// where no error of a place is shared.
+    pub p_value_at_one_place: Option<f64>,
 }
 
 impl Records {
@@ -43,7 +46,7 @@ impl Records {
             pending.add(kept);
         })?;
         drifts.extend(pending.drifts());
-        let least = |drift: &SensorDrift| drift.p_value().unwrap_or(1.0);
+        let least = |drift: &SensorDrift| least([drift.p_value(), drift.p_value_at_one_place]).unwrap_or(1.0);
         drifts.sort_by(|one, other| {
             least(one).total_cmp(&least(other)).then_with(|| one.sensor.cmp(&other.sensor))
         });
@@ -93,10 +96,16 @@ impl SensorDrift {
     fn of(calibrations: &[KeptRecord]) -> Self {
         let mut converged = calibrations.iter().rev().filter(|kept| has_converged(kept));
         let last_two = converged.next().zip(converged.next());
-        let last_change =
-            last_two.and_then(|(last, before)| Comparison::of(&before.record.imu, &last.record.imu).overall);
-        let (aging, _) = aging(calibrations);
-        let largest = aging.iter().min_by(|one, other| one.aging.p_value.total_cmp(&other.aging.p_value));
+        let last_change = last_two.map(|(last, before)| change(before, last));
+        let (of_quantities, _) = aging(calibrations, None);
+        let largest = largest(&of_quantities);
+        let without_station = |kept: &KeptRecord| kept.record.station.is_none() && kept.record.imu.shared.is_some();
+        let p_value_at_one_place = calibrations.iter().any(without_station).then(|| {
+            let (of_quantities, _) = aging(calibrations, Some(""));
+            let aging = largest_p_value(&of_quantities);
+            let change = last_change.as_ref().and_then(|change| change.overall_at_one_place.or(change.overall));
+            least([aging, change.map(|change| change.p_value)])
+        });
         let mut dates = calibrations.iter().filter_map(|kept| kept.record.recorded);
         let dates = dates.next().zip(dates.next_back()).filter(|(first, last)| first != last);
         Self {
@@ -104,16 +113,30 @@ impl SensorDrift {
             calibrations: calibrations.len(),
             first: dates.map(|(first, _)| first),
             last: dates.map(|(_, last)| last),
-            last_change,
+            last_change: last_change.and_then(|change| change.overall),
             largest_aging: largest.copied(),
-            aging_p_value: largest.map(|of| (of.aging.p_value * aging.len() as f64).min(1.0)),
+            aging_p_value: largest_p_value(&of_quantities),
+            p_value_at_one_place: p_value_at_one_place.flatten(),
         }
     }
 
     /// The smaller of the probabilities of the last change and of the aging, if nothing changed.
     #[must_use]
     pub fn p_value(&self) -> Option<f64> {
-        let of = [self.last_change.map(|change| change.p_value), self.aging_p_value];
-        of.into_iter().flatten().min_by(f64::total_cmp)
+        least([self.last_change.map(|change| change.p_value), self.aging_p_value])
     }
+}
+
+fn least(of: [Option<f64>; 2]) -> Option<f64> {
+    of.into_iter().flatten().min_by(f64::total_cmp)
+}
+
+/// The most significant.
+fn largest(of_quantities: &[QuantityAging]) -> Option<&QuantityAging> {
+    of_quantities.iter().min_by(|one, other| one.aging.p_value.total_cmp(&other.aging.p_value))
+}
+
+/// The probability of the most significant, by Bonferroni.
+fn largest_p_value(of_quantities: &[QuantityAging]) -> Option<f64> {
+    largest(of_quantities).map(|of| (of.aging.p_value * of_quantities.len() as f64).min(1.0))
 }

@@ -4,7 +4,7 @@ use super::sensor_aging::{DatedCalibration, QuantityAging, aging_of};
 use crate::database::{KeptRecord, RecordFilter, Records};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{CalibrationStatus, Comparison};
+use calibrant_core::estimate::{CalibrationStatus, Comparison, Place};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -54,13 +54,13 @@ impl SensorHistory {
     /// The history of calibrations of one sensor that stand in the order of their dates.
     pub(super) fn of(calibrations: Vec<KeptRecord>) -> Self {
         let usable: Vec<&KeptRecord> = calibrations.iter().filter(|kept| has_converged(kept)).collect();
-        let change = |pair: &[&KeptRecord]| SensorChange {
+        let of_pair = |pair: &[&KeptRecord]| SensorChange {
             from: pair[0].id,
             to: pair[1].id,
-            comparison: Comparison::of(&pair[0].record.imu, &pair[1].record.imu),
+            comparison: change(pair[0], pair[1]),
         };
-        let changes = usable.windows(2).map(change).collect();
-        let (aging, aging_from) = aging(&calibrations);
+        let changes = usable.windows(2).map(of_pair).collect();
+        let (aging, aging_from) = aging(&calibrations, None);
         let sensor = calibrations.first().map_or_else(String::new, |kept| kept.record.sensor.clone());
         Self { sensor, changes, aging, aging_from, calibrations }
     }
@@ -71,14 +71,23 @@ pub(super) fn has_converged(kept: &KeptRecord) -> bool {
     kept.record.status == CalibrationStatus::Converged.name()
 }
 
-/// The aging by calibrations of one sensor that have a date and are not bad, and their number.
-pub(super) fn aging(calibrations: &[KeptRecord]) -> (Vec<QuantityAging>, usize) {
+/// The change from one calibration to another.
+pub(super) fn change(earlier: &KeptRecord, later: &KeptRecord) -> Comparison {
+    let [one, other] = [earlier, later].map(|kept| kept.record.station.as_deref());
+    Comparison::at(Place::of_stations(one, other), &earlier.record.imu, &later.record.imu)
+}
+
+/// The aging by calibrations of one sensor that have a date and are not bad, and their number. Those without a station count as of `station`.
+pub(super) fn aging(calibrations: &[KeptRecord], station: Option<&str>) -> (Vec<QuantityAging>, usize) {
     let counts = |kept: &&KeptRecord| kept.record.verdict.usability != Usability::Bad && has_converged(kept);
     let seconds = |kept: &KeptRecord| Some(kept.record.recorded?.seconds() as f64);
     let from_s = calibrations.iter().find_map(seconds).unwrap_or_default();
-    let dated = |kept| {
-        Some(DatedCalibration { time_years: (seconds(kept)? - from_s) / YEAR_S, imu: &kept.record.imu })
-    };
-    let dated: Vec<_> = calibrations.iter().filter(counts).filter_map(dated).collect();
+    let mut dated = Vec::new();
+    for kept in calibrations.iter().filter(counts) {
+        let Some(seconds) = seconds(kept) else { continue };
+        let time_years = (seconds - from_s) / YEAR_S;
+        let station = kept.record.station.as_deref().or(station);
+        dated.push(DatedCalibration { time_years, imu: &kept.record.imu, station });
+    }
     (aging_of(&dated), dated.len())
 }

@@ -11,6 +11,9 @@
 //! values then scatter by more than their calibrations know, for example because the sensor is mounted anew each time. A ratio below 1 changes nothing: a few
 //! values that agree by chance do not show that the standard deviations are too large.
 //!
+//! Values may have errors `e_k` in common, as those of one place have that of its gravity: `v_i = v̄ + r (t_i − t̄) + Σ_k c_ik e_k + ε_i`. Each is then an unknown more, standard normal
+//! beforehand, and `σ_i² − Σ_k c_ik²` is left for `ε_i`. So the error that all values of a place have hides no change.
+//!
 //! Without the ratio, the significance is that of Student's t with the degrees of freedom behind `var r = Σ c_i² σ_i²`, `c_i = w_i (t_i − t̄) / Σ w_j (t_j − t̄)²`, by Welch and
 //! Satterthwaite (`satterthwaite1946`). For two values of sensors that did not change, this is the significance of their difference.
 //!
@@ -20,8 +23,12 @@
 
 use calibrant_core::estimate::{chi2_p_value, degrees_of_sum, f_p_value};
 use calibrant_core::form::As;
+use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
+
+/// Of a variance that is all of shared errors, this part is the value's own.
+const LEAST_OWN: f64 = 1e-9;
 
 /// A value with its date.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,33 +81,60 @@ impl Aging {
     /// ```
     #[must_use]
     pub fn of(values: &[Dated]) -> Option<Self> {
+        Self::with_shared(values, &[])
+    }
+
+    /// The same where values have errors in common, which are parts of their standard deviations. Each of `shared` is one such error: what one standard
+    /// deviation of it does to each value, 0 where it does nothing.
+    #[must_use]
+    pub fn with_shared(values: &[Dated], shared: &[Vec<f64>]) -> Option<Self> {
         let counts =
-            |v: &&Dated| v.sd > 0.0 && v.sd.is_finite() && v.value.is_finite() && v.time_years.is_finite();
-        let values: Vec<&Dated> = values.iter().filter(counts).collect();
-        let weight = |v: &Dated| v.sd.powi(-2);
-        let sum = |of: &dyn Fn(&Dated) -> f64| values.iter().map(|v| weight(v) * of(v)).sum::<f64>();
+            |v: &Dated| v.sd > 0.0 && v.sd.is_finite() && v.value.is_finite() && v.time_years.is_finite();
+        let kept: Vec<usize> = (0..values.len()).filter(|&i| counts(&values[i])).collect();
+        let values: Vec<&Dated> = kept.iter().map(|&i| &values[i]).collect();
+        let effect = DMatrix::from_fn(values.len(), shared.len(), |i, k| shared[k][kept[i]]);
+        let own = |i: usize| {
+            let variance = values[i].sd.powi(2);
+            (variance - effect.row(i).norm_squared()).max(LEAST_OWN * variance)
+        };
+        let own: Vec<f64> = (0..values.len()).map(own).collect();
+        let sum = |of: &dyn Fn(&Dated) -> f64| values.iter().zip(&own).map(|(v, own)| of(v) / own).sum::<f64>();
         let weights = sum(&|_| 1.0);
         let (mean_time, mean_value) = (sum(&|v| v.time_years) / weights, sum(&|v| v.value) / weights);
-        let information = sum(&|v| (v.time_years - mean_time).powi(2));
         // values of one day differ by the rounding of their mean
         let spread = values.iter().fold(0.0_f64, |most, v| most.max((v.time_years - mean_time).abs()));
         if values.len() < 2 || spread <= 1e-9 {
             return None;
         }
-        let per_year = sum(&|v| (v.time_years - mean_time) * (v.value - mean_value)) / information;
-        let chi2 = sum(&|v| (v.value - mean_value - per_year * (v.time_years - mean_time)).powi(2));
+        // unknowns: the value at the mean time, the change, and each shared error, which is standard normal
+        let design = DMatrix::from_fn(values.len(), 2 + shared.len(), |i, k| match k {
+            0 => 1.0,
+            1 => values[i].time_years - mean_time,
+            k => effect[(i, k - 2)],
+        });
+        let weighted = DMatrix::from_fn(design.ncols(), design.nrows(), |k, i| design[(i, k)] / own[i]);
+        let mut information = &weighted * &design;
+        (2..design.ncols()).for_each(|k| information[(k, k)] += 1.0);
+        let covariance = information.cholesky()?.inverse();
+        let estimator = &covariance * weighted;
+        let deviations = DVector::from_fn(values.len(), |i, _| values[i].value - mean_value);
+        let solution = &estimator * &deviations;
+        let per_year = solution[1];
+        let residuals = deviations - design * &solution;
+        let chi2 = residuals.iter().zip(&own).map(|(residual, own)| residual * residual / own).sum::<f64>()
+            + solution.rows_range(2..).norm_squared();
         let degrees_of_freedom = values.len() - 2;
         let birge_ratio = (degrees_of_freedom > 0).then(|| (chi2 / degrees_of_freedom as f64).sqrt());
         let widened = birge_ratio.filter(|ratio| *ratio > 1.0);
-        let sd = information.sqrt().recip() * widened.unwrap_or(1.0);
+        let sd = covariance[(1, 1)].sqrt() * widened.unwrap_or(1.0);
         let degrees_behind = if widened.is_some() {
             degrees_of_freedom as f64
         } else {
-            // c_i² σ_i² = w_i (t_i − t̄)² / (Σ w_j (t_j − t̄)²)²
-            let part = |v: &&Dated| {
-                (weight(v) * ((v.time_years - mean_time) / information).powi(2), v.degrees_of_freedom)
-            };
-            degrees_of_sum(&values.iter().map(part).collect::<Vec<_>>())
+            let of_change = estimator.row(1);
+            let part = |i: usize| (of_change[i].powi(2) * own[i], values[i].degrees_of_freedom);
+            let of_shared = (of_change * &effect).norm_squared();
+            let parts = (0..values.len()).map(part).chain((of_shared > 0.0).then_some((of_shared, f64::INFINITY)));
+            degrees_of_sum(&parts.collect::<Vec<_>>())
         };
         Some(Self {
             per_year,

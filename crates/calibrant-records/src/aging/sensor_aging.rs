@@ -1,9 +1,11 @@
 //! The aging of a sensor: that of each of its quantities which do not depend on the true frame.
 
 use super::line::{Aging, Dated};
+use calibrant_core::estimate::tells_its_place;
 use calibrant_core::sensor::{CalibratedImu, Invariant};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// A calibration with its date.
 #[derive(Debug, Clone, Copy)]
@@ -12,6 +14,8 @@ pub struct DatedCalibration<'a> {
     pub time_years: f64,
     /// The sensor as it was then.
     pub imu: &'a CalibratedImu,
+    /// Where it was calibrated; `None` where that is not known. What all calibrations at one place share hides no aging.
+    pub station: Option<&'a str>,
 }
 
 /// The aging of one quantity.
@@ -41,26 +45,53 @@ pub fn aging_of(calibrations: &[DatedCalibration<'_>]) -> Vec<QuantityAging> {
     };
     let found = calibrations.iter().filter_map(|of| {
         let imu = referred(of.imu)?;
-        Some((of.time_years, imu.invariants(), imu))
+        Some((of, imu.invariants(), imu))
     });
     let found: Vec<_> = found.collect();
     let Some((_, listed, last)) = found.last() else { return Vec::new() };
     let of_quantity = |invariant: Invariant| {
         let unit = invariant.unit(last);
         let same_unit = found.iter().filter(|(.., imu)| invariant.unit(imu) == unit);
-        let values = same_unit.filter_map(|(time_years, values, imu)| {
+        let values = same_unit.filter_map(|(of, values, imu)| {
             let value = values.iter().find(|value| value.invariant == invariant)?;
-            Some(Dated {
-                time_years: *time_years,
+            let dated = Dated {
+                time_years: of.time_years,
                 value: value.value,
                 sd: value.sd?,
                 degrees_of_freedom: invariant.degrees_behind(imu),
-            })
+            };
+            Some((dated, errors(imu, of.station, invariant)))
         });
-        let aging = Aging::of(&values.collect::<Vec<_>>())?;
+        let (values, errors): (Vec<Dated>, Vec<_>) = values.unzip();
+        let aging = Aging::with_shared(&values, &columns(&errors))?;
         Some(QuantityAging { invariant, unit, aging })
     };
     listed.iter().filter_map(|value| of_quantity(value.invariant)).collect()
+}
+
+/// An error of an invariant: its place and its source, and its size.
+type PlacedError = ((Option<String>, String), f64);
+
+/// The errors that calibrations at this station share, as far as it is known which place that is.
+fn errors(imu: &CalibratedImu, station: Option<&str>, invariant: Invariant) -> Vec<PlacedError> {
+    let sources = imu.shared.iter().flat_map(|shared| &shared.sources);
+    let placed = |(source, size): (&String, f64)| {
+        let is_known = station.is_some() || tells_its_place(source);
+        is_known.then(|| ((station.map(str::to_owned), source.clone()), size))
+    };
+    sources.zip(imu.shared_errors_of(invariant)).filter_map(placed).collect()
+}
+
+/// For each error that at least two values have: what it does to each value.
+fn columns(errors: &[Vec<PlacedError>]) -> Vec<Vec<f64>> {
+    let mut columns: BTreeMap<&(Option<String>, String), Vec<f64>> = BTreeMap::new();
+    for (i, of_value) in errors.iter().enumerate() {
+        for (place, size) in of_value {
+            columns.entry(place).or_insert_with(|| vec![0.0; errors.len()])[i] = *size;
+        }
+    }
+    let is_shared = |column: &Vec<f64>| column.iter().filter(|size| **size != 0.0).count() > 1;
+    columns.into_values().filter(is_shared).collect()
 }
 
 #[cfg(test)]
@@ -86,6 +117,7 @@ mod tests {
                 quantities,
                 covariance: Some(DMatrix::identity(size, size) * 1e-8),
                 degrees_of_freedom: None,
+                shared: None,
                 frame: String::new(),
             }
         };
@@ -95,7 +127,7 @@ mod tests {
         let turned: Vec<_> =
             imus.iter().zip(turned).map(|(imu, gauge)| imu.in_gauge(gauge).expect("regular")).collect();
         let of = |imus: &[CalibratedImu]| {
-            let dated = years.iter().zip(imus).map(|(&time_years, imu)| DatedCalibration { time_years, imu });
+            let dated = years.iter().zip(imus).map(|(&time_years, imu)| DatedCalibration { time_years, imu, station: None });
             aging_of(&dated.collect::<Vec<_>>())
         };
         let (one, other) = (of(&imus), of(&turned));
@@ -132,6 +164,7 @@ mod tests {
             quantities,
             covariance: Some(covariance),
             degrees_of_freedom: None,
+            shared: None,
             frame: String::new(),
         }
     }
@@ -140,7 +173,7 @@ mod tests {
     fn a_sensor_at_other_reference_temperatures_does_not_age() {
         let at = |reference_c: f64| warm().at_reference_temperature(reference_c).expect("positive gains");
         let imus = [20.0, 25.0, 35.0].map(at);
-        let dated = |(k, imu)| DatedCalibration { time_years: k as f64, imu };
+        let dated = |(k, imu)| DatedCalibration { time_years: k as f64, imu, station: None };
         let dated: Vec<_> = imus.iter().enumerate().map(dated).collect();
         let agings = aging_of(&dated);
         let thermal = agings.iter().filter(|of| matches!(of.invariant, Invariant::Thermal(..)));
@@ -157,7 +190,7 @@ mod tests {
         narrow.parameters.thermal.accelerometer.scale = [[-0.1, 0.0, 0.0].into(), [0.0; 3].into()];
         let last = warm().at_reference_temperature(35.0).expect("positive gains");
         let of = |imus: &[&CalibratedImu]| {
-            let dated = |(k, imu)| DatedCalibration { time_years: k as f64, imu };
+            let dated = |(k, imu)| DatedCalibration { time_years: k as f64, imu, station: None };
             aging_of(&imus.iter().copied().enumerate().map(dated).collect::<Vec<_>>())
         };
         assert!(of(&[&narrow, &last]).is_empty(), "one calibration is no line");
@@ -182,7 +215,7 @@ mod tests {
         let mut after = CalibratedImu { degrees_of_freedom: Some(degrees(9.0)), ..warm() };
         after.parameters.accelerometer.bias.x += 3e-4;
         let dated = [(0.0, &before), (0.7, &after)];
-        let agings = aging_of(&dated.map(|(time_years, imu)| DatedCalibration { time_years, imu }));
+        let agings = aging_of(&dated.map(|(time_years, imu)| DatedCalibration { time_years, imu, station: None }));
         let compared = Comparison::of(&before, &after).quantities;
         let (of, compared) = (agings[0].aging, &compared[0]);
         assert!((of.degrees_behind / compared.degrees_of_freedom - 1.0).abs() < 1e-9, "{of:?} {compared:?}");

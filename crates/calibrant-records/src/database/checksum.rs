@@ -13,13 +13,16 @@ pub(super) const VALUES: usize = 22;
 
 /// The parameters of a calibration, in their order.
 pub(super) const PARAMETERS: &str = "SELECT value, sd FROM parameters WHERE calibration = ? ORDER BY place";
+/// The shared errors of a calibration, where it has some.
+pub(super) const SHARED: &str = "SELECT sources, root FROM shared_errors WHERE calibration = ?";
 pub(super) const MODEL: &str = "SELECT id, text, checksum FROM models WHERE id = ?";
 
-/// The estimates of a calibration, and the checksum of all that is kept of it.
+/// The estimates of a calibration, its shared errors as they stand in the table, and the checksum of all that is kept of it.
 pub(super) fn parameters(
     statement: &mut CachedStatement<'_>,
+    shared: Option<&mut CachedStatement<'_>>,
     row: &Row<'_>,
-) -> rusqlite::Result<(Vec<f64>, Vec<u8>)> {
+) -> rusqlite::Result<(Vec<f64>, Option<(String, Vec<u8>)>, Vec<u8>)> {
     let mut checksum = Checksum::default();
     checksum.take(row, VALUES)?;
     let (mut estimates, mut rows) = (Vec::new(), statement.query([row.get::<_, i64>(0)?])?);
@@ -27,7 +30,15 @@ pub(super) fn parameters(
         checksum.take(parameter, 2)?;
         estimates.push(parameter.get(0)?);
     }
-    Ok((estimates, checksum.bytes()))
+    let mut errors = None;
+    if let Some(statement) = shared {
+        let mut rows = statement.query([row.get::<_, i64>(0)?])?;
+        if let Some(found) = rows.next()? {
+            checksum.take(found, 2)?;
+            errors = Some((found.get(0)?, found.get(1)?));
+        }
+    }
+    Ok((estimates, errors, checksum.bytes()))
 }
 
 /// The text of a model, the checksum that is kept, and the one that it has.
@@ -39,10 +50,11 @@ pub(super) fn model_row(row: &Row<'_>) -> rusqlite::Result<(String, Option<Vec<u
 
 /// Enters the checksum of a calibration, once all of it is there.
 pub(super) fn seal(connection: &Connection, id: i64) -> rusqlite::Result<()> {
-    let mut of_parameters = connection.prepare_cached(PARAMETERS)?;
-    let (_, checksum) = connection
+    let (mut of_parameters, mut shared) =
+        (connection.prepare_cached(PARAMETERS)?, connection.prepare_cached(SHARED)?);
+    let (_, _, checksum) = connection
         .prepare_cached(&format!("SELECT {COLUMNS} FROM calibrations WHERE id = ?"))?
-        .query_row([id], |row| parameters(&mut of_parameters, row))?;
+        .query_row([id], |row| parameters(&mut of_parameters, Some(&mut shared), row))?;
     connection
         .prepare_cached("UPDATE calibrations SET checksum = ? WHERE id = ?")?
         .execute(params![checksum, id])?;

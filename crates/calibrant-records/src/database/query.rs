@@ -1,15 +1,17 @@
 //! Questions to the records.
 
 use super::blob::numbers_of;
-use super::checksum::{COLUMNS, MODEL, PARAMETERS, VALUES, model_row, parameters};
+use super::checksum::{COLUMNS, MODEL, PARAMETERS, SHARED, VALUES, model_row, parameters};
 use super::failure::{damaged, failed};
 use super::records::Records;
+use super::schema;
 use crate::model::{self, Further};
 use crate::record::{KeptVerdict, Record};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;
-use calibrant_core::sensor::CalibratedImu;
+use calibrant_core::sensor::{CalibratedImu, SharedErrors};
 use calibrant_io::{HashedFile, UtcTime};
+use nalgebra::DMatrix;
 use rusqlite::types::ToSql;
 use rusqlite::{CachedStatement, Row};
 use schemars::JsonSchema;
@@ -131,9 +133,18 @@ impl Records {
     }
 }
 
+/// The shared errors of these many parameters; `None` where the sizes do not fit.
+fn shared_of(sources: &str, root: &[u8], parameters: usize) -> Option<SharedErrors> {
+    let sources: Vec<String> = sources.split('\n').map(str::to_owned).collect();
+    let numbers = numbers_of(root).filter(|numbers| numbers.len() == parameters * sources.len())?;
+    Some(SharedErrors { root: DMatrix::from_row_slice(parameters, sources.len(), &numbers), sources })
+}
+
 /// Makes records of rows.
 struct Reader<'r> {
     estimates: CachedStatement<'r>,
+    /// Not in a database of the version before.
+    shared: Option<CachedStatement<'r>>,
     model: CachedStatement<'r>,
     /// The models so far, by their numbers; `None` for one that cannot be read.
     models: HashMap<i64, Option<CalibratedImu>>,
@@ -142,13 +153,15 @@ struct Reader<'r> {
 impl<'r> Reader<'r> {
     fn of(records: &'r Records) -> rusqlite::Result<Self> {
         let statement = |text| records.connection.prepare_cached(text);
-        Ok(Self { estimates: statement(PARAMETERS)?, model: statement(MODEL)?, models: HashMap::new() })
+        let has_shared = schema::has_shared_errors(&records.connection)?;
+        let shared = has_shared.then(|| statement(SHARED)).transpose()?;
+        Ok(Self { estimates: statement(PARAMETERS)?, shared, model: statement(MODEL)?, models: HashMap::new() })
     }
 
     /// The record of a row; `None` where its parts do not fit together.
     fn record(&mut self, row: &Row<'_>) -> rusqlite::Result<Option<KeptRecord>> {
         let id: i64 = row.get(0)?;
-        let (estimates, checksum) = parameters(&mut self.estimates, row)?;
+        let (estimates, errors, checksum) = parameters(&mut self.estimates, self.shared.as_mut(), row)?;
         if row.get::<_, Option<Vec<u8>>>(VALUES)?.as_ref() != Some(&checksum) {
             return Ok(None);
         }
@@ -172,7 +185,11 @@ impl<'r> Reader<'r> {
                 .map(|(least, greatest)| [least, greatest]),
             degrees,
             covariance: numbers(21)?,
+            shared: errors.as_ref().and_then(|(sources, root)| shared_of(sources, root, estimates.len())),
         };
+        if errors.is_some() && further.shared.is_none() {
+            return Ok(None);
+        }
         let time = |text: String| UtcTime::parse(&text);
         let (recorded, inserted): (Option<String>, String) = (row.get(2)?, row.get(3)?);
         let (verdict, codes): (String, String) = (row.get(13)?, row.get(14)?);

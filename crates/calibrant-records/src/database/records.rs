@@ -72,6 +72,7 @@ impl Records {
         }
         let mut records = Self::open_existing(path)?;
         check_writable(&mut records.connection, path)?;
+        schema::upgrade(&mut records.connection, path)?;
         Ok(records)
     }
 
@@ -256,6 +257,11 @@ fn insert(
         // a fit that did not converge has a covariance of zeros, and no sd
         let sd = variance.filter(|variance| *variance > 0.0).map(f64::sqrt);
         parameter.execute(params![id, place as i64, quantity.value(&record.imu.parameters), sd])?;
+    }
+    if let Some(shared) = further.shared {
+        transaction
+            .prepare_cached("INSERT INTO shared_errors (calibration, sources, root) VALUES (?, ?, ?)")?
+            .execute(params![id, shared.sources.join("\n"), bytes_of(shared.root.transpose().iter().copied())])?;
     }
     checksum::seal(transaction, id)?;
     Ok(Inserted { id, replaced: earlier.is_some() })

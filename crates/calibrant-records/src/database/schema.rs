@@ -2,7 +2,7 @@
 
 use super::failure::failed;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use rusqlite::Connection;
+use rusqlite::{Connection, TransactionBehavior};
 use std::path::Path;
 
 /// `cali`: says that a database is ours.
@@ -56,6 +56,11 @@ const NEW: &str = "
         sd REAL,
         PRIMARY KEY (calibration, place)
     ) STRICT, WITHOUT ROWID;
+    CREATE TABLE shared_errors (
+        calibration INTEGER PRIMARY KEY REFERENCES calibrations (id) ON DELETE CASCADE,
+        sources TEXT NOT NULL, -- one in each line: gravity 9.80665 ± 0.019 m/s²
+        root BLOB NOT NULL -- a row for each parameter, a column for each source, f64, little endian
+    ) STRICT;
     CREATE VIEW estimates AS
         SELECT c.id AS calibration, c.sensor, c.recorded, c.station, c.verdict, n.name, n.unit, p.value, p.sd
         FROM calibrations c JOIN parameters p ON p.calibration = c.id
@@ -67,8 +72,36 @@ const NEW: &str = "
         );
 ";
 
-/// The version of the schema. No other one was ever released.
-pub(super) const VERSION: i32 = 3;
+/// The version of the schema.
+pub(super) const VERSION: i32 = 4;
+
+/// The version before, which has no shared errors.
+const BEFORE: i32 = 3;
+
+/// Brings a database that can be written to this version.
+pub(super) fn upgrade(connection: &mut Connection, path: &Path) -> Result<()> {
+    let upgrade = |connection: &mut Connection| {
+        let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        if version(&transaction)? == BEFORE {
+            let end = "STRICT;";
+            let added = NEW.split_inclusive(end).find(|made| made.contains("CREATE TABLE shared_errors"));
+            transaction.execute_batch(added.unwrap_or_default())?;
+            transaction.pragma_update(None, "user_version", VERSION)?;
+        }
+        transaction.commit()
+    };
+    let is_older = version(connection).is_ok_and(|version| version == BEFORE);
+    if is_older { upgrade(connection).map_err(|error| failed(path, error)) } else { Ok(()) }
+}
+
+/// Has this database a table of shared errors?
+pub(super) fn has_shared_errors(connection: &Connection) -> rusqlite::Result<bool> {
+    Ok(version(connection)? >= VERSION)
+}
+
+fn version(connection: &Connection) -> rusqlite::Result<i32> {
+    connection.pragma_query_value(None, "user_version", |row| row.get(0))
+}
 
 /// Makes the tables of a database that is new.
 pub(super) fn make(connection: &Connection, path: &Path) -> Result<()> {
@@ -94,7 +127,7 @@ pub(super) fn check(connection: &Connection, path: &Path) -> Result<()> {
         let message = "this is an SQLite database of another program".to_owned();
         return refuse(Refusal::FormatUnknown, message, "give another file for the records");
     }
-    if version == VERSION {
+    if [BEFORE, VERSION].contains(&version) {
         return Ok(());
     }
     let message = format!(

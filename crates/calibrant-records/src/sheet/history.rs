@@ -2,6 +2,8 @@
 
 use super::cells::{per_year, text_or_missing};
 use crate::aging::{QuantityAging, SensorChange, SensorHistory};
+use calibrant_core::diagnostic::Check;
+use calibrant_core::diagnostic::comparison::PlaceUnknown;
 use calibrant_core::estimate::ComparedQuantity;
 use calibrant_report::{Cell, Digits, Section, Sheet, Table, number_format};
 
@@ -27,6 +29,10 @@ pub fn history_sheet(history: &SensorHistory) -> Sheet<'static> {
         table.row(row);
     }
     calibrations.table(table);
+    let notes = history.changes.iter().flat_map(|change| &change.comparison.notes);
+    if let Some(note) = notes.filter(|note| note.code() == PlaceUnknown::CODE).last() {
+        calibrations.paragraph(note.message().to_owned());
+    }
     Sheet { title, sections: vec![calibrations, aging(&history.aging)], ..Sheet::default() }
 }
 

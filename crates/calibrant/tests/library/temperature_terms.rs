@@ -165,6 +165,7 @@ fn the_correction_of_each_sample_is_that_at_its_temperature() {
         quantities: Vec::new(),
         covariance: None,
         degrees_of_freedom: None,
+        shared: None,
         frame: String::new(),
     };
     let corrected = ImuCorrection::of(&imu).and_then(|of| of.apply(&recording)).expect("regular");

@@ -1,6 +1,7 @@
 //! Puts the result together.
 
 use super::drift;
+use super::shared_errors::shared_errors;
 use crate::chain::JointKind;
 use crate::estimate::covariance::{budget, inflation, of_mounting};
 use crate::estimate::least_squares::{Minimum, Model, Pass, white_noise};
@@ -63,6 +64,7 @@ pub(crate) fn assembled(
         quantities: layout.quantities.clone(),
         values: layout.quantities.iter().map(|of| state.parameters.value(*of, &layout.nominal)).collect(),
         budget: budget(layout, posterior, &covariance, &second, model.trust),
+        shared: shared_errors(layout, &model.joint_names(), &posterior.covariance, &covariance),
         covariance,
         linear_covariance: posterior.covariance.clone(),
         inflation,

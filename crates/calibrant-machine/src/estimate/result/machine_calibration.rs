@@ -8,7 +8,9 @@ use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
 use crate::reference::Motion;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{CalibrationStatus, FitStatistics};
-use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, ImuRecording, ReadingUnit, SensorKind};
+use calibrant_core::sensor::{
+    CalibratedImu, Gauge, ImuQuantity, ImuRecording, ReadingUnit, SensorKind, SharedErrors,
+};
 use nalgebra::{DMatrix, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -57,6 +59,8 @@ pub struct MachineCalibration {
     pub budget: Vec<BudgetRow>,
     /// Part of the sensor's samples that lie in the log's time and in none of its gaps, 0 to 1.
     pub used_share: f64,
+    /// Errors of the sensor's parameters that another calibration on this machine has, too: gravity, geometry and zeros.
+    pub shared: Option<SharedErrors>,
     /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
 }
@@ -198,6 +202,7 @@ impl MachineCalibration {
             quantities: imu.iter().map(|(_, quantity)| *quantity).collect(),
             covariance: Some(DMatrix::from_fn(n, n, |i, j| self.covariance[(imu[i].0, imu[j].0)])),
             degrees_of_freedom: None,
+            shared: self.shared.clone(),
             frame: self.frame(),
         }
     }

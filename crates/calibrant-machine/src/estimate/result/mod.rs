@@ -6,6 +6,7 @@ mod drift;
 mod machine_calibration;
 pub(crate) mod plausible;
 mod sample_residual;
+mod shared_errors;
 mod spectrum;
 pub(crate) mod undetermined;
 

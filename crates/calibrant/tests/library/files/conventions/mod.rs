@@ -54,6 +54,7 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
         quantities,
         covariance: Some(&root * root.transpose()),
         degrees_of_freedom: None,
+        shared: None,
         frame: "the plate's: x along its long edge; z \"up\" # */ ".into(),
     }
 }
@@ -134,6 +135,7 @@ pub(crate) fn alone(imu: &CalibratedImu, sensor_kind: SensorKind) -> CalibratedI
         ),
         covariance: None,
         degrees_of_freedom: None,
+        shared: None,
         ..imu.clone()
     };
     alone.parameters.g_sensitivity = Matrix3::zeros();
