@@ -154,6 +154,7 @@ fn problem<'a>(
         chain,
         setup,
         quantities,
+        cross_axis_sd: [0.0; 2],
         noise: TrajectoryNoise {
             force_density: Some(number(&case["noise"]["acc_mps2_rthz"])),
             rate_density: Some(number(&case["noise"]["gyr_radps_rthz"])),

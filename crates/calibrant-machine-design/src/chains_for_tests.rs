@@ -79,6 +79,7 @@ pub(crate) fn problem_of(chain: &KinematicChain) -> TrajectoryProblem<'_> {
         setup,
         quantities,
         noise: TrajectoryNoise { force_density: Some(1.7e-3), rate_density: Some(2.4e-4), moving: 2.0 },
+        cross_axis_sd: [0.0; 2],
         joints: vec![limit; chain.joints.len()],
         force_range_mps2: Vector3::repeat(39.0),
         rate_range_radps: Vector3::repeat(17.0),

@@ -12,7 +12,7 @@ use crate::{
     TrajectoryStart,
 };
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_design::DesignStatus;
+use calibrant_design::{DesignStatus, Interruption};
 use calibrant_machine::spline::VectorSpline;
 use std::time::{Duration, Instant};
 
@@ -51,10 +51,10 @@ pub fn design_trajectory(
     let deadline = settings.seconds.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds));
     let interruption = settings.interruption.or_at(deadline);
     let Found { candidates, first, starts, iterations } = search(problem, &sensing, settings, &interruption)?;
-    let best = proved(problem, &sensing, &candidates)?;
+    let best = proved(problem, &sensing, &candidates, &settings.interruption)?;
     let mut optimal = evaluated(problem, &sensing, best.knots, &best.controls)?;
     let random = evaluated(problem, &sensing, first.knots, &first.controls)?;
-    let plain = plain(problem, &sensing, settings.seed);
+    let plain = plain(problem, &sensing, settings.seed, &settings.interruption);
     // the search does not go through these; what they are better in is known only here
     for other in [Some(&random), plain.as_ref().map(|plain| &plain.evaluation)].into_iter().flatten() {
         if other.value < optimal.value && other.is_proved() {
@@ -73,8 +73,13 @@ pub fn design_trajectory(
     })
 }
 
-/// The best candidate whose limits are proved, repaired where they are not.
-fn proved(problem: &TrajectoryProblem<'_>, sensing: &Sensing, candidates: &[Candidate]) -> Result<Candidate> {
+/// The best candidate whose limits are proved, repaired where they are not and nobody interrupts.
+fn proved(
+    problem: &TrajectoryProblem<'_>,
+    sensing: &Sensing,
+    candidates: &[Candidate],
+    interruption: &Interruption,
+) -> Result<Candidate> {
     let is_proved = |candidate: &Candidate| {
         let proofs = certify(problem, candidate.knots, &candidate.controls);
         proofs.iter().all(|proof| proof.kept == Kept::Proved)
@@ -89,9 +94,12 @@ fn proved(problem: &TrajectoryProblem<'_>, sensing: &Sensing, candidates: &[Cand
         }
         let kept = match is_proved(candidate) {
             true => Some(candidate.clone()),
-            false => repaired(problem, sensing, candidate, is_proved),
+            false => repaired(problem, sensing, candidate, interruption, is_proved),
         };
         best = best.into_iter().chain(kept).min_by(|one, other| one.value.total_cmp(&other.value));
+    }
+    if best.is_none() {
+        interruption.check()?;
     }
     best.ok_or_else(|| {
         Error::infeasible(InputError::new(

@@ -101,7 +101,7 @@ pub(crate) fn evaluated(
     let quantities = sensing.quantities();
     let (information, solved) = match marginalised {
         Some(of) => {
-            let found = posterior(sensing, &of);
+            let found = posterior(sensing, &of, problem.cross_axis_sd);
             (
                 of.information,
                 found.map(|found| (of.valued.value, of.valued.covariance + &found.second, found)),
@@ -130,13 +130,13 @@ pub(crate) fn evaluated(
 
 /// Budget, and what is known of the nuisances afterwards.
 struct Posterior {
-    /// What the mounting adds to the covariance beyond first order at the nominal sensor, as a calibration states it.
+    /// What the mounting adds to the covariance beyond first order at the nominal sensor, as calibrations state it in the mean over sensors.
     second: DMatrix<f64>,
     budget: Vec<BudgetRow>,
     machine: Vec<(MachineQuantity, f64)>,
 }
 
-fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
+fn posterior(sensing: &Sensing, of: &Marginalised, cross_axis_sd: [f64; 2]) -> Option<Posterior> {
     let p = sensing.columns.len();
     let layout = &sensing.layout;
     let size = layout.quantities.len() - p;
@@ -148,7 +148,8 @@ fn posterior(sensing: &Sensing, of: &Marginalised) -> Option<Posterior> {
     let own = own - &gain * &cross;
     let mut all = DMatrix::zeros(p + size, p + size);
     all.view_mut((p, p), (size, size)).copy_from(&own);
-    let second = of_mounting(layout, &layout.nominal, &all) + of_turned_cross_terms(layout, &all);
+    let second =
+        of_mounting(layout, &layout.nominal, &all) + of_turned_cross_terms(layout, &all, cross_axis_sd);
     let second = second.view((0, 0), (p, p)).into_owned();
     let sources: Vec<Source> = layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
     let quantities = sensing.quantities();

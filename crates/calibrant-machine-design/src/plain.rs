@@ -11,7 +11,7 @@
 //! T ≥ max(15/8 Δ/V, √(10/√3 Δ/A), ∛(60 Δ/J))
 //! ```
 //!
-//! Where a move breaks another limit it takes longer, then another posture is taken. Holds share the time that is left.
+//! Where a move breaks another limit it takes longer, then another posture is taken. A move that alone is longer than the motion is none. Holds share the time that is left.
 
 use crate::evaluate::evaluated;
 use crate::information::Sensing;
@@ -20,6 +20,7 @@ use crate::motion::{Knots, REST};
 use crate::recursion::{JointAt, Sweep};
 use crate::search::{HELD_BACK, Probe, levels};
 use crate::{TrajectoryEvaluation, TrajectoryProblem};
+use calibrant_core::interruption::Interruption;
 use calibrant_core::simulate::{Purpose, Rng, stream};
 use nalgebra::{DMatrix, Vector3};
 use rand::RngExt;
@@ -69,17 +70,18 @@ pub struct PlainTrajectory {
     pub evaluation: TrajectoryEvaluation,
 }
 
-/// The best of some plain routines; `None` where none was found that keeps the limits within the duration.
+/// The best of some plain routines; `None` where none was found that keeps the limits within the duration, or an interruption came before.
 pub(crate) fn plain(
     problem: &TrajectoryProblem<'_>,
     sensing: &Sensing,
     seed: u64,
+    interruption: &Interruption,
 ) -> Option<PlainTrajectory> {
     let tried = |routine: PlainRoutine| {
         (0..ROUTINES)
             .filter_map(|number| {
                 let mut rng = stream(seed, Purpose::Motion, number);
-                let controls = Planner::new(problem, sensing).routine(routine, &mut rng)?;
+                let controls = Planner::new(problem, sensing, interruption).routine(routine, &mut rng)?;
                 let evaluation = evaluated(problem, sensing, finest(problem), &controls).ok()?;
                 evaluation.is_proved().then_some(PlainTrajectory { routine, evaluation })
             })
@@ -106,20 +108,23 @@ struct Planner<'a> {
     sensing: &'a Sensing,
     probe: Probe<'a>,
     knots: Knots,
+    /// Steps from one control point to the next, without those of the ends at rest.
+    room: usize,
+    interruption: &'a Interruption,
 }
 
 impl<'a> Planner<'a> {
-    fn new(problem: &'a TrajectoryProblem<'a>, sensing: &'a Sensing) -> Self {
+    fn new(problem: &'a TrajectoryProblem<'a>, sensing: &'a Sensing, interruption: &'a Interruption) -> Self {
         let knots = finest(problem);
         let clearance_m = problem.clearance_m + HELD_BACK.clearance_m;
         let pointwise = Pointwise::new(problem, sensing.links.clone(), clearance_m, 1.0 - HELD_BACK.share);
-        Self { problem, sensing, probe: Probe::new(pointwise, knots), knots }
+        let room = (knots.controls() - 1).saturating_sub(2 * (REST - 1));
+        Self { problem, sensing, probe: Probe::new(pointwise, knots), knots, room, interruption }
     }
 
     /// The control points of a routine.
     fn routine(&mut self, routine: PlainRoutine, rng: &mut Rng) -> Option<DMatrix<f64>> {
-        // steps from one control point to the next, without those of the ends at rest
-        let room = (self.knots.controls() - 1).checked_sub(2 * (REST - 1))?;
+        let room = self.room;
         match routine {
             PlainRoutine::SixPoses => {
                 let tour = self.tour_of_faces(rng)?;
@@ -274,10 +279,14 @@ impl<'a> Planner<'a> {
         self.problem.joints.iter().enumerate().map(one).fold(0.0, f64::max)
     }
 
-    /// Intervals of the quickest move between two postures at rest that keeps the limits, of those that are tried.
+    /// Intervals of the quickest move between two postures at rest that keeps the limits, of those that are tried and fit into the motion.
     fn way(&mut self, from: &[f64], to: &[f64]) -> Option<usize> {
         let shortest = 1.01 * self.shortest_s(from, to) / self.knots.step_s;
-        SLOWER.into_iter().map(|times| ((shortest * times).ceil() as usize).max(1)).find(|intervals| {
+        let tried = SLOWER.map(|times| ((shortest * times).ceil() as usize).max(1));
+        tried.into_iter().find(|intervals| {
+            if *intervals > self.room || self.interruption.is_asked() {
+                return false;
+            }
             let tour = Tour { postures: vec![from.to_vec(), to.to_vec()], moves: vec![*intervals] };
             let controls = self.controls(&tour, 0, 0);
             (0..controls.nrows() - REST).all(|i| self.probe.interval_is_free(&controls, i))

@@ -23,6 +23,8 @@ pub struct TrajectoryProblem<'a> {
     pub quantities: &'a [ImuQuantity],
     /// Noise of the sensor.
     pub noise: TrajectoryNoise,
+    /// Spread of the cross terms of sensors, of accelerometer and gyroscope, where nothing is known of them. An uncertain mount moves them into the scale factors.
+    pub cross_axis_sd: [f64; 2],
     /// Limits of each joint.
     pub joints: Vec<JointLimit>,
     /// Range of the accelerometer on each axis, m/s²; infinite where it is not known.

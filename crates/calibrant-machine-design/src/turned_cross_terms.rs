@@ -1,11 +1,12 @@
-//! What a turn of the mount does with the sensor's own scale and cross terms.
+//! What a turn of the mount does with the scale and cross terms of a drawn sensor.
 //!
 //! # Formula
 //! A turn `δ` of the mount changes a matrix `S = I + C` by `S [δ]×`. The part `[δ]×` is of first order at the nominal sensor, whose `C` is zero. A calibration stands at the
-//! sensor's own `C`, so that it states `C [δ]×` as well. With independent entries of prior variance `c²` and the covariance `T` of `δ`, row `i` has the mean products
+//! matrix that it finds, so that it states `C [δ]×` as well. What it finds differs from the nominal sensor by the sensor's own terms, of variance `c²`, and by the turn that
+//! is not known, `[δ]×`. With the covariance `T` of `δ`, row `i` of a mean sensor has the products
 //!
 //! ```text
-//! Σ_k c²_ik [e_k]× T [e_k]×ᵀ
+//! Σ_k (c²_ik + ([e_i]× T [e_i]×ᵀ)_kk) [e_k]× T [e_k]×ᵀ
 //! ```
 
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
@@ -23,9 +24,13 @@ fn entry(quantity: MachineQuantity) -> Option<(SensorKind, usize, usize)> {
     Some((kind, row.index(), column.index()))
 }
 
-/// The mean products of these changes over the sensor's prior, for all quantities; 0 where the mounting is not estimated, or nothing is known of the sensor.
-/// `covariance` is that of the quantities.
-pub(crate) fn of_turned_cross_terms(layout: &Layout, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+/// The mean products of these changes over sensors, for all quantities; 0 where the mounting is not estimated. `covariance` is that of the quantities, `spread` the
+/// standard deviation of the terms of accelerometer and gyroscope of which nothing is known beforehand.
+pub(crate) fn of_turned_cross_terms(
+    layout: &Layout,
+    covariance: &DMatrix<f64>,
+    spread: [f64; 2],
+) -> DMatrix<f64> {
     let n = layout.quantities.len();
     let mut products = DMatrix::zeros(n, n);
     let place = |quantity| layout.quantities.iter().position(|of| *of == quantity);
@@ -34,16 +39,20 @@ pub(crate) fn of_turned_cross_terms(layout: &Layout, covariance: &DMatrix<f64>) 
     };
     let places = [x, y, z];
     let turn = Matrix3::from_fn(|i, j| covariance[(places[i], places[j])]);
+    let moved = |k: usize| {
+        let cross = Vector3::ith(k, 1.0).cross_matrix();
+        cross * turn * cross.transpose()
+    };
     let entries: Vec<(usize, (SensorKind, usize, usize))> = (layout.quantities.iter().enumerate())
         .filter_map(|(place, quantity)| Some((place, entry(*quantity)?)))
         .collect();
     for (known, (kind, row, k)) in &entries {
         let information = layout.prior[(*known, *known)];
-        if information <= 0.0 {
-            continue;
-        }
-        let cross = Vector3::ith(*k, 1.0).cross_matrix();
-        let of_row = cross * turn * cross.transpose() / information;
+        let own = match information > 0.0 {
+            true => 1.0 / information,
+            false => spread[usize::from(*kind == SensorKind::Gyroscope)].powi(2),
+        };
+        let of_row = moved(*k) * (own + moved(*row)[(*k, *k)]);
         let same = entries.iter().filter(|(_, (other, of, _))| other == kind && of == row);
         for (i, (_, _, one)) in same.clone() {
             for (j, (_, _, other)) in same.clone() {
@@ -66,8 +75,17 @@ mod tests {
         let mut layout = Sensing::new(&problem_of(&chain)).expect("valid").layout;
         let (turn_sd, entry_sd) = (0.01, 0.02);
         let n = layout.quantities.len();
+        let covariance = DMatrix::identity(n, n) * (turn_sd * turn_sd);
+        layout.prior = DMatrix::zeros(n, n);
+        let found = of_turned_cross_terms(&layout, &covariance, [1.0, entry_sd]);
+        // the same, known beforehand
         layout.prior = DMatrix::identity(n, n) / (entry_sd * entry_sd);
-        let found = of_turned_cross_terms(&layout, &(DMatrix::identity(n, n) * (turn_sd * turn_sd)));
+        assert!(
+            (of_turned_cross_terms(&layout, &covariance, [1.0, 1.0]) - &found)
+                .view((12, 12), (12, 12))
+                .amax()
+                < 1e-18
+        );
 
         let place = |row: usize, column: usize| {
             let wanted = Some((SensorKind::Gyroscope, row, column));
@@ -79,8 +97,9 @@ mod tests {
         let mut sums = [[0.0; 3]; 3];
         for _ in 0..draws {
             let own = Matrix3::from_fn(|_, _| unit(entry_sd));
-            let turn = Vector3::from_fn(|_, _| unit(turn_sd));
-            let change = own * turn.cross_matrix();
+            let mut turn = || Vector3::from_fn(|_, _| unit(turn_sd)).cross_matrix();
+            // at what a calibration finds, another turn is possible
+            let change = (own + turn()) * turn();
             for (i, sums) in sums.iter_mut().enumerate() {
                 for (j, sum) in sums.iter_mut().enumerate() {
                     *sum += change[(i, j)].powi(2) / f64::from(draws);

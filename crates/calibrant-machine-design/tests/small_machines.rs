@@ -55,6 +55,7 @@ fn problem<'a>(
         setup,
         quantities,
         noise: TrajectoryNoise { force_density: Some(1e-3), rate_density: Some(1e-4), moving: 1.0 },
+        cross_axis_sd: [0.0; 2],
         joints: vec![limit],
         force_range_mps2: Vector3::repeat(f64::INFINITY),
         rate_range_radps: Vector3::repeat(f64::INFINITY),

@@ -20,5 +20,5 @@ mod summary;
 pub use all_studies::{Studies, StudiesProblem, run_studies};
 pub use calibration::{StudyProblem, StudySettings, run_study};
 pub use design_loop::{DesignStudyProblem, run_design_study};
-pub use rehearsal::{Rehearsal, RehearsedCalibration, RehearsedSensor};
+pub use rehearsal::{Departure, Rehearsal, RehearsedCalibration, RehearsedSensor};
 pub use result::*;

@@ -6,6 +6,7 @@ use calibrant_core::json_object;
 use calibrant_core::sensor::Parameter;
 use schemars::JsonSchema;
 use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Sensors that were calibrated on a plain routine of a machine, and again on its best trajectory. All is drawn anew for each: the sensor, its mount, the clocks, gravity
 /// and the geometry of the machine.
@@ -54,7 +55,47 @@ pub struct RehearsedCalibration {
     pub codes: Vec<&'static str>,
 }
 
+/// A parameter that is not as it was designed, by more than chance explains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Departure {
+    /// Its place among the parameters.
+    pub parameter: usize,
+    /// Is it the error that departs, not the stated standard deviation?
+    pub is_realised: bool,
+    /// Root mean square over the sensors, over the standard deviation that was designed.
+    pub factor: f64,
+}
+
+/// Probability of a departure by chance, for all parameters together.
+const BY_CHANCE: f64 = 0.01;
+
 impl Rehearsal {
+    /// The parameter that departs the most from what was designed for the best trajectory; `None` where all are as designed, up to chance. Stated standard deviations may be
+    /// neither larger nor smaller, errors not larger.
+    ///
+    /// # Formula
+    /// A mean square of `n` errors over its variance is `χ²_n/n`. So is its bound, at `0.01/2p` on each side for the two numbers of each of `p` parameters (Bonferroni).
+    #[must_use]
+    pub fn departure(&self) -> Option<Departure> {
+        let n = self.sensors.len() as f64;
+        let tail = BY_CHANCE / (4 * self.summary.len().max(1)) as f64;
+        let chi2 = ChiSquared::new(n).ok()?;
+        let [least, most] = [tail, 1.0 - tail].map(|p| (chi2.inverse_cdf(p) / n).sqrt());
+        let of = |(parameter, designed): (usize, &f64)| {
+            let found = &self.summary.get(parameter)?.optimal;
+            let departure =
+                |is_realised, found: f64| Departure { parameter, is_realised, factor: found / designed };
+            let stated = departure(false, found.predicted_sd);
+            let realised = departure(true, found.realised_rms);
+            let all = [(stated, (least..=most)), (realised, (0.0..=most))];
+            let departs = all.into_iter().filter(|(of, chance)| !chance.contains(&of.factor));
+            designed.is_finite().then(|| departs.map(|(of, _)| of))
+        };
+        let by_size =
+            |one: &Departure, other: &Departure| one.factor.ln().abs().total_cmp(&other.factor.ln().abs());
+        self.designed_sd[1].iter().enumerate().filter_map(of).flatten().max_by(by_size)
+    }
+
     /// Of these sensors, with the summary.
     #[must_use]
     pub fn of(
@@ -93,5 +134,54 @@ json_object! {
         summary: &of.summary,
         /// Each sensor with both calibrations.
         sensors: &of.sensors,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, ReadingUnit, SensorKind};
+    use calibrant_core::simulate::{Purpose, stream};
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// Two parameters of sensors with these standard deviations of their errors, which state 1 and this.
+    fn rehearsed(errors: [f64; 2], stated: f64, designed: [f64; 2]) -> Option<Departure> {
+        let mut rng = stream(3, Purpose::Sensor, 0);
+        let sensors = (0..60).map(|seed| {
+            let values = errors.map(|sd| -> f64 {
+                let draw: f64 = StandardNormal.sample(&mut rng);
+                sd * draw
+            });
+            let of = RehearsedCalibration {
+                values: values.to_vec(),
+                sd: vec![1.0, stated],
+                verdict: "ok",
+                codes: Vec::new(),
+            };
+            RehearsedSensor { seed, truth: vec![0.0; 2], plain: of.clone(), optimal: of }
+        });
+        let parameter = |axis| {
+            let of = ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Bias(axis));
+            Parameter::undescribed(of, ReadingUnit::RadianPerSecond)
+        };
+        let parameters = vec![parameter(Axis::X), parameter(Axis::Y)];
+        let designed = [designed.to_vec(), designed.to_vec()];
+        Rehearsal::of((0, 20.0), parameters, "six poses", designed, sensors.collect()).departure()
+    }
+
+    #[test]
+    fn a_departure_from_the_design_is_one_beyond_chance() {
+        assert_eq!(rehearsed([1.0, 1.0], 1.0, [1.0, 1.0]), None);
+        assert_eq!(rehearsed([1.0, 1.0], 1.0, [1.0, f64::INFINITY]), None, "not determined");
+        // promised 1.8 times better than stated
+        let found = rehearsed([1.0, 1.0], 1.0, [1.0, 1.0 / 1.8]).expect("beyond chance");
+        assert_eq!(found.parameter, 1);
+        assert!((found.factor / 1.8 - 1.0).abs() < 0.3, "{found:?}");
+        let found = rehearsed([2.0, 1.0], 1.0, [1.0, 1.0]).expect("beyond chance");
+        assert!(found.parameter == 0 && found.is_realised, "{found:?}");
+        // errors may be smaller, statements not
+        assert_eq!(rehearsed([0.5, 1.0], 1.0, [1.0, 1.0]), None);
+        let found = rehearsed([1.0, 0.5], 0.5, [1.0, 1.0]).expect("beyond chance");
+        assert_eq!(found, Departure { parameter: 1, is_realised: false, factor: 0.5 });
     }
 }

@@ -8,6 +8,7 @@ use calibrant_core::diagnostic::design::{CollisionsUnknown, LinksWithoutShapes};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorKind};
+use calibrant_core::simulate::MATRIX_SD;
 use calibrant_design::{DesignStatus, SweepVariable};
 use calibrant_io::{
     CriterionLetter, EarlierMachine, Experiment, LinksKnown, MachineDesignPlan, Plan, Reached, Trajectory,
@@ -136,6 +137,7 @@ impl TrajectoryPlan {
                 rate_density: of.rate_density,
                 moving: of.moving_noise,
             },
+            cross_axis_sd: [self.experiment.sensor.cross_axis_sd.unwrap_or(MATRIX_SD), MATRIX_SD],
             joints: of.limits.joints.clone(),
             force_range_mps2: of.force_range_mps2,
             rate_range_radps: of.rate_range_radps,
@@ -285,19 +287,20 @@ impl TrajectoryPlan {
         Ok(written)
     }
 
-    /// What is not known of the machine's shape.
+    /// What is not known of the machine's shape, and what should be known of its limits and files.
     #[must_use]
     pub fn notes(&self) -> Vec<Diagnostic> {
         let world = &self.machine.world;
-        match world.links {
-            LinksKnown::Nothing => vec![CollisionsUnknown {}.into()],
-            LinksKnown::Joints => vec![LinksWithoutShapes { links: Vec::new() }.into()],
-            LinksKnown::Shapes if world.without_mesh.is_empty() => Vec::new(),
+        let of_links: Option<Diagnostic> = match world.links {
+            LinksKnown::Nothing => Some(CollisionsUnknown {}.into()),
+            LinksKnown::Joints => Some(LinksWithoutShapes { links: Vec::new() }.into()),
+            LinksKnown::Shapes if world.without_mesh.is_empty() => None,
             LinksKnown::Shapes => {
                 let links = world.without_mesh.iter().map(|of| of.link.clone()).collect();
-                vec![LinksWithoutShapes { links }.into()]
+                Some(LinksWithoutShapes { links }.into())
             }
-        }
+        };
+        of_links.into_iter().chain(self.machine.limits.notes.clone()).chain(world.notes.clone()).collect()
     }
 
     /// Why the search of a design ended before it converged. The last stage has a number of iterations by intention, which is no reason to say so.

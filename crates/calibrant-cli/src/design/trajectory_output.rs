@@ -5,7 +5,6 @@ use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::TrajectoryPlan;
-use calibrant::design::DesignStatus;
 use calibrant::io::{Reached, to_json, write_text};
 use calibrant::machine_design::TrajectoryDesign;
 use calibrant::report::number_format::short;
@@ -40,8 +39,8 @@ pub(super) fn finish(
     let sentence = reached.map(|(_, sentence)| sentence);
     console::result(arguments.json, || to_json(&file), &sheet, sentence, &files);
     tell_all(&plan.remarks(&design));
-    let done = matches!(design.status, DesignStatus::Converged | DesignStatus::IterationLimit);
-    Ok(if done && design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
+    // however the search ended: the limits of what it found are proved
+    Ok(if design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
 }
 
 pub(super) fn about(arguments: &Arguments, plan: &TrajectoryPlan, title: String) -> About {

@@ -226,3 +226,37 @@ fn a_machine_is_rehearsed() {
     assert_eq!(first.to_bits(), number(&sensors[1]["truth"][0]).to_bits());
     bench.refuses("study table.toml --motion best/trajectory.csv -o none", 2, &["designs the motions"]);
 }
+
+/// What the files of the machine say is not exceeded without a word, and a trajectory is of the joints' own units.
+#[test]
+fn wider_limits_and_other_units_are_told() {
+    let bench = Bench::new();
+    let edits =
+        [("duration_s = 20.0 ", "duration_s = 8.0 "), ("# velocity = 10.0 ", "velocity = { table = 20.0 } ")];
+    bench.preset("rate-table", "wide.toml", &edits);
+    let outcome = bench.run("design wide.toml --starts 1 -o wide").done();
+    outcome.says("warning: the joint `table` is given more than a file of the machine: speed 20.00 rad/s, in the URDF file 8.727 rad/s");
+    let metres = bench.read("wide/trajectory.csv").replace("_rad", "_m");
+    bench.write("metres.csv", metres);
+    bench.refuses(
+        "design wide.toml --starts 1 --evaluate metres.csv -o judged",
+        3,
+        &["metres.csv", "the joint `table` turns, and its column is not in rad or deg"],
+    );
+}
+
+/// A move that takes hours is no part of a routine of seconds: the search for one came to no end, and no signal ended it.
+#[test]
+fn a_machine_that_hardly_moves_is_designed_for_in_seconds() {
+    let bench = Bench::new();
+    let edits = [
+        ("duration_s = 20.0 ", "duration_s = 5.0 "),
+        ("# velocity = 2.98 ", "velocity = 1e-4 "),
+        ("starts = 8 ", "starts = 1 "),
+    ];
+    bench.preset("arm", "slow.toml", &edits);
+    let begun = std::time::Instant::now();
+    let outcome = bench.run("design slow.toml -o slow");
+    assert!(matches!(outcome.status, 0 | 4), "{outcome:?}");
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
+}

@@ -37,6 +37,44 @@ checks! {
         if links.is_empty() { "the links".to_owned() } else { links.join(", ") }
     );
 
+    /// A limit of a joint is wider than a file of the machine says.
+    LimitWidened "limit-widened" Warning {
+        /// The joint, its limits with their numbers, and the file's.
+        of: Phrase,
+    }
+    decided "A position, speed, acceleration or jerk that [machine.limits] gives lies beyond that of the URDF file or of joint_limits.yaml, \
+        or joint_limits.yaml beyond the URDF file."
+    remedy "Compare both with the manual of the machine, and correct the wrong one before the trajectory is run."
+    says format!(
+        "{}. The trajectory may use all of it, and is run on a machine: compare both with its manual, and correct the wrong one",
+        of.0
+    );
+
+    /// MoveIt plans more slowly than the limits of joint_limits.yaml allow, and so does the design.
+    ScalingFactorsApplied "scaling-factors-applied" Note {
+        /// Of speeds.
+        velocity: f64,
+        /// Of accelerations.
+        acceleration: f64,
+    }
+    decided "joint_limits.yaml has `default_velocity_scaling_factor` or `default_acceleration_scaling_factor`."
+    remedy "Where the machine may move faster, set the factors to 1."
+    says format!(
+        "the factors of joint_limits.yaml are applied, as MoveIt does: {} of each speed, {} of each acceleration. Where the machine may \
+         move faster, set default_velocity_scaling_factor and default_acceleration_scaling_factor to 1",
+        significant(*velocity, 3),
+        significant(*acceleration, 3)
+    );
+
+    /// An SRDF file is of another machine, or of more than this one.
+    SrdfOfAnother "srdf-of-another" Warning {
+        /// What it names.
+        why: Phrase,
+    }
+    decided "The SRDF file names another robot than the URDF file, or pairs of links that the URDF file has not."
+    remedy "Give the SRDF file of this machine."
+    says format!("the SRDF file {}: is it of this machine? A pair counts where both of its links are there by name", why.0);
+
     /// Nothing keeps the machine from itself.
     CollisionsUnknown "collisions-unknown" Warning {}
     decided "No shape of any link is known, and no capsules stand for them."

@@ -10,8 +10,8 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Spread of the bias where the datasheet gives none, m/s² and rad/s.
 const BIAS_SD: [f64; 2] = [0.1, 0.02];
-/// Spread of the entries of the matrix over the gain where the datasheet gives none.
-const MATRIX_SD: f64 = 0.01;
+/// Spread of the entries of the matrix over the gain where the datasheet gives none: that of common MEMS sensors.
+pub const MATRIX_SD: f64 = 0.01;
 /// Spread of the g-sensitivity, (rad/s)/(m/s²).
 const G_SENSITIVITY_SD: f64 = 2e-4;
 /// Spread of the temperature coefficient of an accelerometer bias, m/s²/K.

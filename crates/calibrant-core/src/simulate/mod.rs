@@ -15,7 +15,7 @@ mod table_recording;
 
 pub use crate::motion::sample_times;
 pub use clock::{ClockedTimes, TrueClock};
-pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_sensor, draw_thermal};
+pub use drawn_imu::{GyroscopeToDraw, MATRIX_SD, draw_imu, draw_known, draw_sensor, draw_thermal};
 pub use holds::{HoldsSimulation, simulate_holds, simulate_holds_in};
 pub use imu::simulate_imu;
 pub use imu_setup::{ImuSimulation, TURN_S};

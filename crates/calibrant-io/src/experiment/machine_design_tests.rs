@@ -55,6 +55,59 @@ fn a_number_for_all_joints_is_a_cap_and_a_table_stands_in_the_place_of_all_else(
     assert_eq!(elbow.near_ends.map(|of| (of.slope, of.offset, of.upper)), Some((12.0, 0.3, 2.6)));
     assert_eq!(wrist.velocity, 9.0);
     assert!((plan.rate_range_radps.x - PI).abs() < 1e-15);
+    let notes = |plan: &MachineDesignPlan| -> Vec<String> {
+        let all = plan.limits.notes.iter().chain(&plan.world.notes);
+        all.map(|note| note.message().to_owned()).collect()
+    };
+    let found = notes(&plan);
+    assert!(found.len() == 1 && found[0].contains("`wrist_3`"), "{found:?}");
+    assert!(found[0].contains("speed 9 rad/s, in the URDF file 3.142 rad/s"), "{found:?}");
+
+    // MoveIt's own factors, and wider positions
+    let scaled =
+        format!("default_velocity_scaling_factor: 0.5\ndefault_acceleration_scaling_factor: 0.1\n{limits}");
+    std::fs::write(directory.path().join("joint_limits.yaml"), scaled).expect("written");
+    let wider = text.replace("[-2.6, 2.6]", "[-20.0, 2.6]").replace("{ wrist_3 = 9.0 }", "{ wrist_3 = 3.0 }");
+    let plan = design(&wider, Some(&path)).unwrap_or_else(|error| panic!("{error}"));
+    let [pan, elbow, wrist] = [0, 2, 5].map(|k| plan.limits.joints[k]);
+    assert_eq!((pan.velocity, pan.acceleration, wrist.velocity), (PI / 2.0, 5.0, 3.0));
+    assert_eq!((elbow.velocity, elbow.acceleration, elbow.lower), (1.0, 0.1 * 3.0, -20.0));
+    let found = notes(&plan);
+    assert!(
+        found.len() == 2 && found[1].contains("0.5 of each speed, 0.1 of each acceleration"),
+        "{found:?}"
+    );
+    assert!(
+        found[0].contains("`elbow`")
+            && found[0].contains("from -20.00 to 2.600 rad, in the URDF file from -3.142"),
+        "{found:?}"
+    );
+    let broken = format!("default_velocity_scaling_factor: 2.0\n{limits}");
+    std::fs::write(directory.path().join("joint_limits.yaml"), broken).expect("written");
+    let refused = design(&text, Some(&path)).expect_err("twice as fast").to_string();
+    assert!(
+        refused.contains("line 1: `default_velocity_scaling_factor`: 2 is not above 0 and at most 1"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_file_of_pairs_of_another_machine_is_noticed() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("arm.toml");
+    let text = arm_with("# srdf =", "srdf =");
+    let pair = |one: &str| format!("<disable_collisions link1='{one}' link2='forearm' reason='Never'/>");
+    let mut found = |robot: &str, links: &[&str]| -> Vec<String> {
+        let pairs: String = links.iter().map(|link| pair(link)).collect();
+        let file = format!("<robot name='{robot}'>{pairs}</robot>");
+        std::fs::write(directory.path().join("arm.srdf"), file).expect("written");
+        let plan = design(&text, Some(&path)).unwrap_or_else(|error| panic!("{error}"));
+        plan.world.notes.iter().map(|note| note.message().to_owned()).collect()
+    };
+    assert_eq!(found("arm", &["base", "upper_arm"]), Vec::<String>::new());
+    let other = found("picker", &["base", "left_finger"]);
+    assert!(other.len() == 1 && other[0].contains("of the robot `picker`"), "{other:?}");
+    assert!(other[0].contains("`left_finger`") && !other[0].contains("`base`"), "{other:?}");
 }
 
 #[test]

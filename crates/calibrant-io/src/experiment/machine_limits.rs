@@ -4,7 +4,10 @@ use super::number::{Either, Within};
 use super::ranges::{JointAcceleration, JointJerk, JointPosition, JointSpeed, TipSpeed};
 use super::refused_key::{missing, refused};
 use super::similar_word::{nearest, shorten};
-use crate::machine::{FileJointLimits, read_joint_limits};
+use super::widened_limits::widened;
+use crate::machine::{FileJointLimits, JointLimitsFile, read_joint_limits_file};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::design::ScalingFactorsApplied;
 use calibrant_core::error::Result;
 use calibrant_machine::chain::{Joint, JointKind, KinematicChain, SpeedNearEnds};
 use calibrant_machine_design::JointLimit;
@@ -87,6 +90,8 @@ pub struct MachineLimits {
     pub joints: Vec<JointLimit>,
     /// Largest speed of the tip and of the sensor's body, m/s.
     pub tip_speed_mps: Option<f64>,
+    /// What a reader should know: which limits are wider than those of a file.
+    pub notes: Vec<Diagnostic>,
 }
 
 impl MachineLimitsSection {
@@ -94,11 +99,11 @@ impl MachineLimitsSection {
     ///
     /// # Errors
     /// [`Error::Experiment`](calibrant_core::Error::Experiment): no such joint; no acceleration limit, no ends or no speed of a joint; or as
-    /// [`read_joint_limits`].
+    /// [`read_joint_limits`](crate::read_joint_limits).
     pub fn of(&self, chain: &KinematicChain) -> Result<MachineLimits> {
-        let in_file = match &self.joint_limits {
-            Some(path) => read_joint_limits(path)?,
-            None => BTreeMap::new(),
+        let JointLimitsFile { joints: in_file, factors } = match &self.joint_limits {
+            Some(path) => read_joint_limits_file(path)?,
+            None => JointLimitsFile { joints: BTreeMap::new(), factors: [1.0; 2] },
         };
         self.check_names(chain)?;
         if let Some(path) = &self.joint_limits
@@ -113,11 +118,17 @@ impl MachineLimitsSection {
             ));
         }
         self.check_accelerations(chain, &in_file)?;
-        let of = |joint: &Joint| self.of_joint(joint, &in_file.get(&joint.name).copied().unwrap_or_default());
-        Ok(MachineLimits {
-            joints: chain.joints.iter().map(of).collect::<Result<_>>()?,
-            tip_speed_mps: self.tip_speed_mps.map(f64::from),
-        })
+        let said = |joint: &Joint| in_file.get(&joint.name).copied().unwrap_or_default();
+        let of = |joint: &Joint| self.of_joint(joint, &said(joint), factors);
+        let joints: Vec<JointLimit> = chain.joints.iter().map(of).collect::<Result<_>>()?;
+        let each = chain.joints.iter().zip(&joints);
+        let mut notes: Vec<Diagnostic> =
+            each.filter_map(|(joint, limit)| widened(joint, &said(joint), limit)).collect();
+        if factors != [1.0; 2] {
+            let [velocity, acceleration] = factors;
+            notes.push(ScalingFactorsApplied { velocity, acceleration }.into());
+        }
+        Ok(MachineLimits { joints, tip_speed_mps: self.tip_speed_mps.map(f64::from), notes })
     }
 
     /// Refuses tables whose joints the chain has not, and positions that are no two numbers.
@@ -174,7 +185,8 @@ impl MachineLimitsSection {
         Err(missing("machine.limits.acceleration", help))
     }
 
-    fn of_joint(&self, joint: &Joint, in_file: &FileJointLimits) -> Result<JointLimit> {
+    /// `factors`: parts of speeds and accelerations that MoveIt uses of those in files.
+    fn of_joint(&self, joint: &Joint, in_file: &FileJointLimits, factors: [f64; 2]) -> Result<JointLimit> {
         let [lower, upper] = self.ends(joint, in_file)?;
         let nominal = joint.limits;
         let least = |of: Option<Given>, usual: Option<f64>| match (of, usual) {
@@ -182,13 +194,17 @@ impl MachineLimitsSection {
             (Some(Given::OfAll(number)), usual) => Some(usual.map_or(number, |usual| usual.min(number))),
             (None, usual) => usual,
         };
-        let velocity =
-            least(given(self.velocity.as_ref(), &joint.name), in_file.velocity.or(nominal.velocity));
+        let scaled = |of: Option<f64>, which: usize| of.map(|of| of * factors[which]);
+        let velocity = least(
+            given(self.velocity.as_ref(), &joint.name),
+            scaled(in_file.velocity.or(nominal.velocity), 0),
+        );
         let Some(velocity) = velocity else {
             let help = format!("the urdf has none of `{}`: velocity = 3.1 in [machine.limits]", joint.name);
             return Err(missing("machine.limits.velocity", help));
         };
-        let acceleration = least(given(self.acceleration.as_ref(), &joint.name), in_file.acceleration);
+        let acceleration =
+            least(given(self.acceleration.as_ref(), &joint.name), scaled(in_file.acceleration, 1));
         let jerk = least(given(self.jerk.as_ref(), &joint.name), in_file.jerk);
         let near_ends = match in_file.near_ends {
             Some([offset, deceleration]) => {

@@ -5,7 +5,10 @@ use super::ranges::{BodyRadius, BoxHalf, Clearance, Coordinate, RotationComponen
 use super::refused_key::refused;
 use super::remedies::remedy;
 use super::similar_word::{nearest, shorten};
-use crate::machine::{LinkInChain, LinkWithoutMesh, MachineBodies, read_srdf};
+use crate::machine::{LinkInChain, LinkWithoutMesh, MachineBodies, read_named_srdf};
+use calibrant_core::diagnostic::design::SrdfOfAnother;
+use calibrant_core::diagnostic::reader::quoted;
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::Result;
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine_design::world::{Body, BodySource, Capsule, Cuboid, Scene};
@@ -123,6 +126,8 @@ pub struct MachineWorld {
     pub without_mesh: Vec<LinkWithoutMesh>,
     /// What is known of the links.
     pub links: LinksKnown,
+    /// What a reader should know of its files.
+    pub notes: Vec<Diagnostic>,
 }
 
 /// What is known of the shapes of the links.
@@ -141,7 +146,7 @@ impl WorldSection {
     /// The world of a chain, with the shapes of its links.
     ///
     /// # Errors
-    /// [`Error::Experiment`](calibrant_core::Error::Experiment): no such link, a vector without three numbers, or as [`read_srdf`].
+    /// [`Error::Experiment`](calibrant_core::Error::Experiment): no such link, a vector without three numbers, or as [`read_srdf`](crate::read_srdf).
     pub fn of(
         &self,
         chain: &KinematicChain,
@@ -149,6 +154,8 @@ impl WorldSection {
         up: Unit<Vector3<f64>>,
     ) -> Result<MachineWorld> {
         self.check_floor(chain, &up)?;
+        let mut notes = Vec::new();
+        let pairs = self.pairs(&found, &mut notes)?;
         let mut bodies = self.given(&found.links, found.bodies)?;
         let links = if bodies.is_empty() {
             LinksKnown::Nothing
@@ -170,7 +177,7 @@ impl WorldSection {
         let boxes = self.boxes.iter().flatten().enumerate();
         let boxes = boxes.map(|(k, of)| of.cuboid(&format!("machine.world.boxes[{k}]")));
         let scene = Scene {
-            disabled: self.disabled(&bodies, &found.links)?,
+            disabled: self.disabled(&bodies, pairs),
             bodies,
             floor_m: self.floor_m.map(f64::from),
             boxes: boxes.collect::<Result<_>>()?,
@@ -182,6 +189,7 @@ impl WorldSection {
             sensor_body,
             without_mesh: found.without_mesh,
             links,
+            notes,
         })
     }
 
@@ -236,25 +244,47 @@ impl WorldSection {
     }
 
     /// The pairs of bodies that may touch.
-    fn disabled(&self, bodies: &[Body], links: &[LinkInChain]) -> Result<Vec<[String; 2]>> {
+    fn disabled(&self, bodies: &[Body], pairs: Vec<[String; 2]>) -> Vec<[String; 2]> {
         if self.self_collision == Some(false) {
             let names = bodies.iter().map(|body| &body.name);
             let pairs = names.clone().flat_map(|one| names.clone().map(move |other| [one, other]));
-            return Ok(pairs.map(|pair| pair.map(String::clone)).collect());
+            return pairs.map(|pair| pair.map(String::clone)).collect();
         }
+        pairs
+    }
+
+    /// The pairs of the SRDF file.
+    fn pairs(&self, found: &MachineBodies, notes: &mut Vec<Diagnostic>) -> Result<Vec<[String; 2]>> {
         let Some(path) = &self.srdf else { return Ok(Vec::new()) };
-        let pairs = read_srdf(path)?;
-        let known = |name: &String| links.iter().any(|link| link.name == *name);
+        let (robot, pairs) = read_named_srdf(path)?;
+        let known = |name: &String| found.links.iter().any(|link| link.name == *name);
         if !pairs.is_empty() && !pairs.iter().flatten().any(known) {
             let message = format!("{} names none of the links of this machine", path.display());
             let [one, other] = &pairs[0];
             let help = format!("is it the file of another? its first pair is {one} and {other}");
             return Err(refused("machine.world.srdf", message, help));
         }
+        let mut why = Vec::new();
+        if !robot.is_empty() && !found.machine.is_empty() && robot != found.machine {
+            why.push(format!("is of the robot `{}`, the URDF file of `{}`", shorten(&robot), found.machine));
+        }
+        let is_there = |name: &&String| found.all_links.contains(name);
+        let mut unknown: Vec<String> =
+            pairs.iter().flatten().filter(|name| !is_there(name)).cloned().collect();
+        unknown.sort_unstable();
+        unknown.dedup();
+        if !unknown.is_empty() && !found.all_links.is_empty() {
+            why.push(format!("names links that the machine has not, {}", quoted(&unknown, MOST_NAMES)));
+        }
+        if !why.is_empty() {
+            notes.push(SrdfOfAnother { why: Phrase(why.join(", and ")) }.into());
+        }
         Ok(pairs)
     }
 }
 
+/// Largest number of links that a message names.
+const MOST_NAMES: usize = 5;
 /// Name of the sensor's body.
 const SENSOR: &str = "sensor";
 

@@ -51,6 +51,7 @@ mod spreads;
 mod study;
 mod temperature;
 mod toml_value;
+mod widened_limits;
 
 pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};

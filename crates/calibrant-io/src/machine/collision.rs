@@ -23,6 +23,10 @@ pub struct MachineBodies {
     pub without_mesh: Vec<LinkWithoutMesh>,
     /// The links that move with the chain, by their frames.
     pub links: Vec<LinkInChain>,
+    /// Name of the machine; empty where no file says it.
+    pub machine: String,
+    /// Names of all of its links; none where no file says them.
+    pub all_links: Vec<String>,
 }
 
 impl MachineBodies {
@@ -32,7 +36,8 @@ impl MachineBodies {
         let turns = chain.joints.iter().all(|joint| joint.kind.turns());
         let bodies = if turns { bodies_of_joints(chain) } else { Vec::new() };
         let bodies = bodies.into_iter().filter(|body| body.capsules[0].radius_m > 0.0).collect();
-        Self { bodies, without_mesh: Vec::new(), links: Vec::new() }
+        let (without_mesh, links, all_links) = (Vec::new(), Vec::new(), Vec::new());
+        Self { bodies, without_mesh, links, machine: String::new(), all_links }
     }
 }
 
@@ -55,7 +60,8 @@ pub(super) fn bodies(
     (packages, beside): (&[PathBuf], Option<&Path>),
 ) -> Checked<MachineBodies> {
     let (_, document) = xml::parse(text.as_bytes(), "URDF")?;
-    let links: Vec<Element> = xml::robot(&document, "URDF")?.children("link").collect();
+    let robot = xml::robot(&document, "URDF")?;
+    let links: Vec<Element> = robot.children("link").collect();
     let of_joints = bodies_of_joints(chain);
     let (mut bodies, mut without_mesh) = (Vec::new(), Vec::new());
     for LinkInChain { name, frame, pose } in &in_chain {
@@ -89,7 +95,9 @@ pub(super) fn bodies(
     if bodies.is_empty() {
         bodies = MachineBodies::of_joints(chain).bodies;
     }
-    Ok(MachineBodies { bodies, without_mesh, links: in_chain })
+    let machine = robot.attribute("name").unwrap_or_default().to_owned();
+    let all_links = links.iter().filter_map(|link| link.attribute("name")).map(str::to_owned).collect();
+    Ok(MachineBodies { bodies, without_mesh, links: in_chain, machine, all_links })
 }
 
 /// A shape of URDF, or the capsule that newer files have.

@@ -28,10 +28,21 @@ pub struct FileJointLimits {
     pub near_ends: Option<[f64; 2]>,
 }
 
+/// A file with its joints.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct JointLimitsFile {
+    /// By the names of the joints.
+    pub(crate) joints: BTreeMap<String, FileJointLimits>,
+    /// Parts of each speed and of each acceleration with which MoveIt plans, 1 where the file says nothing. The joints' limits are without them.
+    pub(crate) factors: [f64; 2],
+}
+
 /// The tables in which the joints may stand, from the outside.
 #[derive(Deserialize, Default)]
 struct File {
     joint_limits: Option<BTreeMap<String, Spanned<Entry>>>,
+    default_velocity_scaling_factor: Number,
+    default_acceleration_scaling_factor: Number,
     robot_description_planning: Option<Box<Self>>,
     #[serde(rename = "ros__parameters")]
     parameters: Option<Box<Self>>,
@@ -40,9 +51,30 @@ struct File {
 }
 
 impl File {
-    fn joints(self) -> Option<BTreeMap<String, Spanned<Entry>>> {
-        let inner = self.robot_description_planning.or(self.parameters).or(self.all_nodes);
-        self.joint_limits.or_else(|| inner.and_then(|inner| inner.joints()))
+    /// The table that has the joints; `None` where none has.
+    fn of_joints(self) -> Option<Self> {
+        if self.joint_limits.is_some() {
+            return Some(self);
+        }
+        self.robot_description_planning.or(self.parameters).or(self.all_nodes)?.of_joints()
+    }
+
+    /// The factors of speeds and accelerations.
+    fn factors(&self) -> Checked<[f64; 2]> {
+        let factor = |name: &str, number: &Number| match number {
+            Some(number) if number.value > 0.0 && number.value <= 1.0 => Ok(number.value),
+            Some(number) => {
+                let message = format!("{} is not above 0 and at most 1", number.value);
+                let help = "write the part of the limits with which MoveIt plans: 1.0 for all of them";
+                let error = InputError::new(Refusal::ValueOutOfRange, message, help).about_key(name);
+                Err(Box::new(error.at_line(line(number))))
+            }
+            None => Ok(1.0),
+        };
+        Ok([
+            factor("default_velocity_scaling_factor", &self.default_velocity_scaling_factor)?,
+            factor("default_acceleration_scaling_factor", &self.default_acceleration_scaling_factor)?,
+        ])
     }
 }
 
@@ -74,6 +106,11 @@ struct NearEnds {
 /// [`Error::Experiment`] with line and key: the file is no YAML or has no `joint_limits`, a number is negative or not finite, a number stands without its `has_…`,
 /// or the other way round, or an angle is in degrees.
 pub fn read_joint_limits(path: &Path) -> Result<BTreeMap<String, FileJointLimits>> {
+    read_joint_limits_file(path).map(|file| file.joints)
+}
+
+/// The same with the factors of the file.
+pub(crate) fn read_joint_limits_file(path: &Path) -> Result<JointLimitsFile> {
     parsed(path, (LARGEST_BYTES, "joint_limits.yaml"), limits)
 }
 
@@ -91,10 +128,10 @@ pub fn read_joint_limits(path: &Path) -> Result<BTreeMap<String, FileJointLimits
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_joint_limits(bytes: &[u8]) -> Result<BTreeMap<String, FileJointLimits>> {
-    limits(bytes).map_err(Error::Experiment)
+    limits(bytes).map(|file| file.joints).map_err(Error::Experiment)
 }
 
-fn limits(bytes: &[u8]) -> Checked<BTreeMap<String, FileJointLimits>> {
+fn limits(bytes: &[u8]) -> Checked<JointLimitsFile> {
     let text = as_text(bytes)?;
     let degrees = text.lines().position(|line| {
         let content = line.split('#').next().unwrap_or_default();
@@ -105,11 +142,17 @@ fn limits(bytes: &[u8]) -> Checked<BTreeMap<String, FileJointLimits>> {
         return Err(error.at_line(line + 1).into());
     }
     let file: File = serde_saphyr::from_str(text).map_err(broken)?;
-    let Some(joints) = file.joints() else {
+    let Some(file) = file.of_joints() else {
         let error = InputError::new(Refusal::KeyMissing, "there is no `joint_limits`", HELP);
         return Err(error.about_key("joint_limits").into());
     };
-    joints.iter().map(|(name, entry)| Ok((name.clone(), entry.value.limits(name, line(entry))?))).collect()
+    let joints = file.joint_limits.iter().flatten();
+    Ok(JointLimitsFile {
+        joints: joints
+            .map(|(name, entry)| Ok((name.clone(), entry.value.limits(name, line(entry))?)))
+            .collect::<Checked<_>>()?,
+        factors: file.factors()?,
+    })
 }
 
 fn line<T>(of: &Spanned<T>) -> usize {

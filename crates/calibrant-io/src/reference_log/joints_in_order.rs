@@ -69,7 +69,10 @@ impl ReferenceLogFile {
     }
 
     /// A joint that turns is logged in an angle, one that slides in a length.
-    fn check_units(&self, chain: &KinematicChain) -> Result<()> {
+    ///
+    /// # Errors
+    /// [`Error::Recording`] names the joint whose column says otherwise.
+    pub(crate) fn check_units(&self, chain: &KinematicChain) -> Result<()> {
         let names = self.joints().map_or(&[][..], |log| &log.names);
         for (name, turns) in names.iter().zip(&self.turns) {
             let Some(joint) = chain.joints.iter().find(|joint| joint.name == *name) else { continue };

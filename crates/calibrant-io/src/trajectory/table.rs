@@ -99,7 +99,7 @@ pub fn read_trajectory(path: &Path, chain: &KinematicChain) -> Result<Trajectory
         let message = "these are poses, no joints";
         return Err(placed(Error::recording(InputError::new(Refusal::FormatUnknown, message, HELP))));
     };
-    through(log, file.trajectory.clone(), chain).map_err(placed)
+    file.check_units(chain).and_then(|()| through(log, file.trajectory.clone(), chain)).map_err(placed)
 }
 
 /// The trajectory of a chain's joints through these rows. `spline`: what accelerations beside them say.
@@ -185,6 +185,8 @@ mod tests {
         let mut wrong = String::new();
         for (text, wanted) in [
             (good.replace("two_", "three_"), "the joint `two` has no column two_m"),
+            (good.replace("_rad", "_m"), "the joint `one` turns, and its column is not in rad or deg"),
+            (good.replace("_m", "_rad"), "the joint `two` slides, and its column is not in m or mm"),
             (rows[..2].join("\n"), "there is only one row"),
             (
                 good.replace("\n0.4,", "\n0.41,"),

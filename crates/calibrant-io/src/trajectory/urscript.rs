@@ -11,13 +11,19 @@ use std::path::Path;
 /// Joints of an arm of Universal Robots.
 const JOINTS: usize = 6;
 
-/// The program; `None` for a machine that is no arm of six joints that turn.
+/// The joints of an arm of Universal Robots, with or without a prefix before and `_joint` behind.
+const NAMES: [&str; JOINTS] = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
+
+/// The program; `None` for a machine that is no arm of Universal Robots, which has six joints of their names that turn: another controller would not take it, or another arm
+/// would go elsewhere.
 ///
 /// It moves slowly to the first posture, waits a second, follows the spline with `servoj` and stands still again.
 #[must_use]
 pub fn urscript_text(trajectory: &Trajectory) -> Option<String> {
-    let Trajectory { spline, turns, .. } = trajectory;
-    if turns.len() != JOINTS || !turns.iter().all(|turns| *turns) {
+    let Trajectory { spline, turns, names } = trajectory;
+    let is_named = |(name, of): (&String, &&str)| name.strip_suffix("_joint").unwrap_or(name).ends_with(*of);
+    let of_universal_robots = names.len() == JOINTS && names.iter().zip(&NAMES).all(is_named);
+    if !of_universal_robots || !turns.iter().all(|turns| *turns) {
         return None;
     }
     let knots = spline.knots;

@@ -1,6 +1,6 @@
 //! Distances of bodies.
 
-use super::limit_proof::{LimitProof, Running, SHORTEST, TrajectoryLimit};
+use super::limit_proof::{LimitProof, MOST_PARTS, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::limits::{Posture, Surroundings};
 use crate::motion::{Knots, derivative, rows_at};
@@ -18,6 +18,8 @@ struct Proof<'p, 'a> {
     posture: Posture,
     near: Vec<Proximity>,
     running: Vec<Running>,
+    /// Parts of the interval that may still be looked at.
+    parts: usize,
 }
 
 /// All distances. The peak of a distance is its least value.
@@ -33,11 +35,13 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
         posture: Posture::new(problem.chain),
         near: vec![Proximity::far(); rows],
         running: vec![Running::new(); rows],
+        parts: 0,
     };
     let mut first = proof.distances(0, 0.0);
     for i in 0..knots.intervals {
         let speeds: Vec<f64> = pairs.iter().map(|pair| proof.approach(pair, i)).collect();
         let last = proof.distances(i, 1.0);
+        proof.parts = MOST_PARTS;
         proof.part(i, (0.0, first), (1.0, last.clone()), &speeds);
         first = last;
     }
@@ -101,7 +105,8 @@ impl Proof<'_, '_> {
         if left.is_empty() {
             return;
         }
-        if u1 - u0 < SHORTEST {
+        self.parts = self.parts.saturating_sub(1);
+        if u1 - u0 < SHORTEST || self.parts == 0 {
             for row in left {
                 self.running[row].give_up();
             }

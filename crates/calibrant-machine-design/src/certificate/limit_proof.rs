@@ -61,6 +61,9 @@ pub(crate) const ROUNDING: f64 = 1e-9;
 /// Shortest part of an interval that a bisection looks at.
 pub(super) const SHORTEST: f64 = 1e-6;
 
+/// Parts of an interval at most. A limit that is touched takes two for each halving; one along which the motion stays would take all of them.
+pub(super) const MOST_PARTS: usize = 2000;
+
 /// A proof under way: the peak so far, and what is known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Running {

@@ -1,6 +1,6 @@
 //! Speeds near the ends of joints: polynomials of degree four.
 
-use super::limit_proof::{Kept, LimitProof, ROUNDING, Running, TrajectoryLimit};
+use super::limit_proof::{Kept, LimitProof, MOST_PARTS, ROUNDING, Running, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::motion::Knots;
 use calibrant_machine::chain::SpeedNearEnds;
@@ -19,7 +19,7 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
             for upward in [true, false] {
                 let piece = Piece::new(c, knots.step_s, &near_ends, upward);
                 let start_s = i as f64 * knots.step_s;
-                piece.prove(&mut running, start_s, knots.step_s, HALVINGS);
+                piece.prove(&mut running, (start_s, knots.step_s), HALVINGS, &mut { MOST_PARTS });
             }
         }
         Some(running.proof(TrajectoryLimit::SpeedNearEnds(j), 1.0))
@@ -72,7 +72,13 @@ impl Piece {
         [a, b]
     }
 
-    fn prove(&self, running: &mut Running, start_s: f64, length_s: f64, left: usize) {
+    fn prove(
+        &self,
+        running: &mut Running,
+        (start_s, length_s): (f64, f64),
+        halvings: usize,
+        parts: &mut usize,
+    ) {
         for (room, speed, fast, t) in [
             (self.room[0], self.speed[0], self.fast[0], start_s),
             (self.room[3], self.speed[2], self.fast[2], start_s + length_s),
@@ -92,12 +98,14 @@ impl Piece {
         if self.is_kept() || running.kept == Kept::Broken {
             return;
         }
-        if left == 0 {
+        *parts = parts.saturating_sub(1);
+        if halvings == 0 || *parts == 0 {
             return running.give_up();
         }
         let [first, second] = self.halves();
-        first.prove(running, start_s, length_s / 2.0, left - 1);
-        second.prove(running, start_s + length_s / 2.0, length_s / 2.0, left - 1);
+        let half_s = length_s / 2.0;
+        first.prove(running, (start_s, half_s), halvings - 1, parts);
+        second.prove(running, (start_s + half_s, half_s), halvings - 1, parts);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The sensor's range, and the speeds of tip and sensor body.
 
 use super::derivative_bounds::{DerivativeBounds, on_interval};
-use super::limit_proof::{LimitProof, ROUNDING, Running, SHORTEST, TrajectoryLimit};
+use super::limit_proof::{LimitProof, MOST_PARTS, ROUNDING, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::information::Sensing;
 use crate::limits::{Posture, SensorBody};
@@ -23,6 +23,8 @@ struct Proof<'p, 'a> {
     posture: Posture,
     joints: Vec<JointAt<f64>>,
     running: [Running; VALUES],
+    /// Parts of the interval that may still be looked at.
+    parts: usize,
 }
 
 /// All of these limits that are finite.
@@ -44,6 +46,7 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
         posture: Posture::new(problem.chain),
         joints: vec![JointAt::new(0.0, 0.0, 0.0); n],
         running: [Running::new(); VALUES],
+        parts: 0,
     };
     for i in 0..knots.intervals {
         proof.interval(i);
@@ -73,6 +76,7 @@ impl Proof<'_, '_> {
             }
         });
         let (first, last) = (self.values(i, 0.0), self.values(i, 1.0));
+        self.parts = MOST_PARTS;
         self.part(i, (0.0, first), (1.0, last), &curvature);
     }
 
@@ -128,7 +132,8 @@ impl Proof<'_, '_> {
         if left.is_empty() {
             return;
         }
-        if u1 - u0 < SHORTEST {
+        self.parts = self.parts.saturating_sub(1);
+        if u1 - u0 < SHORTEST || self.parts == 0 {
             for k in left {
                 self.running[k].give_up();
             }

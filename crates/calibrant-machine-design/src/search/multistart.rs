@@ -67,6 +67,9 @@ pub(crate) fn search(
     let shared = Shared { problem, sensing, sizes: &sizes };
     let levels = levels(problem);
     let mut candidates = drawn(shared, settings, levels[0], interruption);
+    if candidates.is_empty() {
+        settings.interruption.check()?;
+    }
     let first = candidates.first().cloned().ok_or_else(|| no_start(shared, levels[0]))?;
     let mut full = FullInformation::new(sensing, problem.chain, first.knots, POINTS[0]);
     if full.at(&first.controls).is_none() {
@@ -117,11 +120,12 @@ pub(crate) fn search(
     Ok(Found { candidates, first, starts, iterations })
 }
 
-/// The same motion, searched on with limits at more times; then with more held back of them, twice, four times, until its limits are proved.
+/// The same motion, searched on with limits at more times; then with more held back of them, twice, four times, until its limits are proved, or an interruption ends it.
 pub(crate) fn repaired(
     problem: &TrajectoryProblem<'_>,
     sensing: &Sensing,
     candidate: &Candidate,
+    interruption: &Interruption,
     is_proved: impl Fn(&Candidate) -> bool,
 ) -> Option<Candidate> {
     let sizes = sizes(problem);
@@ -129,10 +133,11 @@ pub(crate) fn repaired(
     let more = |factor: f64| {
         let held_back =
             HeldBack { clearance_m: factor * HELD_BACK.clearance_m, share: factor * HELD_BACK.share };
-        let level = polish(20, held_back, &Interruption::default());
+        let level = polish(20, held_back, interruption);
         shared.improve(candidate.clone(), &Level { times: REPAIR_TIMES, ..level })
     };
-    [1.0, 2.0, 4.0].into_iter().map(more).find(|one| one.admissible && is_proved(one))
+    let factors = [1.0, 2.0, 4.0].into_iter().take_while(|_| !interruption.is_asked());
+    factors.map(more).find(|one| one.admissible && is_proved(one))
 }
 
 /// The last stage.
@@ -250,7 +255,7 @@ fn drawn(
         let ties = shared.ties(&candidate);
         let mut rng = stream(settings.seed, Purpose::Start, start as u64);
         let mut starts = Starts::new(shared.pointwise(HELD_BACK), knots, &candidate.dwells);
-        candidate.controls = starts.draw(&ties, &mut rng)?;
+        candidate.controls = starts.draw(&ties, &settings.interruption, &mut rng)?;
         Some(candidate)
     };
     (0..settings.starts).into_par_iter().filter_map(one).collect()

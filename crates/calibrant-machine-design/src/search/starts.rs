@@ -8,6 +8,7 @@ use super::Probe;
 use crate::TrajectoryProblem;
 use crate::limits::{Pointwise, least_slack};
 use crate::motion::{Knots, REST, Ties};
+use calibrant_design::Interruption;
 use nalgebra::DMatrix;
 use rand::{Rng, RngExt};
 
@@ -36,9 +37,17 @@ impl<'a> Starts<'a> {
         Self { problem, probe: Probe::new(pointwise, knots), knots, dwells: dwells.to_vec() }
     }
 
-    /// A motion that keeps all limits with some room. `None` if not even a posture at rest is found.
-    pub(crate) fn draw(&mut self, ties: &Ties, rng: &mut impl Rng) -> Option<DMatrix<f64>> {
+    /// A motion that keeps all limits with some room. `None` if not even a posture at rest is found, or an interruption came before.
+    pub(crate) fn draw(
+        &mut self,
+        ties: &Ties,
+        interruption: &Interruption,
+        rng: &mut impl Rng,
+    ) -> Option<DMatrix<f64>> {
         for _ in 0..WALKS {
+            if interruption.is_asked() {
+                return None;
+            }
             if let Some(controls) = self.walk(rng) {
                 let controls = ties.controls_of(&ties.unknowns_of(&controls));
                 if self.is_admissible(&controls) {

@@ -43,20 +43,28 @@ pub(super) fn judge(study: &Rehearsal) -> (bool, String) {
     let ok = study.sensors.iter().filter(|sensor| sensor.optimal.verdict == "ok").count();
     let coverage = study.summary.iter().map(|entry| entry.optimal.coverage_95).sum::<f64>()
         / study.summary.len().max(1) as f64;
-    let kept = study.summary.iter().all(|entry| agrees(entry, all));
+    let departure = study.departure();
+    let kept = departure.is_none() && study.summary.iter().all(|entry| agrees(entry, all));
     let gain = study.summary.iter().map(|entry| entry.predicted.value.ln()).sum::<f64>();
     let gain = (gain / study.summary.len().max(1) as f64).exp();
     let sentence = format!(
-        "On the best trajectory standard deviations are {} times smaller in the mean than with the plain routine ({}). {} of {} calibrations on it are ok. {} 95 % intervals \
+        "On the best trajectory standard deviations are {} times smaller in the mean than with the plain routine ({}). {} {} of {} calibrations on it are ok. 95 % intervals \
          contain the truth in {} of the cases.",
         crate::number_format::significant(gain, 3),
         study.routine,
+        match departure {
+            Some(of) => format!(
+                "{} of {} is {} times what was designed: more than chance explains.",
+                if of.is_realised { "The realised error" } else { "The stated standard deviation" },
+                study.parameters[of.parameter].name,
+                crate::number_format::significant(of.factor, 3)
+            ),
+            None if kept => "Each parameter is as designed, up to chance.".to_owned(),
+            None =>
+                "For some parameter, stated and realised factors differ by more than chance explains.".into(),
+        },
         count(ok),
         count(all),
-        match kept {
-            true => "Stated and realised factors agree.",
-            false => "For some parameter, stated and realised factors differ by more than chance explains.",
-        },
         percent(coverage)
     );
     (all > 0 && kept && is_covered(coverage, all), sentence)

@@ -1,5 +1,6 @@
 //! The sheet of a trajectory: what it determines, its limits, the machine in motion, the search.
 
+mod gain;
 mod limits;
 mod predicted;
 mod sections;

@@ -32,11 +32,15 @@ pub(super) fn smaller(times: f64) -> String {
     }
 }
 
-/// Mean of the ratios of the standard deviations of two trajectories, by their logarithms.
-pub(super) fn mean_ratio(before: &TrajectoryEvaluation, after: &TrajectoryEvaluation) -> f64 {
-    let logs: Vec<f64> =
-        before.sd().iter().zip(after.sd()).map(|(before, after)| (before / after).ln()).collect();
-    (logs.iter().sum::<f64>() / logs.len() as f64).exp()
+/// Mean of ratios, by their logarithms; `None` of none.
+pub(super) fn mean_ratio(ratios: &[f64]) -> Option<f64> {
+    let sum: f64 = ratios.iter().map(|ratio| ratio.ln()).sum();
+    (!ratios.is_empty()).then(|| (sum / ratios.len() as f64).exp())
+}
+
+/// Ratios of the standard deviations of the symmetric parts of the matrices.
+pub(super) fn symmetric_ratios(before: &TrajectoryEvaluation, after: &TrajectoryEvaluation) -> Vec<f64> {
+    symmetric(before).iter().zip(symmetric(after)).map(|(before, after)| before.2 / after.2).collect()
 }
 
 /// The unit of a parameter whose readings are in SI units.

@@ -1,7 +1,8 @@
 //! The sections of a trajectory, in their order.
 
+use super::gain::{gain, limited_by_mount};
 use super::limits::{broken, limit_table, nearest_pair};
-use super::predicted::{mean_ratio, promised_table, smaller, unit};
+use super::predicted::{promised_table, unit};
 use crate::About;
 use crate::figure::{PLAYER_SCRIPT, Scene, joint_figure, player, three_views};
 use crate::machine::{bars, shares};
@@ -14,7 +15,8 @@ use calibrant_machine_design::{
 
 /// What a reading is.
 const MODEL: &str = "Readings are y = S f + b of the accelerometer and y = S ω + b of the gyroscope; sd is the standard deviation that a calibration from a recording of \
-    the trajectory will state.";
+    the trajectory will state, as the root mean square over sensors: those with larger cross terms than usual, 1 % where the experiment says nothing, have larger ones of the \
+    scale factors, which an uncertain mount mixes with them.";
 
 /// Values within this of the best are called equal, nats: 1 % in each of two dozen standard deviations.
 const EQUAL: f64 = 0.5;
@@ -34,7 +36,8 @@ pub fn trajectory_sheet<'a>(
     let (grade, word) =
         if proved { (Grade::Good, "✓ Found.") } else { (Grade::Caution, "! Not all limits are proved.") };
     let mut verdict = SheetVerdict::new(grade, word, in_words(design, problem));
-    verdict = verdict.with("Findings", about.findings.clone());
+    let findings = about.findings.iter().cloned().chain(limited_by_mount(best, problem)).collect();
+    verdict = verdict.with("Findings", findings);
     let mut predicted = Section::new("Predicted standard deviations").lead(
         "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. All trajectories \
          last as long and keep the limits. The random motion is the first start of the search. What the mount or the geometry leaves open, no motion \
@@ -124,12 +127,7 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
     let plain = design.plain.as_ref().map(|of| (&of.evaluation, of.routine.name()));
     let compared = plain.into_iter().chain([(&design.random, "a random motion")]);
     for (of, name) in compared.filter(|(of, _)| of.value.is_finite()) {
-        sentence += &format!(
-            " Against {name}, its standard deviations are {} in the mean, and {} by criterion {}.",
-            smaller(mean_ratio(of, &design.optimal)),
-            smaller(design.optimal.times_better_than(of)),
-            problem.criterion.letter()
-        );
+        sentence += &gain((of, name), &design.optimal, problem);
     }
     if let Some(bound) = &design.bound {
         sentence += &format!(
