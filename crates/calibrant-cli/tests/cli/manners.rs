@@ -127,6 +127,49 @@ fn a_contradictory_calibration_is_refused() {
         bench.write("changed.json", text.replacen(before, after, 1));
         bench.refuses("apply changed.json made/recording.csv -o changed.csv", 2, &[says]);
     }
+    for (factor, says) in [(100.0, "the sd of accelerometer.bias.x is"), (0.0, "is 0 in `parameters`"), (1e300, "the sd of")] {
+        let mut changed = bench.json("result/calibration.json");
+        let sd = &mut changed["parameters"][0]["sd"];
+        *sd = (sd.as_f64().expect("known") * factor).into();
+        bench.write("changed.json", changed.to_string());
+        for command in [
+            "apply changed.json made/recording.csv -o changed.csv",
+            "convert changed.json changed.yaml",
+            "compare changed.json result/calibration.json",
+            "records add r.db changed.json",
+        ] {
+            bench.refuses(command, 2, &["changed.json", says, "calibrate again"]);
+        }
+    }
+    let mut exchanged = bench.json("result/calibration.json");
+    exchanged["parameters"].as_array_mut().expect("a list").swap(0, 1);
+    bench.write("changed.json", exchanged.to_string());
+    bench.refuses("apply changed.json made/recording.csv -o changed.csv", 2, &["parameters were exchanged"]);
+    for entries in [[[-1.0, 0.0], [0.0, 1.0]], [[1.0, 2.0], [2.0, 1.0]], [[1.0, 0.5], [0.0, 1.0]]] {
+        let mut changed = bench.json("result/calibration.json");
+        for (i, row) in entries.iter().enumerate() {
+            for (j, factor) in row.iter().enumerate() {
+                let sd = |k: usize| changed["parameters"][k]["sd"].as_f64().expect("known");
+                let entry = factor * sd(i) * sd(j);
+                changed["covariance"][i][j] = entry.into();
+            }
+        }
+        bench.write("changed.json", changed.to_string());
+        bench.refuses("records add r.db changed.json", 2, &["changed.json", "covariance"]);
+    }
+    let mut stalled = bench.json("result/calibration.json");
+    stalled["status"] = "stalled".into();
+    bench.write("changed.json", stalled.to_string());
+    bench.run("records add r.db changed.json").done().says("it did not converge (stalled)");
+    let mut unjudged = bench.json("result/calibration.json");
+    unjudged.as_object_mut().expect("an object").retain(|key, _| key != "verdict" && key != "kind");
+    bench.write("changed.json", unjudged.to_string());
+    let outcome = bench.run("apply changed.json made/recording.csv -o changed.csv").done();
+    outcome.says("the file does not say its kind");
+    outcome.says("the file does not say a verdict");
+    unjudged["kind"] = "machine".into();
+    bench.write("changed.json", unjudged.to_string());
+    bench.refuses("apply changed.json made/recording.csv -o changed.csv", 2, &["and it has no `machine`"]);
     let mut changed = bench.json("result/calibration.json");
     changed["accelerometer"]["correction"]["matrix"][0][0] = 2.0.into();
     bench.write("changed.json", changed.to_string());

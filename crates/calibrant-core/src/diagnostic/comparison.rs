@@ -2,6 +2,7 @@
 
 use super::check::checks;
 use super::parts::{Phrase, neither};
+use crate::number_format::probability;
 use crate::sensor::{ReadingUnit, SensorKind};
 
 checks! {
@@ -114,8 +115,8 @@ checks! {
         "nobody says whether both were made at one place, where {} is one error of both. p is {} at two places, which is what counts here, and {} \
          at one: name the station, or state gravity",
         named(sources),
-        probability(p_value),
-        probability(p_value_at_one)
+        probability(*p_value),
+        probability(*p_value_at_one)
     );
 }
 

@@ -493,7 +493,69 @@ fn mahalanobis(sigma: &DMatrix<f64>, difference: &DVector<f64>) -> (f64, usize) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::estimate::{gravity_source, shared_gravity};
+    use crate::motion::Gravity;
     use crate::sensor::{ImuParameters, ReadingUnit};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// An IMU against a gravity that is off by `error` standard deviations, with noise, and with gains of the accelerometer times `gain`.
+    fn against_gravity(gravity: Gravity, error: f64, gain: f64, rng: &mut ChaCha8Rng) -> CalibratedImu {
+        let noise = 3e-5;
+        let mut imu = imu();
+        imu.parameters.accelerometer.matrix *= gain;
+        let size = imu.quantities.len();
+        let slope = shared_gravity(&imu.quantities, &[], &imu.parameters, &gravity).expect("uncertain");
+        for (k, quantity) in imu.quantities.iter().enumerate() {
+            let drawn: f64 = StandardNormal.sample(rng);
+            quantity.add_to(&mut imu.parameters, noise * drawn + slope.root[(k, 0)] * error);
+        }
+        imu.covariance = Some(DMatrix::identity(size, size) * noise * noise + &slope.root * slope.root.transpose());
+        imu.shared = Some(slope);
+        imu
+    }
+
+    #[test]
+    fn at_one_place_gravity_hides_no_change_and_makes_none() {
+        let mut places = ChaCha8Rng::seed_from_u64(5);
+        let mut noise = ChaCha8Rng::seed_from_u64(6);
+        let (mut p_values, mut of_gain) = (Vec::new(), Vec::new());
+        for pair in 0..300 {
+            let of_place = StandardNormal.sample(&mut places);
+            let a = against_gravity(Gravity::SOMEWHERE, of_place, 1.0, &mut noise);
+            let b = against_gravity(Gravity::SOMEWHERE, of_place, 1.0, &mut noise);
+            // in another frame, the errors of the place turn with the covariance
+            let b = if pair % 2 == 0 { b } else { b.in_gauge(Gauge::Symmetric).expect("right-handed") };
+            let one = Comparison::at(Place::One, &a, &b);
+            p_values.push(one.overall.expect("covariances").p_value);
+            of_gain.push(one.quantities[3].p_value.expect("covariances"));
+            assert_eq!(one.overall_at_one_place, None);
+        }
+        for mut p_values in [p_values, of_gain] {
+            p_values.sort_by(f64::total_cmp);
+            // the distance of Kolmogorov and Smirnov that chance exceeds in 0.1 % of the cases
+            let n = p_values.len() as f64;
+            let apart = p_values.iter().enumerate().map(|(k, p)| (p - (k as f64 + 0.5) / n).abs()).fold(0.0, f64::max);
+            assert!(apart < 1.95 / n.sqrt(), "{apart}");
+        }
+        let a = against_gravity(Gravity::SOMEWHERE, 1.3, 1.0, &mut noise);
+        let b = against_gravity(Gravity::SOMEWHERE, 1.3, 1.003, &mut noise);
+        let unknown = Comparison::of(&a, &b);
+        let at_one = Comparison::at(Place::One, &a, &b);
+        assert!(unknown.quantities[3].p_value.expect("known") > 0.05, "hidden");
+        assert!(at_one.quantities[3].in_sd.expect("known").abs() > 50.0, "{:?}", at_one.quantities[3]);
+        assert_eq!(unknown.overall_at_one_place, at_one.overall);
+        assert!(unknown.notes.iter().any(|note| note.code().name() == "place-unknown"), "{:?}", unknown.notes);
+        assert_eq!(Comparison::at(Place::Two, &a, &b).overall, unknown.overall);
+        assert_eq!(Comparison::at(Place::Two, &a, &b).overall_at_one_place, None);
+        // a gravity that somebody states tells the place; two that differ have errors of their own
+        let stated = Gravity { magnitude_mps2: 9.81, sd_mps2: 0.019 };
+        let [c, d] = [1.0, 1.003].map(|gain| against_gravity(stated, 0.4, gain, &mut noise));
+        assert!(Comparison::of(&c, &d).quantities[3].in_sd.expect("known").abs() > 50.0);
+        assert_eq!(Comparison::at(Place::One, &a, &d).overall, Comparison::at(Place::Two, &a, &d).overall);
+        assert_ne!(gravity_source(&stated), gravity_source(&Gravity::SOMEWHERE));
+    }
 
     fn imu() -> CalibratedImu {
         let mut parameters = ImuParameters::identity();

@@ -154,10 +154,9 @@ const KEYS: [(&str, &[&str]); 3] = [
 fn refuse_unknown_numbers(text: &str) -> Checked<()> {
     // what is no YAML was refused before
     let Ok(Value::Object(mut keys)) = serde_saphyr::from_str(text) else { return Ok(()) };
-    if keys.len() == 1
-        && let Some((_, Value::Object(below))) = keys.iter().next()
-    {
-        keys = below.clone();
+    let imu = keys.keys().find(|key| key.starts_with("imu")).cloned();
+    if let Some(Value::Object(below)) = imu.and_then(|imu| keys.remove(&imu)) {
+        keys = below;
     }
     for (part, known) in KEYS {
         let below = if part.is_empty() { Some(&keys) } else { keys.get(part).and_then(Value::as_object) };

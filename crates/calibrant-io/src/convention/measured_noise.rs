@@ -153,6 +153,41 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_random_walk_is_the_largest_of_what_the_axes_show_and_may_have() {
+        let noise = |walks: [&str; 3]| {
+            let axis = |(name, walk): (&str, &str)| {
+                format!(r#"{{"axis": "{name}", "random_walk": {{"value": 1e-3}}, "rate_random_walk": {walk}}}"#)
+            };
+            let axes: Vec<String> = ["x", "y", "z"].into_iter().zip(walks).map(axis).collect();
+            let text = format!(
+                r#"{{"sensor": "gyroscope", "reading_unit": "rad/s", "interval_s": 0.01, "axes": [{}]}}"#,
+                axes.join(", ")
+            );
+            let units = [None, Some(ReadingUnit::RadianPerSecond)];
+            let imu = CalibratedImu::new(calibrant_core::sensor::ImuParameters::identity(), units, vec![], "");
+            let mut noise = ImuNoise::default();
+            take(&mut noise, &serde_json::from_str(&text).expect("a sensor"), &imu).expect("usable");
+            noise
+        };
+        let (low, high, y, z) = (
+            r#"{"upper_limit": 3.5e-7}"#,
+            r#"{"upper_limit": 9e-6}"#,
+            r#"{"value": 5.99e-6}"#,
+            r#"{"value": 4.98e-6}"#,
+        );
+        let said = |noise: &ImuNoise| noise.findings.iter().map(|of| of.message().to_owned()).collect::<String>();
+        let shown = noise([low, y, z]);
+        assert_eq!(shown.gyroscope_random_walk, Some(5.99e-6));
+        assert!(said(&shown).contains("x has less"), "{}", said(&shown));
+        let limited = noise([high, y, z]);
+        assert_eq!(limited.gyroscope_random_walk, Some(9e-6));
+        assert!(said(&limited).contains("upper limit: x does not"), "{}", said(&limited));
+        let none = noise([low, low, high]);
+        assert_eq!((none.gyroscope_random_walk, none.walk_limits[1]), (None, Some(9e-6)));
+        assert_eq!((noise([y, y, z]).findings, none.findings), (vec![], vec![]));
+    }
+
+    #[test]
     fn a_rate_has_the_digits_that_its_times_tell() {
         let rate = |rate_hz: f64, jitter: f64, samples: usize| {
             let text = format!(

@@ -4,7 +4,7 @@ use super::history::{aging, change, has_converged};
 use super::sensor_aging::QuantityAging;
 use crate::database::{KeptRecord, RecordFilter, Records};
 use calibrant_core::error::Result;
-use calibrant_core::estimate::OverallDifference;
+use calibrant_core::estimate::{OverallDifference, tells_its_place};
 use calibrant_io::UtcTime;
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -99,8 +99,11 @@ impl SensorDrift {
         let last_change = last_two.map(|(last, before)| change(before, last));
         let (of_quantities, _) = aging(calibrations, None);
         let largest = largest(&of_quantities);
-        let without_station = |kept: &KeptRecord| kept.record.station.is_none() && kept.record.imu.shared.is_some();
-        let p_value_at_one_place = calibrations.iter().any(without_station).then(|| {
+        let is_somewhere = |kept: &KeptRecord| {
+            let mut sources = kept.record.imu.shared.iter().flat_map(|shared| &shared.sources);
+            kept.record.station.is_none() && sources.any(|source| !tells_its_place(source))
+        };
+        let p_value_at_one_place = calibrations.iter().any(is_somewhere).then(|| {
             let (of_quantities, _) = aging(calibrations, Some(""));
             let aging = largest_p_value(&of_quantities);
             let change = last_change.as_ref().and_then(|change| change.overall_at_one_place.or(change.overall));

@@ -185,6 +185,29 @@ mod tests {
         assert!((aging.fit_p_value.expect("a fit") - (-chi2 / 2.0).exp()).abs() < 1e-12);
     }
 
+    /// Beside the dense formula `r = (Xᵀ Σ⁻¹ X)⁻¹ Xᵀ Σ⁻¹ v`, with `Σ = D + U Uᵀ`.
+    #[test]
+    fn values_with_errors_in_common_are_those_of_the_whole_covariance() {
+        let values = dated(&[(0.0, 1.0, 0.5), (0.4, 1.2, 0.6), (1.0, 1.1, 0.5), (1.7, 1.9, 0.4)]);
+        let shared = [vec![0.45, 0.5, 0.0, 0.0], vec![0.0, 0.0, 0.4, 0.35]];
+        let aging = Aging::with_shared(&values, &shared).expect("a line");
+        let u = DMatrix::from_fn(4, 2, |i, k| shared[k][i]);
+        let own = DMatrix::from_fn(4, 4, |i, j| {
+            if i == j { values[i].sd.powi(2) - u.row(i).norm_squared() } else { 0.0 }
+        });
+        let sigma = (own + &u * u.transpose()).try_inverse().expect("regular");
+        let x = DMatrix::from_fn(4, 2, |i, k| if k == 0 { 1.0 } else { values[i].time_years });
+        let v = DVector::from_fn(4, |i, _| values[i].value);
+        let covariance = (x.transpose() * &sigma * &x).try_inverse().expect("regular");
+        let line = &covariance * x.transpose() * &sigma * &v;
+        let residuals = &v - x * &line;
+        let chi2 = residuals.dot(&(sigma * &residuals));
+        assert!((aging.per_year - line[1]).abs() < 1e-12, "{aging:?} {line}");
+        assert!((aging.chi2 - chi2).abs() < 1e-12, "{aging:?} {chi2}");
+        let widened = (chi2 / 2.0).sqrt().max(1.0);
+        assert!((aging.sd - covariance[(1, 1)].sqrt() * widened).abs() < 1e-12, "{aging:?}");
+    }
+
     #[test]
     fn without_two_times_there_is_no_line() {
         assert_eq!(Aging::of(&[]), None);

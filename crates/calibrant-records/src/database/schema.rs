@@ -56,11 +56,6 @@ const NEW: &str = "
         sd REAL,
         PRIMARY KEY (calibration, place)
     ) STRICT, WITHOUT ROWID;
-    CREATE TABLE shared_errors (
-        calibration INTEGER PRIMARY KEY REFERENCES calibrations (id) ON DELETE CASCADE,
-        sources TEXT NOT NULL, -- one in each line: gravity 9.80665 ± 0.019 m/s²
-        root BLOB NOT NULL -- a row for each parameter, a column for each source, f64, little endian
-    ) STRICT;
     CREATE VIEW estimates AS
         SELECT c.id AS calibration, c.sensor, c.recorded, c.station, c.verdict, n.name, n.unit, p.value, p.sd
         FROM calibrations c JOIN parameters p ON p.calibration = c.id
@@ -70,6 +65,15 @@ const NEW: &str = "
             SELECT 1 FROM calibrations d
             WHERE d.recording_sha256 = c.recording_sha256 AND (d.inserted, d.id) > (c.inserted, c.id)
         );
+";
+
+/// What version 4 adds.
+const SHARED_ERRORS: &str = "
+    CREATE TABLE shared_errors (
+        calibration INTEGER PRIMARY KEY REFERENCES calibrations (id) ON DELETE CASCADE,
+        sources TEXT NOT NULL, -- one in each line: gravity 9.80665 ± 0.019 m/s²
+        root BLOB NOT NULL -- a row for each parameter, a column for each source, f64, little endian
+    ) STRICT;
 ";
 
 /// The version of the schema.
@@ -83,9 +87,7 @@ pub(super) fn upgrade(connection: &mut Connection, path: &Path) -> Result<()> {
     let upgrade = |connection: &mut Connection| {
         let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
         if version(&transaction)? == BEFORE {
-            let end = "STRICT;";
-            let added = NEW.split_inclusive(end).find(|made| made.contains("CREATE TABLE shared_errors"));
-            transaction.execute_batch(added.unwrap_or_default())?;
+            transaction.execute_batch(SHARED_ERRORS)?;
             transaction.pragma_update(None, "user_version", VERSION)?;
         }
         transaction.commit()
@@ -106,6 +108,7 @@ fn version(connection: &Connection) -> rusqlite::Result<i32> {
 /// Makes the tables of a database that is new.
 pub(super) fn make(connection: &Connection, path: &Path) -> Result<()> {
     let made = connection.execute_batch(NEW).and_then(|()| {
+        connection.execute_batch(SHARED_ERRORS)?;
         connection.pragma_update(None, "application_id", APPLICATION_ID)?;
         connection.pragma_update(None, "user_version", VERSION)
     });

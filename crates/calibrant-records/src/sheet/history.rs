@@ -29,8 +29,8 @@ pub fn history_sheet(history: &SensorHistory) -> Sheet<'static> {
         table.row(row);
     }
     calibrations.table(table);
-    let notes = history.changes.iter().flat_map(|change| &change.comparison.notes);
-    if let Some(note) = notes.filter(|note| note.code() == PlaceUnknown::CODE).last() {
+    let mut notes = history.changes.iter().flat_map(|change| &change.comparison.notes);
+    if let Some(note) = notes.rfind(|note| note.code() == PlaceUnknown::CODE) {
         calibrations.paragraph(note.message().to_owned());
     }
     Sheet { title, sections: vec![calibrations, aging(&history.aging)], ..Sheet::default() }

@@ -7,6 +7,7 @@ use calibrant::io::{
     CalibratedImuFile, CalibrationFile, ConventionOptions, ImuFormat, ImuNoise, Origin, RawUnits,
     parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, to_json, write_calibrated_imu,
 };
+use calibrant::nalgebra::Vector3;
 use calibrant::sensor::{Gauge, ImuQuantity, ReadingUnit, SensorKind};
 use proptest::prelude::*;
 
@@ -248,6 +249,32 @@ fn kalibrs_own_file_is_read() {
     let error =
         read_calibrated_imu(&path, &ConventionOptions::default()).expect_err("no calibration").to_string();
     assert!(error.contains("there is no calibration in it: model calibrated"), "{error}");
+}
+
+#[test]
+fn biases_beside_the_matrix_are_read_and_unknown_numbers_are_refused() {
+    let text = "model: scale-misalignment\naccelerometer_noise_density: 0.0\ngyroscope_noise_density: 2.0e-4\n\
+                accelerometers:\n  M: [[1.01, 0, 0], [0, 1.02, 0], [0, 0, 1.03]]\n  b: [0.1151, -0.1288, 0.0829]\n\
+                gyroscopes:\n  M: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n  b: [0.03, 0.01, -0.02]\n";
+    let read = |text: &str| parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default());
+    let file = read(text).expect("as dedrunk-cli writes it");
+    assert_eq!(file.imu.parameters.accelerometer.bias, Vector3::new(0.1151, -0.1288, 0.0829));
+    assert_eq!(file.imu.parameters.gyroscope.bias, Vector3::new(0.03, 0.01, -0.02));
+    assert!(SensorKind::ALL.into_iter().all(|sensor_kind| file.imu.has_bias(sensor_kind)));
+    let [note] = &file.findings[..] else { panic!("{:?}", file.findings) };
+    assert!(note.message().contains("does not say accelerometer_noise_density: 0"), "{note:?}");
+    let noise = file.noise.expect("one density is stated");
+    assert_eq!((noise.accelerometer_density, noise.gyroscope_density), (None, Some(2e-4)));
+    for (before, after, says) in [
+        ("  b: [0.1151", "  offset: [0.1151", "`accelerometers.offset` has numbers"),
+        ("  b: [0.03", "  bias: [0.03", "`gyroscopes.bias` has numbers"),
+        ("model: scale", "Tw: [[1.0]]\nmodel: scale", "`Tw` has numbers"),
+        ("gyroscopes:", "calibrant: {accelerometer_bias: [0, 0, 0]}\ngyroscopes:", "two biases of one sensor"),
+        ("density: 0.0", "density: -1.0", "is not a positive number"),
+    ] {
+        let error = read(&text.replace(before, after)).expect_err(says).to_string();
+        assert!(error.contains(says), "{error}");
+    }
 }
 
 #[test]
