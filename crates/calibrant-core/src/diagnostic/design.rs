@@ -2,7 +2,7 @@
 
 use super::check::checks;
 use super::parts::Phrase;
-use crate::number_format::{counted, plain, significant};
+use crate::number_format::{counted, significant};
 
 checks! {
     /// The time was over before the search converged.
@@ -62,8 +62,8 @@ checks! {
     says format!(
         "the factors of joint_limits.yaml are applied, as MoveIt does: {} of each speed, {} of each acceleration. Where the machine may \
          move faster, set default_velocity_scaling_factor and default_acceleration_scaling_factor to 1",
-        plain(*velocity, 3),
-        plain(*acceleration, 3)
+        significant(*velocity, 3),
+        significant(*acceleration, 3)
     );
 
     /// An SRDF file is of another machine, or of more than this one.

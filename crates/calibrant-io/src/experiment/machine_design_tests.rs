@@ -74,7 +74,7 @@ fn a_number_for_all_joints_is_a_cap_and_a_table_stands_in_the_place_of_all_else(
     assert_eq!((elbow.velocity, elbow.acceleration, elbow.lower), (1.0, 0.1 * 3.0, -20.0));
     let found = notes(&plan);
     assert!(
-        found.len() == 2 && found[1].contains("0.5 of each speed, 0.1 of each acceleration"),
+        found.len() == 2 && found[1].contains("0.500 of each speed, 0.100 of each acceleration"),
         "{found:?}"
     );
     assert!(
