@@ -60,31 +60,37 @@ pub struct RehearsedCalibration {
 pub struct Departure {
     /// Its place among the parameters.
     pub parameter: usize,
+    /// On the plain routine, or on the best trajectory?
+    pub is_plain: bool,
     /// Is it the error that departs, not the stated standard deviation?
     pub is_realised: bool,
     /// Root mean square over the sensors, over the standard deviation that was designed.
     pub factor: f64,
 }
 
-/// Probability of a departure by chance, for all parameters together.
+/// Probability of a departure by chance, for all parameters on both motions together.
 const BY_CHANCE: f64 = 0.01;
 
 impl Rehearsal {
-    /// The parameter that departs the most from what was designed for the best trajectory; `None` where all are as designed, up to chance. Stated standard deviations may be
+    /// The parameter that departs the most from what was designed for its motion; `None` where all are as designed, up to chance. Stated standard deviations may be
     /// neither larger nor smaller, errors not larger.
     ///
     /// # Formula
-    /// A mean square of `n` errors over its variance is `χ²_n/n`. So is its bound, at `0.01/2p` on each side for the two numbers of each of `p` parameters (Bonferroni).
+    /// A mean square of `n` errors over its variance is `χ²_n/n`. So are its bounds, at `0.01/8p` on each side for the two numbers of each of `p` parameters on two motions
+    /// (Bonferroni).
     #[must_use]
     pub fn departure(&self) -> Option<Departure> {
         let n = self.sensors.len() as f64;
-        let tail = BY_CHANCE / (4 * self.summary.len().max(1)) as f64;
+        let tail = BY_CHANCE / (8 * self.summary.len().max(1)) as f64;
         let chi2 = ChiSquared::new(n).ok()?;
         let [least, most] = [tail, 1.0 - tail].map(|p| (chi2.inverse_cdf(p) / n).sqrt());
-        let of = |(parameter, designed): (usize, &f64)| {
-            let found = &self.summary.get(parameter)?.optimal;
-            let departure =
-                |is_realised, found: f64| Departure { parameter, is_realised, factor: found / designed };
+        let of = |(is_plain, parameter, designed): (bool, usize, &f64)| {
+            let entry = self.summary.get(parameter)?;
+            let found = if is_plain { &entry.initial } else { &entry.optimal };
+            let departure = |is_realised, found: f64| {
+                let factor = found / designed;
+                Departure { parameter, is_plain, is_realised, factor }
+            };
             let stated = departure(false, found.predicted_sd);
             let realised = departure(true, found.realised_rms);
             let all = [(stated, (least..=most)), (realised, (0.0..=most))];
@@ -93,7 +99,10 @@ impl Rehearsal {
         };
         let by_size =
             |one: &Departure, other: &Departure| one.factor.ln().abs().total_cmp(&other.factor.ln().abs());
-        self.designed_sd[1].iter().enumerate().filter_map(of).flatten().max_by(by_size)
+        let motions = self.designed_sd.iter().zip([true, false]);
+        let all =
+            motions.flat_map(|(sds, is_plain)| sds.iter().enumerate().map(move |(k, sd)| (is_plain, k, sd)));
+        all.filter_map(of).flatten().max_by(by_size)
     }
 
     /// Of these sensors, with the summary.
@@ -182,6 +191,6 @@ mod tests {
         // errors may be smaller, statements not
         assert_eq!(rehearsed([0.5, 1.0], 1.0, [1.0, 1.0]), None);
         let found = rehearsed([1.0, 0.5], 0.5, [1.0, 1.0]).expect("beyond chance");
-        assert_eq!(found, Departure { parameter: 1, is_realised: false, factor: 0.5 });
+        assert_eq!(found, Departure { parameter: 1, is_plain: false, is_realised: false, factor: 0.5 });
     }
 }

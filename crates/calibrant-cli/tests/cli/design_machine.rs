@@ -235,7 +235,7 @@ fn wider_limits_and_other_units_are_told() {
         [("duration_s = 20.0 ", "duration_s = 8.0 "), ("# velocity = 10.0 ", "velocity = { table = 20.0 } ")];
     bench.preset("rate-table", "wide.toml", &edits);
     let outcome = bench.run("design wide.toml --starts 1 -o wide").done();
-    outcome.says("warning: the joint `table` is given more than a file of the machine: speed 20.00 rad/s, in the URDF file 8.727 rad/s");
+    outcome.says("warning: the joint `table` is given more than a file of the machine: speed 20 rad/s, in the URDF file 8.727 rad/s");
     let metres = bench.read("wide/trajectory.csv").replace("_rad", "_m");
     bench.write("metres.csv", metres);
     bench.refuses(

@@ -74,12 +74,12 @@ fn a_number_for_all_joints_is_a_cap_and_a_table_stands_in_the_place_of_all_else(
     assert_eq!((elbow.velocity, elbow.acceleration, elbow.lower), (1.0, 0.1 * 3.0, -20.0));
     let found = notes(&plan);
     assert!(
-        found.len() == 2 && found[1].contains("0.5 of each speed, 0.1 of each acceleration"),
+        found.len() == 2 && found[1].contains("0.500 of each speed, 0.100 of each acceleration"),
         "{found:?}"
     );
     assert!(
         found[0].contains("`elbow`")
-            && found[0].contains("from -20.00 to 2.600 rad, in the URDF file from -3.142"),
+            && found[0].contains("from -20 to 2.6 rad, in the URDF file from -3.142"),
         "{found:?}"
     );
     let broken = format!("default_velocity_scaling_factor: 2.0\n{limits}");
@@ -97,7 +97,7 @@ fn a_file_of_pairs_of_another_machine_is_noticed() {
     let path = directory.path().join("arm.toml");
     let text = arm_with("# srdf =", "srdf =");
     let pair = |one: &str| format!("<disable_collisions link1='{one}' link2='forearm' reason='Never'/>");
-    let mut found = |robot: &str, links: &[&str]| -> Vec<String> {
+    let found = |robot: &str, links: &[&str]| -> Vec<String> {
         let pairs: String = links.iter().map(|link| pair(link)).collect();
         let file = format!("<robot name='{robot}'>{pairs}</robot>");
         std::fs::write(directory.path().join("arm.srdf"), file).expect("written");

@@ -3,7 +3,7 @@
 use crate::machine::FileJointLimits;
 use calibrant_core::diagnostic::design::LimitWidened;
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
-use calibrant_core::number_format::significant;
+use calibrant_core::number_format::plain;
 use calibrant_machine::chain::{Joint, JointKind};
 use calibrant_machine_design::JointLimit;
 
@@ -22,7 +22,7 @@ pub(super) fn widened(joint: &Joint, in_file: &FileJointLimits, used: &JointLimi
         let Some((lower, upper)) = of else { continue };
         let room = ROUNDED * (upper - lower);
         if used.lower < lower - room || used.upper > upper + room {
-            let [a, b, c, d] = [used.lower, used.upper, lower, upper].map(|of| significant(of, 4));
+            let [a, b, c, d] = [used.lower, used.upper, lower, upper].map(|of| plain(of, 4));
             all.push(format!("position from {a} to {b} {unit}, in {source} from {c} to {d} {unit}"));
         }
     }
@@ -33,7 +33,7 @@ pub(super) fn widened(joint: &Joint, in_file: &FileJointLimits, used: &JointLimi
     ] {
         for (source, of) in ["the URDF file", "joint_limits.yaml"].into_iter().zip(of) {
             if let Some(of) = of.filter(|of| used > of * (1.0 + ROUNDED)) {
-                let [used, of] = [used, of].map(|of| significant(of, 4));
+                let [used, of] = [used, of].map(|of| plain(of, 4));
                 all.push(format!("{name} {used} {unit}{per}, in {source} {of} {unit}{per}"));
             }
         }

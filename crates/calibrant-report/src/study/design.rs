@@ -129,7 +129,7 @@ fn coverage(study: &DesignStudy) -> f64 {
 }
 
 /// Do predicted and realised factor agree over so many sensors, up to chance?
-pub(super) fn agrees(entry: &calibrant_study::Improvement, sensors: usize) -> bool {
+fn agrees(entry: &calibrant_study::Improvement, sensors: usize) -> bool {
     if sensors < FEWEST {
         return true;
     }

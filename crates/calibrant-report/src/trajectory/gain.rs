@@ -1,6 +1,6 @@
 //! What a motion can improve and what it cannot, in words.
 
-use super::predicted::{mean_ratio, smaller, symmetric_ratios};
+use super::predicted::{mean_ratio, smaller};
 use crate::number_format::{counted, significant};
 use calibrant_machine::estimate::{BudgetRow, MountingPrior, Source};
 use calibrant_machine_design::{TrajectoryEvaluation, TrajectoryProblem};
@@ -14,49 +14,50 @@ fn part(row: &BudgetRow, source: Source) -> f64 {
     of.map_or(0.0, |(_, part)| part / row.variance)
 }
 
+/// The standard deviation that a known mount leaves.
+fn with_known_mount(row: &BudgetRow) -> f64 {
+    let others = Source::ALL.iter().zip(row.parts).filter(|(of, _)| **of != Source::Mounting);
+    others.map(|(_, part)| part).sum::<f64>().sqrt()
+}
+
 /// The places of parameters that this source alone limits.
 fn limited_by(of: &TrajectoryEvaluation, source: Source) -> Vec<usize> {
     (0..of.budget.len()).filter(|k| part(&of.budget[*k], source) >= ALONE).collect()
 }
 
-/// How much smaller standard deviations are than those of another trajectory: first of those that the motion decides.
+/// How much smaller standard deviations are than those of another trajectory: of those that the motion decides.
 pub(super) fn gain(
-    before: (&TrajectoryEvaluation, &str),
+    (other, name): (&TrajectoryEvaluation, &str),
     best: &TrajectoryEvaluation,
     problem: &TrajectoryProblem<'_>,
 ) -> String {
-    let (other, name) = before;
-    let ratios: Vec<f64> = other.sd().iter().zip(best.sd()).map(|(before, after)| before / after).collect();
     let elsewhere = [Source::Mounting, Source::Gravity].map(|source| limited_by(best, source)).concat();
-    let decided: Vec<f64> = (0..ratios.len()).filter(|k| !elsewhere.contains(k)).map(|k| ratios[k]).collect();
-    let by_criterion =
-        format!("{} by criterion {}", smaller(best.times_better_than(other)), problem.criterion.letter());
-    let Some(of_decided) = mean_ratio(&decided) else {
-        return format!(" Against {name}, its standard deviations are {by_criterion}.");
+    let pairs = other.sd().into_iter().zip(best.sd()).enumerate();
+    let decided: Vec<f64> =
+        pairs.filter(|(k, _)| !elsewhere.contains(k)).map(|(_, (before, after))| before / after).collect();
+    let which = match elsewhere.is_empty() {
+        true => "its standard deviations are".to_owned(),
+        false => format!("the {} that the motion decides are", counted(decided.len(), "standard deviation")),
     };
-    let mut words = match elsewhere.is_empty() {
-        true => format!(" Against {name}, its standard deviations are {} in the mean", smaller(of_decided)),
-        false => format!(
-            " Against {name}, the {} that the motion decides are {} in the mean",
-            counted(decided.len(), "standard deviation"),
-            smaller(of_decided)
-        ),
-    };
-    if let Some(times) = mean_ratio(&symmetric_ratios(other, best)).filter(|_| !elsewhere.is_empty()) {
-        words += &format!(", those of the symmetric parts of the matrices {}", smaller(times));
-    }
-    words + &format!(", and all are {by_criterion}.")
+    let mean = mean_ratio(&decided).map_or_else(String::new, |times| {
+        format!("Against {name}, {which} {} in the mean. ", smaller(times))
+    });
+    format!(
+        " {mean}By criterion {}, which counts all combinations of the parameters of a nominal sensor, they are {} than with {name}.",
+        problem.criterion.letter(),
+        smaller(best.times_better_than(other)),
+    )
 }
 
 /// Which parameters the mount alone limits, and what would change that; `None` where it limits none.
 pub(super) fn limited_by_mount(
+    other: Option<(&TrajectoryEvaluation, &str)>,
     best: &TrajectoryEvaluation,
     problem: &TrajectoryProblem<'_>,
 ) -> Option<String> {
     let MountingPrior::Within(sd_rad) = problem.setup.mounting else { return None };
     let places = limited_by(best, Source::Mounting);
-    // the part of a variance that a known mount leaves
-    let left = |k: &usize| (1.0 - part(&best.budget[*k], Source::Mounting)).max(1e-12).sqrt().recip();
+    let left = |k: &usize| best.budget[*k].variance.sqrt() / with_known_mount(&best.budget[*k]);
     let times = mean_ratio(&places.iter().map(left).collect::<Vec<_>>())?;
     // `gyroscope.matrix` of its six entries
     let mut kinds: Vec<String> = Vec::new();
@@ -67,13 +68,20 @@ pub(super) fn limited_by_mount(
             kinds.push(kind.to_owned());
         }
     }
+    let compared = other.and_then(|(other, name)| {
+        let pairs = other.budget.iter().zip(&best.budget);
+        let ratios: Vec<f64> =
+            pairs.map(|(before, after)| with_known_mount(before) / with_known_mount(after)).collect();
+        Some(format!(", and all of them {} than with {name}", smaller(mean_ratio(&ratios)?)))
+    });
     Some(format!(
-        "The mount, known to {}°, limits {} of {}, whatever the motion: of {}. Known exactly, as by a fixture with pins (`rotation_sd_deg = 0`), it would leave them about {} times smaller. \
-         With `rotation = \"unknown\"` the axes of the accelerometer are the frame, and they do not depend on the mount.",
+        "The mount, known to {}°, limits {} of {}, whatever the motion: of {}. Known exactly, as by a fixture with pins (`rotation_sd_deg = 0`), it would leave these about {} \
+         times smaller{}. With `rotation = \"unknown\"` the axes of the accelerometer are the frame, and do not depend on the mount.",
         significant(sd_rad.to_degrees(), 2),
         counted(places.len(), "standard deviation"),
         best.budget.len(),
         kinds.join(", "),
-        significant(times, 2)
+        significant(times, 2),
+        compared.unwrap_or_default()
     ))
 }

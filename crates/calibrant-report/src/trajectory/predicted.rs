@@ -38,11 +38,6 @@ pub(super) fn mean_ratio(ratios: &[f64]) -> Option<f64> {
     (!ratios.is_empty()).then(|| (sum / ratios.len() as f64).exp())
 }
 
-/// Ratios of the standard deviations of the symmetric parts of the matrices.
-pub(super) fn symmetric_ratios(before: &TrajectoryEvaluation, after: &TrajectoryEvaluation) -> Vec<f64> {
-    symmetric(before).iter().zip(symmetric(after)).map(|(before, after)| before.2 / after.2).collect()
-}
-
 /// The unit of a parameter whose readings are in SI units.
 pub(super) fn unit(quantity: ImuQuantity) -> &'static str {
     quantity.unit(quantity.sensor_kind().stimulus_unit())

@@ -36,7 +36,12 @@ pub fn trajectory_sheet<'a>(
     let (grade, word) =
         if proved { (Grade::Good, "✓ Found.") } else { (Grade::Caution, "! Not all limits are proved.") };
     let mut verdict = SheetVerdict::new(grade, word, in_words(design, problem));
-    let findings = about.findings.iter().cloned().chain(limited_by_mount(best, problem)).collect();
+    let findings = about
+        .findings
+        .iter()
+        .cloned()
+        .chain(limited_by_mount(plain.map(|(name, of)| (of, name)), best, problem))
+        .collect();
     verdict = verdict.with("Findings", findings);
     let mut predicted = Section::new("Predicted standard deviations").lead(
         "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. All trajectories \
