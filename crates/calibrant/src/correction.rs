@@ -52,7 +52,9 @@ pub fn apply<'a>(imu: &CalibratedImu, recording: &'a ImuRecording) -> Result<App
         match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
             (Some(_), None) => notes.push(SensorAbsent { sensor_kind }.into()),
             (None, Some(_)) => notes.push(SensorUncalibrated { sensor_kind }.into()),
-            (Some(_), Some(_)) if !imu.has_bias(sensor_kind) => notes.push(BiasesSupposed { sensor_kind }.into()),
+            (Some(_), Some(_)) if !imu.has_bias(sensor_kind) => {
+                notes.push(BiasesSupposed { sensor_kind }.into())
+            }
             _ => {}
         }
     }

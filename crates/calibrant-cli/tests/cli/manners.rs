@@ -127,7 +127,9 @@ fn a_contradictory_calibration_is_refused() {
         bench.write("changed.json", text.replacen(before, after, 1));
         bench.refuses("apply changed.json made/recording.csv -o changed.csv", 2, &[says]);
     }
-    for (factor, says) in [(100.0, "the sd of accelerometer.bias.x is"), (0.0, "is 0 in `parameters`"), (1e300, "the sd of")] {
+    for (factor, says) in
+        [(100.0, "the sd of accelerometer.bias.x is"), (0.0, "is 0 in `parameters`"), (1e300, "the sd of")]
+    {
         let mut changed = bench.json("result/calibration.json");
         let sd = &mut changed["parameters"][0]["sd"];
         *sd = (sd.as_f64().expect("known") * factor).into();

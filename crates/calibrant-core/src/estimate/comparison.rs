@@ -236,10 +236,13 @@ impl Comparison {
         notes.extend([("A", a), ("B", b)].into_iter().filter_map(|(name, imu)| about_degrees(name, imu)));
         let overall = difference(a, b, &common, &mut notes);
         let unknown = place == Place::Unknown && !matched.is_empty();
-        let overall_at_one_place = overall.filter(|_| unknown).and_then(|_| difference(a, b, &matched, &mut Vec::new()));
+        let overall_at_one_place =
+            overall.filter(|_| unknown).and_then(|_| difference(a, b, &matched, &mut Vec::new()));
         if let Some((apart, together)) = overall.zip(overall_at_one_place) {
             let sources = matched.into_iter().map(|(source, ..)| source).collect();
-            notes.push(PlaceUnknown { sources, p_value: apart.p_value, p_value_at_one: together.p_value }.into());
+            notes.push(
+                PlaceUnknown { sources, p_value: apart.p_value, p_value_at_one: together.p_value }.into(),
+            );
         }
         Self { quantities, overall, overall_at_one_place, notes }
     }
@@ -305,7 +308,8 @@ fn compared(
         (one, other) => Some([one, other].map(Option::unwrap_or_default)),
     };
     let (of_a, of_b) = (a.shared_errors_of(invariant), b.shared_errors_of(invariant));
-    let sum = |of: &dyn Fn(f64, f64) -> f64| common.iter().map(|(_, k, j)| of(of_a[*k], of_b[*j])).sum::<f64>();
+    let sum =
+        |of: &dyn Fn(f64, f64) -> f64| common.iter().map(|(_, k, j)| of(of_a[*k], of_b[*j])).sum::<f64>();
     let apart = sum(&|u, v| (u - v).powi(2));
     let shared = [sum(&|u, _| u * u), sum(&|_, v| v * v)];
     let variances = sd.map(|sd| [0, 1].map(|k| (sd[k] * sd[k] - shared[k]).max(0.0) + 0.5 * apart));
@@ -426,7 +430,8 @@ fn difference(
         if own.is_empty() {
             continue;
         }
-        let variances: Vec<_> = own.iter().map(|&k| [of_a[(k, k)], of_b[(k, k)]].map(|of| of.max(0.0))).collect();
+        let variances: Vec<_> =
+            own.iter().map(|&k| [of_a[(k, k)], of_b[(k, k)]].map(|of| of.max(0.0))).collect();
         let behind = together(&variances, [&a, &b], part);
         places.extend(own);
         // what this part adds, beside the parts before it
@@ -461,7 +466,11 @@ fn covariance_of(imu: &CalibratedImu, list: &[ImuQuantity]) -> DMatrix<f64> {
 }
 
 /// What these shared sources do to these quantities: a column for each.
-fn shared_of(imu: &CalibratedImu, list: &[ImuQuantity], sources: impl Iterator<Item = usize>) -> DMatrix<f64> {
+fn shared_of(
+    imu: &CalibratedImu,
+    list: &[ImuQuantity],
+    sources: impl Iterator<Item = usize>,
+) -> DMatrix<f64> {
     let sources: Vec<usize> = sources.collect();
     let place = |quantity: &ImuQuantity| imu.quantities.iter().position(|of| of == quantity);
     let places: Vec<Option<usize>> = list.iter().map(place).collect();
@@ -511,7 +520,8 @@ mod tests {
             let drawn: f64 = StandardNormal.sample(rng);
             quantity.add_to(&mut imu.parameters, noise * drawn + slope.root[(k, 0)] * error);
         }
-        imu.covariance = Some(DMatrix::identity(size, size) * noise * noise + &slope.root * slope.root.transpose());
+        imu.covariance =
+            Some(DMatrix::identity(size, size) * noise * noise + &slope.root * slope.root.transpose());
         imu.shared = Some(slope);
         imu
     }
@@ -536,7 +546,11 @@ mod tests {
             p_values.sort_by(f64::total_cmp);
             // the distance of Kolmogorov and Smirnov that chance exceeds in 0.1 % of the cases
             let n = p_values.len() as f64;
-            let apart = p_values.iter().enumerate().map(|(k, p)| (p - (k as f64 + 0.5) / n).abs()).fold(0.0, f64::max);
+            let apart = p_values
+                .iter()
+                .enumerate()
+                .map(|(k, p)| (p - (k as f64 + 0.5) / n).abs())
+                .fold(0.0, f64::max);
             assert!(apart < 1.95 / n.sqrt(), "{apart}");
         }
         let a = against_gravity(Gravity::SOMEWHERE, 1.3, 1.0, &mut noise);
@@ -546,7 +560,11 @@ mod tests {
         assert!(unknown.quantities[3].p_value.expect("known") > 0.05, "hidden");
         assert!(at_one.quantities[3].in_sd.expect("known").abs() > 50.0, "{:?}", at_one.quantities[3]);
         assert_eq!(unknown.overall_at_one_place, at_one.overall);
-        assert!(unknown.notes.iter().any(|note| note.code().name() == "place-unknown"), "{:?}", unknown.notes);
+        assert!(
+            unknown.notes.iter().any(|note| note.code().name() == "place-unknown"),
+            "{:?}",
+            unknown.notes
+        );
         assert_eq!(Comparison::at(Place::Two, &a, &b).overall, unknown.overall);
         assert_eq!(Comparison::at(Place::Two, &a, &b).overall_at_one_place, None);
         // a gravity that somebody states tells the place; two that differ have errors of their own

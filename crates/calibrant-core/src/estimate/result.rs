@@ -246,7 +246,9 @@ impl Calibration {
             Recovered::Motion(motion) => motion.gravity.as_ref()?,
         };
         let gravity = recovered.gravity.magnitude();
-        let along = self.imu.accelerometer.matrix * recovered.gravity.force_mps2 * (gravity.sd_mps2 / gravity.magnitude_mps2);
+        let along = self.imu.accelerometer.matrix
+            * recovered.gravity.force_mps2
+            * (gravity.sd_mps2 / gravity.magnitude_mps2);
         let column = |(k, quantity): (usize, &ImuQuantity)| match quantity {
             ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(axis)) => {
                 // a prior of the bias leaves σ² = s²u²/(s² + u²), and the part u s²/(s² + u²) of the error u

@@ -33,7 +33,10 @@ impl SharedErrors {
     #[must_use]
     pub fn of_source(source: String, column: &[f64]) -> Option<Self> {
         let acts = column.iter().any(|entry| *entry != 0.0);
-        acts.then(|| Self { sources: vec![source], root: DMatrix::from_column_slice(column.len(), 1, column) })
+        acts.then(|| Self {
+            sources: vec![source],
+            root: DMatrix::from_column_slice(column.len(), 1, column),
+        })
     }
 
     /// The rows of these quantities alone.
@@ -50,6 +53,10 @@ impl CalibratedImu {
         let (_, gradient) = invariant.with_gradient(&self.parameters);
         let slope = |quantity: &ImuQuantity| gradient.dot(&entry_vector::of_quantity(*quantity));
         let slopes: Vec<f64> = self.quantities.iter().map(slope).collect();
-        shared.root.column_iter().map(|column| column.iter().zip(&slopes).map(|(u, by)| u * by).sum()).collect()
+        shared
+            .root
+            .column_iter()
+            .map(|column| column.iter().zip(&slopes).map(|(u, by)| u * by).sum())
+            .collect()
     }
 }

@@ -174,7 +174,8 @@ impl Header {
             return Err(invalid(message, HELP));
         }
         if self.kind.as_deref() == Some(MachineCalibrationFile::KIND) && self.machine.is_none() {
-            let message = "the kind of this file is \"machine\", and it has no `machine`: it is of another kind";
+            let message =
+                "the kind of this file is \"machine\", and it has no `machine`: it is of another kind";
             return Err(invalid(message, HELP));
         }
         if let Some(status) = self.status.as_ref().filter(|_| !self.has_converged()) {

@@ -171,7 +171,9 @@ impl SharedCore {
         let (size, sources) = (imu.quantities.len(), self.sources.len());
         let reject = |message: String| invalid(message, "calibrate again, or remove `shared_errors`");
         if self.root.len() != size || self.root.iter().any(|row| row.len() != sources) {
-            return Err(reject(format!("`shared_errors.root` is not {size} × {sources}, one row for each parameter")));
+            return Err(reject(format!(
+                "`shared_errors.root` is not {size} × {sources}, one row for each parameter"
+            )));
         }
         let root = DMatrix::from_fn(size, sources, |i, j| self.root[i][j]);
         let variance = |i: usize| imu.covariance.as_ref().map_or(0.0, |sigma| sigma[(i, i)]);
@@ -188,7 +190,8 @@ impl HoldsCore {
     /// The error of gravity, where it fits into the covariance.
     fn shared_errors(&self, imu: &CalibratedImu, prior_share: &[f64]) -> Option<SharedErrors> {
         let (magnitude_mps2, sd_mps2) = (self.gravity_mps2?, self.gravity_sd_mps2?);
-        let gravity = Some(Gravity { magnitude_mps2, sd_mps2 }).filter(|_| magnitude_mps2 > 0.0 && sd_mps2 > 0.0)?;
+        let gravity =
+            Some(Gravity { magnitude_mps2, sd_mps2 }).filter(|_| magnitude_mps2 > 0.0 && sd_mps2 > 0.0)?;
         let shared = shared_gravity(&imu.quantities, prior_share, &imu.parameters, &gravity)?;
         let sigma = imu.covariance.as_ref()?;
         let fits = |i: usize| shared.root.row(i).norm_squared() <= sigma[(i, i)] * (1.0 + AS_WRITTEN);

@@ -160,8 +160,10 @@ fn refuse_unknown_numbers(text: &str) -> Checked<()> {
     }
     for (part, known) in KEYS {
         let below = if part.is_empty() { Some(&keys) } else { keys.get(part).and_then(Value::as_object) };
-        let holds_numbers = |value: &Value| matches!(value, Value::Array(_) | Value::Object(_)) && has_number(value);
-        let is_unknown = |(key, value): &(&String, &Value)| !known.contains(&key.as_str()) && holds_numbers(value);
+        let holds_numbers =
+            |value: &Value| matches!(value, Value::Array(_) | Value::Object(_)) && has_number(value);
+        let is_unknown =
+            |(key, value): &(&String, &Value)| !known.contains(&key.as_str()) && holds_numbers(value);
         if let Some((key, _)) = below.into_iter().flatten().find(is_unknown) {
             let place = if part.is_empty() { key.clone() } else { format!("{part}.{key}") };
             return Err(invalid(
@@ -225,9 +227,10 @@ impl Imu {
         let own_field = format!("calibrant.{sensor_kind}_bias");
         let field = format!("{sensor_kind}s.b");
         match (beside_matrix, own) {
-            (Some(one), Some(other)) if one != other => {
-                Err(invalid(format!("`{field}` and `{own_field}` are two biases of one sensor"), "remove the wrong one"))
-            }
+            (Some(one), Some(other)) if one != other => Err(invalid(
+                format!("`{field}` and `{own_field}` are two biases of one sensor"),
+                "remove the wrong one",
+            )),
             (Some(bias), _) => Ok(Some((bias, field))),
             (None, own) => Ok(own.map(|bias| (bias, own_field))),
         }
@@ -288,10 +291,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         stated.as_ref().map_or(Ok(Vector3::zeros()), |(bias, field)| vector3(bias, field))
     };
     let mut parameters = ImuParameters::identity();
-    parameters.accelerometer = SensorParameters {
-        bias: bias(&stated_biases[0])?,
-        matrix: m_a * c_i_b,
-    };
+    parameters.accelerometer = SensorParameters { bias: bias(&stated_biases[0])?, matrix: m_a * c_i_b };
     let accelerometer_unit =
         Some(unit(SensorKind::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
     let gyroscope_unit = match &imu.gyroscopes {

@@ -156,7 +156,9 @@ mod tests {
     fn a_random_walk_is_the_largest_of_what_the_axes_show_and_may_have() {
         let noise = |walks: [&str; 3]| {
             let axis = |(name, walk): (&str, &str)| {
-                format!(r#"{{"axis": "{name}", "random_walk": {{"value": 1e-3}}, "rate_random_walk": {walk}}}"#)
+                format!(
+                    r#"{{"axis": "{name}", "random_walk": {{"value": 1e-3}}, "rate_random_walk": {walk}}}"#
+                )
             };
             let axes: Vec<String> = ["x", "y", "z"].into_iter().zip(walks).map(axis).collect();
             let text = format!(
@@ -164,7 +166,8 @@ mod tests {
                 axes.join(", ")
             );
             let units = [None, Some(ReadingUnit::RadianPerSecond)];
-            let imu = CalibratedImu::new(calibrant_core::sensor::ImuParameters::identity(), units, vec![], "");
+            let imu =
+                CalibratedImu::new(calibrant_core::sensor::ImuParameters::identity(), units, vec![], "");
             let mut noise = ImuNoise::default();
             take(&mut noise, &serde_json::from_str(&text).expect("a sensor"), &imu).expect("usable");
             noise
@@ -175,7 +178,8 @@ mod tests {
             r#"{"value": 5.99e-6}"#,
             r#"{"value": 4.98e-6}"#,
         );
-        let said = |noise: &ImuNoise| noise.findings.iter().map(|of| of.message().to_owned()).collect::<String>();
+        let said =
+            |noise: &ImuNoise| noise.findings.iter().map(|of| of.message().to_owned()).collect::<String>();
         let shown = noise([low, y, z]);
         assert_eq!(shown.gyroscope_random_walk, Some(5.99e-6));
         assert!(said(&shown).contains("x has less"), "{}", said(&shown));

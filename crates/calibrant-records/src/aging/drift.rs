@@ -106,7 +106,8 @@ impl SensorDrift {
         let p_value_at_one_place = calibrations.iter().any(is_somewhere).then(|| {
             let (of_quantities, _) = aging(calibrations, Some(""));
             let aging = largest_p_value(&of_quantities);
-            let change = last_change.as_ref().and_then(|change| change.overall_at_one_place.or(change.overall));
+            let change =
+                last_change.as_ref().and_then(|change| change.overall_at_one_place.or(change.overall));
             least([aging, change.map(|change| change.p_value)])
         });
         let mut dates = calibrations.iter().filter_map(|kept| kept.record.recorded);

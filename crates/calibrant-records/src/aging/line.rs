@@ -98,7 +98,8 @@ impl Aging {
             (variance - effect.row(i).norm_squared()).max(LEAST_OWN * variance)
         };
         let own: Vec<f64> = (0..values.len()).map(own).collect();
-        let sum = |of: &dyn Fn(&Dated) -> f64| values.iter().zip(&own).map(|(v, own)| of(v) / own).sum::<f64>();
+        let sum =
+            |of: &dyn Fn(&Dated) -> f64| values.iter().zip(&own).map(|(v, own)| of(v) / own).sum::<f64>();
         let weights = sum(&|_| 1.0);
         let (mean_time, mean_value) = (sum(&|v| v.time_years) / weights, sum(&|v| v.value) / weights);
         // values of one day differ by the rounding of their mean
@@ -132,8 +133,9 @@ impl Aging {
         } else {
             let of_change = estimator.row(1);
             let part = |i: usize| (of_change[i].powi(2) * own[i], values[i].degrees_of_freedom);
-            let of_shared = (of_change * &effect).norm_squared();
-            let parts = (0..values.len()).map(part).chain((of_shared > 0.0).then_some((of_shared, f64::INFINITY)));
+            let of_shared = (&of_change * &effect).norm_squared();
+            let parts =
+                (0..values.len()).map(part).chain((of_shared > 0.0).then_some((of_shared, f64::INFINITY)));
             degrees_of_sum(&parts.collect::<Vec<_>>())
         };
         Some(Self {
@@ -192,9 +194,14 @@ mod tests {
         let shared = [vec![0.45, 0.5, 0.0, 0.0], vec![0.0, 0.0, 0.4, 0.35]];
         let aging = Aging::with_shared(&values, &shared).expect("a line");
         let u = DMatrix::from_fn(4, 2, |i, k| shared[k][i]);
-        let own = DMatrix::from_fn(4, 4, |i, j| {
-            if i == j { values[i].sd.powi(2) - u.row(i).norm_squared() } else { 0.0 }
-        });
+        let own =
+            DMatrix::from_fn(
+                4,
+                4,
+                |i, j| {
+                    if i == j { values[i].sd.powi(2) - u.row(i).norm_squared() } else { 0.0 }
+                },
+            );
         let sigma = (own + &u * u.transpose()).try_inverse().expect("regular");
         let x = DMatrix::from_fn(4, 2, |i, k| if k == 0 { 1.0 } else { values[i].time_years });
         let v = DVector::from_fn(4, |i, _| values[i].value);

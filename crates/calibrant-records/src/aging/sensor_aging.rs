@@ -127,7 +127,11 @@ mod tests {
         let turned: Vec<_> =
             imus.iter().zip(turned).map(|(imu, gauge)| imu.in_gauge(gauge).expect("regular")).collect();
         let of = |imus: &[CalibratedImu]| {
-            let dated = years.iter().zip(imus).map(|(&time_years, imu)| DatedCalibration { time_years, imu, station: None });
+            let dated = years.iter().zip(imus).map(|(&time_years, imu)| DatedCalibration {
+                time_years,
+                imu,
+                station: None,
+            });
             aging_of(&dated.collect::<Vec<_>>())
         };
         let (one, other) = (of(&imus), of(&turned));
@@ -215,7 +219,8 @@ mod tests {
         let mut after = CalibratedImu { degrees_of_freedom: Some(degrees(9.0)), ..warm() };
         after.parameters.accelerometer.bias.x += 3e-4;
         let dated = [(0.0, &before), (0.7, &after)];
-        let agings = aging_of(&dated.map(|(time_years, imu)| DatedCalibration { time_years, imu, station: None }));
+        let agings =
+            aging_of(&dated.map(|(time_years, imu)| DatedCalibration { time_years, imu, station: None }));
         let compared = Comparison::of(&before, &after).quantities;
         let (of, compared) = (agings[0].aging, &compared[0]);
         assert!((of.degrees_behind / compared.degrees_of_freedom - 1.0).abs() < 1e-9, "{of:?} {compared:?}");

@@ -155,7 +155,12 @@ impl<'r> Reader<'r> {
         let statement = |text| records.connection.prepare_cached(text);
         let has_shared = schema::has_shared_errors(&records.connection)?;
         let shared = has_shared.then(|| statement(SHARED)).transpose()?;
-        Ok(Self { estimates: statement(PARAMETERS)?, shared, model: statement(MODEL)?, models: HashMap::new() })
+        Ok(Self {
+            estimates: statement(PARAMETERS)?,
+            shared,
+            model: statement(MODEL)?,
+            models: HashMap::new(),
+        })
     }
 
     /// The record of a row; `None` where its parts do not fit together.

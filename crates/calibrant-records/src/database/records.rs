@@ -261,7 +261,11 @@ fn insert(
     if let Some(shared) = further.shared {
         transaction
             .prepare_cached("INSERT INTO shared_errors (calibration, sources, root) VALUES (?, ?, ?)")?
-            .execute(params![id, shared.sources.join("\n"), bytes_of(shared.root.transpose().iter().copied())])?;
+            .execute(params![
+                id,
+                shared.sources.join("\n"),
+                bytes_of(shared.root.transpose().iter().copied())
+            ])?;
     }
     checksum::seal(transaction, id)?;
     Ok(Inserted { id, replaced: earlier.is_some() })

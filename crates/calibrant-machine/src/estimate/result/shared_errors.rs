@@ -3,8 +3,8 @@
 //! With `I` the information of a prior, what is wrong with a quantity of the machine by one standard deviation `σ` moves the estimates by `Σ I σ`, which
 //! is the column `Σ_k/σ` of their covariance. The sensor is mounted anew each time, and delays, clock and tilt belong to each recording.
 
-use crate::estimate::problem::Layout;
 use crate::estimate::MachineQuantity;
+use crate::estimate::problem::Layout;
 use calibrant_core::estimate::gravity_source;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::SharedErrors;
@@ -57,7 +57,9 @@ pub(super) fn shared_errors(
     let sd = stated.diagonal().map(|variance| variance.max(f64::MIN_POSITIVE).sqrt());
     let least = |of: DMatrix<f64>| {
         let rest = of - &root * root.transpose();
-        DMatrix::from_fn(imu.len(), imu.len(), |i, j| rest[(i, j)] / (sd[i] * sd[j])).symmetric_eigenvalues().min()
+        DMatrix::from_fn(imu.len(), imu.len(), |i, j| rest[(i, j)] / (sd[i] * sd[j]))
+            .symmetric_eigenvalues()
+            .min()
     };
     (least(stated.clone()) >= KEPT * least(linear)).then_some(SharedErrors { sources, root })
 }

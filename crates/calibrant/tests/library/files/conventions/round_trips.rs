@@ -269,7 +269,11 @@ fn biases_beside_the_matrix_are_read_and_unknown_numbers_are_refused() {
         ("  b: [0.1151", "  offset: [0.1151", "`accelerometers.offset` has numbers"),
         ("  b: [0.03", "  bias: [0.03", "`gyroscopes.bias` has numbers"),
         ("model: scale", "Tw: [[1.0]]\nmodel: scale", "`Tw` has numbers"),
-        ("gyroscopes:", "calibrant: {accelerometer_bias: [0, 0, 0]}\ngyroscopes:", "two biases of one sensor"),
+        (
+            "gyroscopes:",
+            "calibrant: {accelerometer_bias: [0, 0, 0]}\ngyroscopes:",
+            "two biases of one sensor",
+        ),
         ("density: 0.0", "density: -1.0", "is not a positive number"),
     ] {
         let error = read(&text.replace(before, after)).expect_err(says).to_string();
