@@ -15,7 +15,7 @@ impl Exit {
     pub(crate) const USAGE: Exit = Exit(2);
     /// The recording is bad.
     pub(crate) const RECORDING: Exit = Exit(3);
-    /// The data or the motion do not determine the parameters, or the limits admit no motion.
+    /// The data or the motion do not determine the parameters, or the limits admit no motion, or not the one that is evaluated.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
     /// A result is written, and it is bad, or breaks a limit.
     pub(crate) const BAD: Exit = Exit(5);

@@ -27,6 +27,8 @@ pub(crate) fn is_asked() -> bool {
 /// alone; the others are handled all the same.
 pub(crate) fn handle_signals() {
     #[cfg(unix)]
+    unix::report_full_files();
+    #[cfg(unix)]
     if let Ok(mut signals) = signal_hook::iterator::Signals::new(unix::not_ignored()) {
         std::thread::spawn(move || signals.forever().for_each(|_| interrupt()));
     }
@@ -48,7 +50,15 @@ fn interrupt() {
 
 #[cfg(unix)]
 mod unix {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
+
+    /// A file that reaches the limit of the shell (`ulimit -f`) then fails to be written, as one on a full disk does, in place of ending the program.
+    pub(super) fn report_full_files() {
+        // that the signal came says nothing that the error of the write does not
+        drop(signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))));
+    }
 
     /// The signals that ask the program to end, without those that it was started to ignore.
     pub(super) fn not_ignored() -> Vec<i32> {

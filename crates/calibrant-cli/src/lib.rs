@@ -40,7 +40,7 @@ use std::ffi::OsString;
 /// Calibrate accelerometers, gyroscopes and IMUs from a recording, and design the best motion to record.
 ///
 /// Exit status: 0: done. 1: done, but a diagnostic occurred that `calibrate --deny` names. 2: the usage or the experiment file is wrong, or a result cannot be written. 3: the recording is unusable. 4: the data or the motion
-/// do not determine the parameters, or the limits admit no motion. 5: a calibration is bad, or breaks a limit of [accept]. 130: interrupted; `design`, `study` and `calibrate` of several recordings have then written what they have.
+/// do not determine the parameters, or the limits admit no motion, or not that of --evaluate. 5: a calibration is bad, or breaks a limit of [accept]. 130: interrupted; `design`, `study` and `calibrate` of several recordings have then written what they have.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
 struct Cli {

@@ -42,7 +42,7 @@ pub(super) fn run(
     write_text(&page, &sheet.html())?;
     console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
     undetermined_by(&path.display().to_string(), &assessment.evaluation.undetermined).for_each(tell);
-    let determined = assessment.evaluation.covariance.is_some();
+    let is_fit = assessment.evaluation.covariance.is_some() && assessment.violations().is_empty();
     let optimum = match &assessment.optimum {
         Ok(design) => exit_of(job, design),
         Err(why) => {
@@ -50,5 +50,5 @@ pub(super) fn run(
             Exit::NOT_IDENTIFIABLE
         }
     };
-    Ok(if determined { optimum } else { Exit::NOT_IDENTIFIABLE })
+    Ok(if is_fit { optimum } else { Exit::NOT_IDENTIFIABLE })
 }

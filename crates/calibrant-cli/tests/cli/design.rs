@@ -172,7 +172,8 @@ fn a_motion_of_ones_own_is_judged() {
     let mut rows = "t_s,ax_mps2,ay_mps2,az_mps2\n0,25,3,1\n2,-25,-3,-1\n".to_owned();
     rows += "4,25,3,2\n6,-25,-3,-2\n";
     bench.write("fast.csv", rows);
-    let outcome = bench.run(&format!("design arm.toml {QUICK} --evaluate fast.csv -o f")).done();
+    let outcome = bench.run(&format!("design arm.toml {QUICK} --evaluate fast.csv -o f"));
+    assert_eq!(outcome.status, 4, "it breaks a limit: {outcome:?}");
     for words in [
         "BROKEN: velocity of axis x is 12.50 m/s at 1.000 s, 2.500 beyond the limit of 10.00 (25.0 %)",
         "The motion takes 6 s in 3 intervals, but the best motion is for the experiment's 10 s in 10 intervals.",

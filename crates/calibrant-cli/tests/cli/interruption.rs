@@ -134,3 +134,18 @@ fn a_batch_says_what_is_finished_and_writes_its_summary() {
     // what is left is calibrated when it goes on
     bench.run(&format!("{batch} --resume")).done().says(&format!("note: {finished} of 200 recordings"));
 }
+
+#[test]
+fn a_limit_of_the_size_of_files_is_an_error_and_leaves_nothing() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    let command = "ulimit -f 8; exec \"$0\" simulate imu.toml -o result";
+    let mut shell = Command::new("sh");
+    shell.args(["-c", command, env!("CARGO_BIN_EXE_calibrant")]);
+    let outcome = signalled(&bench, shell, |_| ()).ends_with(2);
+    outcome.says("File too large");
+    let left = std::fs::read_dir(bench.path("result")).expect("a folder").flatten();
+    let left: Vec<_> =
+        left.map(|entry| entry.file_name()).filter(|name| name.to_string_lossy().ends_with(".tmp")).collect();
+    assert!(left.is_empty(), "{left:?}");
+}

@@ -127,14 +127,14 @@ checks! {
     );
 
     /// Bytes follow the end of a bag. They are not read.
-    BytesUnread "bytes-unread" Warning {
+    BytesUnread "bytes-unread" Note {
         /// Their number.
         bytes: usize,
         /// Do they begin as a bag does?
         is_bag: bool,
     }
     decided "The container ends before the file does."
-    remedy "Give each bag a file of its own; `mcap merge` makes one of several."
+    remedy "Split the file where the first bag ends; `mcap merge` makes one bag of several."
     says match is_bag {
         true => format!("a second bag follows the first in this file: its {bytes} bytes are not read"),
         false => format!("{bytes} bytes follow the end of the bag: they are not read"),

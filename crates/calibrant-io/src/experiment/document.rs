@@ -64,7 +64,7 @@ impl<'a> Document<'a> {
         let Fault { code, key, message, mut help, known, .. } = fault;
         if code == Refusal::KeyUnknown {
             let (section, unknown) = key.rsplit_once('.').unwrap_or(("", &key));
-            help = suggest(section, unknown, known);
+            help = suggest(section, unknown, known, |section| self.has(section));
         }
         self.placed(Error::experiment(InputError::new(code, message, help).about_key(key)))
     }

@@ -28,28 +28,53 @@ pub fn sections() -> Vec<(String, Keys)> {
     all
 }
 
-/// The help for an unknown key: the section where it belongs, the nearest key, or all keys.
-pub(super) fn suggest(section: &str, unknown: &str, known: Keys) -> String {
-    let near = nearest(unknown, known.iter().copied());
-    if let Some(key) = near.filter(|key| strsim::damerau_levenshtein(key, unknown) <= 2) {
+/// The help for an unknown key: the key here that it is without its unit, or with a slip; the section where it belongs; or all keys. `has` says whether
+/// the file has a section.
+pub(super) fn suggest(section: &str, unknown: &str, known: Keys, has: impl Fn(&str) -> bool) -> String {
+    let plain = unknown.to_lowercase().replace(['-', ' '], "_");
+    if known.contains(&plain.as_str()) {
+        return format!("did you mean `{plain}`?");
+    }
+    let needs_unit = |key: &&&str| key.strip_prefix(plain.as_str()).is_some_and(|unit| unit.starts_with('_'));
+    let with_unit: Vec<&str> = known.iter().filter(needs_unit).copied().collect();
+    if !with_unit.is_empty() {
+        return format!("did you mean `{}`?", with_unit.join("` or `"));
+    }
+    // in a short word, one slip makes another word
+    let slips = |key: &&&str| strsim::damerau_levenshtein(key, &plain);
+    let near = known.iter().min_by_key(slips).filter(|key| slips(key) <= (plain.len() / 2).min(2));
+    if let Some(key) = near {
         return format!("did you mean `{key}`?");
     }
     if section.starts_with("known.") {
         return "the name of a quantity has dots and needs quotes: \"gyroscope.bias.x\" = 0.0".into();
     }
-    if let Some((home, _)) =
-        sections().iter().find(|(name, keys)| *name != section && keys.contains(&unknown))
-    {
-        return if home.is_empty() {
-            format!("`{unknown}` belongs at the top of the file, before the first [section]")
-        } else {
-            format!("`{unknown}` belongs in [{home}]")
-        };
+    match homes(section, &plain, has).as_slice() {
+        [] => match nearest(unknown, known.iter().copied()) {
+            Some(key) => format!("did you mean `{key}`?"),
+            None => format!("the keys here are {}", known.join(", ")),
+        },
+        [top] if top.is_empty() => {
+            format!("`{plain}` belongs at the top of the file, before the first [section]")
+        }
+        homes => format!("`{plain}` belongs in [{}]", homes.join("] or [")),
     }
-    match near {
-        Some(key) => format!("did you mean `{key}`?"),
-        None => format!("the keys here are {}", known.join(", ")),
-    }
+}
+
+/// The other sections that have this key: those of the file, or else those that it may have.
+fn homes(section: &str, key: &str, has: impl Fn(&str) -> bool) -> Vec<String> {
+    /// A file has one of these.
+    const PLANS: [&str; 3] = ["motion", "holds", "machine"];
+    let plan = PLANS.into_iter().find(|plan| has(plan));
+    let may_have = |name: &str| {
+        let top = name.split('.').next().unwrap_or(name);
+        !PLANS.contains(&top) || plan.is_none_or(|plan| plan == top)
+    };
+    let all = sections();
+    let others = all.iter().filter(|(name, keys)| name != section && keys.contains(&key) && may_have(name));
+    let others: Vec<String> = others.map(|(name, _)| name.clone()).collect();
+    let there: Vec<String> = others.iter().filter(|name| name.is_empty() || has(name)).cloned().collect();
+    if there.is_empty() { others } else { there }
 }
 
 /// The keys that were looked for; `None` where there are none.
@@ -125,5 +150,78 @@ impl<'de> MapAccess<'de> for Probe<'_> {
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Found> {
         seed.deserialize(Probe(&self.0[1..]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a user would write after this help: the section, and the keys that it names.
+    fn obeyed(section: &str, help: &str) -> Vec<(String, String)> {
+        let keys: Vec<String> = help.split('`').skip(1).step_by(2).map(ToOwned::to_owned).collect();
+        let homes = || help.split('[').skip(1).filter_map(|rest| Some(rest.split_once(']')?.0.to_owned()));
+        match help {
+            _ if help.starts_with("did you mean") => {
+                keys.into_iter().map(|key| (section.to_owned(), key)).collect()
+            }
+            _ if help.starts_with("the keys here are ") => Vec::new(),
+            _ if help.contains("belongs at the top") => vec![(String::new(), keys[0].clone())],
+            _ => homes().map(|home| (home, keys[0].clone())).collect(),
+        }
+    }
+
+    #[test]
+    fn every_remedy_of_an_unknown_key_is_a_key_of_its_section() {
+        let all = sections();
+        for plan in ["motion", "holds", "machine"] {
+            let has = |section: &str| section == plan || !["motion", "holds", "machine"].contains(&section);
+            let of_plan = all.iter().filter(|(name, _)| has(name.split('.').next().unwrap_or(name)));
+            for (section, keys) in of_plan {
+                for key in keys.iter().filter(|key| key.len() > 1) {
+                    let (first, last) = key.split_at(key.len() - 1);
+                    let without_unit = key.rsplit_once('_').map(|(stem, _)| stem);
+                    let swapped = format!("{}{}", &key[1..2], &key[..1]) + &key[2..];
+                    let slips = [
+                        swapped,
+                        first.to_owned(),
+                        format!("{key}{last}"),
+                        key.to_uppercase(),
+                        key.replace('_', "-"),
+                    ];
+                    for typed in slips.iter().map(String::as_str).chain(without_unit) {
+                        if keys.contains(&typed) {
+                            continue;
+                        }
+                        let help = suggest(section, typed, keys, has);
+                        let written = obeyed(section, &help);
+                        let is_key = |(home, key): &(String, String)| {
+                            all.iter().any(|(name, keys)| name == home && keys.contains(&key.as_str()))
+                                && has(home.split('.').next().unwrap_or(home))
+                        };
+                        assert!(written.iter().all(is_key), "[{section}] {typed}: {help}");
+                        // a slip, or a unit that was left away, is no reason to go elsewhere
+                        let is_here = written.is_empty() || written.iter().any(|(home, _)| home == section);
+                        assert!(
+                            is_here || Some(typed) != without_unit && key.len() < 4,
+                            "[{section}] {typed}: {help}"
+                        );
+                        if Some(typed) == without_unit {
+                            assert!(written.iter().any(|(_, of)| of == key), "[{section}] {typed}: {help}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_key_of_another_section_is_sent_where_the_file_can_have_it() {
+        let keys = |section: &str| sections().into_iter().find(|(name, _)| name == section).expect("there").1;
+        let help =
+            |section: &str, typed: &str, plan: &str| suggest(section, typed, keys(section), |of| of == plan);
+        assert_eq!(help("holds", "gravity", "holds"), "did you mean `gravity_mps2`?");
+        assert_eq!(help("sensor", "gravity_mps2", "holds"), "`gravity_mps2` belongs in [holds]");
+        assert_eq!(help("sensor", "intervals", "motion"), "`intervals` belongs in [motion]");
     }
 }

@@ -15,6 +15,17 @@ impl LineMap {
         }
     }
 
+    /// The lines of these samples, in this order.
+    pub(crate) fn of(&self, samples: &[usize]) -> Self {
+        let mut lines = Self::default();
+        for (at, line) in
+            samples.iter().enumerate().filter_map(|(at, &sample)| Some((at, self.line(sample)?)))
+        {
+            lines.push(at, line);
+        }
+        lines
+    }
+
     /// Line of a sample.
     pub(crate) fn line(&self, sample: usize) -> Option<usize> {
         let after = self.breaks.partition_point(|(first, _)| *first <= sample);

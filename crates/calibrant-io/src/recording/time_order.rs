@@ -30,13 +30,19 @@ pub(crate) fn late<T: PartialOrd + Copy>(times: impl Iterator<Item = T>) -> usiz
     times.filter(is_late).count()
 }
 
+/// The rows in the order of their times.
+pub(crate) fn sorted_rows(times: &[f64]) -> Vec<usize> {
+    let mut rows: Vec<usize> = (0..times.len()).collect();
+    rows.sort_by(|&one, &next| times[one].total_cmp(&times[next]));
+    rows
+}
+
 /// Are these the times of one clock, but not in order? None is NaN.
 pub(crate) fn is_clock_out_of_order(times: &[f64]) -> bool {
     if times.len() < FEWEST || times.is_sorted() {
         return false;
     }
-    let mut rows: Vec<usize> = (0..times.len()).collect();
-    rows.sort_by(|&one, &next| times[one].total_cmp(&times[next]));
+    let rows = sorted_rows(times);
     let steps: Vec<f64> = rows.array_windows().map(|&[one, next]| times[next] - times[one]).collect();
     let mut ranked = steps.clone();
     ranked.sort_by(f64::total_cmp);

@@ -11,7 +11,7 @@ use super::rows::Rows;
 use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
 use crate::recording::tally::Tally;
-use crate::recording::time_order::{is_clock_out_of_order, late};
+use crate::recording::time_order::{is_clock_out_of_order, late, sorted_rows};
 use crate::recording::{TimeUnit, recording_quality};
 use crate::text::decoding::{Checked, refuse};
 use crate::trajectory::{between_knots, spline_through};
@@ -38,10 +38,11 @@ pub(super) fn assemble(
     if number_of_rows == 0 {
         return Err(short("there is no row of numbers".into(), &rows).into());
     }
+    findings.extend(put_in_order(&mut rows, content.width(), time_name));
     let clock = ClockColumn { name: time_name, unit: time_unit, wraps_at: None, origin: rows.origin };
     let clock = clock.seconds(std::mem::take(&mut rows.times), &rows.lines, &mut findings)?;
     let rows = Rows { times: clock.times_s, ..rows };
-    let kept = with_times(&rows, time_name, &mut findings)?;
+    let kept = with_times(&rows, &mut findings)?;
     let width = content.width();
     let value = |row: usize| &rows.values[row * width..][..width];
     for &row in &kept {
@@ -100,8 +101,21 @@ pub(super) fn assemble(
     })
 }
 
-/// The rows that have a time, in its order; an error where that is not one, or where all times are the same.
-fn with_times(rows: &Rows, clock: &str, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>> {
+/// Puts rows in the order of their times, where these are those of one clock, but not in order.
+fn put_in_order(rows: &mut Rows, width: usize, clock: &str) -> Option<Diagnostic> {
+    let known: Vec<f64> = rows.times.iter().copied().filter(|t| !t.is_nan()).collect();
+    if !is_clock_out_of_order(&known) {
+        return None;
+    }
+    let order = sorted_rows(&rows.times);
+    rows.times = order.iter().map(|&row| rows.times[row]).collect();
+    rows.values = order.iter().flat_map(|&row| &rows.values[row * width..][..width]).copied().collect();
+    rows.lines = rows.lines.of(&order);
+    Some(RowsSorted { rows: late(known.iter().copied()), of: known.len(), by: format!("`{clock}`") }.into())
+}
+
+/// The rows that have a time; an error where a time goes backwards, or where all are the same.
+fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>> {
     let mut untimed = Tally::default();
     let mut kept: Vec<usize> = Vec::with_capacity(rows.times.len());
     for (row, &t) in rows.times.iter().enumerate() {
@@ -112,12 +126,7 @@ fn with_times(rows: &Rows, clock: &str, findings: &mut Vec<Diagnostic>) -> Check
         kept.push(row);
     }
     let times: Vec<f64> = kept.iter().map(|&row| rows.times[row]).collect();
-    if is_clock_out_of_order(&times) {
-        let rows_sorted =
-            RowsSorted { rows: late(times.into_iter()), of: kept.len(), by: format!("`{clock}`") };
-        findings.push(rows_sorted.into());
-        kept.sort_by(|&one, &next| rows.times[one].total_cmp(&rows.times[next]));
-    } else if let Some(k) = (1..times.len()).find(|&k| times[k] < times[k - 1]) {
+    if let Some(k) = (1..times.len()).find(|&k| times[k] < times[k - 1]) {
         let first = (times[k - 1], times[k]);
         return Err(at(backwards(first, times.iter().copied()), rows, kept[k]).into());
     }

@@ -83,23 +83,17 @@ impl Samples {
         self.sensor(sensor_kind).get(row).is_some_and(|reading| reading.iter().any(|value| !value.is_nan()))
     }
 
-    /// Puts the rows in another order. The times were taken out.
+    /// Puts the rows in another order.
     pub(super) fn reorder(&mut self, rows: &[usize]) {
-        for values in
-            [&mut self.counts, &mut self.temperatures].into_iter().filter(|values| !values.is_empty())
-        {
-            *values = rows.iter().map(|&row| values[row]).collect();
+        for values in [&mut self.times, &mut self.counts, &mut self.temperatures] {
+            if !values.is_empty() {
+                *values = rows.iter().map(|&row| values[row]).collect();
+            }
         }
         for readings in self.sensor_kinds.iter_mut().filter(|readings| !readings.is_empty()) {
             *readings = rows.iter().map(|&row| readings[row]).collect();
         }
-        let mut lines = LineMap::default();
-        for (at, &row) in rows.iter().enumerate() {
-            if let Some(line) = self.lines.line(row) {
-                lines.push(at, line);
-            }
-        }
-        self.lines = lines;
+        self.lines = self.lines.of(rows);
     }
 
     /// Has a row the values of another, the time apart?

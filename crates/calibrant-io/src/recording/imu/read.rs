@@ -24,7 +24,7 @@ use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::without;
 use crate::text::decoding::{Checked, refuse};
 #[cfg(feature = "mcap")]
-use calibrant_core::diagnostic::Severity;
+use calibrant_core::diagnostic::{Check, reader::RowsSorted};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
@@ -142,7 +142,7 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     let (mut draft, samples, findings) = mcap::read(bytes, options)?;
     draft.slots()?;
     let mut file = finish(draft, samples, options).map_err(|mut input_error| {
-        for lost in findings.iter().filter(|found| found.severity() == Severity::Warning) {
+        for lost in findings.iter().filter(|found| found.code() != RowsSorted::CODE) {
             input_error.help = format!("{}; {lost}", input_error.help);
         }
         input_error

@@ -54,6 +54,9 @@ pub(super) fn assemble(
         .collect::<Checked<Vec<_>>>()?;
     sample_clock::leave_no_clock(draft, samples, options);
     let has_times = sample_clock::are_recorded(samples);
+    if has_times {
+        findings.extend(sample_clock::put_in_order(draft, samples));
+    }
     let times = sample_clock::times(draft, samples, options, &mut findings);
     // all questions come at once
     let mut times = match times {
@@ -65,9 +68,6 @@ pub(super) fn assemble(
     };
     if units.contains(&None) {
         return Err(ask(None, samples, &sensor_kinds, &units).into());
-    }
-    if has_times {
-        findings.extend(sample_clock::put_in_order(draft, &mut times, samples));
     }
     let is_plain = draft.plain.is_some();
     let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));

@@ -8,7 +8,7 @@ use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::options::{ImuReadOptions, TYPED_RATE_SD_PPM, USUAL_RATE_SD_PPM};
 use crate::recording::clock_column::{ClockColumn, unwrap};
-use crate::recording::time_order::{is_clock_out_of_order, late};
+use crate::recording::time_order::{is_clock_out_of_order, late, sorted_rows};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, RateUnlikeTimes, RowsSorted, quoted};
@@ -30,16 +30,18 @@ const FEWEST: usize = 20;
 /// and not all times are the same; or it does so once its rows are in order.
 pub(super) fn leave_no_clock(draft: &mut Draft, samples: &mut Samples, options: &ImuReadOptions) {
     let Some(column) = draft.column(ColumnMeaning::Time) else { return };
-    let by_type = match draft.format {
-        FileFormat::Mcap => true,
-        FileFormat::Parquet => column.unit.is_some() && options.time_unit.is_none(),
-        _ => false,
-    };
-    let is_stated =
-        by_type || column_names::column(&column.name).unit.is_some() || options.columns.time.is_some();
     let known: Vec<f64> = samples.times.iter().copied().filter(|t| t.is_finite()).collect();
     let count = |is: fn(f64) -> bool| known.array_windows().filter(|[one, next]| is(next - one)).count();
     let (forward, back) = (count(|step| step > 0.0), count(|step| step < 0.0));
+    // the type of a message or a column states it, but a driver may leave its stamps empty
+    let by_type = back > 0
+        && match draft.format {
+            FileFormat::Mcap => true,
+            FileFormat::Parquet => column.unit.is_some() && options.time_unit.is_none(),
+            _ => false,
+        };
+    let is_stated =
+        by_type || column_names::column(&column.name).unit.is_some() || options.columns.time.is_some();
     let is_none = known.len() >= FEWEST && (forward == 0 || 3 * back > forward);
     if !is_stated && is_none && !is_clock_out_of_order(&known) {
         draft.leave_aside(ColumnMeaning::Time, "its values go back and forth, or stay: it is no clock");
@@ -136,7 +138,8 @@ pub(super) fn not_used(given_hz: f64, found_hz: f64) -> Diagnostic {
 }
 
 /// Puts rows in the order of their times, where these are those of one clock, but not in order. A sensor may have rows of its own, so each counts alone.
-pub(super) fn put_in_order(draft: &Draft, times: &mut [f64], samples: &mut Samples) -> Option<Diagnostic> {
+pub(super) fn put_in_order(draft: &Draft, samples: &mut Samples) -> Option<Diagnostic> {
+    let times = &samples.times;
     let of_sensor = |sensor_kind: SensorKind| -> Vec<f64> {
         let holds = |row: &usize| !times[*row].is_nan() && samples.holds(sensor_kind, *row);
         (0..times.len()).filter(holds).map(|row| times[row]).collect()
@@ -147,10 +150,7 @@ pub(super) fn put_in_order(draft: &Draft, times: &mut [f64], samples: &mut Sampl
     if !out_of_order.iter().all(|times| is_clock_out_of_order(times)) {
         return None;
     }
-    let mut rows: Vec<usize> = (0..times.len()).collect();
-    rows.sort_by(|&one, &next| times[one].total_cmp(&times[next]));
-    let sorted: Vec<f64> = rows.iter().map(|&row| times[row]).collect();
-    times.copy_from_slice(&sorted);
+    let rows = sorted_rows(times);
     samples.reorder(&rows);
     let clock = draft.column(ColumnMeaning::Time).map_or("", |column| column.name.as_str());
     Some(RowsSorted { rows: late(first.iter().copied()), of: first.len(), by: format!("`{clock}`") }.into())

@@ -6,7 +6,7 @@ use calibrant::error::Refusal;
 use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_recording};
 use parquet::basic::Compression;
 use parquet::column::writer::ColumnWriter;
-use parquet::data_type::ByteArray;
+use parquet::data_type::{ByteArray, FixedLenByteArray, Int96};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
@@ -19,6 +19,9 @@ enum Values {
     Int64(Vec<i64>),
     Int32(Vec<i32>),
     Text(Vec<&'static str>),
+    /// Of a fixed length, or not.
+    Bytes(Vec<Vec<u8>>),
+    Int96(Vec<[u32; 3]>),
 }
 
 fn write(schema: &str, groups: &[Vec<Values>], compression: Compression) -> Vec<u8> {
@@ -46,6 +49,19 @@ fn write(schema: &str, groups: &[Vec<Values>], compression: Compression) -> Vec<
                 }
                 (ColumnWriter::ByteArrayColumnWriter(writer), Values::Text(values)) => {
                     let values: Vec<ByteArray> = values.iter().map(|text| ByteArray::from(*text)).collect();
+                    writer.write_batch(&values, None, None).expect("written");
+                }
+                (ColumnWriter::ByteArrayColumnWriter(writer), Values::Bytes(values)) => {
+                    let values: Vec<ByteArray> = values.iter().cloned().map(ByteArray::from).collect();
+                    writer.write_batch(&values, None, None).expect("written");
+                }
+                (ColumnWriter::FixedLenByteArrayColumnWriter(writer), Values::Bytes(values)) => {
+                    let values: Vec<FixedLenByteArray> =
+                        values.iter().cloned().map(|bytes| ByteArray::from(bytes).into()).collect();
+                    writer.write_batch(&values, None, None).expect("written");
+                }
+                (ColumnWriter::Int96ColumnWriter(writer), Values::Int96(values)) => {
+                    let values: Vec<Int96> = values.iter().map(|of| Int96::from(of.to_vec())).collect();
                     writer.write_batch(&values, None, None).expect("written");
                 }
                 _ => panic!("the schema has another type"),
@@ -144,7 +160,7 @@ fn tables_that_cannot_be_used_say_why() {
                     Values::Float(vec![1.0, 2.0]),
                 ],
             ),
-            "column `gx_radps` does not hold numbers (is it the right column? numbers are float, double, int32 or int64)",
+            "column `gx_radps` holds text, not numbers (write numbers: in SQL, CAST(\"gx_radps\" AS DOUBLE); is it the right column?)",
         ),
         (
             simple(
@@ -247,4 +263,122 @@ fn one_absurd_number_of_a_table_is_a_invalid_sample() {
             && message.contains("e37 in row 21 is out of range"),
         "{message}"
     );
+}
+
+/// A table of one gyroscope with these columns for x, y and z, and this one for the time.
+fn gyroscope(time: (&str, Values), axes: [(&str, Values); 3]) -> Result<ImuFile, String> {
+    let [x, y, z] = axes;
+    let schema: Vec<String> = [&time, &x, &y, &z].map(|(column, _)| format!("required {column};")).to_vec();
+    let columns = vec![time.1, x.1, y.1, z.1];
+    let bytes = write(&schema.concat(), &[columns], Compression::UNCOMPRESSED);
+    parse_imu_recording(&bytes, &ImuReadOptions::default()).map_err(|error| error.to_string())
+}
+
+fn floats() -> [(&'static str, Values); 3] {
+    ["float gx_radps", "float gy_radps", "float gz_radps"].map(|name| (name, Values::Float(vec![0.1, 0.2])))
+}
+
+#[test]
+fn a_decimal_is_the_number_that_its_digits_say() {
+    let time = || ("int64 t_ms", Values::Int64(vec![0, 10]));
+    let bytes = |width: usize| {
+        Values::Bytes([-17_500_i64, 12_345].map(|n| n.to_be_bytes()[8 - width..].to_vec()).to_vec())
+    };
+    for (column, values) in [
+        ("int32 gx_degps (DECIMAL(9,4))", Values::Int32(vec![-17_500, 12_345])),
+        ("int64 gx_degps (DECIMAL(15,4))", Values::Int64(vec![-17_500, 12_345])),
+        ("fixed_len_byte_array(3) gx_degps (DECIMAL(6,4))", bytes(3)),
+        ("binary gx_degps (DECIMAL(12,4))", bytes(5)),
+    ] {
+        let axes = ["double gy_degps", "double gz_degps"]
+            .map(|name| (name, Values::Double(vec![Some(0.5), Some(1.0)])));
+        let [y, z] = axes;
+        let file =
+            gyroscope(time(), [(column, values), y, z]).unwrap_or_else(|error| panic!("{column}: {error}"));
+        let read: Vec<f64> =
+            file.recording.gyroscope.expect("there").readings().iter().map(|of| of.x).collect();
+        assert_eq!(read, [-1.75_f64, 1.2345].map(|degps| degps * (std::f64::consts::PI / 180.0)), "{column}");
+    }
+    let time = ("int64 t_s (DECIMAL(18,3))", Values::Int64(vec![1000, 1010]));
+    assert_eq!(
+        gyroscope(time, floats()).expect("read").recording.gyroscope.expect("there").times_s(),
+        [1.0, 1.01]
+    );
+}
+
+#[test]
+fn a_type_states_the_unit_of_a_time_and_the_sign_of_a_number() {
+    // nanoseconds of the day after the Julian day of 1970-01-01
+    let later = |ns: u64| [ns as u32, (ns >> 32) as u32, 2_440_588 + 1];
+    let day = 86_400_000;
+    for (time, values) in [
+        ("int32 clock_of_day (TIME(MILLIS,false))", Values::Int32(vec![day - 10, 0])),
+        ("int64 time (TIME(MICROS,true))", Values::Int64(vec![1000, 11_000])),
+        ("int64 stamp (TIMESTAMP(MILLIS,false))", Values::Int64(vec![1_700_000_000_000, 1_700_000_000_010])),
+        ("int96 stamp", Values::Int96(vec![later(3_600_000_000_000), later(3_600_010_000_000)])),
+        ("int32 t_ms (INTEGER(32,false))", Values::Int32(vec![i32::MAX, i32::MIN + 9])),
+    ] {
+        let file = gyroscope((time, values), floats()).unwrap_or_else(|error| panic!("{time}: {error}"));
+        let times_s = file.recording.gyroscope.expect("there").times_s().to_vec();
+        assert!((times_s[1] - times_s[0] - 0.01).abs() < 1e-9, "{time}: {times_s:?}");
+    }
+}
+
+#[test]
+fn types_without_numbers_are_named() {
+    let time = || ("int64 t_ms", Values::Int64(vec![0, 10]));
+    let [_, y, z] = floats();
+    let half = ("fixed_len_byte_array(2) gx_radps (FLOAT16)", Values::Bytes(vec![vec![0, 60]; 2]));
+    let message = gyroscope(time(), [half, y, z]).expect_err("refused");
+    assert!(message.starts_with("column `gx_radps` holds numbers of half precision, float16"), "{message}");
+    let schema =
+        "required int64 t_ms; required group acc (LIST) { repeated group list { required double element; } }";
+    let list = write(schema, &[], Compression::UNCOMPRESSED);
+    let message = parse_imu_recording(&list, &ImuReadOptions::default()).expect_err("refused").to_string();
+    assert!(message.contains("`acc` holds a list in each row: write a column for each axis"), "{message}");
+}
+
+#[test]
+fn a_gyroscope_that_no_sensor_is_like_is_refused() {
+    let table = |largest: f32| {
+        let values = |axis: i32| {
+            Values::Float((0..200).map(|k| ((7 * k + axis) % 101) as f32 / 101.0 * largest).collect())
+        };
+        let axes =
+            [("float gx_radps", values(0)), ("float gy_radps", values(1)), ("float gz_radps", values(2))];
+        gyroscope(("int64 t_ms", Values::Int64((0..200).map(|k| 10 * k).collect())), axes)
+    };
+    table(300.0).expect("fast, but there are such sensors");
+    let message = table(20_000.0).expect_err("refused");
+    assert!(message.contains("beyond 1000 rad/s, which no gyroscope measures"), "{message}");
+}
+
+#[test]
+fn rows_in_any_order_are_sorted_by_their_clock() {
+    let table = |order: &dyn Fn(usize) -> usize, name: &str| {
+        let rows: Vec<usize> = (0..400).map(order).collect();
+        let values =
+            |shift: f64| Values::Double(rows.iter().map(|&k| Some((k as f64 * 0.1 + shift).sin())).collect());
+        let axes = [
+            ("double gx_radps", values(0.0)),
+            ("double gy_radps", values(1.0)),
+            ("double gz_radps", values(2.0)),
+        ];
+        gyroscope((name, Values::Int64(rows.iter().map(|&k| 10 * k as i64).collect())), axes)
+    };
+    let straight = table(&|k| k, "int64 t_ms").expect("read").recording;
+    // row groups that were written in parallel, and rows that overtook each other
+    let orders: [&dyn Fn(usize) -> usize; 2] = [&|k| (k + 100) % 400, &|k| k / 8 * 8 + (3 * k) % 8];
+    for order in orders {
+        let file = table(order, "int64 t_ms").expect("sorted");
+        assert_eq!(file.recording, straight);
+        let said = findings(&file);
+        assert!(
+            said.iter().any(|said| said.contains("come after a later one: they were sorted by `t_ms`")),
+            "{said:?}"
+        );
+    }
+    // the times of two recordings are not mixed, whatever rate is given
+    let message = table(&|k| 2 * (k % 200) + k / 200, "int64 t_ms").expect_err("refused");
+    assert!(message.starts_with("time goes backwards, from 3.98 s to 0.01 s"), "{message}");
 }

@@ -45,6 +45,30 @@ pub(crate) fn bag(topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
     bag_with(mcap::WriteOptions::new().compression(None).profile("ros2"), topics)
 }
 
+/// A bag of one topic with these messages, each with its log time, in the order of the file.
+pub(crate) fn logged_bag(schema: &str, messages: &[(u64, Vec<u8>)]) -> Vec<u8> {
+    let options = mcap::WriteOptions::new().compression(None).chunk_size(Some(4096));
+    let mut writer = mcap::Writer::with_options(Cursor::new(Vec::new()), options).expect("a writer");
+    let schema = writer.add_schema(schema, "ros2msg", b"std_msgs/Header header").expect("a schema");
+    let channel_id = writer.add_channel(schema, "/topic", "cdr", &BTreeMap::new()).expect("a channel");
+    for (log_time, message) in messages {
+        let header = MessageHeader { channel_id, sequence: 0, log_time: *log_time, publish_time: *log_time };
+        writer.write_to_known_channel(&header, message).expect("written");
+    }
+    writer.finish().expect("finished");
+    writer.into_inner().into_inner()
+}
+
+/// The places of 400 messages in a file that is not in their order: chunks that overlap, the last chunk first, two halves that interleave, each up to eight places off.
+pub(crate) fn orders() -> [(&'static str, Vec<u64>); 4] {
+    let mut overlapping: Vec<u64> = (0..400).collect();
+    overlapping.chunks_exact_mut(100).for_each(|chunk| chunk[90..].rotate_left(4));
+    let last_first = (0..8).rev().flat_map(|chunk| 50 * chunk..50 * (chunk + 1)).collect();
+    let halves = (0..400).step_by(2).chain((1..400).step_by(2)).collect();
+    let near = (0..400).map(|k| k / 8 * 8 + (3 * k) % 8).collect();
+    [("overlapping", overlapping), ("last first", last_first), ("halves", halves), ("near", near)]
+}
+
 fn bag_with(options: mcap::WriteOptions, topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
     let mut writer = mcap::Writer::with_options(Cursor::new(Vec::new()), options).expect("a writer");
     for (topic, schema, encoding, messages) in topics {
@@ -387,4 +411,72 @@ fn a_record_longer_than_its_chunk_is_refused() {
         let error = refused(&broken, &ImuReadOptions::default());
         assert!(error.starts_with("the MCAP container is damaged: "), "{less}: {error}");
     }
+}
+
+#[test]
+fn messages_are_read_in_the_order_of_time_and_not_of_the_file() {
+    let of = |order: &[u64], log_time: &dyn Fn(usize, u64) -> u64| {
+        let logged = order.iter().enumerate().map(|(at, &k)| (log_time(at, k), message(k)));
+        logged_bag(IMU, &logged.collect::<Vec<_>>())
+    };
+    let received = |_: usize, k: u64| STAMP + 5_000_000 * k + 100;
+    let straight = read(&of(&(0..400).collect::<Vec<_>>(), &received));
+    for (what, order) in orders() {
+        let file = read(&of(&order, &received));
+        assert_eq!(file.recording, straight.recording, "{what}");
+        let said = findings(&file).join("; ");
+        assert!(
+            said.contains("come after a later one: they were sorted by their log time"),
+            "{what}: {said}"
+        );
+        // a tool that wrote the bag again gave each message the time of its writing: the stamps are a clock, except where they may be those of two recordings
+        let rewritten = of(&order, &|at, _| STAMP + 1000 * at as u64);
+        let plain = ImuReadOptions::default();
+        match (what, parse_imu_recording(&rewritten, &plain)) {
+            ("halves", read) => {
+                let message = read.expect_err("refused").to_string();
+                assert!(message.starts_with("time goes backwards, from "), "{message}");
+            }
+            (_, read) => assert_eq!(read.expect("sorted").recording, straight.recording, "{what}"),
+        }
+    }
+    // stamps that are no clock are no reason to take the messages as they come
+    let senseless: Vec<_> = (0..400_u64).map(|k| (k, message(k * k * 7919 % 4001))).collect();
+    let bytes = logged_bag(IMU, &senseless);
+    let message = refused(&bytes, &ImuReadOptions { rate_hz: Some(200.0), ..ImuReadOptions::default() });
+    assert!(message.starts_with("time goes backwards ") && !message.contains("rate_hz"), "{message}");
+    // empty ones are
+    let empty: Vec<_> =
+        (0..400).map(|k| (k, cdr(0, "", [0.1 * k as f64, 0.2, 0.1], [0.0, 9.8, 0.1], [false; 2]))).collect();
+    let rate = ImuReadOptions { rate_hz: Some(200.0), ..ImuReadOptions::default() };
+    assert_eq!(parse_imu_recording(&logged_bag(IMU, &empty), &rate).expect("read").rows, 400);
+}
+
+#[test]
+fn messages_that_are_compressed_one_by_one_read_the_same() {
+    let zip = |k: u64| (5_000_000 * k, zstd::bulk::compress(&message(k), 1).expect("compressed"));
+    let plain: Vec<_> = (0..5).map(|k| (5_000_000 * k, message(k))).collect();
+    let packed: Vec<_> = (0..5).map(zip).collect();
+    assert_eq!(read(&logged_bag(IMU, &packed)).recording, read(&logged_bag(IMU, &plain)).recording);
+    let broken = vec![(0, zip(0).1[..20].to_vec())];
+    let message = refused(&logged_bag(IMU, &broken), &ImuReadOptions::default());
+    assert!(
+        message.starts_with("message 1 of `/topic` cannot be read: it is compressed, and damaged"),
+        "{message}"
+    );
+}
+
+#[test]
+fn what_follows_the_end_of_a_bag_is_said() {
+    let two = [one(), one()].concat();
+    let said = findings(&read(&two)).join("; ");
+    assert!(
+        said.contains(&format!(
+            "a second bag follows the first in this file: its {} bytes are not read",
+            one().len()
+        )),
+        "{said}"
+    );
+    let said = findings(&read(&[one(), vec![7; 1000]].concat())).join("; ");
+    assert!(said.contains("1000 bytes follow the end of the bag: they are not read"), "{said}");
 }

@@ -1,7 +1,7 @@
 //! Tests of bags with a motion in them.
 
 use super::findings;
-use crate::files::imu::ros_bag::{IMU, bag, message, message_of};
+use crate::files::imu::ros_bag::{IMU, bag, logged_bag, message, message_of, orders};
 use calibrant::io::{
     Experiment, ImuReadOptions, ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_imu_recording,
     parse_reference_log, preset,
@@ -277,4 +277,23 @@ fn broken_bags_say_why() {
     let whole = joints((0..50).map(|k| joint_state(k, &["a"], &[k as f64], &[])).collect());
     let cut = whole[..whole.len() - 8].to_vec();
     assert!(findings(&read(&cut, None)).iter().any(|found| found.contains("50 messages were read")));
+}
+
+#[test]
+fn joints_and_poses_are_read_in_the_order_of_time_and_not_of_the_file() {
+    let joints = |k: u64| joint_state(k, &["elbow"], &[(0.1 * k as f64).sin()], &[]);
+    let pose = |k: u64| Cdr::new(false).header(k, "").numbers(&values(k)).done();
+    for (schema, message) in [(JOINTS, &joints as &dyn Fn(u64) -> Vec<u8>), (POSE, &pose)] {
+        let read = |order: &[u64]| {
+            let logged: Vec<_> = order.iter().map(|&k| (STAMP + 10_000_000 * k, message(k))).collect();
+            parse_reference_log(&logged_bag(schema, &logged), &ReferenceLogOptions::default()).expect("read")
+        };
+        let straight = read(&(0..400).collect::<Vec<_>>());
+        for (what, order) in orders() {
+            let file = read(&order);
+            assert_eq!(file.log, straight.log, "{schema}: {what}");
+            let said = findings(&file).join("; ");
+            assert!(said.contains("they were sorted by their log time"), "{said}");
+        }
+    }
 }
