@@ -124,9 +124,8 @@ fn covers(number: u64, directions: &[Vector3<f64>], tilt_deg: f64, given: bool) 
         let most = if faces > 6 || tilt_deg == 0.0 { 0.998 } else { 0.99 };
         // half a degree that all faces may share is always in the matrices, and is not drawn here
         let is_matrix = kind.ends_with("matrix");
-        let honest = covered >= 0.93
-            && (is_matrix || covered < most && square > 0.35)
-            && (square < 1.4 || faces == 5);
+        let honest =
+            covered >= 0.93 && (is_matrix || covered < most && square > 0.35) && (square < 1.4 || faces == 5);
         (!honest).then(|| format!("{faces} faces, {tilt_deg}° {kind}: {covered} covered, z² {square}"))
     };
     scores(number, directions, tilt_deg, given).into_iter().filter_map(reported).collect()
@@ -205,8 +204,12 @@ fn a_box_off_square_is_in_the_standard_deviations() {
                 calibration.quantities.iter().zip(values).map(of).collect()
             })
             .collect();
-        let z: Vec<f64> =
-            found.concat().into_iter().filter(|(kind, _)| *kind == "a.matrix").map(|(_, z)| z.abs()).collect();
+        let z: Vec<f64> = found
+            .concat()
+            .into_iter()
+            .filter(|(kind, _)| *kind == "a.matrix")
+            .map(|(_, z)| z.abs())
+            .collect();
         let covered = z.iter().filter(|z| **z < 1.959_964).count() as f64 / z.len() as f64;
         println!("{given:?}: {covered}");
         // of 2400: 0.45 % is a standard deviation
