@@ -170,20 +170,20 @@ checks! {
         100.0 * lost_share
     );
 
-    /// The thermometer lags the sensor. The calibration is at the temperatures of the sensor.
+    /// The thermometer lags the sensor. The standard deviations carry the lag as far as it is not stated.
     ThermometerLags "thermometer-lags" Note {
         /// The lag, s.
         lag_s: f64,
         /// Its standard deviation, s.
         sd_s: f64,
     }
-    decided "By the recording alone, a lag of zero is improbable (p < 0.001)."
-    remedy "Correct slowly changing temperatures only, or record the temperature of the sensor's own chip. \
-        temperature.lag_s and lag_sd_s state the lag."
+    decided "Another lag than the stated one lowers χ² by more than 25."
+    remedy "State temperature.lag_s, or record the temperature of the sensor's own chip, or let it change slowly."
     says format!(
-        "the thermometer {} the sensor by {:.1} ± {sd_s:.1} s. Biases and gains are at the sensor's temperature, \
-         T + ({lag_s:+.1} s) dT/dt. `apply` takes temperatures as recorded: it is right where they change slowly.",
-        if *lag_s > 0.0 { "lags" } else { "is ahead of" },
+        "the thermometer seems to {} the sensor by {:.0} ± {sd_s:.0} s. The standard deviations carry a lag of the usual \
+         size. With temperature.lag_s = {lag_s:.0} the temperatures are the sensor's: T + ({lag_s:.0} s) dT/dt. `apply` \
+         takes temperatures as recorded, and is right where they change slowly.",
+        if *lag_s > 0.0 { "lag" } else { "be ahead of" },
         lag_s.abs()
     );
 

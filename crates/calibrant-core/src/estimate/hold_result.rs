@@ -36,7 +36,7 @@ pub struct HoldCalibration {
     pub before: Uncalibrated,
     /// Mean temperature of each hold, °C, if the model has temperature terms.
     pub temperatures_c: Option<Vec<f64>>,
-    /// The lag of the thermometer, by which they are those of the sensor. `None` where none was estimated.
+    /// What is supposed of the thermometer's lag, by which they are those of the sensor. `None` where it is known, or nothing follows temperature.
     pub thermometer: Option<ThermometerLag>,
     /// The estimated drift of the accelerometer's bias, which was subtracted from the holds. `None` if no drift was allowed for.
     pub drift: Option<Box<BiasDrift>>,

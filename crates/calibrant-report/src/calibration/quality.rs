@@ -117,7 +117,7 @@ pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> 
     });
     let lag = calibration.holds()?.thermometer.map_or_else(String::new, |lag| {
         format!(
-            ". The thermometer lags the sensor by {} s, which their standard deviations carry; temperature.lag_sd_s states how well that is known",
+            ". The thermometer may lag the sensor: {} s, which the standard deviations carry; temperature.lag_sd_s = 0 says that it is the sensor's own",
             with_sd(lag.lag_s, lag.sd_s)
         )
     });

@@ -10,8 +10,9 @@ use calibrant::estimate::{
 use calibrant::sensor::{
     ImuParameters, ImuQuantity, ImuRecording, Quantity, Sensor, SensorKind, SensorModel,
 };
-use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
+use calibrant::simulate::{ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_table, stream};
 use nalgebra::{Matrix3, Vector3};
+use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
 fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
@@ -40,6 +41,10 @@ fn session(directions: &[Vector3<f64>]) -> (Vec<TableStep>, ImuSetup) {
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(directions.to_vec());
     (steps, setup)
+}
+
+fn normal(rng: &mut Rng) -> f64 {
+    StandardNormal.sample(rng)
 }
 
 fn six() -> Vec<Vector3<f64>> {
@@ -117,7 +122,10 @@ fn covers(number: u64, directions: &[Vector3<f64>], tilt_deg: f64, given: bool) 
         // Student's t of three degrees of freedom, of five faces, has a mean square that no number of
         // simulations determines
         let most = if faces > 6 || tilt_deg == 0.0 { 0.998 } else { 0.99 };
-        let honest = (0.93..most).contains(&covered) && square > 0.35 && (square < 1.4 || faces == 5);
+        // half a degree that all faces may share is always in the matrices, and is not drawn here
+        let is_matrix = kind.ends_with("matrix");
+        let honest =
+            covered >= 0.93 && (is_matrix || covered < most && square > 0.35) && (square < 1.4 || faces == 5);
         (!honest).then(|| format!("{faces} faces, {tilt_deg}° {kind}: {covered} covered, z² {square}"))
     };
     scores(number, directions, tilt_deg, given).into_iter().filter_map(reported).collect()
@@ -164,22 +172,49 @@ fn a_session_without_noise_converges() {
     }
 }
 
-/// A scatter that is small by chance, beside noise as large, does not count as small.
+/// Opposite faces of a box are parallel, its corners are not square: no scatter shows it, and no intervals may forget it.
 #[test]
-fn noise_as_large_as_the_tilt_hides_it_and_the_intervals_know() {
-    // the mean of 500 samples is off by 0.078° of gravity in each axis
-    let simulation = ImuSimulation {
-        face_sd_rad: 0.12_f64.to_radians(),
-        accelerometer_noise: 0.3,
-        ..ImuSimulation::default()
-    };
-    let found = deviations(91, &six(), &simulation, false);
-    let z: Vec<f64> = found.iter().filter(|(kind, _)| *kind == "a.matrix").map(|(_, z)| z.abs()).collect();
-    let within = |limit: f64| z.iter().filter(|z| **z < limit).count() as f64 / z.len() as f64;
-    // by the distributions alone 96 % and 99.7 %; 93 % and 98.6 % if a scatter of zero is taken at face value
-    let (covered, near) = (within(1.959_964), within(3.0));
-    println!("{covered} covered, {near} within three standard deviations");
-    assert!((0.95..0.985).contains(&covered) && near > 0.99, "{covered} {near}");
+fn a_box_off_square_is_in_the_standard_deviations() {
+    let size = 0.5_f64.to_radians();
+    let (steps, mut setup) = session(&six());
+    for given in [None, Some(size)] {
+        setup.face_sd_rad = given;
+        let found: Vec<Vec<(&'static str, f64)>> = (0..400)
+            .into_par_iter()
+            .map(|sensor| {
+                let mut rng = stream(94, Purpose::Sensor, sensor);
+                let truth = draw_imu(&mut rng);
+                let off_square = Matrix3::from_fn(|i, j| match i == j {
+                    true => 1.0,
+                    false => size * normal(&mut rng),
+                });
+                // in the axes of the box
+                let mut there = truth;
+                there.accelerometer.matrix *= off_square;
+                there.gyroscope.matrix *= off_square;
+                let recording = simulate_table(&there, &steps, &ImuSimulation::default(), &mut rng);
+                let calibration = run(&recording, &setup).expect("determined");
+                let tilt = calibration.holds().and_then(|holds| holds.tilt).expect("faces");
+                assert!((tilt.shared_sd_rad / size - given.map_or(1.0, |_| 0.5_f64.sqrt())).abs() < 1e-12);
+                assert!(!messages(&calibration.warnings).join(" ").contains("face_sd_deg"));
+                let values = calibration.values.iter().zip(calibration.sd());
+                let of = |(quantity, (value, sd)): (&ImuQuantity, (&f64, f64))| {
+                    (kind(quantity), (value - quantity.value(&truth)) / sd)
+                };
+                calibration.quantities.iter().zip(values).map(of).collect()
+            })
+            .collect();
+        let z: Vec<f64> = found
+            .concat()
+            .into_iter()
+            .filter(|(kind, _)| *kind == "a.matrix")
+            .map(|(_, z)| z.abs())
+            .collect();
+        let covered = z.iter().filter(|z| **z < 1.959_964).count() as f64 / z.len() as f64;
+        println!("{given:?}: {covered}");
+        // of 2400: 0.45 % is a standard deviation
+        assert!((0.935..0.965).contains(&covered), "{given:?}: {covered}");
+    }
 }
 
 /// Turns that are swapped, cut, or of another sign are refused (`cli/ferraris.rs`). Sensors that are only
@@ -237,17 +272,17 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     assert_eq!((given.source, given.degrees_of_freedom), (TiltSource::Given, 0));
     assert_eq!(given.sd_rad, 0.3_f64.to_radians());
     assert!(calibration.warnings.is_empty(), "{:?}", calibration.warnings);
-    // a tilt by 0.3° of two faces up and down: 1/√2 of it in each cross term, on which gravity has no other
+    // a tilt by 0.3° of two faces up and down, each by itself and both alike: all of it in each cross term, on which gravity has no other
     // information
     let place = |name: &str| calibration.quantities.iter().position(|of| of.name() == name).expect(name);
     let cross = calibration.sd()[place("accelerometer.matrix.xy")];
-    assert!((cross / (0.3_f64.to_radians() / 2.0_f64.sqrt()) - 1.0).abs() < 0.03, "{cross}");
-    // along gravity: noise of 500 samples, and the square of the tilt twice, of two faces each
+    assert!((cross / 0.3_f64.to_radians() - 1.0).abs() < 0.03, "{cross}");
+    // along gravity: noise of 500 samples, and the square of the tilt twice, of two faces each; half as much variance of what they share
     let (noise, square) = (0.01 / 9.806_65 / 500.0_f64.sqrt(), 0.3_f64.to_radians().powi(2));
     // the effect of a tilt through the other two axes
     let of_others = cross * calibration.imu.accelerometer.matrix.fixed_view::<1, 2>(0, 1).norm();
     let found = calibration.sd()[place("accelerometer.scale.x")];
-    let expected = (0.5 * noise * noise + square * square + of_others * of_others).sqrt();
+    let expected = (0.5 * noise * noise + 1.5 * square * square + of_others * of_others).sqrt();
     assert!((found / expected - 1.0).abs() < 0.05, "{found} {expected}");
     let message = messages(&tilted(&six, 1.5, Some(0.3)).warnings).join("; ");
     assert!(
@@ -257,7 +292,7 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     // stated far too large, the mean of the gains follows the faces
     let large = tilted(&six, 0.3, Some(5.0));
     let message = messages(&large.warnings).join("; ");
-    assert!(message.contains("the faces scatter by only 0.") && message.contains("says 5.00°"), "{message}");
+    assert!(!message.contains("face_sd_deg"), "a small scatter says nothing of what faces share: {message}");
     let free = tilted(&six, 0.3, None);
     let by = large.imu.accelerometer.matrix / free.imu.accelerometer.matrix[(0, 0)];
     assert!((by[(0, 0)] - 1.0).abs() < 1e-6, "{by}");

@@ -5,12 +5,12 @@ use crate::common::WORDS;
 use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CalibrationStatus, Comparison, ImuProblem, ImuSetup, KnownTerm,
-    ThermalModel, Turn, calibrate_imu,
+    ThermalModel, ThermometerLag, Turn, calibrate_imu,
 };
 use calibrant::io::{CalibrationFile, ConventionOptions, Origin, parse_calibrated_imu, to_json};
 use calibrant::sensor::{
     CalibratedImu, Gauge, ImuCorrection, ImuParameters, ImuQuantity, ImuRecording, Sensor, SensorKind,
-    SensorModel, SensorParameters, Thermal,
+    SensorModel, SensorParameters, Temperatures, Thermal,
 };
 use calibrant::simulate::{
     ImuSimulation, Purpose, Rng, TableAction, TableStep, draw_thermal, simulate_imu, simulate_table, stream,
@@ -54,7 +54,11 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibrat
 }
 
 fn setup(model: ThermalModel) -> ImuSetup {
-    ImuSetup { thermal: ThermalModel { reference_c: Some(32.0), ..model }, ..steady_imu() }
+    ImuSetup {
+        thermal: ThermalModel { reference_c: Some(32.0), ..model },
+        thermometer: ThermometerLag { lag_s: 0.0, sd_s: 0.0 },
+        ..steady_imu()
+    }
 }
 
 fn ramp(poses: usize) -> ImuSimulation {
@@ -335,6 +339,34 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
     }
     let calibration = run(&recording, &setup(model)).expect("determined");
     assert_eq!(left_out(&calibration), [11]);
+}
+
+/// The thermometer is that of another chip, and lags by 20 s.
+#[test]
+fn a_lag_of_the_thermometer_is_in_the_standard_deviations() {
+    let model = ThermalModel { accelerometer_bias: 1, gyroscope_bias: 1, ..ThermalModel::default() };
+    let worst = |thermometer: ThermometerLag| {
+        let setup = ImuSetup { thermometer, ..setup(model) };
+        let of = |number: u64| {
+            let mut rng = stream(13, Purpose::Sensor, number);
+            let truth = draw(&model, &mut rng);
+            let mut recording = simulate_imu(&truth, &ramp(24), &mut rng);
+            let of_chip = Temperatures::of(&recording).expect("possible").expect("there");
+            let late = of_chip.times_s.iter().map(|t| of_chip.at(t - 20.0)).collect();
+            recording.temperature_c = Some(late);
+            let found = run(&recording, &setup).expect("determined");
+            let values = found.quantities.iter().zip(found.values.iter().zip(found.sd()));
+            values.map(|(of, (value, sd))| ((value - of.value(&truth)) / sd).abs()).fold(0.0, f64::max)
+        };
+        (0..8).into_par_iter().map(of).reduce(|| 0.0, f64::max)
+    };
+    let [unknown, denied, stated] = [
+        ThermometerLag::default(),
+        ThermometerLag { lag_s: 0.0, sd_s: 0.0 },
+        ThermometerLag { lag_s: 20.0, sd_s: 1.0 },
+    ]
+    .map(worst);
+    assert!(unknown < 4.5 && denied > 10.0 && stated < 4.5, "{unknown} {denied} {stated}");
 }
 
 /// Its file, its corrections at the holds, and its comparison with a calibration at another reference.

@@ -23,23 +23,17 @@ use crate::estimate::imu::estimated::{estimated_quantities, prior_of};
 use crate::estimate::imu::initial::accelerometer_alone::initial_accelerometer;
 use crate::estimate::imu::initial::gyroscope::{explained_means, initial_values};
 use crate::estimate::imu::model::{ImuModel, RotationScatter, State};
-use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
+use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::recordings::recordings;
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::shared_face_errors::shared_face_errors;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
-use crate::estimate::imu::thermometer_lag::{LagEstimate, ThermometerLag};
+use crate::estimate::imu::thermometer_lag::LagEffect;
 use crate::estimate::imu::variance_components::bias_drift::follow_drift;
 use crate::estimate::imu::variance_components::solution::solve;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
-
-/// Rounds in which the thermometer's lag and the estimate follow each other.
-const LAG_ROUNDS: usize = 4;
-
-/// They end when the lag moves by less than this many standard deviations.
-const CLOSE_LAG: f64 = 0.1;
 
 /// Calibrates an IMU. The search `white_noise` runs while the accelerometer is fitted.
 pub(crate) fn solve_imu(
@@ -47,31 +41,14 @@ pub(crate) fn solve_imu(
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<Calibration> {
-    let prior = problem.setup.thermometer;
-    let solved = |lag_s: f64| {
-        let setup = ImuSetup { thermometer: ThermometerLag { lag_s, ..prior }, ..problem.setup.clone() };
-        stages(&ImuProblem { setup: &setup, ..*problem }, &prior, settings, white_noise)
-            .map_err(|error| with_time_offset(error, problem.recording))
-    };
-    let (mut calibration, mut found) = solved(prior.lag_s)?;
-    let mut lag_s = prior.lag_s;
-    for _ in 0..LAG_ROUNDS {
-        let Some(next) = found.filter(|next| (next.lag_s - lag_s).abs() > CLOSE_LAG * next.sd_s) else {
-            break;
-        };
-        lag_s = next.lag_s;
-        (calibration, found) = solved(lag_s)?;
-    }
-    Ok(calibration)
+    stages(problem, settings, white_noise).map_err(|error| with_time_offset(error, problem.recording))
 }
 
-/// The calibration with the thermometer's lag of the setup, and the lag that this fit shows.
 fn stages(
     problem: &ImuProblem<'_>,
-    thermometer: &ThermometerLag,
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
-) -> Result<(Calibration, Option<ThermometerLag>)> {
+) -> Result<Calibration> {
     let setup = problem.setup;
     let (as_read, gyroscope_recording) = recordings(problem)?;
     // stationary intervals and initial values
@@ -117,7 +94,7 @@ fn stages(
         systematic.extend(shared_face_errors(&model, &solution.fit, tilt.shared_sd_rad)?);
     }
     let where_from = (&temperature, used.holds.as_slice(), setup.turns.as_slice());
-    let lag = LagEstimate::of(&model, &solution.fit, where_from, thermometer, settings)?;
+    let lag = LagEffect::of(&model, &solution.fit, where_from, &setup.thermometer, settings)?;
     systematic.extend(lag.as_ref().map(|lag| lag.error.clone()));
     let known = (&setup.holds.gravity, setup.rate_sd);
     let uncertainty = Uncertainty::of(&model, &solution, known, (&gyroscope.coarse, systematic))?;
@@ -144,7 +121,7 @@ fn stages(
         solution: &solution,
         uncertainty,
         clock,
-        thermometer: lag.as_ref().map(|lag| lag.lag),
+        thermometer: lag.as_ref().map(|_| setup.thermometer),
         changes,
     }
     .assemble()?;
@@ -163,5 +140,5 @@ fn stages(
         lag: lag.as_ref(),
         calibration: &calibration,
     });
-    Ok((Calibration { warnings, ..calibration }, lag.map(|lag| lag.lag)))
+    Ok(Calibration { warnings, ..calibration })
 }

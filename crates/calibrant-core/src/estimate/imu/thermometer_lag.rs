@@ -1,9 +1,10 @@
 //! The lag of the thermometer behind the sensor.
 //!
-//! The temperature of a sensor is `T = T_m + t_l dT_m/dt`, with what the thermometer shows, `T_m`, and one lag `t_l` for a recording. Beside the parameters
-//! `p` the lag is one more unknown. With `χ²(t_l)` the least χ² at a lag, its curvature and slope give the lag, with a prior, and `dp/dt_l` the errors of all
-//! parameters by it. In a purely exponential warm-up of time constant `θ` the rate is linear in the temperature: then a lag looks like a slope that is larger
-//! by `t_l/θ`, the recording determines the sum only, and the prior carries the rest into biases and slopes.
+//! The temperature of a sensor is `T = T_m + t_l dT_m/dt`, with what the thermometer shows, `T_m`, and one lag `t_l` for a recording. The lag is known as far
+//! as it is stated, and `dp/dt_l` times its standard deviation is in the errors of the parameters `p`. It is not taken from the recording: a purely
+//! exponential warm-up of time constant `θ` has rates that are linear in the temperature, so that a lag looks like a slope that is larger by `t_l/θ`; and where
+//! the warm-up begins, delays and slow thermometers differ more than recordings show lags. What the recording shows, by slope and curvature of the least
+//! `χ²(t_l)`, is told.
 
 use crate::error::Result;
 use crate::estimate::imu::model::{Fit, ImuModel, singular};
@@ -13,8 +14,11 @@ use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use nalgebra::DVector;
 
-/// χ² of one degree of freedom that a lag of zero exceeds in one of a thousand recordings.
-const SEEN_CHI2: f64 = 10.83;
+/// A lag is seen where it lowers χ² by this much: five standard deviations, since errors of the thermometer are common to all axes.
+const SEEN_CHI2: f64 = 25.0;
+
+/// A lag further off what is stated, in its standard deviations, is a mistake of the model.
+const PLAUSIBLE: f64 = 2.0;
 
 /// Step of the differences, s.
 const STEP_S: f64 = 5.0;
@@ -24,7 +28,7 @@ const STEP_S: f64 = 5.0;
 pub struct ThermometerLag {
     /// `t_l`, s.
     pub lag_s: f64,
-    /// Its standard deviation, s. As a prior: 0 for the lag as it is stated.
+    /// Its standard deviation, s; 0 for none.
     pub sd_s: f64,
 }
 
@@ -35,23 +39,22 @@ impl Default for ThermometerLag {
     }
 }
 
-/// The lag by a fit at some lag.
+/// What a lag does to the estimates.
 #[derive(Debug, Clone)]
-pub(crate) struct LagEstimate {
-    pub(crate) lag: ThermometerLag,
-    /// Is it not 0 by the recording alone?
-    pub(crate) is_seen: bool,
-    /// Change of the estimates by one standard deviation of the lag.
+pub(crate) struct LagEffect {
+    /// The lag that the recording shows by itself, with its standard deviation.
+    pub(crate) seen: Option<ThermometerLag>,
+    /// Change of the estimates by one standard deviation of the stated lag.
     pub(crate) error: DVector<f64>,
 }
 
-impl LagEstimate {
-    /// The lag from a fit with temperatures that are those at `temperature.lag_s`. `None` where nothing follows temperature, or the lag is stated.
+impl LagEffect {
+    /// By fits beside the one with the stated lag. `None` where nothing follows temperature, or the lag is known.
     pub(crate) fn of(
         model: &ImuModel<'_>,
         fit: &Fit,
         (temperature, holds, turns): (&RecordingTemperature<'_>, &[&Hold], &[Turn]),
-        prior: &ThermometerLag,
+        stated: &ThermometerLag,
         settings: &CalibrationSettings,
     ) -> Result<Option<Self>> {
         let Some(of_turns) = temperature.rates(turns.iter().map(|turn| (turn.start_s, turn.end_s))) else {
@@ -60,7 +63,7 @@ impl LagEstimate {
         let Some(of_holds) = temperature.rates(holds.iter().map(|hold| (hold.start_s, hold.end_s))) else {
             return Ok(None);
         };
-        if prior.sd_s <= 0.0 {
+        if stated.sd_s <= 0.0 {
             return Ok(None);
         }
         let at = |by_s: f64| {
@@ -82,20 +85,21 @@ impl LagEstimate {
         let (less, more) = (at(-STEP_S)?, at(STEP_S)?);
         let slope = 0.5 * (more.chi2 - less.chi2) / STEP_S;
         let curvature = (0.5 * (more.chi2 + less.chi2 - 2.0 * fit.chi2) / STEP_S.powi(2)).max(0.0);
-        let expected = prior.sd_s.powi(-2);
-        let precision = curvature + expected;
-        let off = 0.5 * slope + (temperature.lag_s - prior.lag_s) * expected;
-        let lag =
-            ThermometerLag { lag_s: temperature.lag_s - off / precision, sd_s: precision.recip().sqrt() };
-        // (lag by the recording alone)² times the curvature
-        let is_seen = (temperature.lag_s * curvature - 0.5 * slope).powi(2) > SEEN_CHI2 * curvature;
+        let by_recording = (curvature > 0.0).then(|| ThermometerLag {
+            lag_s: stated.lag_s - 0.5 * slope / curvature,
+            sd_s: curvature.recip().sqrt(),
+        });
+        let seen = by_recording.filter(|found| {
+            let off_s = (found.lag_s - stated.lag_s).abs();
+            (off_s / found.sd_s).powi(2) > SEEN_CHI2 && off_s < PLAUSIBLE * stated.sd_s
+        });
         let error = DVector::from_iterator(
             model.quantities.len(),
             model.quantities.iter().map(|quantity| {
                 let change = quantity.value(&more.state.imu) - quantity.value(&less.state.imu);
-                0.5 * change / STEP_S * lag.sd_s
+                0.5 * change / STEP_S * stated.sd_s
             }),
         );
-        Ok(Some(Self { lag, is_seen, error }))
+        Ok(Some(Self { seen, error }))
     }
 }

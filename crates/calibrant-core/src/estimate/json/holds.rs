@@ -35,7 +35,7 @@ json_object! {
         /// The time of which the biases are, where a drift was subtracted.
         biases_at_s: if_some(of.holds.drift.as_ref().map(|drift| drift.biases_at_s())),
         faces: if_some(of.holds.tilt),
-        /// By how much the thermometer lags the sensor, where parameters follow temperature: the sensor is at T + t dT/dt.
+        /// By how much the thermometer is supposed to lag the sensor, which is at T + t dT/dt; where parameters follow temperature.
         thermometer_lag_s: if_some(of.holds.thermometer.map(|lag| lag.lag_s)),
         thermometer_lag_sd_s: if_some(of.holds.thermometer.map(|lag| lag.sd_s)),
         /// Of the magnitudes of the used holds. With 0, the fit to them is exact and checks nothing.

@@ -11,7 +11,7 @@ use crate::estimate::imu::model::{Fit, ImuModel};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
-use crate::estimate::imu::thermometer_lag::LagEstimate;
+use crate::estimate::imu::thermometer_lag::LagEffect;
 use crate::estimate::result::Calibration;
 use crate::sensor::Recording;
 
@@ -36,8 +36,8 @@ pub(crate) struct Evidence<'a> {
     pub(crate) turns: Diagnostics,
     /// The gyroscope's clock beside the accelerometer's.
     pub(crate) clock: Option<ClockDifference>,
-    /// The thermometer's lag, where it was estimated.
-    pub(crate) lag: Option<&'a LagEstimate>,
+    /// What a lag of the thermometer does, where it is not known.
+    pub(crate) lag: Option<&'a LagEffect>,
     /// The result, but for its warnings.
     pub(crate) calibration: &'a Calibration,
 }
