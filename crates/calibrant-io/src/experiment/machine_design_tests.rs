@@ -86,7 +86,9 @@ fn a_number_for_all_joints_is_a_cap_and_a_table_stands_in_the_place_of_all_else(
     std::fs::write(directory.path().join("joint_limits.yaml"), broken).expect("written");
     let refused = design(&text, Some(&path)).expect_err("twice as fast").to_string();
     assert!(
-        refused.contains("line 1: `default_velocity_scaling_factor`: 2 is not above 0 and at most 1"),
+        refused.contains(
+            "joint_limits.yaml:1: `default_velocity_scaling_factor`: 2 is not above 0 and at most 1"
+        ),
         "{refused}"
     );
 }
