@@ -35,10 +35,14 @@ pub(super) fn suggest(section: &str, unknown: &str, known: Keys, has: impl Fn(&s
     if known.contains(&plain.as_str()) {
         return format!("did you mean `{plain}`?");
     }
-    let needs_unit = |key: &&&str| key.strip_prefix(plain.as_str()).is_some_and(|unit| unit.starts_with('_'));
-    let with_unit: Vec<&str> = known.iter().filter(needs_unit).copied().collect();
-    if !with_unit.is_empty() {
-        return format!("did you mean `{}`?", with_unit.join("` or `"));
+    let after = |key: &str| key.strip_prefix(plain.as_str())?.strip_prefix('_').map(str::to_owned);
+    let longer: Vec<&str> = known.iter().copied().filter(|key| after(key).is_some()).collect();
+    // `gravity_mps2` before `gravity_sd_mps2`
+    let is_unit = |key: &&&str| after(key).is_some_and(|rest| !rest.contains('_'));
+    let with_unit: Vec<&str> = longer.iter().filter(is_unit).copied().collect();
+    let meant = if with_unit.is_empty() { longer } else { with_unit };
+    if !meant.is_empty() {
+        return format!("did you mean `{}`?", meant.join("` or `"));
     }
     // in a short word, one slip makes another word
     let slips = |key: &&&str| strsim::damerau_levenshtein(key, &plain);
