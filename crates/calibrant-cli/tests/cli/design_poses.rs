@@ -77,6 +77,7 @@ fn known_directions_determine_twelve_parameters_from_six_faces() {
         ("poses = 24 ", "poses = 6 "),
         ("# allowed = \"any\"", "allowed = \"faces\" # "),
         ("# directions = \"known\"", "directions = \"known\""),
+        ("# face_sd_deg = 0.3", "face_sd_deg = 0.0"),
     ];
     bench.preset("static-poses", "faces.toml", &edits);
     bench.run(&format!("design faces.toml {QUICK} -o d")).done();

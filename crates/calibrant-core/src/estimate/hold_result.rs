@@ -106,6 +106,9 @@ impl TiltSource {
 }
 
 impl FaceTilt {
+    /// Standard deviation of a face's tilt where none is stated, rad about each axis: half a degree, as for known turns.
+    pub const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
+
     /// The source, in words.
     #[must_use]
     pub fn source_in_words(&self) -> String {

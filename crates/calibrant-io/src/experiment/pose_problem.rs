@@ -4,7 +4,7 @@ use super::holds::HoldsPlan;
 use super::{Experiment, Plan};
 use crate::EarlierCalibration;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::estimate::Calibration;
+use calibrant_core::estimate::{Calibration, FaceTilt};
 use calibrant_core::sensor::{ParameterList, SensorParameters};
 use calibrant_design::poses::{DirectionKnowledge, PoseNuisance, PoseProblem};
 use nalgebra::Vector3;
@@ -26,7 +26,7 @@ impl Experiment {
         let between = earlier.iter().filter_map(|earlier| earlier.between_holds_sd_mps2);
         let between = between.fold(plan.between_holds_sd_mps2, f64::max);
         let directions = if self.design.knows_directions() {
-            DirectionKnowledge::Known { sd_rad: plan.face_sd_rad().unwrap_or(0.0) }
+            DirectionKnowledge::Known { sd_rad: plan.face_sd_rad().unwrap_or(FaceTilt::ASSUMED_RAD) }
         } else {
             DirectionKnowledge::Unknown
         };

@@ -35,8 +35,6 @@ pub(in crate::estimate) fn at_sensor(shown: &Temperatures<'_>, lag_s: f64) -> Ve
 /// The temperatures of a problem with temperature terms.
 pub(crate) struct RecordingTemperature<'a> {
     recorded: Option<Recorded<'a>>,
-    /// The lag of the thermometer by which these are the sensor's, s.
-    pub(crate) lag_s: f64,
     /// Only the fixed terms.
     pub(crate) start: Thermal,
 }
@@ -60,13 +58,12 @@ impl<'a> RecordingTemperature<'a> {
         let model = problem.setup.thermal;
         let mut start = Thermal::none();
         if model.is_none() {
-            return Ok(Self { recorded: None, lag_s: 0.0, start });
+            return Ok(Self { recorded: None, start });
         }
         let shown = needed_temperatures(problem.recording)?;
-        let lag_s = problem.setup.thermometer.lag_s;
         let recorded = Recorded {
             times_s: shown.times_s,
-            values_c: at_sensor(&shown, lag_s),
+            values_c: at_sensor(&shown, problem.setup.thermometer.lag_s),
             rates: temperature_rates(shown.times_s, shown.values_c),
         };
         let temperatures = recorded.temperatures();
@@ -78,7 +75,7 @@ impl<'a> RecordingTemperature<'a> {
             of_holds.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
         let mut imu = ImuParameters { thermal: start, ..ImuParameters::identity() };
         set_fixed(&mut imu, &problem.setup.known);
-        let temperature = Self { recorded: Some(recorded), lag_s, start: imu.thermal };
+        let temperature = Self { recorded: Some(recorded), start: imu.thermal };
         temperature.enough(problem, &of_holds)?;
         Ok(temperature)
     }

@@ -32,10 +32,10 @@ pub struct ThermometerLag {
     pub sd_s: f64,
 }
 
-/// What is supposed of a thermometer: it is the chip's own (no lag), or another one on the board, which lags by 10 to 30 s.
+/// What is supposed of a thermometer: it is the chip's own (no lag), or another one on the board, which lags by 10 to 40 s.
 impl Default for ThermometerLag {
     fn default() -> Self {
-        Self { lag_s: 0.0, sd_s: 15.0 }
+        Self { lag_s: 0.0, sd_s: 20.0 }
     }
 }
 

@@ -26,9 +26,6 @@ use crate::estimate::hold_result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Assumed standard deviation of the tilt, rad: half a degree, as for known turns.
-const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
-
 /// Fewest degrees of freedom for a variance of the scatter.
 const FEWEST_DEGREES: usize = 3;
 
@@ -132,7 +129,7 @@ impl Degrees {
                 sd_rad: scatter.tilt_rad,
                 shared_sd_rad: match source {
                     TiltSource::Given => scatter.tilt_rad * std::f64::consts::FRAC_1_SQRT_2,
-                    TiltSource::Recording | TiltSource::Assumed => ASSUMED_RAD,
+                    TiltSource::Recording | TiltSource::Assumed => FaceTilt::ASSUMED_RAD,
                 },
                 source,
                 degrees_of_freedom,
@@ -186,7 +183,7 @@ fn search<T>(
     fit: &mut impl FnMut(&FaceScatter) -> Option<(Chi2, T)>,
 ) -> Option<(FaceScatter, Chi2, T)> {
     let determined = degrees.source(given_rad) == TiltSource::Recording;
-    let mut scatter = FaceScatter::of(given_rad.unwrap_or(ASSUMED_RAD), 0.0, degrees.faces);
+    let mut scatter = FaceScatter::of(given_rad.unwrap_or(FaceTilt::ASSUMED_RAD), 0.0, degrees.faces);
     // if noise decides, all three components of a face determine the parameters together; if tilts decide, mainly the one along does
     let scattered = (fit(&FaceScatter::default())?.0.all / degrees.all.max(1) as f64).max(1.0);
     let shared = (degrees.all as f64 / 3.0 - degrees.along as f64).max(0.0);
@@ -196,12 +193,12 @@ fn search<T>(
             let at = |tilt_rad: f64| FaceScatter::of(tilt_rad, scatter.along_mps2, degrees.faces);
             let degrees_of_freedom = degrees.all as f64;
             let trial = |(chi2, _): (Chi2, T)| Trial { chi2: chi2.all, degrees_of_freedom, fitted: () };
-            let (tilt_rad, ()) = excess(|_| ASSUMED_RAD, |tilt| fit(&at(tilt)).map(trial))?;
+            let (tilt_rad, ()) = excess(|_| FaceTilt::ASSUMED_RAD, |tilt| fit(&at(tilt)).map(trial))?;
             scatter = at(tilt_rad);
         }
         if degrees.along >= FEWEST_DEGREES {
             let at = |along_mps2: f64| FaceScatter { along_mps2, ..scatter };
-            let guess = gravity * ASSUMED_RAD.powi(2);
+            let guess = gravity * FaceTilt::ASSUMED_RAD.powi(2);
             let degrees_of_freedom = degrees.along as f64 + shared / scattered;
             let trial = |(chi2, _): (Chi2, T)| Trial { chi2: chi2.along, degrees_of_freedom, fitted: () };
             scatter.along_mps2 = excess(|_| guess, |along| fit(&at(along)).map(trial))?.0;
