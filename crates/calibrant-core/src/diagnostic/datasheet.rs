@@ -54,6 +54,24 @@ checks! {
         }
     );
 
+    /// A gain of readings in SI is off by more than sensors are, and nothing states it. A mount that gives way, a log that is
+    /// filled in, or a wrong length makes such gains.
+    GainUnusual "gain-unusual" Warning {
+        sensor_kind: SensorKind,
+        axis: Axis,
+        /// The gain along the axis.
+        gain: f64,
+    }
+    decided "The value itself is below 0.96 or above 1.04, whatever its standard deviation, and neither the datasheet nor [known] \
+        allows for it."
+    remedy "Check the mount, the log and the unit. If the sensor's type has such gains, state the gain in [known]; for a commanded motion, \
+        scale_sd in [sensor]."
+    says format!(
+        "the gain of the {sensor_kind}'s axis {axis} is {gain:.3}: sensors are off by 1 to 3 %, and nothing states more of this one. \
+         Check that the sensor is fastened to what moves it, that the log is measured throughout, and the unit. If its type has such \
+         gains, state the gain in [known]; for a commanded motion, scale_sd in [sensor]."
+    );
+
     /// A scale factor is negative.
     ScaleNegative "scale-negative" Error {
         axis: Axis,

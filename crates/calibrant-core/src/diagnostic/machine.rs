@@ -3,7 +3,7 @@
 use super::check::checks;
 use super::parts::Phrase;
 use crate::number_format::{counted, significant};
-use crate::sensor::SensorKind;
+use crate::sensor::{Axis, SensorKind};
 
 checks! {
     /// The residuals of a sensor on a machine are larger than its noise. The machine does not move as its
@@ -47,12 +47,58 @@ checks! {
         factor: f64,
     }
     decided "Correlation of the residuals widens the standard deviation of a parameter of the sensor by more than a factor \
-        of three: the reference's errors are ten times as much as noise would be."
+        of three: the reference's errors are ten times as much as noise would be. A factor of seven where residuals that follow the motion, \
+        as with `mount-gives-way`, are excluded."
     remedy "Look at the spectrum of the residuals in the report. Model what moves, or improve the reference."
     says format!(
         "most of the uncertainty of {parameter} is from errors of the reference that are no noise: its standard deviation \
          is {factor:.1} times that of noise alone. Look at the spectrum of the residuals, model what moves, or improve \
          the reference."
+    );
+
+    /// What carries the sensor is not rigid: its readings follow the motion as those of a sensor on something that gives way.
+    /// Gains are then wrong by the same amount in every part of the recording.
+    MountGivesWay "mount-gives-way" Warning {
+        /// What gives way, and with what.
+        how: Phrase,
+        /// The parameter that it moves most.
+        parameter: String,
+        /// By how many of its standard deviations.
+        deviations: f64,
+        /// Probability of such residuals of a rigid mount.
+        p_value: f64,
+    }
+    decided "Terms of a sensor that is displaced or turned with the specific force, the angular acceleration or the square of the rate \
+        explain the residuals (F-test by the scatter of blocks of time, p below 0.0001), and move a parameter by more than its standard deviation."
+    remedy "Fasten the sensor to what is logged: screws or stiff glue, no foam or tape. Or move more slowly, and compare: \
+        --validate with a slower recording."
+    says format!(
+        "the residuals follow {}: the mount gives way, or the machine bends (p-value {p_value:.0e}). That would move {parameter} by \
+         {deviations:.1} standard deviations. Fasten the sensor, or record again more slowly.",
+        how.0
+    );
+
+    /// Bias and gain of an axis are one number: the specific force along it hardly varies.
+    GainNotSeparable "gain-not-separable" Warning {
+        axis: Axis,
+        /// Root mean square variation of the specific force along the axis, m/s².
+        variation_mps2: f64,
+        /// Mean specific force along it, m/s².
+        mean_mps2: f64,
+        /// The reading at that force, m/s².
+        reading_mps2: f64,
+        /// Its standard deviation, m/s².
+        reading_sd_mps2: f64,
+    }
+    decided "The specific force along an axis varies by less than a tenth of its mean. An error of the reference then moves bias and gain against \
+        each other by more than ten times itself."
+    remedy "Turn the sensor so that the axis points up, sideways and down. Until then use bias and gain together only, near this force."
+    says format!(
+        "bias and gain of the accelerometer's axis {axis} are not separable: the specific force along it is {} m/s² and varies by {} m/s². \
+         Well determined is the reading there, {reading_mps2:.4} ± {reading_sd_mps2:.1e} m/s². Turn the sensor so that the axis points \
+         up, sideways and down.",
+        significant(*mean_mps2, 3),
+        significant(*variation_mps2, 2)
     );
 
     /// The data contradict what was known of the machine beforehand.

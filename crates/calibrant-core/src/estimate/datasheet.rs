@@ -1,7 +1,7 @@
 //! A result beside the datasheet: parameters, gains and noise that no sensor of the type has.
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, ParameterImplausible};
+use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, GainUnusual, ParameterImplausible};
 use crate::diagnostic::fit::{NoiseImplausible, NoiseNotAsGiven};
 use crate::sensor::{Axis, Parameter, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
@@ -10,6 +10,10 @@ use nalgebra::{Matrix3, Vector3};
 pub const ALLOWED_SPREADS: f64 = 6.0;
 /// Gains of readings in SI that are plausible.
 const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// Gains of readings in SI that sensors have without a word in their datasheet: that says 1 to 3 %.
+const USUAL_GAINS: std::ops::RangeInclusive<f64> = 0.96..=1.04;
+/// What the uncertainty of an estimate adds to what a datasheet allows, in its standard deviations.
+const ALLOWED_DEVIATIONS: f64 = 2.0;
 /// A bias of an accelerometer beyond this is gravity that was taken for a bias: half of it. Accelerometers are delivered within a tenth of gravity.
 const LARGEST_BIAS_MPS2: f64 = 0.5 * 9.806_65;
 /// Logarithm of a factor that is not that of a sensor: sensors are off by 1 to 5 %.
@@ -37,7 +41,7 @@ pub fn beyond_datasheet(parameters: &[Parameter], values: &[f64], sd: &[f64]) ->
         .then(|| Diagnostic::from(ParameterImplausible { parameter: name.clone(), deviations: times }))
 }
 
-/// The gains of readings in SI that are far from one. `allowed`: does the datasheet allow for the gain of this axis?
+/// The gains of readings in SI that are far from one, and those that are off by more than is usual. `allowed`: does the datasheet allow for the gain of this axis?
 pub fn implausible_gains(
     sensor_kind: SensorKind,
     unit: ReadingUnit,
@@ -45,9 +49,13 @@ pub fn implausible_gains(
     allowed: impl Fn(Axis) -> bool,
 ) -> Vec<Diagnostic> {
     let along = |axis: Axis| matrix[(axis.index(), axis.index())];
-    let is_far = |axis: &Axis| !PLAUSIBLE_GAINS.contains(&along(*axis)) && !allowed(*axis);
-    let far = Axis::ALL.into_iter().filter(is_far).filter(|_| unit != ReadingUnit::Counts);
-    far.map(|axis| Diagnostic::from(GainImplausible { sensor_kind, axis, gain: along(axis), unit })).collect()
+    let is_off = |axis: &Axis| !USUAL_GAINS.contains(&along(*axis)) && !allowed(*axis);
+    let off = Axis::ALL.into_iter().filter(is_off).filter(|_| unit != ReadingUnit::Counts);
+    let said = |axis: Axis| match along(axis) {
+        gain if PLAUSIBLE_GAINS.contains(&gain) => Diagnostic::from(GainUnusual { sensor_kind, axis, gain }),
+        gain => GainImplausible { sensor_kind, axis, gain, unit }.into(),
+    };
+    off.map(said).collect()
 }
 
 /// The bias of an accelerometer of SI readings that is more than half of gravity. `allowed`: does the datasheet allow for the bias of this axis?
@@ -81,11 +89,15 @@ pub(crate) fn allows_bias(parameters: &[Parameter], values: &[f64], sd: &[f64], 
     allows(&format!("accelerometer.bias.{axis}"), parameters, values, sd)
 }
 
+/// An estimate that is hardly determined is not allowed anything for that: 5.7 ± 0.9 is no gain of a sensor of 1.00 ± 0.01.
 fn allows(ending: &str, parameters: &[Parameter], values: &[f64], sd: &[f64]) -> bool {
     (parameters.iter().zip(values).zip(sd))
         .filter(|((parameter, _), _)| parameter.name.ends_with(ending))
-        .filter_map(|((parameter, value), sd)| deviations(parameter, *value, *sd))
-        .any(|times| times <= ALLOWED_SPREADS)
+        .filter_map(|((parameter, value), sd)| {
+            let spread = parameter.spread.filter(|spread| *spread > 0.0)?;
+            Some((value - parameter.nominal?).abs() <= ALLOWED_SPREADS * spread + ALLOWED_DEVIATIONS * sd)
+        })
+        .any(|is_allowed| is_allowed)
 }
 
 /// The noise that was found, where it differs from the given noise by more than a factor of two on an axis.

@@ -4,7 +4,7 @@ use crate::estimate::begin::{Initial, bridge, fitted, initial, refined, suspect,
 use crate::estimate::least_squares::{Minimum, Model, Pass, State, minimise, white_noise};
 use crate::estimate::noise::{Growths, Posterior, noise_search};
 use crate::estimate::problem::{refused, unsolved};
-use crate::estimate::result::{assembled, checks, undetermined};
+use crate::estimate::result::{assembled, checks, flexure, undetermined};
 use crate::estimate::{MachineCalibration, MachineProblem, MachineSettings, MachineTrust};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::CalibrationStatus;
@@ -92,7 +92,8 @@ fn as_given(problem: &MachineProblem<'_>, settings: &MachineSettings) -> Result<
     let posterior =
         Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
-    calibration.warnings = checks::all(problem.setup, &model.layout, &calibration);
+    let flexure = flexure::find(&model, &minimum, &calibration);
+    calibration.warnings = checks::all(problem.setup, &model.layout, &calibration, flexure);
     Ok(calibration)
 }
 

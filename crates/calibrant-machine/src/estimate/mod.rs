@@ -4,6 +4,8 @@ mod begin;
 mod calibrate;
 mod covariance;
 #[cfg(test)]
+mod flexure_tests;
+#[cfg(test)]
 mod hard_log_tests;
 mod least_squares;
 #[cfg(test)]

@@ -4,11 +4,14 @@ use super::calibrated::Calibrated;
 use super::figures::figures;
 use super::outcome::Outcome;
 use calibrant_core::acceptance::{AcceptanceLimit, CheckedLimit, checked};
-use calibrant_core::diagnostic::machine::{LogOutliers, MachineResiduals, ReferenceUndermodelled};
+use calibrant_core::diagnostic::machine::{
+    LogOutliers, MachineResiduals, MountGivesWay, ReferenceUndermodelled,
+};
 use calibrant_core::diagnostic::samples::Spikes;
-use calibrant_core::diagnostic::validation::{ResidualsConfirmed, ValidationDoubts};
-use calibrant_core::diagnostic::{Check, Code, Diagnostic};
+use calibrant_core::diagnostic::validation::{FoldsAgree, ResidualsConfirmed, ValidationDoubts};
+use calibrant_core::diagnostic::{Check, Code, Diagnostic, Phrase};
 use calibrant_core::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
+use calibrant_machine::estimate::MachineValidationSource;
 
 /// Adds the limits, and the diagnostics of validations and limits, to an outcome. `findings`: what the reader noticed in its recording.
 pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings: Vec<Code>) {
@@ -59,26 +62,45 @@ fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
     }
 }
 
-/// What is left in the residuals, or was taken out, says that the standard deviations may not hold; they are widened by it, and a validation that finds them large
-/// enough answers it.
+/// What is left in the residuals, or was taken out, says that the standard deviations may not hold; they are widened by it, and another recording that finds
+/// them large enough answers it.
 const ANSWERED: [Code; 4] =
     [MachineResiduals::CODE, ReferenceUndermodelled::CODE, LogOutliers::CODE, Spikes::CODE];
+/// A recording is at another speed if it is faster or slower by this factor: what moves with force or the square of the rate then differs by more.
+const OTHER_SPEED: f64 = 4.0 / 3.0;
 
-/// The warnings that the validations of a sensor on a machine answer, and the note that says so.
+/// The warnings that another recording of a sensor on a machine answers, and the note that says so. Folds answer none: what all blocks share, they do not see.
 fn confirmed(outcome: &Outcome) -> Option<(Diagnostic, Vec<Code>)> {
     let Calibrated::OnMachine(machine) = &outcome.calibrated else { return None };
-    let shifts: Vec<_> = machine.validations.iter().flat_map(|of| &of.shifts).collect();
-    let factor = shifts.iter().map(|shift| shift.factor).fold(0.0, f64::max);
-    let codes: Vec<Code> = ANSWERED
-        .into_iter()
-        .filter(|code| machine.calibration.warnings.iter().any(|found| found.code() == *code))
-        .collect();
+    let validations = || machine.validations.iter().filter(|of| !of.shifts.is_empty());
+    let shifts = || validations().flat_map(|of| &of.shifts);
     let is_large_enough = |of: CovarianceVerdict| {
         matches!(of, CovarianceVerdict::Believed | CovarianceVerdict::LargerThanNeeded)
     };
-    let is_confirmed = shifts.iter().all(|shift| is_large_enough(shift.verdict));
-    (is_confirmed && !shifts.is_empty() && !codes.is_empty()).then(|| {
-        let names = codes.iter().map(ToString::to_string).collect();
-        (ResidualsConfirmed { codes: names, factor }.into(), codes)
+    if !shifts().all(|shift| is_large_enough(shift.verdict)) {
+        return None;
+    }
+    let factor = shifts().map(|shift| shift.factor).fold(0.0, f64::max);
+    let found = |codes: &[Code]| -> Vec<Code> {
+        let is_found = |code: &&Code| machine.calibration.warnings.iter().any(|found| found.code() == **code);
+        codes.iter().filter(is_found).copied().collect()
+    };
+    let names = |codes: &[Code]| codes.iter().map(ToString::to_string).collect();
+    let other = validations().find_map(|of| match &of.source {
+        MachineValidationSource::Recording { name } => Some((name, of.speed_ratio)),
+        MachineValidationSource::Blocks { .. } => None,
+    });
+    let Some((name, speed_ratio)) = other else {
+        let codes = found(&ANSWERED);
+        let is_said = validations().next().is_some() && !codes.is_empty();
+        return is_said.then(|| (FoldsAgree { codes: names(&codes), factor }.into(), Vec::new()));
+    };
+    let mut codes = found(&ANSWERED);
+    if speed_ratio.ln().abs() >= OTHER_SPEED.ln() {
+        codes.extend(found(&[MountGivesWay::CODE]));
+    }
+    (!codes.is_empty()).then(|| {
+        let recording = Phrase(name.clone());
+        (ResidualsConfirmed { codes: names(&codes), recording, factor, speed_ratio }.into(), codes)
     })
 }

@@ -3,9 +3,11 @@
 mod assembly;
 pub(crate) mod checks;
 mod drift;
+pub(crate) mod flexure;
 mod machine_calibration;
 pub(crate) mod plausible;
 mod sample_residual;
+mod separability;
 mod shared_errors;
 mod spectrum;
 pub(crate) mod undetermined;

@@ -53,7 +53,8 @@ fn factor(
     Some(GainsShareFactor { sensor_kind, factor }.into())
 }
 
-fn is_known(setup: &MachineSetup, quantity: ImuQuantity) -> bool {
+/// Is it stated beforehand, with an uncertainty of its own?
+pub(super) fn is_known(setup: &MachineSetup, quantity: ImuQuantity) -> bool {
     setup.known.iter().any(|known| known.quantity == quantity)
 }
 

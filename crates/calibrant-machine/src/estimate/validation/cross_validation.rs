@@ -66,7 +66,8 @@ pub fn cross_validate_on_machine(
         ));
     }
     let shifts = sensors.iter().filter_map(|sensor| judged(calibration, *sensor, &movements)).collect();
-    Ok(MachineValidation { source: MachineValidationSource::Blocks { folds, length_s, failed }, shifts })
+    let source = MachineValidationSource::Blocks { folds, length_s, failed };
+    Ok(MachineValidation { source, shifts, speed_ratio: 1.0 })
 }
 
 /// Checks that a recording can be divided into this number of blocks.

@@ -5,7 +5,7 @@
 //! What is wrong with mount and joints is wrong in both. With `I` the information of that prior, their errors `Σ₁ I (η̄ − η)` and `Σ₂ I (η̄ − η)` belong
 //! together, and the covariance of the difference is `Σ₁ + Σ₂ − Σ₁ I Σ₂ − Σ₂ I Σ₁`.
 
-use crate::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
+use crate::estimate::{MachineCalibration, MachineQuantity, MachineSetup, TiltedGravity};
 use calibrant_core::estimate::CovarianceVerdict;
 use calibrant_core::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -20,6 +20,8 @@ pub struct MachineValidation {
     pub source: MachineValidationSource,
     /// The parameters of each sensor.
     pub shifts: Vec<ParameterShift>,
+    /// Speed of the other recording over that of this one: the ratio of the rms rates or that of the forces, whichever is further from 1. 1 for blocks.
+    pub speed_ratio: f64,
 }
 
 /// The other data.
@@ -190,7 +192,7 @@ pub fn compare_on_machine(
 ) -> MachineValidation {
     let source = MachineValidationSource::Recording { name: String::new() };
     if first.quantities != second.quantities {
-        return MachineValidation { source, shifts: Vec::new() };
+        return MachineValidation { source, shifts: Vec::new(), speed_ratio: 1.0 };
     }
     let sensors = first.sensors();
     let information = |quantity: &MachineQuantity| {
@@ -212,5 +214,25 @@ pub fn compare_on_machine(
     let shift = second.values.iter().zip(&first.values).map(|(two, one)| two - one);
     let movement = [Movement { shift: DVector::from_iterator(n, shift), covariance, without_s: None }];
     let shifts = sensors.iter().filter_map(|sensor| judged(first, *sensor, &movement)).collect();
-    MachineValidation { source, shifts }
+    let [one, two] = [first, second].map(|of| rms_of_motion(of, setup));
+    let ratios =
+        [two[0] / one[0], two[1] / one[1]].into_iter().filter(|ratio| ratio.is_finite() && *ratio > 0.0);
+    let speed_ratio = ratios.max_by(|one, two| one.ln().abs().total_cmp(&two.ln().abs())).unwrap_or(1.0);
+    MachineValidation { source, shifts, speed_ratio }
+}
+
+/// Root mean square of the rate, rad/s, and of the specific force beside gravity's magnitude, m/s².
+fn rms_of_motion(calibration: &MachineCalibration, setup: &MachineSetup) -> [f64; 2] {
+    let (motion, parameters) = (&calibration.motion, &calibration.parameters);
+    let gravity = TiltedGravity::new(&setup.up).vector(parameters);
+    let carrier = motion.carrier(gravity, parameters.mount, &parameters.corrections);
+    let (knots, mut joints) = (motion.knots(), Default::default());
+    let (mut rate, mut force, mut count) = (0.0, 0.0, 0.0_f64);
+    for i in (0..knots.intervals).filter(|i| calibration.covered[*i]) {
+        let at = motion.sensor(&knots.weights(knots.knot_s(i)), &carrier, &mut joints);
+        rate += at.rate.norm_squared();
+        force += (at.specific_force.norm() - gravity.norm()).powi(2);
+        count += 1.0;
+    }
+    [rate, force].map(|sum| (sum / count.max(1.0)).sqrt())
 }
