@@ -175,6 +175,8 @@ impl DatasetRow {
             range_c: self.range_c,
             degrees: self.covariance_degrees.map(|of| of.map(|of| of.unwrap_or(f64::INFINITY))),
             covariance: triangle.map(entry),
+            // the columns of a data set have none
+            shared: None,
         };
         let estimates: Vec<f64> = places.iter().map(|place| self.values[*place]).collect();
         let imu = further.onto(&model, &estimates).ok_or_else(|| unfit("`model` does not fit".to_owned()))?;
