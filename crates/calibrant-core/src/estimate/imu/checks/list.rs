@@ -8,7 +8,7 @@ use crate::estimate::imu::checks::{
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 21] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 22] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,
@@ -19,6 +19,7 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 21] = [
     axis_order::check,
     rotations_left_out::check,
     scatter::of_rotations,
+    scatter::of_worse_rotations,
     rate_dependence::check,
     scatter::at_rest,
     scatter::of_gains,
