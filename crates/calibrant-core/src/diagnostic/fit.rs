@@ -141,8 +141,8 @@ checks! {
          large for the number of intervals. Calibrate on a shorter motion, or with less process noise."
     );
 
-    /// The noise within the holds differs from the given noise.
-    NoiseNotAsGiven "noise-not-as-given" Warning {
+    /// The noise within the holds differs from the given noise. That of the recording is used, so the result is sound.
+    NoiseNotAsGiven "noise-not-as-given" Note {
         sensor_kind: SensorKind,
         /// The axis with the largest difference.
         axis: Axis,
@@ -151,18 +151,10 @@ checks! {
     }
     decided "Their ratio is below 0.5 or above 2."
     remedy "Correct the noise in the experiment file."
-    says match sensor_kind {
-        SensorKind::Accelerometer => format!(
-            "the noise within the holds is {} times the noise in the experiment file (axis {axis}). The noise of the \
-             recording is used.",
-            times(*ratio)
-        ),
-        SensorKind::Gyroscope => format!(
-            "the gyroscope scatters within the holds by {} times the given noise (axis {axis}). Check the noise and \
-             its unit.",
-            times(*ratio)
-        ),
-    };
+    says format!(
+        "the noise of the {sensor_kind} within the holds is {} times the noise in the experiment file (axis {axis}). The noise of the recording is used.",
+        times(*ratio)
+    );
 
     /// The noise is far larger than the given noise. The sensor, its unit or the given noise is wrong.
     NoiseImplausible "noise-implausible" Error {

@@ -97,13 +97,29 @@ checks! {
         /// The largest rate of a rotation, rad/s.
         peak_radps: f64,
     }
-    decided "The standard deviation beyond noise and knocks is more than 0.6°, and more than 1 % of the angle of the rotations."
+    decided "The standard deviation beyond noise and knocks is more than 0.6°, more than 1 % of the angle of the rotations, and more than that of the noise."
     remedy "Turn the sensor more slowly, and look at the rotations in the report: errors that grow with the rate are those of a range."
     says format!(
         "the rotations miss gravity by {:.1}° rms beyond what the gyroscope's noise and knocks explain. The fastest rate is {:.0}°/s. Does the gyroscope \
          saturate, wrap or lose gain at such rates, are samples lost, or has it a g-sensitivity that is not estimated?",
         excess_sd_rad.to_degrees(),
         peak_radps.to_degrees()
+    );
+
+    /// The rotations meet gravity worse with the calibration than without it.
+    RotationsWorse "rotations-worse" Warning {
+        /// Rotation error with the calibration, root mean square, rad.
+        after_rad: f64,
+        /// Rotation error before it, rad.
+        before_rad: f64,
+    }
+    decided "The rotation error grows by more than a half, and is larger than its noise by as much."
+    remedy "Look at the rotations in the report, at spikes that were replaced, and at the sample times. Keep the sensor still in the holds."
+    says format!(
+        "the rotations miss gravity by {:.2}° rms with this calibration, but by {:.2}° without it. Something in holds or samples misleads it: look at the rotations in the \
+         report, at spikes that were replaced, and at the sample times.",
+        after_rad.to_degrees(),
+        before_rad.to_degrees()
     );
 
     /// The rotations fit much better with a gain that depends on the rate.

@@ -1,6 +1,7 @@
 //! Checks of the samples of a recording: spikes, coarse readings, lost samples, temperatures.
 
 use super::check::checks;
+use super::parts::Phrase;
 use super::value::Diagnostic;
 use crate::number_format::{counted, significant, without_trailing_zeros};
 use crate::sensor::{Axis, ReadingUnit, Repeats, SensorKind, Thermal};
@@ -114,6 +115,16 @@ checks! {
         kept_rad.to_degrees(),
         cut_rad.to_degrees()
     );
+
+    /// What was left out or replaced is too little to matter. Its diagnostics do not count for the verdict.
+    LeftOutNegligible "left-out-negligible" Note {
+        /// The codes that do not count.
+        codes: Vec<String>,
+        /// How many of what.
+        what: Phrase,
+    }
+    decided "At most one sample in a thousand is a spike, or at most one in twenty of the holds or rotations is left out, or one of twelve or more. No sensor saturates there."
+    says format!("{} do not count: what was left out is too little to move the result ({})", codes.join(", "), what.0);
 
     /// The recording of an IMU has no gyroscope. Only the accelerometer was calibrated.
     GyroscopeMissing "gyroscope-missing" Warning {}

@@ -17,7 +17,7 @@ const ALLOWED_DEVIATIONS: f64 = 2.0;
 /// A bias of an accelerometer beyond this is gravity that was taken for a bias: half of it. Accelerometers are delivered within a tenth of gravity.
 const LARGEST_BIAS_MPS2: f64 = 0.5 * 9.806_65;
 /// Logarithm of a factor that is not that of a sensor: sensors are off by 1 to 5 %.
-const FACTOR: f64 = 0.05;
+pub(crate) const FACTOR: f64 = 0.05;
 /// The gains differ from a common factor by less than this share of its logarithm. Those of a sensor would differ by as much as they are off.
 const ALIKE: f64 = 1.0 / 3.0;
 /// A noise beyond this multiple of the given one, or below its inverse, is not as given.

@@ -243,3 +243,74 @@ impl ImuRecording {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::ReadingUnit;
+    use crate::simulate::{Purpose, stream};
+    use nalgebra::Vector3;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// Holds of 4 s at 100 Hz in 20 orientations with turns of 1.5 s between them, and noise of this standard deviation.
+    fn held(sd: f64) -> Vec<Vector3<f64>> {
+        let mut rng = stream(7, Purpose::Sensor, 0);
+        let reading = |k: usize| {
+            let part = ((k % 550) as f64 / 150.0 - 400.0 / 150.0).max(0.0);
+            let angle = 0.9 * ((k / 550) as f64 + part * part * (3.0 - 2.0 * part));
+            let noise = Vector3::from_fn(|_, _| -> f64 { StandardNormal.sample(&mut rng) });
+            9.8 * Vector3::new(angle.cos(), angle.sin() * (0.7 * angle).cos(), angle.sin()) + noise * sd
+        };
+        (0..11_000).map(reading).collect()
+    }
+
+    fn recorded(readings: Vec<Vector3<f64>>) -> Recording {
+        let times_s = (0..readings.len()).map(|k| k as f64 * 0.01).collect();
+        Recording { times_s, readings, axes: 3, unit: ReadingUnit::MetrePerSecondSquared }
+    }
+
+    #[test]
+    fn what_is_normal_is_no_repeat() {
+        let step = |of: &Vector3<f64>, step: f64| of.map(|value| (value / step).round() * step);
+        // without noise a hold is constant, and so it is where the steps are coarse
+        assert_eq!(recorded(held(0.0)).repeats(), None);
+        for coarse in [0.002, 0.01, 0.03, 0.1, 0.3, 1.0] {
+            let readings = held(0.02).iter().map(|of| step(of, coarse)).collect();
+            assert_eq!(recorded(readings).repeats(), None, "{coarse}");
+        }
+        // an axis that saturates
+        let clipped = held(0.02).iter().map(|of| of.map(|value| value.clamp(-8.0, 8.0))).collect();
+        assert_eq!(recorded(clipped).repeats(), None);
+    }
+
+    #[test]
+    fn a_sensor_or_an_axis_that_is_stuck_is_found() {
+        let mut readings = held(0.02);
+        for first in (500..10_000).step_by(1000) {
+            let stuck = readings[first];
+            readings[first..first + 10].fill(stuck);
+            let stuck = readings[first + 300].y;
+            readings[first + 300..first + 330].iter_mut().for_each(|of| of.y = stuck);
+        }
+        readings[9_900..].fill(Vector3::repeat(-6e-4));
+        let (samples, found) = recorded(readings).repeats().expect("some");
+        let stuck: Vec<_> = found.stuck.iter().map(|of| (of.axis, of.runs, of.samples)).collect();
+        assert_eq!(stuck, [(None, 11, 100 + 1100), (Some(Axis::Y), 10, 300)]);
+        assert_eq!((samples.len(), found.each), (1500, None));
+        assert_eq!((found.stuck[0].start_s, found.stuck[0].end_s), (99.0, 109.99));
+    }
+
+    #[test]
+    fn of_a_sensor_that_is_polled_each_reading_is_kept_once() {
+        for times in [2, 5, 20] {
+            let mut readings: Vec<_> = held(0.02).into_iter().flat_map(|of| vec![of; times]).collect();
+            // and stuck for a while
+            let stuck = readings[500 * times];
+            readings[500 * times..520 * times].fill(stuck);
+            let (samples, found) = recorded(readings).repeats().expect("some");
+            assert!((found.each.expect("polled") - times as f64).abs() < 0.01, "{found:?}");
+            assert_eq!(found.stuck.len(), 1, "{found:?}");
+            assert_eq!(samples.len(), (11_000 - 20) * (times - 1) + 20, "{times}");
+        }
+    }
+}

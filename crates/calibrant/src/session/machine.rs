@@ -3,6 +3,7 @@
 use super::calibrated::{Calibrated, MachineOutcome};
 use super::clean::take_out_outliers_in_motion;
 use super::duplicates::refuse_duplicate;
+use super::left_out::negligible;
 use super::machine_datasheet::beyond_datasheets;
 use super::machine_limits::beyond_limits;
 use super::machine_log::LogFile;
@@ -99,6 +100,11 @@ impl<'e> MachineTask<'e> {
         let beyond = beyond_datasheets(accelerometer, imu.as_ref(), &calibration);
         calibration.warnings.extend(beyond);
         calibration.warnings.extend(beyond_limits(&moved.log, self.chain));
+        let mut allowed = options.allowed.clone();
+        if let Some((note, codes)) = negligible(&calibration.warnings, &moved.recorded.recording, None) {
+            calibration.warnings.push(note);
+            allowed.extend(codes);
+        }
         let mut validations = Vec::new();
         if let Some((other, second)) = &other {
             let setup = setup_of_other(second);
@@ -129,7 +135,7 @@ impl<'e> MachineTask<'e> {
             recording: recorded.recording,
             about,
             with_page: options.report,
-            allowed: options.allowed.clone(),
+            allowed,
         })
     }
 

@@ -48,6 +48,7 @@ mod duplicates;
 mod figures;
 mod holds;
 mod kind;
+mod left_out;
 mod machine;
 mod machine_datasheet;
 mod machine_limits;

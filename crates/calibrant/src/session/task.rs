@@ -4,6 +4,7 @@ use super::calibrated::Calibrated;
 use super::clean::{keep_knocks, take_out_repeats};
 use super::duplicates::refuse_duplicate;
 use super::kind::Kind;
+use super::left_out::negligible;
 use super::noise::NoiseInHold;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
@@ -85,6 +86,13 @@ impl<'e> Task<'e> {
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
+        let mut allowed = options.allowed.clone();
+        if let Some((note, codes)) =
+            negligible(&calibration.warnings, &recorded.recording, Some(&calibration))
+        {
+            calibration.warnings.push(note);
+            allowed.extend(codes);
+        }
         setup.set_white_noise(noise.white_noise);
         let validations = self.validations(options, &calibration, (&recorded, &setup), notes)?;
         let origin = recorded.origin(source);
@@ -109,7 +117,7 @@ impl<'e> Task<'e> {
             recording: recorded.recording,
             about,
             with_page: options.report,
-            allowed: options.allowed.clone(),
+            allowed,
         })
     }
 

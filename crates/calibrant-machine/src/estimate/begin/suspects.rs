@@ -20,6 +20,11 @@ const TELLING: f64 = 2.0;
 /// Residuals that differ by less than this factor are the same.
 const ALIKE: f64 = 1.05;
 
+/// Mistakes whose residuals differ by less than this factor are all named: none of them is found.
+const MARGIN: f64 = 1.25;
+/// More than as many tell nothing.
+const MOST_NAMED: usize = 3;
+
 type Turned = Box<dyn Fn(&UnitQuaternion<f64>) -> UnitQuaternion<f64>>;
 type Placed = Box<dyn Fn(&Vector3<f64>, &UnitQuaternion<f64>) -> Vector3<f64>>;
 
@@ -27,36 +32,70 @@ type Placed = Box<dyn Fn(&Vector3<f64>, &UnitQuaternion<f64>) -> Vector3<f64>>;
 pub(crate) fn suspect(problem: &MachineProblem<'_>) -> Option<Diagnostic> {
     let as_given = Tried::of(problem);
     // of two that fit alike, the simpler one stands first
-    let upwards = other_directions_up(problem.setup).map(|(found, setup)| {
-        let tried = Tried::of(&MachineProblem { setup: &setup, ..*problem });
-        (Diagnostic::from(found), tried)
-    });
-    let upwards: Vec<_> = upwards.collect();
+    let upwards: Vec<(Mistake, Tried)> = other_directions_up(problem.setup)
+        .map(|(up, setup)| (Mistake::Up(up), Tried::of(&MachineProblem { setup: &setup, ..*problem })))
+        .collect();
     if let Some(found) = gravity_for_bias(&as_given, &upwards) {
         return Some(found);
     }
-    let others: Vec<(Diagnostic, Tried)> = match problem.log {
+    let others: Vec<(Mistake, Tried)> = match problem.log {
         ReferenceLog::Joints(_) => reversed(problem.chain?)
             .map(|(found, chain)| (found, Tried::of(&MachineProblem { chain: Some(&chain), ..*problem })))
             .collect(),
         ReferenceLog::Poses(log) => conventions()
             .map(|(found, turned, placed)| {
                 let log = ReferenceLog::Poses(otherwise(log, &turned, &placed));
-                (found, Tried::of(&MachineProblem { log: &log, ..*problem }))
+                (Mistake::Poses(found), Tried::of(&MachineProblem { log: &log, ..*problem }))
             })
             .collect(),
     };
-    let all = upwards.into_iter().chain(others);
-    let (found, least) = all.min_by(|(_, one), (_, other)| one.score.total_cmp(&other.score))?;
-    (least.score < as_given.score - TELLING.ln()).then_some(found)
+    let all: Vec<_> = upwards.into_iter().chain(others).collect();
+    let least = all.iter().map(|(_, tried)| tried.score).fold(f64::INFINITY, f64::min);
+    let alike = all.iter().filter(|(_, tried)| tried.score < least + MARGIN.ln());
+    let found: Vec<&Mistake> = alike.map(|(mistake, _)| mistake).collect();
+    if least < as_given.score - TELLING.ln() { told(&found) } else { None }
+}
+
+/// A mistake that is tried, in words.
+enum Mistake {
+    /// The direction up.
+    Up(String),
+    /// The convention of the poses.
+    Poses(String),
+    /// A joint that is reversed.
+    Joint(String),
+}
+
+/// The mistakes with which recording and log fit alike, as one diagnostic. `None` where they are too many to tell anything.
+fn told(found: &[&Mistake]) -> Option<Diagnostic> {
+    if found.is_empty() || found.len() > MOST_NAMED {
+        return None;
+    }
+    let mut joints =
+        found.iter().filter_map(|of| if let Mistake::Joint(joint) = of { Some(joint) } else { None });
+    if let Some(joint) = joints.next() {
+        return (found.len() == 1).then(|| JointReversed { joint: joint.clone() }.into());
+    }
+    let is_up = |of: &&Mistake| matches!(of, Mistake::Up(_));
+    let words = |between: &str| {
+        let one = |of: &&Mistake| match of {
+            Mistake::Up(up) if !found.iter().all(is_up) => format!("the direction up is \"{up}\""),
+            Mistake::Up(words) | Mistake::Poses(words) | Mistake::Joint(words) => words.clone(),
+        };
+        Phrase(found.iter().map(one).collect::<Vec<_>>().join(between))
+    };
+    Some(match found.iter().all(is_up) {
+        true => UpOtherwise { up: words("\" or \"") }.into(),
+        false => PosesOtherwise { convention: words(", and as well if ") }.into(),
+    })
 }
 
 /// The direction up with which the biases are those of a sensor, where the residuals are the same: the machine does not turn gravity.
-fn gravity_for_bias(as_given: &Tried, upwards: &[(Diagnostic, Tried)]) -> Option<Diagnostic> {
+fn gravity_for_bias(as_given: &Tried, upwards: &[(Mistake, Tried)]) -> Option<Diagnostic> {
     let is_it = |tried: &Tried| !tried.is_biased && (tried.score - as_given.score).abs() < ALIKE.ln();
     let fitting = upwards.iter().filter(|(_, tried)| as_given.is_biased && is_it(tried));
     let (found, _) = fitting.min_by(|(_, one), (_, other)| one.score.total_cmp(&other.score))?;
-    Some(found.clone())
+    told(&[found])
 }
 
 /// What a mistake makes of the fit.
@@ -80,23 +119,23 @@ impl Tried {
 }
 
 /// The chain with each joint in turn the other way.
-fn reversed(chain: &KinematicChain) -> impl Iterator<Item = (Diagnostic, KinematicChain)> + '_ {
+fn reversed(chain: &KinematicChain) -> impl Iterator<Item = (Mistake, KinematicChain)> + '_ {
     chain.joints.iter().enumerate().map(|(j, joint)| {
         let mut chain = chain.clone();
         chain.joints[j].axis = Unit::new_unchecked(-joint.axis.into_inner());
-        (JointReversed { joint: joint.name.clone() }.into(), chain)
+        (Mistake::Joint(joint.name.clone()), chain)
     })
 }
 
 /// The other axes of the world as the direction up.
-fn other_directions_up(setup: &MachineSetup) -> impl Iterator<Item = (UpOtherwise, MachineSetup)> + '_ {
+fn other_directions_up(setup: &MachineSetup) -> impl Iterator<Item = (String, MachineSetup)> + '_ {
     let directions = Axis::ALL.into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]);
     directions.filter_map(|(axis, sign)| {
         let mut up = Vector3::zeros();
         up[axis.index()] = sign;
         let name = format!("{}{axis}", if sign < 0.0 { "-" } else { "" });
         let is_other = up.dot(&setup.up.normalize()) < 0.7;
-        is_other.then(|| (UpOtherwise { up: Phrase(name) }, MachineSetup { up, ..setup.clone() }))
+        is_other.then(|| (name, MachineSetup { up, ..setup.clone() }))
     })
 }
 
@@ -110,7 +149,7 @@ fn otherwise(log: &PoseLog, turned: &Turned, placed: &Placed) -> PoseLog {
 }
 
 /// The usual other conventions of poses.
-fn conventions() -> impl Iterator<Item = (Diagnostic, Turned, Placed)> {
+fn conventions() -> impl Iterator<Item = (String, Turned, Placed)> {
     let of = |values: [f64; 4]| {
         let [w, i, j, k] = values;
         UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k))
@@ -152,5 +191,4 @@ fn conventions() -> impl Iterator<Item = (Diagnostic, Turned, Placed)> {
         all.push((frame + ", and invert the angles", Box::new(move |q| turned(q, 1.0)), placed()));
     }
     all.into_iter()
-        .map(|(words, turned, placed)| (PosesOtherwise { convention: Phrase(words) }.into(), turned, placed))
 }

@@ -19,6 +19,9 @@ const ENOUGH_ROTATIONS: usize = 4;
 /// Number of rotations with errors beyond a right angle that is not by chance.
 const SEVERAL_UPSIDE_DOWN: usize = 2;
 
+/// An order of the axes is found where the rotation error with any other is larger by this factor.
+const MARGIN: f64 = 1.5;
+
 /// Number of gains that the search tries.
 const GAINS_TRIED: usize = 16;
 
@@ -91,8 +94,12 @@ pub(crate) fn find_alignment(
             return Some(fewer_upside_down(&matrix, upside_down).filter(|_| !few).unwrap_or(as_it_is));
         }
         if unit != ReadingUnit::Counts {
-            let (Judged { median_rad, .. }, found) = best(&orders().map(|order| order * matrix))?;
-            if median_rad <= WRONG_RAD {
+            let mut tried: Vec<_> = orders().iter().filter_map(|order| judged(order * matrix)).collect();
+            tried.sort_by(|(one, _), (other, _)| one.median_rad.total_cmp(&other.median_rad));
+            let &(Judged { median_rad, .. }, found) = tried.first()?;
+            // of orders that fit alike none is found
+            let is_alone = tried.get(1).is_none_or(|(second, _)| second.median_rad > MARGIN * median_rad);
+            if median_rad <= WRONG_RAD && is_alone {
                 return Some(Alignment {
                     imu: with(found),
                     median_rad,

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::gyroscope::GyroscopeScaled;
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::estimate::datasheet::common_factor;
+use crate::estimate::datasheet::{FACTOR, common_factor};
 use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, WRONG_RAD};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::model::{ImuModel, State};
@@ -15,6 +15,9 @@ const TRIED: i32 = 59;
 /// Fewest rotations: one of 119 factors fits half of them within [`WRONG_RAD`] by chance once in 400 times.
 const ENOUGH_ROTATIONS: usize = 6;
 
+/// A factor tells something where the rotation error with it is at most this share of that as the readings are.
+const MARGIN: f64 = 0.5;
+
 /// The factor of all readings with which gravity is met best, and the median rotation error with it, rad.
 pub(crate) fn best(rotations: &CoarseRotations) -> Option<(f64, f64)> {
     let judged =
@@ -24,11 +27,13 @@ pub(crate) fn best(rotations: &CoarseRotations) -> Option<(f64, f64)> {
     (-8..=8).filter_map(|k| judged(coarse * 1.005_f64.powi(k))).min_by(least)
 }
 
-/// Refuses rotations with which gravity is met if all readings are divided by one factor.
-pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
+/// Refuses rotations with which gravity is met if all readings are divided by one factor. `as_read_rad`: by what it is missed as they are.
+pub(crate) fn check(model: &ImuModel<'_>, state: &State, as_read_rad: f64) -> Result<()> {
     let rotations = CoarseRotations::of(model, state);
-    let found = best(&rotations)
-        .filter(|(median_rad, _)| *median_rad <= WRONG_RAD && rotations.len() >= ENOUGH_ROTATIONS);
+    let tells = |(median_rad, factor): &(f64, f64)| {
+        *median_rad <= f64::min(WRONG_RAD, MARGIN * as_read_rad) && factor.ln().abs() > FACTOR
+    };
+    let found = best(&rotations).filter(tells).filter(|_| rotations.len() >= ENOUGH_ROTATIONS);
     let Some((_, factor)) = found else { return Ok(()) };
     Err(Error::recording(InputError::new(
         Refusal::GyroscopeScaled,

@@ -19,6 +19,7 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 22] = [
     axis_order::check,
     rotations_left_out::check,
     scatter::of_rotations,
+    scatter::of_worse_rotations,
     rate_dependence::check,
     scatter::at_rest,
     scatter::of_gains,

@@ -10,6 +10,9 @@ use crate::sensor::ReadingUnit;
 /// Holds that scatter by more than this share of gravity are none.
 const MOVING_SHARE: f64 = 0.005;
 
+/// Condition number of the holds from which on the accelerometer's directions say nothing of the gyroscope.
+const UNDETERMINED: f64 = 1e4;
+
 /// Refuses readings that cannot be angular rates in the unit given.
 pub(crate) fn check(
     model: &ImuModel<'_>,
@@ -25,9 +28,17 @@ pub(crate) fn check(
     let message = format!(
         "half of the rotations miss gravity by more than {degrees:.0}°: the gyroscope's readings do not fit the accelerometer's"
     );
+    if holds.condition_number > UNDETERMINED {
+        let message = format!(
+            "{message}, but the holds hardly determine the accelerometer (condition number {:.0}): what is wrong cannot be told",
+            holds.condition_number
+        );
+        let help = "hold the sensor still in at least 12 well-spread orientations, each axis up, down and in between";
+        return Err(Error::recording(InputError::new(Refusal::GravityMissed, message, help)));
+    }
     if unit == ReadingUnit::RadianPerSecond {
         gyroscope_unit::check(model, state, median_rad)?;
-        common_factor::check(model, state)?;
+        common_factor::check(model, state, median_rad)?;
     }
     axes_without_rotation::check(model, state)?;
     let scatter = holds.between_holds_sd_mps2;

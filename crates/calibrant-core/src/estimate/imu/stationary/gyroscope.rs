@@ -1,13 +1,14 @@
 //! The gyroscope in the stationary intervals: its means, its noise, and the holds in which it turns.
 
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::estimate::datasheet::noise_not_as_given;
 use crate::estimate::imu::model::GyroscopeNoise;
 use crate::estimate::imu::problem::{Gyroscope, ImuProblem, NoiseSource, WhiteNoise};
 use crate::estimate::imu::stationary::motion::turning_rates;
 use crate::estimate::imu::stationary::scatter::mean_in_hold;
 use crate::estimate::quantisation::{CoarseAxis, coarse_axes_in};
 use crate::motion::Hold;
-use crate::sensor::{MeanReading, Recording};
+use crate::sensor::{MeanReading, Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -68,17 +69,20 @@ impl StationaryGyroscope {
     }
 }
 
-/// Noise of a gyroscope's sample: from the datasheet, else from a long hold, else the scatter within holds.
+/// Noise of a gyroscope's sample: from the datasheet unless the holds contradict it, else from a long hold, else the scatter within holds.
 fn sample_noise(
     gyroscope: &Gyroscope,
     white_noise: Option<WhiteNoise>,
     readings: &[Option<MeanReading>],
 ) -> (Vector3<f64>, NoiseSource) {
-    match (gyroscope.noise, white_noise) {
+    let scatter = MeanReading::pooled_sd(readings.iter().flatten());
+    let given =
+        gyroscope.noise.filter(|given| noise_not_as_given(SensorKind::Gyroscope, &scatter, given).is_none());
+    match (given, white_noise) {
         (Some(noise), _) => (noise, NoiseSource::Datasheet),
         (None, Some(white)) => {
             (white.sd, NoiseSource::AllanDeviation { hold: white.hold, duration_s: white.duration_s })
         }
-        (None, None) => (MeanReading::pooled_sd(readings.iter().flatten()), NoiseSource::ScatterWithinHolds),
+        (None, None) => (scatter, NoiseSource::ScatterWithinHolds),
     }
 }

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 const DEVIATIONS: f64 = 12.0;
 
 /// Least distance of a turning hold's mean, as a share of the recording's range. A drift of the bias stays below.
-const TURNING_SHARE: f64 = 0.005;
+const TURNING_SHARE: f64 = 0.002;
 
 /// Fewest holds in which an exception can be found.
 const FEWEST: usize = 4;
