@@ -5,19 +5,22 @@ use super::{
     MountingPrior, calibrate_on_machine,
 };
 use crate::chain::{Joint, JointKind, JointLimits, KinematicChain};
+use crate::estimate::fitted;
 use crate::log::{PoseLog, ReferenceLog};
 use crate::reference::Motion;
 use crate::simulate::{
     LogErrors, MotionToDraw, SensorErrors, SensorSampling, draw_body_motion, draw_joint_motion, draw_machine,
     record_log, record_sensors,
 };
+use crate::spline::{Degree, UniformKnots};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
 use calibrant_core::sensor::{
-    ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, SensorKind, SensorModel,
+    ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, SensorKind, SensorModel,
 };
 use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use std::f64::consts::TAU;
 
 /// An IMU on something that moves, and the log of that.
 pub(super) struct Simulated {
@@ -38,9 +41,22 @@ impl Simulated {
             Some(chain) => draw_joint_motion(chain, &wanted, &mut rng),
             None => draw_body_motion(&wanted, &mut rng),
         };
+        Self::moved(&motion, chain, setup, errors, None)
+    }
+
+    /// In this motion, with a delay that is drawn or given.
+    fn moved(
+        motion: &Motion,
+        chain: Option<KinematicChain>,
+        setup: MachineSetup,
+        errors: &LogErrors,
+        delay_s: Option<f64>,
+    ) -> Self {
+        let mut rng = stream(4, Purpose::Motion, 0);
         let joints = chain.as_ref().map_or(0, |chain| chain.joints.len());
         let imu = ImuParameters::identity();
-        let truth = draw_machine(&setup, imu, &SensorKind::ALL, joints, &mut rng).parameters;
+        let mut truth = draw_machine(&setup, imu, &SensorKind::ALL, joints, &mut rng).parameters;
+        truth.delays_s = delay_s.map_or(truth.delays_s, |delay_s| [delay_s; 2]);
         let sampling = SensorSampling { start_s: 0.2, samples: 1960, rate_hz: 100.0 };
         let sensors = [
             (SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.02),
@@ -53,10 +69,30 @@ impl Simulated {
             vibration: 0.0,
         });
         let recording =
-            record_sensors(&motion, &truth, &setup, &sampling, &sensors, &mut rng).expect("recorded");
-        let log = record_log(&motion, errors, &mut rng);
+            record_sensors(motion, &truth, &setup, &sampling, &sensors, &mut rng).expect("recorded");
+        let log = record_log(motion, errors, &mut rng);
         assert_eq!(matches!(motion, Motion::Joints(_)), chain.is_some());
         Self { setup, model: SensorModel::Full, chain, truth, recording, log }
+    }
+
+    /// All times since 1970.
+    fn since_1970(mut self) -> Self {
+        let later = |times: &[f64]| times.iter().map(|time_s| time_s + 1.7e9).collect::<Vec<_>>();
+        let moved = |of: &Recording| {
+            let (times_s, readings) = (later(of.times_s()), of.readings().to_vec());
+            Recording::new(times_s, readings, 3, of.unit()).expect("in order")
+        };
+        let ImuRecording { accelerometer, gyroscope, .. } = &self.recording;
+        self.recording = ImuRecording {
+            accelerometer: accelerometer.as_ref().map(moved),
+            gyroscope: gyroscope.as_ref().map(moved),
+            temperature_c: None,
+        };
+        match &mut self.log {
+            ReferenceLog::Joints(log) => log.times_s = later(&log.times_s),
+            ReferenceLog::Poses(log) => log.times_s = later(&log.times_s),
+        }
+        self
     }
 
     fn in_a_hand() -> Self {
@@ -101,6 +137,52 @@ impl Simulated {
             ReferenceLog::Poses(log) => log,
             ReferenceLog::Joints(_) => panic!("of joints"),
         }
+    }
+}
+
+/// A body that is shaken evenly at 5 Hz while it turns slowly.
+fn shaken() -> Motion {
+    let shake = |t: f64, phase: f64| {
+        (1.0 + 0.35 * (0.31 * (1.0 + 0.2 * phase) * t + phase).sin()) * (TAU * 5.0 * t + phase).sin()
+    };
+    let turn = |t: f64| {
+        let slow = Vector3::new(1.2 * (0.5 * t).sin(), 1.5 * (0.37 * t + 1.0).sin(), (0.23 * t).sin());
+        slow + Vector3::new(0.3 * shake(t, 0.0), 0.2 * shake(t, 1.1), 0.25 * shake(t, 2.3))
+    };
+    let place = |t: f64| Vector3::new(0.05 * shake(t, 0.3), 0.04 * shake(t, 2.0), 0.03 * shake(t, 4.0));
+    let times_s: Vec<f64> = (0..=4000).map(|k| 0.005 * f64::from(k)).collect();
+    let log = PoseLog {
+        positions_m: times_s.iter().map(|t| Some(place(*t))).collect(),
+        world_from_body: times_s.iter().map(|t| Some(UnitQuaternion::from_scaled_axis(turn(*t)))).collect(),
+        times_s,
+    };
+    let knots = UniformKnots::covering(0.0, 20.0, 0.02, Degree::Quintic);
+    fitted(&ReferenceLog::Poses(log), None, knots).expect("seen").motion
+}
+
+/// A spline whose knots are too far apart to follow the shaking correlates best one period of it later.
+#[test]
+fn of_delays_that_correlate_alike_the_one_that_fits_is_taken() {
+    let setup =
+        MachineSetup { lever_sd_m: 0.05, mounting: MountingPrior::Unknown, ..MachineSetup::default() };
+    let errors = LogErrors { rate_hz: 120.0, noise: [[3e-4; 3], [5e-4; 3]].concat(), resolution: 0.0 };
+    let simulated = Simulated::moved(&shaken(), None, setup, &errors, Some(-0.05));
+    let calibration = simulated.calibrated().expect("determined");
+    assert_eq!(calibration.status, CalibrationStatus::Converged);
+    let delay = MachineQuantity::Delay(SensorKind::Gyroscope);
+    let (delay_s, _) = calibration.estimate(delay).expect("estimated");
+    assert!((delay_s + 0.05).abs() < 1e-3, "{delay_s}");
+}
+
+#[test]
+fn times_since_1970_change_nothing() {
+    let errors = LogErrors { rate_hz: 100.0, noise: vec![2e-5; 3], resolution: 0.0 };
+    let simulated = || Simulated::new(Some(wrist()), MachineSetup::default(), &errors);
+    let [one, two] = [simulated(), simulated().since_1970()].map(|of| of.calibrated().expect("determined"));
+    assert_eq!(two.status, CalibrationStatus::Converged);
+    for ((one, two), sd) in one.values.iter().zip(&two.values).zip(one.sd()) {
+        // the times themselves are rounded to 0.24 µs
+        assert!((one - two).abs() < 0.02 * sd, "{one} {two} {sd}");
     }
 }
 
