@@ -8,7 +8,7 @@ use crate::estimate::imu::checks::{
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 22] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 23] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,

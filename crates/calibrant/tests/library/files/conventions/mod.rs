@@ -71,6 +71,7 @@ pub(crate) fn file(imu: CalibratedImu) -> CalibratedImuFile {
         imu,
         noise: None,
         inputs: vec![input],
+        station: None,
         format: ImuFormat::CalibrantJson,
         findings: Vec::new(),
     }
