@@ -23,6 +23,8 @@ const SAMPLES: usize = 2400;
 fn calibrated(tilt: f64, soft_hz: Option<f64>) -> MachineCalibration {
     let gravity = Vector3::new(0.0, 0.0, 9.806_65);
     let lever = Vector3::new(0.02, 0.01, 0.03);
+    // a drone that hardly tilts hardly rises and falls
+    let height = if tilt < 0.5 { 0.2 } else { 1.0 };
     let wave = |t: f64, f: f64, phase: f64| (TAU * f * t + phase).sin();
     let body = |t: f64| {
         let roll = tilt * (0.6 * wave(t, 0.23, 0.3) + 0.4 * wave(t, 0.71, 2.0));
@@ -31,7 +33,7 @@ fn calibrated(tilt: f64, soft_hz: Option<f64>) -> MachineCalibration {
         let position = Vector3::new(
             0.2 * wave(t, 0.4, 0.5) + 0.04 * wave(t, 1.1, 0.0),
             0.2 * wave(t, 0.47, 1.5) + 0.04 * wave(t, 1.23, 2.0),
-            0.15 * wave(t, 0.37, 2.5) + 0.03 * wave(t, 1.37, 1.0),
+            height * (0.15 * wave(t, 0.37, 2.5) + 0.03 * wave(t, 1.37, 1.0)),
         );
         (Rotation3::from_euler_angles(roll, pitch, yaw), position)
     };
