@@ -242,7 +242,7 @@ fn what_is_no_record_is_refused() {
     let mut bytes = std::fs::read(bench.path("r.db")).expect("there");
     bytes[60..64].copy_from_slice(&9_u32.to_be_bytes());
     bench.write("newer.db", bytes);
-    let says = "newer.db: these records have version 9 of the schema, and this calibrant reads version 3";
+    let says = "newer.db: these records have version 9 of the schema, and this calibrant reads version 4";
     bench.refuses("records list newer.db", 2, &[says, "use the calibrant that wrote them"]);
     bench.refuses(
         &of_date("2026-05-01").replace("r.db", "newer.db").replace("-o 2026-05-01", "-o a"),

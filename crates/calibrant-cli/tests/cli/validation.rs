@@ -226,8 +226,9 @@ fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
     for (kind, unit) in [("magnitude", "m/s²"), ("rate", "rad/s"), ("rotation", "rad")] {
         let errors = &found[kind];
         assert_eq!(errors["unit"], unit, "{found}");
-        // five rotations are few
-        let is_fine = ["believed", "too_few"].iter().any(|verdict| errors["verdict"] == *verdict);
+        // five rotations are few; what the angles of a box add is the same in both sessions
+        let is_fine =
+            ["believed", "too_few", "larger_than_needed"].iter().any(|verdict| errors["verdict"] == *verdict);
         assert!(is_fine, "{errors}");
         assert!(errors["counted"].as_u64().is_some_and(|counted| counted > 3), "{errors}");
     }

@@ -37,8 +37,7 @@ checks! {
         /// Their share of all.
         share: f64,
     }
-    decided "One row in a hundred is the same as the one before it, between changes of three steps of the values or more. \
-        More than eight rows are a rest, unless most of such runs end with a jump of three times the changes beside it."
+    decided "One row in a hundred is the same as the one before it, between changes of three steps of the values or more."
     remedy "Log each sample once, with its own time."
     says format!(
         "{} of the log ({:.0} %) repeat the one before while the machine moves: the log holds its last values. They are \

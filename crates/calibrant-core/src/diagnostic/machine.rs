@@ -47,8 +47,7 @@ checks! {
         factor: f64,
     }
     decided "Correlation of the residuals widens the standard deviation of a parameter of the sensor by more than a factor \
-        of three: the reference's errors are ten times as much as noise would be. A factor of seven where residuals that follow the motion, \
-        as with `mount-gives-way`, are excluded."
+        of three: the reference's errors are ten times as much as noise would be."
     remedy "Look at the spectrum of the residuals in the report. Model what moves, or improve the reference."
     says format!(
         "most of the uncertainty of {parameter} is from errors of the reference that are no noise: its standard deviation \

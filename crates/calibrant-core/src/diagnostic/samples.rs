@@ -2,9 +2,8 @@
 
 use super::check::checks;
 use super::parts::Phrase;
-use super::value::Diagnostic;
 use crate::number_format::{counted, significant, without_trailing_zeros};
-use crate::sensor::{Axis, ReadingUnit, Repeats, SensorKind, Thermal};
+use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
 
 checks! {
     /// Spikes were replaced, or invalid samples were removed.
@@ -268,30 +267,6 @@ impl Spikes {
             time_s: found.time_s,
             deviations: found.deviations,
         }
-    }
-}
-
-impl ReadingsStuck {
-    /// What readings that repeat say of a sensor.
-    #[must_use]
-    pub fn of(found: &Repeats, sensor_kind: SensorKind) -> Vec<Diagnostic> {
-        /// Share of the samples from which on the recording is in doubt.
-        const DOUBTED: f64 = 0.01;
-        let polled = found.each.map(|times_each| {
-            Diagnostic::from(ReadingsPolled { sensor_kind, times_each, rate_hz: found.rate_hz })
-        });
-        let stuck = found.stuck.iter().map(|stuck| {
-            let (axis, runs, samples) = (stuck.axis, stuck.runs, stuck.samples);
-            let share = samples as f64 / found.of_samples as f64;
-            let (start_s, end_s) = (stuck.start_s, stuck.end_s);
-            match share > DOUBTED {
-                true => Self { sensor_kind, axis, samples, share, runs, start_s, end_s }.into(),
-                false => {
-                    ReadingsStuckBriefly { sensor_kind, axis, samples, share, runs, start_s, end_s }.into()
-                }
-            }
-        });
-        polled.into_iter().chain(stuck).collect()
     }
 }
 

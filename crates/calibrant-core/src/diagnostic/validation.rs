@@ -55,10 +55,10 @@ checks! {
     }
     decided "Without each block of time the parameters of every sensor move as far as predicted, no other recording is given, and warnings of the \
         residuals stay."
-    remedy "Record again at another speed, and give that recording with --validate."
+    remedy "Record again at another speed, and validate with that recording."
     says format!(
         "the folds agree ({} times the predicted movement); a bias that all share is not seen. So {} stay. Record again at another \
-         speed, and give that recording with --validate.",
+         speed, and validate with that recording.",
         significant(*factor, 2),
         codes.join(", ")
     );

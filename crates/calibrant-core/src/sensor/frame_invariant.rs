@@ -263,6 +263,22 @@ fn angle_gradient(u: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
     if length > 0.0 { -unit_or_zero(&across) / length } else { Vector3::zeros() }
 }
 
+impl CalibratedImu {
+    /// What one standard deviation of each shared source does to an invariant; empty without shared errors.
+    #[must_use]
+    pub fn shared_errors_of(&self, invariant: Invariant) -> Vec<f64> {
+        let Some(shared) = &self.shared else { return Vec::new() };
+        let (_, gradient) = invariant.with_gradient(&self.parameters);
+        let slope = |quantity: &ImuQuantity| gradient.dot(&entry_vector::of_quantity(*quantity));
+        let slopes: Vec<f64> = self.quantities.iter().map(slope).collect();
+        shared
+            .root
+            .column_iter()
+            .map(|column| column.iter().zip(&slopes).map(|(u, by)| u * by).sum())
+            .collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

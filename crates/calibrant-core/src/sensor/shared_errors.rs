@@ -3,8 +3,6 @@
 //! The error of the quantities is `U e + r`: `e` has a standard normal component for each source and belongs to the place, `r` to the recording. So
 //! `Σ = U Uᵀ + cov r`, and the covariance of the errors of two calibrations at one place is `U_A U_Bᵀ`, over the sources that are the same.
 
-use super::entry_vector;
-use super::{CalibratedImu, ImuQuantity, Invariant};
 use crate::form::rows;
 use crate::json_object;
 use nalgebra::DMatrix;
@@ -42,21 +40,5 @@ impl SharedErrors {
     /// The rows of these quantities alone.
     pub(super) fn restricted(&self, kept: &[usize]) -> Self {
         Self { sources: self.sources.clone(), root: self.root.select_rows(kept) }
-    }
-}
-
-impl CalibratedImu {
-    /// What one standard deviation of each shared source does to an invariant; empty without shared errors.
-    #[must_use]
-    pub fn shared_errors_of(&self, invariant: Invariant) -> Vec<f64> {
-        let Some(shared) = &self.shared else { return Vec::new() };
-        let (_, gradient) = invariant.with_gradient(&self.parameters);
-        let slope = |quantity: &ImuQuantity| gradient.dot(&entry_vector::of_quantity(*quantity));
-        let slopes: Vec<f64> = self.quantities.iter().map(slope).collect();
-        shared
-            .root
-            .column_iter()
-            .map(|column| column.iter().zip(&slopes).map(|(u, by)| u * by).sum())
-            .collect()
     }
 }

@@ -207,8 +207,10 @@ fn check_sd(imu: &CalibratedImu, stated: &[Option<f64>]) -> Checked<()> {
         if sd < 0.0 {
             return Err(invalid(format!("the sd of {name} is negative"), "correct it"));
         }
-        let Some(variance) = imu.covariance.as_ref().map(|sigma| sigma[(i, i)]) else { continue };
-        let root = variance.max(0.0).sqrt();
+        // a variance that is none is refused with the covariance
+        let variance = imu.covariance.as_ref().map(|sigma| sigma[(i, i)]);
+        let Some(variance) = variance.filter(|variance| *variance > 0.0) else { continue };
+        let root = variance.sqrt();
         if (sd - root).abs() > AS_WRITTEN * root {
             let message = format!(
                 "the sd of {name} is {sd} in `parameters`, and its variance in `covariance` gives {root}: \

@@ -5,12 +5,12 @@ use super::sampling::Sampling;
 use crate::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
 use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldsUndetermined};
-use calibrant_core::diagnostic::samples::{ReadingsStuck, Spikes as SpikesFound};
+use calibrant_core::diagnostic::samples::Spikes as SpikesFound;
 use calibrant_core::diagnostic::{Diagnostic, HoldReason, HoldSpan, Phrase};
 use calibrant_core::error::{Error, Result};
 use calibrant_core::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
-    find_clean_imu_holds, holds_lost_to_filter, swapped_sensors,
+    find_clean_imu_holds, holds_lost_to_filter, repeated_readings, swapped_sensors,
 };
 use calibrant_core::form::As;
 use calibrant_core::json::{flat, if_any, if_some};
@@ -103,7 +103,7 @@ pub fn inspect(file: &ImuFile) -> Inspection {
     let mut findings: Vec<Diagnostic> = file.all_findings().cloned().collect();
     let distinct = recording.without_repeats();
     let repeats = distinct.iter().flat_map(|(_, found)| found);
-    findings.extend(repeats.flat_map(|(sensor_kind, repeats)| ReadingsStuck::of(repeats, *sensor_kind)));
+    findings.extend(repeats.flat_map(|(sensor_kind, repeats)| repeated_readings(repeats, *sensor_kind)));
     let recording = distinct.as_ref().map_or(recording, |(distinct, _)| distinct);
     let (clean, spikes) = recording.without_spikes();
     findings.extend(spikes.iter().filter_map(|(sensor_kind, spikes)| {

@@ -16,6 +16,8 @@ const LONG: usize = 50;
 const MEETING: usize = 16;
 /// A longer step between two long runs, in usual steps, is a gap.
 const GAP: f64 = 5.0;
+/// So few rows may stray, and a clock begins anew so often at most.
+const FEW: usize = 3;
 /// So many sorted steps take this share of as many usual ones at least: where a clock was set back, its rows stand twice as close.
 const CLOSE: (usize, f64) = (8, 0.75);
 
@@ -51,13 +53,27 @@ pub(crate) fn is_clock_out_of_order(times: &[f64]) -> bool {
     let (close, share) = CLOSE;
     let is_close = |pair: &[usize]| times[pair[close]] - times[pair[0]] < share * close as f64 * usual;
     usual > 0.0
+        && !strays(times, &rows)
         && OTHER * others <= steps.len()
         && !rows.windows(close + 1).any(is_close)
         && runs_stand_apart(times, &rows, GAP * usual)
 }
 
+/// Are all rows in order but a few, which belong far away? Their times are wrong.
+fn strays(times: &[f64], sorted: &[usize]) -> bool {
+    let early = late(times.iter().rev().map(|time| -time));
+    let farthest = sorted.iter().enumerate().map(|(place, row)| place.abs_diff(*row)).max();
+    late(times.iter().copied()).min(early) <= FEW && farthest.is_some_and(|rows| rows > LONG)
+}
+
 /// Do the long runs of rows in order stand one behind the other?
 fn runs_stand_apart(times: &[f64], sorted: &[usize], gap: f64) -> bool {
+    let back = |rows: &[usize]| times[rows[1]] - times[rows[0]] > gap && rows[1] < rows[0];
+    let restarts = times.array_windows().filter(|[one, next]| next < one).count();
+    // a clock that began anew: what came later stands before a gap
+    if restarts <= FEW && sorted.windows(2).any(back) {
+        return false;
+    }
     // the run of each row; `None` in a short one
     let mut run_of: Vec<Option<usize>> = vec![None; times.len()];
     let (mut start, mut long) = (0, 0);
@@ -125,6 +141,9 @@ mod tests {
             ("a pause between, the later one first", [&after(60.0)[1000..], &even].concat()),
             ("every second row, then the others", halves.into_iter().flatten().collect()),
             ("set back", set_back),
+            ("begun anew", even[970..].iter().chain(&even[..900]).copied().collect()),
+            ("a row astray", [&even[..500], &[even[0]], &even[500..]].concat()),
+            ("a row of another time", [&even[..500], &[1e13], &even[500..]].concat()),
             ("no clock", temperature),
         ] {
             assert!(!is_clock_out_of_order(&times), "{what}");

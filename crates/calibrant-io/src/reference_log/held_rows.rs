@@ -5,10 +5,8 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::log::RowsHeld;
 use calibrant_machine::log::{ReferenceLog, step_of};
 
-/// Rows in a row at most: more is a rest, unless most of such runs end with a jump, as where a tracker repeats the last pose of a body that is hidden.
+/// Rows in a row at most: more is a rest.
 const LONGEST: usize = 8;
-/// A jump is this many times the changes beside it.
-const JUMP: f64 = 3.0;
 /// A motion changes a value from row to row by this number of its steps at least: less may round to none.
 const STEPS: f64 = 3.0;
 /// Share of the rows from which on it is no chance.
@@ -70,26 +68,15 @@ fn held(rows: &[Vec<f64>]) -> Vec<bool> {
     };
     let changes: Vec<f64> = rows.windows(2).map(change).collect();
     let mut held = vec![false; rows.len()];
-    // runs that are as long as a rest, and how many of them end with a jump
-    let (mut long, mut jumps) = (Vec::new(), 0);
     let mut start = 0;
     while start < changes.len() {
         let end = (start..changes.len()).find(|k| changes[*k] > 0.0).unwrap_or(changes.len());
         let is_between = start > 0 && end < changes.len() && changes[start - 1].min(changes[end]) >= STEPS;
         let is_whole = rows[start].iter().all(|value| value.is_finite());
-        if end > start && is_between && is_whole {
-            if end - start <= LONGEST {
-                held[start + 1..=end].fill(true);
-            } else {
-                let beside = changes[start - 1].max(changes.get(end + 1).copied().unwrap_or(0.0));
-                jumps += usize::from(changes[end] > JUMP * beside);
-                long.push(start + 1..=end);
-            }
+        if end > start && end - start <= LONGEST && is_between && is_whole {
+            held[start + 1..=end].fill(true);
         }
         start = end + 1;
-    }
-    if 2 * jumps > long.len() {
-        long.into_iter().for_each(|run| held[run].fill(true));
     }
     held
 }
@@ -119,27 +106,5 @@ mod tests {
         for step in [1e-9, 1e-3, 1e-2] {
             assert_eq!(rows(1, step), (600, 0), "{step}");
         }
-    }
-
-    #[test]
-    fn the_last_pose_of_a_hidden_body_is_left_out_and_the_rests_of_a_robot_are_kept() {
-        // hidden for 15 of 60 rows; or at rest for 15 of 60 rows, with a smooth beginning and end
-        let hidden = |k: i32| f64::from(if k % 60 < 15 { k / 60 * 60 - 1 } else { k }) * 0.02;
-        let resting = |k: i32| {
-            let (u, before) = (f64::from((k % 60 - 15).max(0)) / 45.0, f64::from(k / 60));
-            before + u * u * (3.0 - 2.0 * u)
-        };
-        let log = |at: &dyn Fn(i32) -> f64| {
-            let row = |k: i32| format!("{},1,0,0,0,{:.9},0,0\n", f64::from(k) / 100.0, at(k).sin());
-            let text = "t_s,qw,qx,qy,qz,px_m,py_m,pz_m\n".to_owned() + &(0..600).map(row).collect::<String>();
-            parse_reference_log(text.as_bytes(), &ReferenceLogOptions::default())
-                .expect("a log")
-                .log
-                .times_s()
-                .len()
-        };
-        // the first rows are behind no change
-        assert_eq!(log(&hidden), 600 - 9 * 15);
-        assert_eq!(log(&resting), 600);
     }
 }

@@ -7,8 +7,8 @@ mod read;
 pub use options::NoiseOptions;
 pub use read::read_for_noise;
 
-use calibrant_core::diagnostic::samples::ReadingsStuck;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::repeated_readings;
 use calibrant_core::noise::{Moments, Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use std::borrow::Cow;
@@ -75,7 +75,7 @@ pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAt
             found = found.with_gain(recording, gain)?;
         }
         let repeats = repeats.iter().filter(|(of, _)| *of == sensor_kind);
-        found.warnings.extend(repeats.flat_map(|(of, repeats)| ReadingsStuck::of(repeats, *of)));
+        found.warnings.extend(repeats.flat_map(|(of, repeats)| repeated_readings(repeats, *of)));
         let moving = options.hold_s.and_then(|_| holds::moves(&holds, &found.segment));
         if let Some(moving) = moving {
             found.caveat = Some(moving.clone());

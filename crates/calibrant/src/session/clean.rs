@@ -1,6 +1,7 @@
 //! Outliers are taken out of a recording once, for all stages that follow.
 
 use calibrant_core::diagnostic::{Check, Diagnostic, samples};
+use calibrant_core::estimate::repeated_readings;
 use calibrant_core::estimate::{CalibrationProblem, Stimulus, without_motion_outliers};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::{ImuRecording, Sensor, SensorKind, Spikes};
@@ -10,10 +11,7 @@ use std::borrow::Cow;
 pub(crate) fn take_out_repeats(recording: &mut ImuRecording) -> Vec<Diagnostic> {
     let Some((clean, found)) = recording.without_repeats() else { return Vec::new() };
     *recording = clean;
-    found
-        .iter()
-        .flat_map(|(sensor_kind, repeats)| samples::ReadingsStuck::of(repeats, *sensor_kind))
-        .collect()
+    found.iter().flat_map(|(sensor_kind, repeats)| repeated_readings(repeats, *sensor_kind)).collect()
 }
 
 /// Takes spikes and invalid readings out of a recording. Gives a diagnostic for each sensor that has some.

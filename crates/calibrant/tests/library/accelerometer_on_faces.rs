@@ -100,8 +100,8 @@ fn intervals_of_twelve_parameters_cover_the_truth() {
                 println!("{line}");
                 // of 1200 at least, 0.6 % is a standard deviation. The scatter of few faces is uncertain, and where tilts decide, what the
                 // magnitudes tell has too wide intervals (`known_faces`)
-                // and what opposite directions may share is in the cross-axis terms, and is not drawn here
-                let most = if *kind == "cross" { 1.0 } else { 0.998 };
+                // and what opposite directions may share is in the matrix, and is not drawn here
+                let most = if *kind == "bias" { 0.998 } else { 1.0 };
                 if !(0.93..=most).contains(&covered) {
                     off.push(line);
                 }

@@ -276,6 +276,8 @@ fn table(number: u64, simulation: &ImuSimulation) -> (ImuParameters, ImuRecordin
     }
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(faces);
+    // as the faces of the simulation
+    setup.face_sd_rad = Some(1e-6);
     let mut rng = stream(94, Purpose::Sensor, number);
     let truth = ImuParameters { g_sensitivity: Matrix3::zeros(), ..draw_imu(&mut rng) };
     let recording = simulate_table(&truth, &steps, simulation, &mut rng);

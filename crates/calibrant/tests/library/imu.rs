@@ -131,7 +131,7 @@ fn a_ferraris_session_agrees_with_imucal() {
     }
     // face alignment by hand: between a tenth of a degree and two
     assert!((0.1..2.0).contains(&tilt.sd_rad.to_degrees()), "{tilt:?}");
-    let cross = tilt.sd_rad * (6.0 / 4.0 / 2.0_f64).sqrt();
+    let cross = (tilt.sd_rad * (6.0 / 4.0 / 2.0_f64).sqrt()).hypot(tilt.shared_sd_rad);
     assert!(
         (sd("accelerometer.matrix.xy") / cross - 1.0).abs() < 0.05,
         "the tilt of the faces is in the covariance"

@@ -34,7 +34,7 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibrat
 /// Six faces, and a turn there and back about each axis.
 fn table() -> (Vec<TableStep>, ImuSetup) {
     let mut steps = Vec::new();
-    let mut setup = ImuSetup { directions: Some(Vec::new()), ..steady_imu() };
+    let mut setup = ImuSetup { directions: Some(Vec::new()), face_sd_rad: Some(1e-6), ..steady_imu() };
     let mut intervals = Vec::new();
     for axis in 0..3 {
         let (up, from_s) = (Vector3::ith(axis, 1.0), 26.0 * axis as f64);

@@ -40,6 +40,7 @@ mod solver;
 mod stationary;
 mod temperature;
 mod temperature_rate;
+mod thermometer;
 mod thermometer_lag;
 mod variance_components;
 mod white_noise_search;
@@ -56,5 +57,5 @@ pub use result::{GyroscopeCalibration, GyroscopeInHolds, RotationResult, TurnRes
 pub(super) use rotations::gravity_at_ends::TurnsInHolds;
 pub use stationary::intervals::{find_clean_imu_holds, find_imu_holds};
 pub(super) use temperature::{at_sensor, needed_temperatures};
-pub use thermometer_lag::ThermometerLag;
+pub use thermometer::ThermometerLag;
 pub use white_noise_search::WhiteNoiseSearch;

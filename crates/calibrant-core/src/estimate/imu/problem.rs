@@ -3,7 +3,7 @@
 use crate::diagnostic::TurnSpan;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
-use crate::estimate::imu::thermometer_lag::ThermometerLag;
+use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::problem::FacesProblem;
 use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{

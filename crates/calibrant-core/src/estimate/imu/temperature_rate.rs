@@ -100,7 +100,8 @@ mod tests {
 
     #[test]
     fn rates_are_those_of_the_temperature_whether_it_is_fine_or_in_steps() {
-        assert!(worst(|t| t) < 1e-3, "{}", worst(|t| t));
+        // before the first mean, half a second from the begin, the rate stays: 0.5 · 20/90² K/s; and a parabola is no exponential
+        assert!(worst(|t| t) < 2e-3, "{}", worst(|t| t));
         // of 0.22 K/s at the begin
         assert!(worst(f64::round) < 0.05, "{}", worst(f64::round));
         assert_eq!(temperature_rates(&[0.0, 1.0], &[20.0, 20.0]), [0.0, 0.0]);

@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::estimate::imu::model::{Fit, ImuModel, singular};
 use crate::estimate::imu::problem::Turn;
 use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use nalgebra::DVector;
@@ -22,22 +23,6 @@ const PLAUSIBLE: f64 = 2.0;
 
 /// Step of the differences, s.
 const STEP_S: f64 = 5.0;
-
-/// By how much the thermometer lags the sensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ThermometerLag {
-    /// `t_l`, s.
-    pub lag_s: f64,
-    /// Its standard deviation, s; 0 for none.
-    pub sd_s: f64,
-}
-
-/// What is supposed of a thermometer: it is the chip's own (no lag), or another one on the board, which lags by 10 to 40 s.
-impl Default for ThermometerLag {
-    fn default() -> Self {
-        Self { lag_s: 0.0, sd_s: 20.0 }
-    }
-}
 
 /// What a lag does to the estimates.
 #[derive(Debug, Clone)]

@@ -51,8 +51,9 @@ pub(crate) fn suspect(problem: &MachineProblem<'_>) -> Option<Diagnostic> {
     };
     let all: Vec<_> = upwards.into_iter().chain(others).collect();
     let least = all.iter().map(|(_, tried)| tried.score).fold(f64::INFINITY, f64::min);
-    let alike = all.iter().filter(|(_, tried)| tried.score < least + MARGIN.ln());
-    let found: Vec<&Mistake> = alike.map(|(mistake, _)| mistake).collect();
+    let mut alike: Vec<_> = all.iter().filter(|(_, tried)| tried.score < least + MARGIN.ln()).collect();
+    alike.sort_by(|(_, one), (_, other)| one.score.total_cmp(&other.score));
+    let found: Vec<&Mistake> = alike.into_iter().map(|(mistake, _)| mistake).collect();
     if least < as_given.score - TELLING.ln() { told(&found) } else { None }
 }
 
@@ -66,15 +67,14 @@ enum Mistake {
     Joint(String),
 }
 
-/// The mistakes with which recording and log fit alike, as one diagnostic. `None` where they are too many to tell anything.
+/// The mistakes with which recording and log fit alike, the best first, as one diagnostic. `None` where they are too many to tell anything.
 fn told(found: &[&Mistake]) -> Option<Diagnostic> {
+    // joints turn about axes of their own: the best is the one
+    if let Some(Mistake::Joint(joint)) = found.first() {
+        return Some(JointReversed { joint: joint.clone() }.into());
+    }
     if found.is_empty() || found.len() > MOST_NAMED {
         return None;
-    }
-    let mut joints =
-        found.iter().filter_map(|of| if let Mistake::Joint(joint) = of { Some(joint) } else { None });
-    if let Some(joint) = joints.next() {
-        return (found.len() == 1).then(|| JointReversed { joint: joint.clone() }.into());
     }
     let is_up = |of: &&Mistake| matches!(of, Mistake::Up(_));
     let words = |between: &str| {

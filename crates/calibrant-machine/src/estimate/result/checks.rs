@@ -1,6 +1,5 @@
 //! What a user should know of a result on a machine.
 
-use super::flexure::Flexure;
 use super::{plausible, separability};
 use crate::estimate::problem::{Layout, place};
 use crate::estimate::{
@@ -31,8 +30,6 @@ const LARGE: f64 = 2.0;
 pub(crate) const REFUSED: f64 = 10.0;
 /// From this factor on, nine tenths of a variance are of errors that the model does not have.
 const UNDERMODELLED: f64 = 3.0;
-/// The same where a mount that gives way is excluded: such errors come and go, as a tracker's do, and blocks of time tell them.
-const UNDERMODELLED_ON_RIGID: f64 = 7.0;
 /// A drift of this p-value is no chance.
 const NO_CHANCE: f64 = 1e-4;
 /// Usual drifts of a gyroscope's bias, rad/s, and of gains, over a recording: 0.005 °/s and 0.01 % per kelvin (MEMS), ten kelvin.
@@ -50,15 +47,15 @@ pub(crate) fn all(
     setup: &MachineSetup,
     layout: &Layout,
     calibration: &MachineCalibration,
-    flexure: Flexure,
+    flexure: Option<Diagnostic>,
 ) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
         found.push(NotConverged { status: calibration.status.name() }.into());
     }
     found.extend(residuals(calibration));
-    found.extend(correlated(calibration, flexure.is_excluded));
-    found.extend(flexure.found);
+    found.extend(correlated(calibration));
+    found.extend(flexure);
     found.extend(calibration.noise.iter().flat_map(|of| {
         let matrix = &calibration.parameters.imu.sensor(of.sensor).matrix;
         let unit = calibration.units[place(of.sensor)].unwrap_or(of.sensor.stimulus_unit());
@@ -159,15 +156,14 @@ fn drifts(of: &SensorResidual, calibration: &MachineCalibration, is_doubtful: bo
 }
 
 /// The parameter of the sensor whose standard deviation correlation widens most.
-fn correlated(calibration: &MachineCalibration, is_rigid: bool) -> Option<Diagnostic> {
-    let undermodelled = if is_rigid { UNDERMODELLED_ON_RIGID } else { UNDERMODELLED };
+fn correlated(calibration: &MachineCalibration) -> Option<Diagnostic> {
     let of_sensor = |k: &usize| matches!(calibration.quantities[*k], MachineQuantity::Imu(_));
     let widest = (0..calibration.inflation.len())
         .filter(of_sensor)
         .max_by(|one, other| calibration.inflation[*one].total_cmp(&calibration.inflation[*other]))?;
     let (factor, parameter) = (calibration.inflation[widest], calibration.names().swap_remove(widest));
     match factor > 1.0 {
-        true if factor > undermodelled => Some(ReferenceUndermodelled { parameter, factor }.into()),
+        true if factor > UNDERMODELLED => Some(ReferenceUndermodelled { parameter, factor }.into()),
         true => Some(ResidualsCorrelated { parameter, factor }.into()),
         false => None,
     }

@@ -29,53 +29,40 @@ const BLOCKS: usize = 60;
 const SHORTEST_S: f64 = 0.5;
 /// Residuals of this probability are no chance.
 const NO_CHANCE: f64 = 1e-4;
-/// Above this probability nothing points to a mount.
-const UNSUSPICIOUS: f64 = 0.01;
-/// Terms that could hide no movement beyond this many standard deviations are told.
-const HIDDEN: f64 = 2.0;
 /// What moves no parameter by more than this many of its standard deviations is covered by them.
 const COVERED: f64 = 1.0;
 
-/// What the terms say.
-#[derive(Default)]
-pub(crate) struct Flexure {
-    /// What the residuals follow, the most certain alone.
-    pub(crate) found: Option<Diagnostic>,
-    /// Are the terms told, 0, and so well that none could hide an error beyond the stated standard deviations?
-    pub(crate) is_excluded: bool,
-}
-
-/// Tries the terms.
-pub(crate) fn find(model: &Model<'_>, minimum: &Minimum, calibration: &MachineCalibration) -> Flexure {
+/// What the residuals follow, the most certain alone.
+pub(crate) fn find(
+    model: &Model<'_>,
+    minimum: &Minimum,
+    calibration: &MachineCalibration,
+) -> Option<Diagnostic> {
     let blocks = blocks(model, &minimum.state);
     let soft = (0..SOFT, "the specific force or the angular acceleration, as of a sensor on something soft");
     let bending =
         (SOFT..TERMS, "the square of the angular rate, as of a sensor that bends away from what is logged");
-    let (mut found, mut is_excluded): (Option<MountGivesWay>, bool) = (None, true);
+    let mut found: Option<MountGivesWay> = None;
     for (terms, how) in [soft, bending] {
         let trial = Trial::of(model, &minimum.state, &blocks, &terms.collect::<Vec<_>>());
         let Some((trial, (parameter, deviations))) =
             trial.and_then(|trial| trial.moves(calibration).map(|moved| (trial, moved)))
         else {
-            is_excluded = false;
             continue;
         };
-        is_excluded &= trial.p_value > UNSUSPICIOUS && trial.hidden(calibration) < HIDDEN;
         let is_more_certain = found.as_ref().is_none_or(|before| trial.p_value < before.p_value);
         if trial.p_value < NO_CHANCE && deviations > COVERED && is_more_certain {
             let how = Phrase(how.to_owned());
             found = Some(MountGivesWay { how, parameter, deviations, p_value: trial.p_value });
         }
     }
-    Flexure { found: found.map(Diagnostic::from), is_excluded }
+    found.map(Diagnostic::from)
 }
 
 /// Some of the terms, estimated with everything else.
 struct Trial {
     /// The step of the parameters, then of the terms.
     step: DVector<f64>,
-    /// Covariance of the parameters' movement, by the scatter of the blocks.
-    movement: DMatrix<f64>,
     p_value: f64,
 }
 
@@ -121,12 +108,7 @@ impl Trial {
         let squares = estimate.dot(&Scaled::new(&covariance)?.solve(&estimate));
         let ratio = squares * (told - count) / (count * (told - 1.0));
         let distribution = FisherSnedecor::new(count, told - count).ok()?;
-        // a term moves the parameters by −H_θθ⁻¹ H_θc
-        let among = whole.information.view((0, 0), (own, own)).into_owned();
-        let across = whole.information.view((0, own), (own, terms.len())).into_owned();
-        let moved = Scaled::new(&among)?.inverse() * across;
-        let movement = &moved * covariance * moved.transpose();
-        ratio.is_finite().then(|| Self { step, movement, p_value: distribution.sf(ratio) })
+        ratio.is_finite().then(|| Self { step, p_value: distribution.sf(ratio) })
     }
 
     /// The parameter of a sensor that the terms move most, and by how many of its standard deviations.
@@ -137,14 +119,6 @@ impl Trial {
         let most =
             (0..sd.len()).filter(of_sensor).map(moved).max_by(|one, other| one.1.total_cmp(&other.1))?;
         most.1.is_finite().then(|| (calibration.names().swap_remove(most.0), most.1))
-    }
-
-    /// The largest movement of a parameter that the scatter of the terms could hide, in its standard deviations.
-    fn hidden(&self, calibration: &MachineCalibration) -> f64 {
-        let sd = calibration.sd();
-        let of_sensor = |k: &usize| matches!(calibration.quantities[*k], MachineQuantity::Imu(_));
-        let hidden = |k: usize| self.movement[(k, k)].max(0.0).sqrt() / sd[k];
-        (0..sd.len()).filter(of_sensor).map(hidden).fold(0.0, f64::max)
     }
 }
 

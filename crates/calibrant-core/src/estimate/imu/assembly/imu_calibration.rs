@@ -16,7 +16,7 @@ use crate::estimate::imu::result::{GyroscopeCalibration, RotationResult, TurnRes
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
-use crate::estimate::imu::thermometer_lag::ThermometerLag;
+use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};

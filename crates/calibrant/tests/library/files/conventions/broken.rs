@@ -128,7 +128,11 @@ fn kalibr() {
                 "  accelerometer:",
                 "there is no calibration in it: model scale-misalignment",
             ),
-            ("    M:\n", "    N:\n", "`accelerometers.M` is missing"),
+            (
+                "    M:\n",
+                "    N:\n",
+                "`accelerometers.N` has numbers, and this program does not know what they mean",
+            ),
             ("    M:\n", "    M:\n    - [1.0, 2.0, 3.0]\n", "`accelerometers.M` is not 3 × 3"),
             ("    M:\n    - [", "    M:\n    - [big, ", "not Kalibr's imu.yaml"),
             ("    M:\n    - [", "    M:\n    - [.nan, ", "non-finite float `.nan` rejected"),

@@ -100,10 +100,12 @@ fn the_json_says_what_it_means() {
     }
     // of every kind with a calibration, as of the kind that all had once
     let read = |text: &str| parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default());
-    for kind in ["calibration", "machine", "record"] {
+    for kind in ["calibration", "record"] {
         let text = text.replace("\"converted\"", &format!("\"{kind}\""));
         assert_eq!(read(&text).expect("readable").imu, file.imu, "{kind}");
     }
+    let error = read(&text.replace("\"converted\"", "\"machine\"")).expect_err("no machine").to_string();
+    assert!(error.contains("\"machine\", and it has no `machine`"), "{error}");
     let error = read(&text.replace("\"converted\"", "\"noise\"")).expect_err("no calibration").to_string();
     assert!(error.contains("the kind of this file is \"noise\", and that is no calibration"), "{error}");
 }
