@@ -201,7 +201,11 @@ fn the_verdict_is_in_every_result_and_codes_can_be_allowed() {
     let allowed = format!("{motion} --deny doubtful --allow spikes");
     assert_verdict(&calibrated(&bench, Fault::Spike, &allowed), "ok");
     assert_verdict(
-        &calibrated(&bench, Fault::Gain, &format!("{motion} --allow parameter-implausible,gain-unusual")),
+        &calibrated(
+            &bench,
+            Fault::Gain,
+            &format!("{motion} --allow parameter-implausible --allow gain-unusual"),
+        ),
         "ok",
     );
     calibrated(&bench, Fault::Gain, motion).ends_with(5).says("error: accelerometer.scale.x is");

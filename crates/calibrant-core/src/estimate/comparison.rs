@@ -13,6 +13,10 @@
 //!
 //! If both have temperature terms, B is first converted to the reference temperature of A. If only one has, it is taken at its own reference.
 
+mod place;
+
+pub use place::Place;
+
 use super::effective_degrees;
 use super::gravity_error::tells_its_place;
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
@@ -44,28 +48,7 @@ pub struct Comparison {
     pub notes: Vec<Diagnostic>,
 }
 
-/// Were two calibrations made at one place? What is not known of the place is then one error of both.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// They were.
-    One,
-    /// They were made at two.
-    Two,
-    /// Nobody says it.
-    Unknown,
-}
-
 impl Place {
-    /// By the names of their stations.
-    #[must_use]
-    pub fn of_stations(one: Option<&str>, other: Option<&str>) -> Self {
-        match (one, other) {
-            (Some(one), Some(other)) if one == other => Self::One,
-            (Some(_), Some(_)) => Self::Two,
-            _ => Self::Unknown,
-        }
-    }
-
     /// The same, where a source of errors that both state tells its place by itself.
     fn told_by(self, sources: &[Matched]) -> Self {
         let told = sources.iter().any(|(source, ..)| tells_its_place(source));

@@ -25,6 +25,7 @@ mod imu_tk;
 mod imucal;
 mod json_core;
 mod kalibr;
+mod kalibr_keys;
 mod measured_noise;
 mod options;
 mod read;

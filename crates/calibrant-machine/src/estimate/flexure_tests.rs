@@ -53,13 +53,13 @@ fn calibrated(tilt: f64, soft_hz: Option<f64>) -> MachineCalibration {
         let (stiffness, damping) = ((TAU * hz).powi(2), 0.3 * TAU * hz);
         let mut d = -force(1) / stiffness;
         let (mut d_rate, mut turn, mut turn_rate) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
-        for k in 2..number - 2 {
+        for (k, of_sample) in displaced.iter_mut().enumerate().take(number - 2).skip(2) {
             d_rate += STEP_S * (-force(k) - stiffness * d - damping * d_rate);
             d += STEP_S * d_rate;
             let acceleration = (rate(&of_body, k + 1) - rate(&of_body, k - 1)) / (2.0 * STEP_S);
             turn_rate += STEP_S * (-acceleration - stiffness * turn - damping * turn_rate);
             turn += STEP_S * turn_rate;
-            displaced[k] = (d, turn);
+            *of_sample = (d, turn);
         }
     }
     let place = |k: usize| bodies[k].1 + bodies[k].0 * (lever + displaced[k].0);

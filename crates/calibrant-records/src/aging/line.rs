@@ -133,7 +133,7 @@ impl Aging {
         } else {
             let of_change = estimator.row(1);
             let part = |i: usize| (of_change[i].powi(2) * own[i], values[i].degrees_of_freedom);
-            let of_shared = (&of_change * &effect).norm_squared();
+            let of_shared = (of_change * &effect).norm_squared();
             let parts =
                 (0..values.len()).map(part).chain((of_shared > 0.0).then_some((of_shared, f64::INFINITY)));
             degrees_of_sum(&parts.collect::<Vec<_>>())

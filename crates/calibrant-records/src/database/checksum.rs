@@ -17,12 +17,15 @@ pub(super) const PARAMETERS: &str = "SELECT value, sd FROM parameters WHERE cali
 pub(super) const SHARED: &str = "SELECT sources, root FROM shared_errors WHERE calibration = ?";
 pub(super) const MODEL: &str = "SELECT id, text, checksum FROM models WHERE id = ?";
 
+/// Shared errors as they stand in the table: their sources, and what they do.
+pub(super) type SharedText = (String, Vec<u8>);
+
 /// The estimates of a calibration, its shared errors as they stand in the table, and the checksum of all that is kept of it.
 pub(super) fn parameters(
     statement: &mut CachedStatement<'_>,
     shared: Option<&mut CachedStatement<'_>>,
     row: &Row<'_>,
-) -> rusqlite::Result<(Vec<f64>, Option<(String, Vec<u8>)>, Vec<u8>)> {
+) -> rusqlite::Result<(Vec<f64>, Option<SharedText>, Vec<u8>)> {
     let mut checksum = Checksum::default();
     checksum.take(row, VALUES)?;
     let (mut estimates, mut rows) = (Vec::new(), statement.query([row.get::<_, i64>(0)?])?);

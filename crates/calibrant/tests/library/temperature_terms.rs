@@ -420,6 +420,7 @@ fn terms_are_found_where_the_directions_of_the_holds_are_known() {
     setup.holds.intervals_s = Some(starts.iter().map(|start| (start + 0.1, start + 2.4)).collect());
     let at = |time: f64| forces.readings()[forces.times_s().partition_point(|&t| t < time)];
     setup.directions = Some(starts.iter().map(|start| at(start + 1.0).normalize()).collect());
+    setup.face_sd_rad = Some(1e-6);
     let calibration = run(&recording, &setup).expect("determined");
     assert!(calibration.quantities.len() == 12 + 12 + 9 + 3, "{}", calibration.quantities.len());
     assert!(

@@ -35,6 +35,8 @@ fn a_ferraris_calibration_is_believed_on_another_session_and_by_hand() {
     steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));
     bench.setup.holds.intervals_s = Some(intervals);
     bench.setup.directions = Some(directions);
+    // as the table of the simulation
+    bench.setup.face_sd_rad = Some(1e-6);
     let simulation = ImuSimulation::default();
     let by_hand = Bench::new();
     let count = 200;

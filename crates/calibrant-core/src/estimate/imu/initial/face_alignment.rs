@@ -167,7 +167,7 @@ pub(crate) fn align_faces<T>(
     let Some((shown, shown_chi2, _)) = shown else { return Some((alignment, fitted)) };
     let below = probability(degrees.across(), chi2.all - chi2.along);
     alignment.shown_rad = Some(shown.tilt_rad);
-    alignment.contradicted = below < BY_CHANCE || below > 1.0 - BY_CHANCE;
+    alignment.contradicted = !(BY_CHANCE..=1.0 - BY_CHANCE).contains(&below);
     if alignment.contradicted && shown.tilt_rad > given_rad {
         let tilt2 = mean_square(degrees, &shown, &shown_chi2, noise);
         alignment.widened = degrees.alignment(shown, TiltSource::Recording, Some(tilt2)).widened;
