@@ -109,8 +109,8 @@ checks! {
         p_value_at_one: f64,
     }
     decided "The sources of error that both share are looked at, and the names of the stations."
-    remedy "State gravity (`gravity_mps2` with its uncertainty, or `latitude_deg`). Or say that the place is one: option `station` of calibrate and \
-        of records add, option `one-place` of compare."
+    remedy "State gravity (`gravity_mps2` with its uncertainty, or `latitude_deg`). Or say that the place is one: \
+        name the station of both, or compare them as of one place."
     says format!(
         "nobody says whether both were made at one place, where {} is one error of both. p is {} at two places, which is what counts here, and {} \
          at one: name the station, or state gravity",

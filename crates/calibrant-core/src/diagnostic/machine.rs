@@ -70,7 +70,7 @@ checks! {
     decided "Terms of a sensor that is displaced or turned with the specific force, the angular acceleration or the square of the rate \
         explain the residuals (F-test by the scatter of blocks of time, p below 0.0001), and move a parameter by more than its standard deviation."
     remedy "Fasten the sensor to what is logged: screws or stiff glue, no foam or tape. Or move more slowly, and compare: \
-        --validate with a slower recording."
+        option `validate` with a slower recording."
     says format!(
         "the residuals follow {}: the mount gives way, or the machine bends (p-value {p_value:.0e}). That would move {parameter} by \
          {deviations:.1} standard deviations. Fasten the sensor, or record again more slowly.",

@@ -57,7 +57,7 @@ struct Header {
     schema: Option<serde_json::Value>,
     kind: Option<String>,
     status: Option<String>,
-    verdict: Option<VerdictCore>,
+    verdict: Option<serde_json::Value>,
     station: Option<String>,
     prior: Option<String>,
     /// What was found of a machine.
@@ -65,13 +65,6 @@ struct Header {
     /// Only the file of a simulation has one.
     seed: Option<serde_json::Value>,
     noise: Option<ImuNoise>,
-}
-
-#[derive(Deserialize)]
-struct VerdictCore {
-    usability: Option<String>,
-    #[serde(default)]
-    codes: Vec<String>,
 }
 
 pub(super) fn write(file: &CalibratedImuFile) -> String {
@@ -143,13 +136,15 @@ impl Header {
             supposed("its kind", "it is taken for a calibration");
         }
         let is_judged = [CalibrationFile::KIND, MachineCalibrationFile::KIND, RECORD_KIND];
-        let usability = self.verdict.as_ref().and_then(|verdict| verdict.usability.as_deref());
+        let usability = self.verdict.as_ref().and_then(|verdict| verdict["usability"].as_str());
         let is_one_of_them = self.kind.as_ref().is_none_or(|kind| is_judged.contains(&kind.as_str()));
         if usability.is_none() && is_one_of_them {
             supposed("a verdict", "nobody says that it may be used");
         }
         if let Some(verdict) = self.verdict.as_ref().filter(|_| usability == Some(Usability::Bad.name())) {
-            findings.push(VerdictBad { codes: verdict.codes.clone() }.into());
+            let codes = verdict["codes"].as_array().into_iter().flatten();
+            let codes = codes.filter_map(|code| Some(code.as_str()?.to_owned())).collect();
+            findings.push(VerdictBad { codes }.into());
         }
         findings
     }
