@@ -13,7 +13,7 @@
 use super::spikes::without;
 use super::{Axis, ImuRecording, Recording, SensorKind, greater, lesser};
 
-/// A run is impossible if as many as these are expected by chance.
+/// A run counts as stuck where chance would make fewer than this many in the recording.
 const EXPECTED: f64 = 1e-3;
 /// Probability of an equal neighbour that is never excluded: a recording shows no smaller one.
 const LEAST_CHANCE: f64 = 0.005;

@@ -18,7 +18,7 @@ const MEETING: usize = 16;
 const GAP: f64 = 5.0;
 /// So few rows may stray, and a clock begins anew so often at most.
 const FEW: usize = 3;
-/// So many sorted steps take this share of as many usual ones at least: where a clock was set back, its rows stand twice as close.
+/// The first number of sorted steps lasts at least the second number of times what as many usual steps last. Where a clock was set back, rows stand twice as close.
 const CLOSE: (usize, f64) = (8, 0.75);
 
 /// How many come after a later one.

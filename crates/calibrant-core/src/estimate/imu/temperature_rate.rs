@@ -11,7 +11,7 @@ const AVERAGED_S: f64 = 1.0;
 const REACH_S: f64 = 15.0;
 const STEPS: f64 = 3.0;
 
-/// A value that stays for so many samples is a step of a coarse or slow thermometer.
+/// A thermometer is coarse or slow where it shows one value for this many samples in a row.
 const STAYS: usize = 3;
 
 /// dT/dt at each sample, K/s.

@@ -1,6 +1,6 @@
 //! What the type of a Parquet column says of its numbers: the digits after the point, the sign, the unit of a time.
 //!
-//! Files state it by a logical type; older ones by a converted type, and times of Spark by the physical type INT96.
+//! Files state it by a logical type; older files by a converted type. Spark writes times in the physical type INT96.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::column_names;

@@ -14,8 +14,9 @@ const SAME_MOTION: f64 = 0.5;
 const OTHER_UNIT: f64 = 5.0;
 /// The delay is searched this many standard deviations about what is expected.
 const SEARCHED: f64 = 4.0;
-/// Of a motion that repeats itself other delays correlate almost as well: those of at least this part of the best correlation, and so many of them.
+/// In a periodic motion, other delays correlate almost as well as the best. They are tried from this part of its correlation on,
 const ALMOST: f64 = 0.8;
+/// and at most this many delays in all.
 const DELAYS: usize = 4;
 
 /// The sensor that tells time and direction best, in the units of what it measures, and the motion of the tip.

@@ -27,7 +27,7 @@ pub(crate) fn best(rotations: &CoarseRotations) -> Option<(f64, f64)> {
     (-8..=8).filter_map(|k| judged(coarse * 1.005_f64.powi(k))).min_by(least)
 }
 
-/// Refuses rotations with which gravity is met if all readings are divided by one factor. `as_read_rad`: by what it is missed as they are.
+/// Refuses rotations with which gravity is met if all readings are divided by one factor. `as_read_rad`: the median rotation error of the readings as they are, rad.
 pub(crate) fn check(model: &ImuModel<'_>, state: &State, as_read_rad: f64) -> Result<()> {
     let rotations = CoarseRotations::of(model, state);
     let tells = |(median_rad, factor): &(f64, f64)| {
