@@ -37,8 +37,9 @@ checks! {
         /// Their share of all.
         share: f64,
     }
-    decided "One row in a hundred is the same as the one before it, between changes of three steps of the values or more."
-    remedy "Log each sample once, with its own time."
+    decided "One row in a hundred is the same as the one before it, between changes of three steps of the values or more; \
+        more than eight in a row if the motion then goes on with a jump."
+    remedy "Log each sample once, with its own time, and nothing while a body is not seen."
     says format!(
         "{} of the log ({:.0} %) repeat the one before while the machine moves: the log holds its last values. They are \
          left out",

@@ -1,12 +1,15 @@
 //! Rows that repeat the one before although the machine moves: the writer was faster than what it logs, and held its last
-//! values.
+//! values, or a tracker lost the body, and its bridge went on with the last pose.
 
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::log::RowsHeld;
 use calibrant_machine::log::{ReferenceLog, step_of};
 
-/// Rows in a row at most: more is a rest.
+/// Rows in a row at most: more is a rest, unless the motion goes on with a jump.
 const LONGEST: usize = 8;
+/// What was not seen is caught up in one row, this many times farther than the rows behind it move. What rested starts slowly.
+const JUMP: f64 = 3.0;
+const BEHIND: usize = 3;
 /// A motion changes a value from row to row by this number of its steps at least: less may round to none.
 const STEPS: f64 = 3.0;
 /// Share of the rows from which on it is no chance.
@@ -67,16 +70,28 @@ fn held(rows: &[Vec<f64>]) -> Vec<bool> {
         (0..width).map(in_steps).fold(0.0, f64::max)
     };
     let changes: Vec<f64> = rows.windows(2).map(change).collect();
+    let distance = |k: usize| rows[k].iter().zip(&rows[k + 1]).map(|(one, next)| (next - one).powi(2)).sum();
+    let distances: Vec<f64> = (0..changes.len()).map(distance).map(f64::sqrt).collect();
     let mut held = vec![false; rows.len()];
-    let mut start = 0;
+    let (mut long, mut jumps, mut start) = (Vec::new(), 0, 0);
     while start < changes.len() {
         let end = (start..changes.len()).find(|k| changes[*k] > 0.0).unwrap_or(changes.len());
         let is_between = start > 0 && end < changes.len() && changes[start - 1].min(changes[end]) >= STEPS;
         let is_whole = rows[start].iter().all(|value| value.is_finite());
-        if end > start && end - start <= LONGEST && is_between && is_whole {
-            held[start + 1..=end].fill(true);
+        if end > start && is_between && is_whole {
+            if end - start <= LONGEST {
+                held[start + 1..=end].fill(true);
+            } else {
+                let behind = distances[end + 1..].iter().take(BEHIND).copied().fold(0.0, f64::max);
+                jumps += usize::from(distances[end] > JUMP * behind);
+                long.push(start + 1..=end);
+            }
         }
         start = end + 1;
+    }
+    // a motion that turns back is not far from where it was lost
+    if 2 * jumps > long.len() {
+        long.into_iter().for_each(|rows| held[rows].fill(true));
     }
     held
 }
@@ -106,5 +121,7 @@ mod tests {
         for step in [1e-9, 1e-3, 1e-2] {
             assert_eq!(rows(1, step), (600, 0), "{step}");
         }
+        // every thirty rows of a body that was lost for all but one of them
+        assert_eq!(rows(30, 1e-5).1, 1);
     }
 }
