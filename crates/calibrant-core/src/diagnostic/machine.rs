@@ -77,6 +77,22 @@ checks! {
         how.0
     );
 
+    /// The residuals of a tracked body are no noise alone, and show no mount that gives way. What one may do within them is in the standard deviations.
+    MountAllowedFor "mount-allowed-for" Note {
+        /// The codes that it answers.
+        codes: Vec<String>,
+        /// The parameter that it widens most.
+        parameter: String,
+        /// The factor of its standard deviation.
+        factor: f64,
+    }
+    decided "Without joints, and with a log that is not trusted: residuals are at most twice the noise, at most 2 % of the log are outliers, and none of the         terms of `mount-gives-way` is significant. What these terms are, and how uncertain, is added to the covariance."
+    says format!(
+        "the errors of the tracker are no noise ({}). An error that the whole recording shares is not in its scatter; so standard deviations have \
+         what a mount could do that gives way unseen: that of {parameter} is {factor:.1} times wider.",
+        codes.join(", ")
+    );
+
     /// Bias and gain of an axis are one number: the specific force along it hardly varies.
     GainNotSeparable "gain-not-separable" Warning {
         axis: Axis,
@@ -240,7 +256,7 @@ checks! {
     );
 
     /// A part of the recording is not used, since the log has no samples there.
-    LogCoversPart "log-covers-part" Warning {
+    LogCoversPart "log-covers-part" Note {
         /// Share of the sensor's samples that are used.
         used_share: f64,
     }

@@ -93,7 +93,7 @@ fn as_given(problem: &MachineProblem<'_>, settings: &MachineSettings) -> Result<
         Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
     let flexure = flexure::find(&model, &minimum, &calibration);
-    calibration.warnings = checks::all(problem.setup, &model.layout, &calibration, flexure);
+    checks::add(problem.setup, &model.layout, &mut calibration, flexure);
     Ok(calibration)
 }
 

@@ -2,7 +2,8 @@
 
 use super::hard_log_tests::codes;
 use super::{
-    MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MountingPrior, calibrate_on_machine,
+    MachineCalibration, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MountingPrior,
+    calibrate_on_machine,
 };
 use crate::log::{PoseLog, ReferenceLog};
 use calibrant_core::sensor::{
@@ -19,8 +20,8 @@ const EVERY: usize = 20;
 const SAMPLES: usize = 2400;
 
 /// A tracked body in a hand, with a sensor 3 cm off. `tilt`: the largest angles of roll and pitch. `soft_hz`: the sensor is on a damped spring of this frequency, in
-/// displacement and turn.
-fn calibrated(tilt: f64, soft_hz: Option<f64>) -> MachineCalibration {
+/// displacement and turn. `correlated`: errors of the tracker that last half a second.
+fn calibrated(tilt: f64, soft_hz: Option<f64>, correlated: bool) -> MachineCalibration {
     let gravity = Vector3::new(0.0, 0.0, 9.806_65);
     let lever = Vector3::new(0.02, 0.01, 0.03);
     // a drone that hardly tilts hardly rises and falls
@@ -69,13 +70,19 @@ fn calibrated(tilt: f64, soft_hz: Option<f64>) -> MachineCalibration {
         |sd: f64| Vector3::from_fn(|_, _| sd * Distribution::<f64>::sample(&StandardNormal, &mut rng));
     let (mut times_s, mut forces, mut rates) = (Vec::new(), Vec::new(), Vec::new());
     let (mut positions_m, mut world_from_body) = (Vec::new(), Vec::new());
+    let size = if correlated { 1.0 } else { 0.0 };
+    let (mut of_place, mut of_turn) = (Vector3::zeros(), Vector3::zeros());
+    let kept = (-(EVERY as f64) * STEP_S / 0.5).exp();
     for k in (400..number - 20).step_by(EVERY) {
+        let fresh = size * (1.0 - kept * kept).sqrt();
+        of_place = of_place * kept + noise(3e-4 * fresh);
+        of_turn = of_turn * kept + noise(1e-3 * fresh);
         times_s.push(k as f64 * STEP_S);
         forces.push(turned(k).inverse() * (second(&place, k) + gravity) + noise(0.02));
         rates.push(rate(&turned, k) + noise(2e-3));
-        positions_m.push(Some(bodies[k].1 + noise(2e-4)));
+        positions_m.push(Some(bodies[k].1 + of_place + noise(2e-4)));
         world_from_body.push(Some(
-            UnitQuaternion::from_rotation_matrix(&bodies[k].0) * UnitQuaternion::new(noise(5e-4)),
+            UnitQuaternion::from_rotation_matrix(&bodies[k].0) * UnitQuaternion::new(of_turn + noise(5e-4)),
         ));
     }
     let recording = |readings, unit| Recording::new(times_s.clone(), readings, 3, unit).expect("in order");
@@ -102,19 +109,39 @@ const ALL_OVER: f64 = 1.6;
 
 #[test]
 fn a_soft_mount_is_named_and_a_stiff_one_is_not() {
-    let stiff = codes(&calibrated(ALL_OVER, None));
+    let stiff = codes(&calibrated(ALL_OVER, None, false));
     assert!(!stiff.contains(&"mount-gives-way"), "{stiff:?}");
     assert!(!stiff.contains(&"gain-not-separable"), "{stiff:?}");
     for soft_hz in [4.0, 8.0] {
-        let soft = codes(&calibrated(ALL_OVER, Some(soft_hz)));
+        let soft = codes(&calibrated(ALL_OVER, Some(soft_hz), false));
         assert!(soft.contains(&"mount-gives-way"), "{soft_hz} Hz: {soft:?}");
     }
 }
 
 #[test]
 fn bias_and_gain_of_an_axis_that_hardly_tilts_are_one_number() {
-    let drone = calibrated(15_f64.to_radians(), None);
+    let drone = calibrated(15_f64.to_radians(), None, false);
     let said = drone.warnings.iter().find(|found| found.code().name() == "gain-not-separable");
     let said = said.expect("said").message();
     assert!(said.contains("axis z are not separable"), "{said}");
+}
+
+/// The truth is the nominal sensor.
+#[test]
+fn correlated_errors_of_a_tracker_leave_room_for_a_mount_and_the_room_is_stated() {
+    let found = calibrated(ALL_OVER, None, true);
+    assert!(codes(&found).contains(&"mount-allowed-for"), "{:?}", codes(&found));
+    assert!(
+        !found.warnings.iter().any(calibrant_core::diagnostic::Diagnostic::is_warning),
+        "{:?}",
+        codes(&found)
+    );
+    let sd = found.sd();
+    for (k, quantity) in found.quantities.iter().enumerate() {
+        let MachineQuantity::Imu(of) = quantity else { continue };
+        assert!(found.unseen[(k, k)] > 0.0);
+        let off = (found.values[k] - of.value(&ImuParameters::identity())) / sd[k];
+        assert!(off.abs() < 4.0, "{}: {off} sd", quantity.name(&[]));
+    }
+    assert!(codes(&calibrated(ALL_OVER, Some(8.0), true)).contains(&"mount-gives-way"));
 }

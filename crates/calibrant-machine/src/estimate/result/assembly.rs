@@ -68,6 +68,7 @@ pub(crate) fn assembled(
         covariance,
         linear_covariance: posterior.covariance.clone(),
         inflation,
+        unseen: DMatrix::zeros(n, n),
         parameters: state.parameters.clone(),
         nominal: layout.nominal.clone(),
         units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit())),

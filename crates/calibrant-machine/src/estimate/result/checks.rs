@@ -1,5 +1,7 @@
 //! What a user should know of a result on a machine.
 
+use super::flexure::Flexure;
+use super::unseen_mount::allow_for;
 use super::{plausible, separability};
 use crate::estimate::problem::{Layout, place};
 use crate::estimate::{
@@ -25,7 +27,7 @@ const CONTRADICTED: f64 = 4.0;
 /// A quantity that is farther than this is not what was described: a standard deviation that is stated ten times too small leaves three tenths of it.
 const REFUTED: f64 = 30.0;
 /// From this ratio of the residuals on, a mistake is looked for.
-const LARGE: f64 = 2.0;
+pub(super) const LARGE: f64 = 2.0;
 /// A ratio of the residuals beyond this refuses the model.
 pub(crate) const REFUSED: f64 = 10.0;
 /// From this factor on, nine tenths of a variance are of errors that the model does not have.
@@ -42,20 +44,20 @@ pub(crate) const OUTLIERS: f64 = 1e-3;
 /// Least usual share of the sensor's samples that are used.
 const USED: f64 = 0.95;
 
-/// All of it, the most important first.
-pub(crate) fn all(
+/// Adds all of it, the most important first.
+pub(crate) fn add(
     setup: &MachineSetup,
     layout: &Layout,
-    calibration: &MachineCalibration,
-    flexure: Option<Diagnostic>,
-) -> Vec<Diagnostic> {
+    calibration: &mut MachineCalibration,
+    flexure: Flexure,
+) {
     let mut found = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
         found.push(NotConverged { status: calibration.status.name() }.into());
     }
     found.extend(residuals(calibration));
     found.extend(correlated(calibration));
-    found.extend(flexure);
+    found.extend(flexure.found.clone().map(Diagnostic::from));
     found.extend(calibration.noise.iter().flat_map(|of| {
         let matrix = &calibration.parameters.imu.sensor(of.sensor).matrix;
         let unit = calibration.units[place(of.sensor)].unwrap_or(of.sensor.stimulus_unit());
@@ -66,17 +68,17 @@ pub(crate) fn all(
     found.extend(plausible::check(setup, calibration));
     found.extend(separability::check(setup, calibration));
     found.extend(contradicted(setup, layout, calibration));
-    let (outliers, samples) = (calibration.reference_noise.iter())
-        .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
+    let (outliers, samples) = calibration.outliers();
     if outliers as f64 > OUTLIERS * samples as f64 {
         found.push(LogOutliers { outliers, samples }.into());
     }
     if calibration.used_share < USED {
         found.push(LogCoversPart { used_share: calibration.used_share }.into());
     }
+    allow_for(&flexure, calibration, &mut found);
     let is_doubtful = found.iter().any(Diagnostic::is_warning);
     found.extend(calibration.noise.iter().filter_map(|of| drifts(of, calibration, is_doubtful)));
-    found
+    calibration.warnings = found;
 }
 
 /// Axes of counts whose gain has the other sign than the nominal one.
@@ -119,7 +121,7 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
 }
 
 /// The residuals of a sensor in parts of the noise that neighbouring samples do not share.
-fn excess(of: &SensorResidual) -> f64 {
+pub(super) fn excess(of: &SensorResidual) -> f64 {
     (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt()
 }
 

@@ -3,7 +3,7 @@
 //! Small motions of the sensor against what is logged are tried as terms of the model, which are 0 where the mount is rigid:
 //!
 //! ```text
-//! soft mount:   d = −c f,  φ = −k ω̇       (displacement, turn; c and k are 1/ω₀², frequencies below that of the mount)
+//! soft mount:   d = −C f,   φ = −K ω̇       (displacement, turn; diagonal, entries 1/ω₀², frequencies below that of the mount)
 //! bending:      d = b |ω|²,  φ = β |ω|²
 //! the sensor reads f + Rᵀ d²(R d)/dt² − φ × f  and  w + φ̇ + ω × φ
 //! ```
@@ -11,19 +11,25 @@
 //! With them on the border of the normal equations, motion and all parameters eliminated, one Gauss–Newton step estimates them. Each block of time has its
 //! influence `J⁻¹ g_b`, whose scatter gives the covariance (`newey1987`): errors of a tracker that are correlated in time do not count as a mount. Wald's statistic
 //! follows Fisher's F (`hotelling1931`).
+//!
+//! Terms `θ` move the parameters by `M θ`. So what a mount may have done unseen has the second moment `M (C_θ + θ θᵀ) Mᵀ`.
 
 use crate::estimate::least_squares::{Block, Front, Minimum, Model, Pass, Scaled, State, huber};
 use crate::estimate::{MachineCalibration, MachineQuantity};
+use calibrant_core::diagnostic::Phrase;
 use calibrant_core::diagnostic::machine::MountGivesWay;
-use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-/// Terms: soft mount, then bending.
-const TERMS: usize = SOFT + BENDING;
-const SOFT: usize = 2;
-const BENDING: usize = 6;
+/// Terms that are tried together, one for each axis, and what the residuals then follow.
+const FAMILIES: [&str; 4] = [
+    "the specific force, as of a sensor on something soft",
+    "the angular acceleration, as of a sensor on something soft",
+    "the square of the angular rate, as of a sensor that is displaced where what carries it bends",
+    "the square of the angular rate, as of a sensor that is turned where what carries it bends",
+];
+const TERMS: usize = 3 * FAMILIES.len();
 /// Blocks of time at most, and the least length of one, s: an error of a tracker lasts about so long.
 const BLOCKS: usize = 60;
 const SHORTEST_S: f64 = 0.5;
@@ -32,22 +38,26 @@ const NO_CHANCE: f64 = 1e-4;
 /// What moves no parameter by more than this many of its standard deviations is covered by them.
 const COVERED: f64 = 1.0;
 
-/// What the residuals follow, the most certain alone.
-pub(crate) fn find(
-    model: &Model<'_>,
-    minimum: &Minimum,
-    calibration: &MachineCalibration,
-) -> Option<Diagnostic> {
+/// What the residuals say of the mount.
+pub(crate) struct Flexure {
+    /// It gives way: what the residuals follow, the most certain alone.
+    pub(crate) found: Option<MountGivesWay>,
+    /// What it may do to the parameters unseen, as a covariance. `None` where too few blocks of time tell it.
+    pub(crate) unseen: Option<DMatrix<f64>>,
+}
+
+/// Tries the terms.
+pub(crate) fn find(model: &Model<'_>, minimum: &Minimum, calibration: &MachineCalibration) -> Flexure {
     let blocks = blocks(model, &minimum.state);
-    let soft = (0..SOFT, "the specific force or the angular acceleration, as of a sensor on something soft");
-    let bending =
-        (SOFT..TERMS, "the square of the angular rate, as of a sensor that bends away from what is logged");
+    let own = model.layout.len();
     let mut found: Option<MountGivesWay> = None;
-    for (terms, how) in [soft, bending] {
-        let trial = Trial::of(model, &minimum.state, &blocks, &terms.collect::<Vec<_>>());
+    let mut unseen = Some(DMatrix::zeros(own, own));
+    for (family, how) in FAMILIES.into_iter().enumerate() {
+        let trial = Trial::of(model, &minimum.state, &blocks, 3 * family);
         let Some((trial, (parameter, deviations))) =
             trial.and_then(|trial| trial.moves(calibration).map(|moved| (trial, moved)))
         else {
+            unseen = None;
             continue;
         };
         let is_more_certain = found.as_ref().is_none_or(|before| trial.p_value < before.p_value);
@@ -55,22 +65,26 @@ pub(crate) fn find(
             let how = Phrase(how.to_owned());
             found = Some(MountGivesWay { how, parameter, deviations, p_value: trial.p_value });
         }
+        unseen = unseen.map(|sum| sum + trial.unseen);
     }
-    found.map(Diagnostic::from)
+    Flexure { found, unseen }
 }
 
-/// Some of the terms, estimated with everything else.
+/// A family of terms, estimated with everything else.
 struct Trial {
-    /// The step of the parameters, then of the terms.
+    /// The step of the parameters.
     step: DVector<f64>,
     p_value: f64,
+    /// Second moment of what the terms do to the parameters.
+    unseen: DMatrix<f64>,
 }
 
 impl Trial {
-    fn of(model: &Model<'_>, state: &State, blocks: &[Block], terms: &[usize]) -> Option<Self> {
+    /// `first`: the first of its terms.
+    fn of(model: &Model<'_>, state: &State, blocks: &[Block], first: usize) -> Option<Self> {
         let own = model.layout.len();
-        let places: Vec<usize> = (0..own).chain(terms.iter().map(|term| own + term)).collect();
-        let (size, number) = (places.len(), blocks.len() as f64);
+        let places: Vec<usize> = (0..own).chain((0..3).map(|axis| own + first + axis)).collect();
+        let number = blocks.len() as f64;
         let part = |of: &Block| Block {
             score: of.score.select_rows(&places),
             information: of.information.select_columns(&places).select_rows(&places),
@@ -85,30 +99,34 @@ impl Trial {
         head -= &model.layout.prior * &deviation;
         let all = Scaled::new(&whole.information)?;
         let (step, inverse) = (all.solve(&whole.score), all.inverse());
-        let estimate = step.rows(own, terms.len()).into_owned();
-        let mut covariance = DMatrix::zeros(terms.len(), terms.len());
-        let mut shares = vec![(0.0, 0.0); terms.len()];
+        let estimate = step.rows(own, 3).into_owned();
+        let mut covariance = DMatrix::zeros(3, 3);
+        let mut shares = [(0.0, 0.0); 3];
         for block in &blocks {
             let left = &block.score - &block.information * &step;
             let without = Scaled::new(&(&whole.information - &block.information))?;
-            let moved = without.solve(&left).rows(own, terms.len()).into_owned();
+            let moved = without.solve(&left).rows(own, 3).into_owned();
             covariance += &moved * moved.transpose() * ((number - 1.0) / number);
-            let part =
-                inverse.rows(own, terms.len()) * &block.information * inverse.columns(own, terms.len());
-            for (share, k) in shares.iter_mut().zip(0..) {
+            let part = inverse.rows(own, 3) * &block.information * inverse.columns(own, 3);
+            for (k, share) in shares.iter_mut().enumerate() {
                 *share = (share.0 + part[(k, k)], share.1 + part[(k, k)].powi(2));
             }
         }
         // blocks that tell the terms, and the degrees of freedom of their scatter
         let told = shares.iter().map(|(sum, squares)| sum * sum / squares).fold(number, f64::min);
-        let count = terms.len() as f64;
-        if told < count + 2.0 || size == own {
+        if told < 5.0 {
             return None;
         }
         let squares = estimate.dot(&Scaled::new(&covariance)?.solve(&estimate));
-        let ratio = squares * (told - count) / (count * (told - 1.0));
-        let distribution = FisherSnedecor::new(count, told - count).ok()?;
-        ratio.is_finite().then(|| Self { step, p_value: distribution.sf(ratio) })
+        let ratio = squares * (told - 3.0) / (3.0 * (told - 1.0));
+        let p_value = FisherSnedecor::new(3.0, told - 3.0).ok()?.sf(ratio);
+        let alone = Scaled::new(&whole.information.view((0, 0), (own, own)).into_owned())?;
+        let solved = |axis: usize| {
+            alone.solve(&whole.information.view((0, own + axis), (own, 1)).column(0).into_owned())
+        };
+        let effect = DMatrix::from_columns(&[solved(0), solved(1), solved(2)]);
+        let unseen = &effect * (covariance + &estimate * estimate.transpose()) * effect.transpose();
+        ratio.is_finite().then(|| Self { step: step.rows(0, own).into_owned(), p_value, unseen })
     }
 
     /// The parameter of a sensor that the terms move most, and by how many of its standard deviations.
@@ -200,14 +218,14 @@ fn terms(at: &[[Vector3<f64>; 3]; 3], step_s: f64) -> [Vector6<f64>; TERMS] {
     let square = |k: usize| Vector3::repeat(at[k][1].norm_squared());
     let (u, u_rate, u_second) = (square(1).x, 2.0 * w.dot(&wd), second(&square).x);
     let axes = Matrix3::identity();
-    let axis = |k: usize| -> Vector3<f64> { axes.column(k).into_owned() };
-    std::array::from_fn(|term| match term {
-        0 => both(-displaced(f, first(0), second(&|k| at[k][0])), Vector3::zeros()),
-        1 => turned(-wd, -first(2)),
-        2..=4 => {
-            let e = axis(term - SOFT);
-            both(displaced(e * u, e * u_rate, e * u_second), Vector3::zeros())
+    std::array::from_fn(|term| {
+        let e: Vector3<f64> = axes.column(term % 3).into_owned();
+        let along = |of: Vector3<f64>| e * e.dot(&of);
+        match term / 3 {
+            0 => both(-displaced(along(f), along(first(0)), along(second(&|k| at[k][0]))), Vector3::zeros()),
+            1 => turned(-along(wd), -along(first(2))),
+            2 => both(displaced(e * u, e * u_rate, e * u_second), Vector3::zeros()),
+            _ => turned(e * u, e * u_rate),
         }
-        _ => turned(axis(term - SOFT - 3) * u, axis(term - SOFT - 3) * u_rate),
     })
 }

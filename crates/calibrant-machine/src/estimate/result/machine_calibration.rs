@@ -39,6 +39,8 @@ pub struct MachineCalibration {
     pub linear_covariance: DMatrix<f64>,
     /// The factor by which correlation in time widens the standard deviation of each estimate; 1 where residuals are independent.
     pub inflation: Vec<f64>,
+    /// What a mount that gives way may have done to the estimates unseen, as a part of the covariance; 0 where nothing asks for it.
+    pub unseen: DMatrix<f64>,
     /// All parameters, those that were held included.
     pub parameters: MachineParameters,
     /// What was expected beforehand: where delay and mounting begin.
@@ -126,6 +128,15 @@ pub struct BudgetRow {
     pub parts: [f64; Source::ALL.len()],
 }
 
+impl BudgetRow {
+    /// More of the reference.
+    pub(crate) fn add_of_reference(&mut self, variance: f64) {
+        self.variance += variance;
+        let parts = self.parts.iter_mut().zip(Source::ALL);
+        parts.filter(|(_, source)| *source == Source::ReferenceNoise).for_each(|(part, _)| *part += variance);
+    }
+}
+
 impl MachineCalibration {
     /// The sensors that were calibrated.
     #[must_use]
@@ -137,6 +148,12 @@ impl MachineCalibration {
     #[must_use]
     pub fn sd(&self) -> Vec<f64> {
         self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
+    }
+
+    /// Outliers of the log, and its samples.
+    pub(crate) fn outliers(&self) -> (usize, usize) {
+        let add = |(outliers, samples), of: &ReferenceNoise| (outliers + of.outliers, samples + of.samples);
+        self.reference_noise.iter().fold((0, 0), add)
     }
 
     /// Name of each quantity.

@@ -11,6 +11,7 @@ mod separability;
 mod shared_errors;
 mod spectrum;
 pub(crate) mod undetermined;
+mod unseen_mount;
 
 pub(crate) use assembly::assembled;
 pub use drift::SensorDrift;

@@ -209,7 +209,7 @@ pub fn compare_on_machine(
     let n = first.quantities.len();
     let shared = DMatrix::from_diagonal(&DVector::from_iterator(n, first.quantities.iter().map(information)));
     let common = &first.linear_covariance * shared * &second.linear_covariance;
-    let [one, two] = [first, second].map(|of| widened(of, &of.linear_covariance));
+    let [one, two] = [first, second].map(|of| widened(of, &of.linear_covariance) + &of.unseen);
     let covariance = one + two - &common - common.transpose();
     let shift = second.values.iter().zip(&first.values).map(|(two, one)| two - one);
     let movement = [Movement { shift: DVector::from_iterator(n, shift), covariance, without_s: None }];
