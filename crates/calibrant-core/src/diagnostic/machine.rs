@@ -88,8 +88,8 @@ checks! {
     }
     decided "Without joints, and with a log that is not trusted: residuals are at most twice the noise, at most 2 % of the log are outliers, and none of the         terms of `mount-gives-way` is significant. What these terms are, and how uncertain, is added to the covariance."
     says format!(
-        "the errors of the tracker are no noise ({}). An error that the whole recording shares is not in its scatter; so standard deviations have \
-         what a mount could do that gives way unseen: that of {parameter} is {factor:.1} times wider.",
+        "the errors of the tracker are no noise ({}). What the whole recording shares of them is not in their scatter, so the standard deviations \
+         include what a mount that gives way could do unseen: that of {parameter} is {factor:.1} times wider.",
         codes.join(", ")
     );
 
