@@ -187,6 +187,8 @@ def columns() -> list[tuple[str, Any]]:
         ("sd", numbers),
         ("covariance", numbers),
         ("covariance_degrees", numbers),
+        ("shared_sources", texts),
+        ("shared_root", numbers),
         ("reference_c", number),
         ("range_c", numbers),
         ("model", text),
@@ -199,7 +201,7 @@ def as_row(row: str | None, error: str | None, experiment: Experiment, covarianc
     given.update(experiment_sha256=experiment.sha256, program=_native.program())
     given.update(failure(error))
     if not covariance:
-        given["covariance"] = None
+        given.update(covariance=None, shared_sources=None, shared_root=None)
     return given
 
 
