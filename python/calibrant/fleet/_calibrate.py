@@ -38,7 +38,7 @@ class CalibrationTask:
     motion : Motion, Poses, Joints or path, optional
         The motion that all recordings share.
     covariance : bool
-        Keep the lower triangle of each covariance?
+        Keep the lower triangle of each covariance, and the errors that calibrations at one place share?
     storage_options : dict
         For paths that are URLs.
     """
@@ -115,7 +115,7 @@ def calibrate(
     per_task : int or "auto"
         Items of a chunk: each chunk is one task and one part of the data set.
     covariance : bool
-        Keep the lower triangle of each covariance?
+        Keep the lower triangle of each covariance, and the errors that calibrations at one place share?
     on_error : {"row", "raise"}
         An item without a calibration is a row with verdict ``none``; or it is an exception, after its chunk is written.
     resume : bool
