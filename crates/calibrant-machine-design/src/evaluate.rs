@@ -8,11 +8,11 @@
 use crate::certificate::certify;
 use crate::information::{FullInformation, Marginalised, Sensing, solved};
 use crate::motion::Knots;
-use crate::turned_cross_terms::of_turned_cross_terms;
+use crate::turned_cross_terms::{beyond_first_order, of_turned_cross_terms};
 use crate::{LimitProof, TrajectoryProblem};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::ImuQuantity;
-use calibrant_machine::estimate::{BudgetRow, MachineQuantity, Source, of_mounting};
+use calibrant_machine::estimate::{BudgetRow, MachineQuantity, Source, mount_variances};
 use calibrant_machine::spline::{Degree, VectorSpline};
 use nalgebra::DMatrix;
 
@@ -148,8 +148,11 @@ fn posterior(sensing: &Sensing, of: &Marginalised, cross_axis_sd: [f64; 2]) -> O
     let own = own - &gain * &cross;
     let mut all = DMatrix::zeros(p + size, p + size);
     all.view_mut((p, p), (size, size)).copy_from(&own);
-    let second =
-        of_mounting(layout, &layout.nominal, &all) + of_turned_cross_terms(layout, &all, cross_axis_sd);
+    all.view_mut((0, p), (p, size)).copy_from(&cross);
+    let mut second = of_turned_cross_terms(layout, &all, cross_axis_sd);
+    for (k, of) in mount_variances(layout, &layout.nominal, &all).into_iter().enumerate() {
+        second[(k, k)] += beyond_first_order(of, second[(k, k)]);
+    }
     let second = second.view((0, 0), (p, p)).into_owned();
     let sources: Vec<Source> = layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
     let quantities = sensing.quantities();

@@ -8,9 +8,12 @@
 //! ```text
 //! Σ_k (c²_ik + ([e_i]× T [e_i]×ᵀ)_kk) [e_k]× T [e_k]×ᵀ
 //! ```
+//!
+//! Where this is less for a sensor than what is of second order in `δ`, the calibration states the latter. For a scale factor it is a sum of two squares, whose distribution is
+//! exponential: with the mean `F`, and `s` of second order, the mean of what is missing is `s − F (1 − exp(−s/F))`.
 
 use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
-use calibrant_machine::estimate::{Layout, MachineQuantity};
+use calibrant_machine::estimate::{Layout, MachineQuantity, MountVariance};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// An entry of a matrix: sensor, row, column.
@@ -63,6 +66,12 @@ pub(crate) fn of_turned_cross_terms(
     products
 }
 
+/// What calibrations state of second order beyond the first, in the mean over sensors. `turned` is the mean square of the turned cross terms.
+pub(crate) fn beyond_first_order(of: MountVariance, turned: f64) -> f64 {
+    let missing = of.beyond();
+    if turned > 0.0 { missing + turned * (-missing / turned).exp_m1() } else { missing }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,5 +121,21 @@ mod tests {
                 assert!((found[(k, k)] / sum - 1.0).abs() < 0.03, "{i} {j}: {} {sum}", found[(k, k)]);
             }
         }
+    }
+
+    #[test]
+    fn what_is_missing_of_second_order_is_that_of_many_sensors() {
+        let mut numbers = Numbers(2);
+        let mut exponential = || -(0.5 * (1.0 + numbers.next(1.0))).max(1e-12).ln();
+        for (second, turned) in [(1.0, 2.0), (1.0, 0.3)] {
+            let draws = 100_000;
+            let one = |of: f64| MountVariance { first: of, second }.beyond() / f64::from(draws);
+            let mean: f64 = (0..draws).map(|_| one(turned * exponential())).sum();
+            let found = beyond_first_order(MountVariance { first: 0.0, second }, turned);
+            assert!((found / mean - 1.0).abs() < 0.02, "{second} {turned}: {found} {mean}");
+        }
+        let only = MountVariance { first: 0.2, second: 1.0 };
+        assert!((beyond_first_order(only, 0.0) - 0.8).abs() < 1e-12);
+        assert_eq!(beyond_first_order(MountVariance { first: 2.0, second: 1.0 }, 0.5), 0.0);
     }
 }

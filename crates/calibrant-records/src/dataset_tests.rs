@@ -25,6 +25,7 @@ fn text(sensor: &str, recording: &str) -> String {
         ],
         "covariance_of": "", "covariance": [[4e-4, 1e-5], [1e-5, 1e-4]],
         "covariance_degrees_of_freedom": {"accelerometer": 21.0, "gyroscope_at_rest": null, "gyroscope_matrix": 7.0},
+        "shared_errors": {"sources": ["gravity 9.80665 ± 0.019 m/s²", "wrist ± 1e-3"], "root": [[0.0, 1e-3], [2e-3, 4e-3]]},
         "inputs": [{"file": format!("{sensor}.csv"), "sha256": recording, "samples": 9, "rate_hz": 1.0}],
     })
     .to_string()
@@ -49,8 +50,10 @@ fn without(file: &str) -> Value {
 
 /// Writes a part as pyarrow does: optional columns, and lists of optional elements.
 fn write(path: &Path, rows: &[Value]) {
-    let (texts, lists) =
-        (["codes", "names", "units"], ["values", "sd", "covariance", "covariance_degrees", "range_c"]);
+    let (texts, lists) = (
+        ["codes", "names", "units", "shared_sources"],
+        ["values", "sd", "covariance", "covariance_degrees", "range_c", "shared_root"],
+    );
     let numbers = ["chi2", "degrees_of_freedom", "p_value", "rate_hz", "reference_c"];
     let columns = row("A", "a");
     let columns = columns.as_object().expect("an object");
@@ -136,6 +139,22 @@ fn a_row_gives_its_record_back() {
     let expected = Record::parse(&text).expect("a calibration");
     assert_eq!(as_json.into_record().expect("a record"), expected);
     assert!(expected.imu.degrees_of_freedom.expect("there").gyroscope_at_rest.is_infinite());
+    assert_eq!(row.shared_root.as_deref(), Some(&[0.0, 1e-3, 2e-3, 4e-3][..]), "by rows");
+    assert_eq!(expected.imu.shared.expect("there").root[(1, 0)], 2e-3);
+}
+
+#[test]
+fn shared_errors_of_a_row_fit_or_are_not_there() {
+    let row = json!(DatasetRow::parse(&text("A", "a")).expect("a calibration"));
+    let without = |names: &[&str]| {
+        let mut row = row.clone();
+        names.iter().for_each(|name| drop(row.as_object_mut().expect("an object").remove(*name)));
+        serde_json::from_value::<DatasetRow>(row).expect("read").into_record()
+    };
+    // as data sets of earlier versions
+    assert_eq!(without(&["shared_sources", "shared_root"]).expect("a record").imu.shared, None);
+    let error = without(&["shared_sources"]).expect_err("refused");
+    assert!(error.to_string().contains("`shared_root` does not fit"), "{error}");
 }
 
 #[test]

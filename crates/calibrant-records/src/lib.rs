@@ -60,4 +60,6 @@ mod large_tests;
 #[cfg(test)]
 mod refusal_tests;
 #[cfg(test)]
+mod shared_error_tests;
+#[cfg(test)]
 mod tests;

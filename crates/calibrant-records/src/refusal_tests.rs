@@ -100,3 +100,27 @@ fn a_database_beside_which_no_journal_can_stand_is_refused_before_the_work() {
     assert!(error.to_string().ends_with("no journal can be made beside it"), "{error}");
     assert_eq!(std::fs::read(&long).expect("there"), before);
 }
+
+#[test]
+fn views_and_triggers_of_a_file_are_not_used() {
+    let (_directory, path) = place();
+    let mut records = Records::open(&path).expect("made");
+    records.insert(&record("A", 1)).expect("inserted");
+    drop(records);
+    let endless =
+        "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT c.* FROM calibrations c, n";
+    let hostile = Connection::open(&path).expect("opened");
+    hostile.execute_batch(&format!("DROP VIEW latest; CREATE VIEW latest AS {endless};")).expect("made");
+    let nothing = "CREATE TRIGGER t BEFORE INSERT ON calibrations BEGIN SELECT raise(IGNORE); END";
+    hostile.execute_batch(nothing).expect("made");
+    let mut records = Records::open(&path).expect("opened");
+    records.insert(&record("A", 2)).expect("inserted");
+    let latest = RecordFilter { latest: true, ..RecordFilter::default() };
+    assert_eq!(records.list(&latest).expect("read").len(), 2);
+    drop(records);
+    hostile
+        .execute_batch(&format!("DROP TABLE parameters; CREATE VIEW parameters AS {endless}"))
+        .expect("made");
+    let error = Records::open(&path).expect_err("refused");
+    assert_eq!(error.code(), Refusal::FileDamaged, "{error}");
+}

@@ -38,7 +38,7 @@ class CalibrationTask:
     motion : Motion, Poses, Joints or path, optional
         The motion that all recordings share.
     covariance : bool
-        Keep the lower triangle of each covariance?
+        Keep the lower triangle of each covariance, and the errors that calibrations at one place share?
     storage_options : dict
         For paths that are URLs.
     """
@@ -115,7 +115,7 @@ def calibrate(
     per_task : int or "auto"
         Items of a chunk: each chunk is one task and one part of the data set.
     covariance : bool
-        Keep the lower triangle of each covariance?
+        Keep the lower triangle of each covariance, and the errors that calibrations at one place share?
     on_error : {"row", "raise"}
         An item without a calibration is a row with verdict ``none``; or it is an exception, after its chunk is written.
     resume : bool
@@ -187,6 +187,8 @@ def columns() -> list[tuple[str, Any]]:
         ("sd", numbers),
         ("covariance", numbers),
         ("covariance_degrees", numbers),
+        ("shared_sources", texts),
+        ("shared_root", numbers),
         ("reference_c", number),
         ("range_c", numbers),
         ("model", text),
@@ -199,7 +201,7 @@ def as_row(row: str | None, error: str | None, experiment: Experiment, covarianc
     given.update(experiment_sha256=experiment.sha256, program=_native.program())
     given.update(failure(error))
     if not covariance:
-        given["covariance"] = None
+        given.update(covariance=None, shared_sources=None, shared_root=None)
     return given
 
 

@@ -40,7 +40,7 @@ class StudyTask:
     motion : Motion, Poses, Joints or path, optional
         The motion of all sensors.
     covariance : bool
-        Keep the lower triangle of each covariance?
+        Keep the lower triangle of each covariance, and the errors that calibrations at one place share?
     """
 
     experiment: Experiment

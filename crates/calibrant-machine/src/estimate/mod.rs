@@ -10,6 +10,7 @@ mod hard_log_tests;
 mod least_squares;
 #[cfg(test)]
 mod mistake_tests;
+mod mount_variance;
 mod noise;
 mod problem;
 mod result;
@@ -18,8 +19,8 @@ mod validation;
 pub use begin::MotionOfLog;
 pub(crate) use begin::fitted;
 pub use calibrate::calibrate_on_machine;
-pub use covariance::of_mounting;
 pub(crate) use least_squares::predicted;
+pub use mount_variance::{MountVariance, mount_variances};
 pub use problem::{
     Layout, MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
     MountingPrior, Source, TiltedGravity,

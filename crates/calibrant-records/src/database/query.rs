@@ -4,7 +4,7 @@ use super::blob::numbers_of;
 use super::checksum::{COLUMNS, MODEL, PARAMETERS, SHARED, VALUES, model_row, parameters};
 use super::failure::{damaged, failed};
 use super::records::Records;
-use super::schema;
+use super::schema::{self, LATEST};
 use crate::model::{self, Further};
 use crate::record::{KeptVerdict, Record};
 use calibrant_core::diagnostic::Usability;
@@ -77,7 +77,7 @@ impl Records {
             [] => String::new(),
             some => format!("WHERE {}", some.join(" AND ")),
         };
-        let table = if filter.latest { "latest" } else { "calibrations" };
+        let table = if filter.latest { &format!("({LATEST})") } else { "calibrations" };
         let order = "ORDER BY sensor, recorded IS NOT NULL, recorded, id";
         self.query(&format!("SELECT {COLUMNS} FROM {table} {restriction} {order}"), &given, take)
     }
@@ -85,9 +85,11 @@ impl Records {
     /// The newest calibration of each sensor that is not bad, by their numbers.
     pub(crate) fn newest(&self) -> Result<Vec<KeptRecord>> {
         // of several bare columns beside one max(), SQLite takes those of that row
-        let newest = "SELECT id FROM (
+        let newest = format!(
+            "SELECT id FROM (
             SELECT id, max((recorded IS NOT NULL) || coalesce(recorded, '') || printf(' %020d', id))
-            FROM latest WHERE verdict <> 'bad' GROUP BY sensor)";
+            FROM ({LATEST}) WHERE verdict <> 'bad' GROUP BY sensor)"
+        );
         let mut records = Vec::new();
         let query = format!("SELECT {COLUMNS} FROM calibrations WHERE id IN ({newest}) ORDER BY id");
         self.query(&query, &[], |record| records.push(record))?;

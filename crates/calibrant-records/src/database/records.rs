@@ -9,6 +9,7 @@ use crate::record::Record;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::CalibratedImu;
 use calibrant_io::{HashedFile, UtcTime, open_file};
+use rusqlite::config::DbConfig;
 use rusqlite::{Connection, OpenFlags, OptionalExtension, Transaction, TransactionBehavior, params};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -186,6 +187,9 @@ fn make(path: &Path) -> Result<()> {
 fn connect(place: &Path, records: &Path) -> Result<Connection> {
     let connected = Connection::open_with_flags(place, flags(place != records)).and_then(|connection| {
         connection.busy_timeout(PATIENCE)?;
+        // a file of somebody else can have any, also one that never ends
+        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_VIEW, false)?;
+        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_TRIGGER, false)?;
         // for a new database; covariances of 20 parameters leave half of a page of 4 KiB empty
         connection.pragma_update(None, "page_size", 16_384)?;
         connection.pragma_update(None, "foreign_keys", true)?;

@@ -1,6 +1,6 @@
 //! The schema of the database: it makes a new one, and refuses one of another program or version.
 
-use super::failure::failed;
+use super::failure::{damaged, failed};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use rusqlite::{Connection, TransactionBehavior};
 use std::path::Path;
@@ -60,12 +60,20 @@ const NEW: &str = "
         SELECT c.id AS calibration, c.sensor, c.recorded, c.station, c.verdict, n.name, n.unit, p.value, p.sd
         FROM calibrations c JOIN parameters p ON p.calibration = c.id
         JOIN names n ON n.model = c.model AND n.place = p.place;
-    CREATE VIEW latest AS
-        SELECT * FROM calibrations c WHERE NOT EXISTS (
-            SELECT 1 FROM calibrations d
-            WHERE d.recording_sha256 = c.recording_sha256 AND (d.inserted, d.id) > (c.inserted, c.id)
-        );
 ";
+
+/// The calibrations without those that a later one of the same recording replaces: also a view of the database, for people. The views of a file are
+/// not used, since they can be any: a question has this in words.
+pub(super) const LATEST: &str = "
+    SELECT * FROM calibrations c WHERE NOT EXISTS (
+        SELECT 1 FROM calibrations d
+        WHERE d.recording_sha256 = c.recording_sha256 AND (d.inserted, d.id) > (c.inserted, c.id)
+    )
+";
+
+/// The tables that a view cannot stand for.
+const TABLES: &str = "SELECT count(*) FROM sqlite_schema
+    WHERE type = 'table' AND name IN ('models', 'names', 'calibrations', 'parameters')";
 
 /// What version 4 adds.
 const SHARED_ERRORS: &str = "
@@ -108,6 +116,7 @@ fn version(connection: &Connection) -> rusqlite::Result<i32> {
 /// Makes the tables of a database that is new.
 pub(super) fn make(connection: &Connection, path: &Path) -> Result<()> {
     let made = connection.execute_batch(NEW).and_then(|()| {
+        connection.execute_batch(&format!("CREATE VIEW latest AS {LATEST};"))?;
         connection.execute_batch(SHARED_ERRORS)?;
         connection.pragma_update(None, "application_id", APPLICATION_ID)?;
         connection.pragma_update(None, "user_version", VERSION)
@@ -131,7 +140,11 @@ pub(super) fn check(connection: &Connection, path: &Path) -> Result<()> {
         return refuse(Refusal::FormatUnknown, message, "give another file for the records");
     }
     if [BEFORE, VERSION].contains(&version) {
-        return Ok(());
+        let tables = connection.query_row(TABLES, [], |row| row.get::<_, i64>(0));
+        return match tables.map_err(|error| failed(path, error))? {
+            4 => Ok(()),
+            _ => Err(damaged(path, "one of their tables is not there")),
+        };
     }
     let message = format!(
         "these records have version {version} of the schema, and this calibrant reads version {VERSION}"

@@ -4,7 +4,9 @@ use crate::model::{self, Further};
 use crate::record::{KeptVerdict, Record};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::SharedErrors;
 use calibrant_io::{Checked, HashedFile, Input, UtcTime};
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// A calibration as the columns of a data set.
@@ -68,6 +70,10 @@ pub struct DatasetRow {
     pub range_c: Option<[f64; 2]>,
     /// Degrees of freedom behind the covariance: accelerometer, gyroscope at rest, matrix of the gyroscope; `None` where they are infinite.
     pub covariance_degrees: Option<[Option<f64>; 3]>,
+    /// What is not exactly known of the place, where there is something. Data sets of earlier versions have neither this nor the next column.
+    pub shared_sources: Option<Vec<String>>,
+    /// What one standard deviation of each source does to the sensor's parameters: by rows, one for each of them.
+    pub shared_root: Option<Vec<f64>>,
 }
 
 /// What a row has of a `calibration.json` beside its record.
@@ -110,6 +116,10 @@ impl DatasetRow {
 
     fn of(record: Record, numbers: Numbers) -> Self {
         let further = Further::of(&record.imu);
+        let shared = further
+            .shared
+            .map(|SharedErrors { sources, root }| (sources, root.transpose().as_slice().to_vec()));
+        let (shared_sources, shared_root) = shared.unzip();
         let (recording, recording_sha256) = (record.names().join("/"), record.recording_sha256());
         let split = |file: Option<HashedFile>| file.map(|file| (file.file, file.sha256)).unzip();
         let (experiment, experiment_sha256) = split(record.experiment);
@@ -145,6 +155,8 @@ impl DatasetRow {
             reference_c: further.reference_c,
             range_c: further.range_c,
             covariance_degrees: further.degrees.map(|of| of.map(|of| Some(of).filter(|of| of.is_finite()))),
+            shared_sources,
+            shared_root,
         }
     }
 
@@ -170,13 +182,24 @@ impl DatasetRow {
             let rows = places.iter().enumerate();
             rows.flat_map(|(k, i)| places[..=k].iter().map(move |j| at(*i, *j))).collect()
         };
+        let shared = match (self.shared_sources, self.shared_root) {
+            (Some(sources), Some(root)) if root.len() == places.len() * sources.len() => Some(SharedErrors {
+                root: DMatrix::from_row_slice(places.len(), sources.len(), &root),
+                sources,
+            }),
+            (None, None) => None,
+            _ => {
+                return Err(
+                    unfit("`shared_root` does not fit `shared_sources` and `model`".to_owned()).into()
+                );
+            }
+        };
         let further = Further {
             reference_c: self.reference_c,
             range_c: self.range_c,
             degrees: self.covariance_degrees.map(|of| of.map(|of| of.unwrap_or(f64::INFINITY))),
             covariance: triangle.map(entry),
-            // the columns of a data set have none
-            shared: None,
+            shared,
         };
         let estimates: Vec<f64> = places.iter().map(|place| self.values[*place]).collect();
         let imu = further.onto(&model, &estimates).ok_or_else(|| unfit("`model` does not fit".to_owned()))?;

@@ -25,7 +25,7 @@ pub(super) fn mounting_in_words(calibration: &MachineCalibration, setup: &Machin
             (limited > 0).then(|| {
                 format!(
                     "The mounting is known to {}°, which limits {limited} of {} parameters. A fixture helps; \
-                     or give [machine.mount] rotation = \"unknown\", and the data define the sensor's axes.",
+                     or give [machine.mount] rotation = \"unknown\" and no rotation_sd_deg, and the data define the sensor's axes.",
                     significant(sd_rad.to_degrees(), 2),
                     calibration.budget.len()
                 )

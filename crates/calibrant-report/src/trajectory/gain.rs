@@ -25,33 +25,45 @@ fn limited_by(of: &TrajectoryEvaluation, source: Source) -> Vec<usize> {
     (0..of.budget.len()).filter(|k| part(&of.budget[*k], source) >= ALONE).collect()
 }
 
-/// How much smaller standard deviations are than those of another trajectory: of those that the motion decides.
-pub(super) fn gain(
-    (other, name): (&TrajectoryEvaluation, &str),
+/// How much smaller standard deviations are than those of other trajectories: of those that the motion decides, then what limits the others, then by the criterion.
+pub(super) fn gains(
+    others: &[(&TrajectoryEvaluation, &str)],
     best: &TrajectoryEvaluation,
     problem: &TrajectoryProblem<'_>,
 ) -> String {
     let elsewhere = [Source::Mounting, Source::Gravity].map(|source| limited_by(best, source)).concat();
-    let pairs = other.sd().into_iter().zip(best.sd()).enumerate();
-    let decided: Vec<f64> =
-        pairs.filter(|(k, _)| !elsewhere.contains(k)).map(|(_, (before, after))| before / after).collect();
-    let which = match elsewhere.is_empty() {
-        true => "its standard deviations are".to_owned(),
-        false => format!("the {} that the motion decides are", counted(decided.len(), "standard deviation")),
+    let decided = |other: &TrajectoryEvaluation| -> Vec<f64> {
+        let pairs = other.sd().into_iter().zip(best.sd()).enumerate();
+        pairs.filter(|(k, _)| !elsewhere.contains(k)).map(|(_, (before, after))| before / after).collect()
     };
-    let mean = mean_ratio(&decided).map_or_else(String::new, |times| {
-        format!("Against {name}, {which} {} in the mean. ", smaller(times))
+    let than = |of: &dyn Fn(&TrajectoryEvaluation) -> Option<f64>| {
+        let each = others.iter().filter_map(|(other, name)| Some((of(other)?, name)));
+        let each: Vec<String> =
+            each.map(|(times, name)| format!("{} than with {name}", smaller(times))).collect();
+        (!each.is_empty()).then(|| each.join(", and "))
+    };
+    let number = best.budget.len() - elsewhere.len();
+    let which = match elsewhere.is_empty() {
+        true => "Its standard deviations are".to_owned(),
+        false if number == 1 => "The one standard deviation that the motion decides is".to_owned(),
+        false => format!("The {number} standard deviations that the motion decides are"),
+    };
+    let in_the_mean = than(&|other| mean_ratio(&decided(other)))
+        .map_or_else(String::new, |than| format!(" {which} in the mean {than}."));
+    let by_mount =
+        limited_by_mount(others.first(), best, problem).map_or_else(String::new, |text| format!(" {text}"));
+    let by_criterion = than(&|other| Some(best.times_better_than(other))).map_or_else(String::new, |than| {
+        let letter = problem.criterion.letter();
+        format!(
+            " By criterion {letter}, which counts all combinations of the parameters of a nominal sensor, all are {than}."
+        )
     });
-    format!(
-        " {mean}By criterion {}, which counts all combinations of the parameters of a nominal sensor, they are {} than with {name}.",
-        problem.criterion.letter(),
-        smaller(best.times_better_than(other)),
-    )
+    format!("{in_the_mean}{by_mount}{by_criterion}")
 }
 
 /// Which parameters the mount alone limits, and what would change that; `None` where it limits none.
-pub(super) fn limited_by_mount(
-    other: Option<(&TrajectoryEvaluation, &str)>,
+fn limited_by_mount(
+    other: Option<&(&TrajectoryEvaluation, &str)>,
     best: &TrajectoryEvaluation,
     problem: &TrajectoryProblem<'_>,
 ) -> Option<String> {
@@ -76,7 +88,7 @@ pub(super) fn limited_by_mount(
     });
     Some(format!(
         "The mount, known to {}°, limits {} of {}, whatever the motion: of {}. Known exactly, as by a fixture with pins (`rotation_sd_deg = 0`), it would leave these about {} \
-         times smaller{}. With `rotation = \"unknown\"` the axes of the accelerometer are the frame, and do not depend on the mount.",
+         times smaller{}. With `rotation = \"unknown\"`, and no `rotation_sd_deg`, the axes of the accelerometer are the frame, and do not depend on the mount.",
         significant(sd_rad.to_degrees(), 2),
         counted(places.len(), "standard deviation"),
         best.budget.len(),

@@ -1,6 +1,6 @@
 //! The sections of a trajectory, in their order.
 
-use super::gain::{gain, limited_by_mount};
+use super::gain::gains;
 use super::limits::{broken, limit_table, nearest_pair};
 use super::predicted::{promised_table, unit};
 use crate::About;
@@ -35,14 +35,8 @@ pub fn trajectory_sheet<'a>(
     let proved = best.limits.iter().all(|proof| proof.kept == Kept::Proved);
     let (grade, word) =
         if proved { (Grade::Good, "✓ Found.") } else { (Grade::Caution, "! Not all limits are proved.") };
-    let mut verdict = SheetVerdict::new(grade, word, in_words(design, problem));
-    let findings = about
-        .findings
-        .iter()
-        .cloned()
-        .chain(limited_by_mount(plain.map(|(name, of)| (of, name)), best, problem))
-        .collect();
-    verdict = verdict.with("Findings", findings);
+    let verdict =
+        SheetVerdict::new(grade, word, in_words(design, problem)).with("Findings", about.findings.clone());
     let mut predicted = Section::new("Predicted standard deviations").lead(
         "Standard deviations that a calibration from a recording of the trajectory will state, with everything else that is not known exactly. All trajectories \
          last as long and keep the limits. The random motion is the first start of the search. What the mount or the geometry leaves open, no motion \
@@ -131,9 +125,8 @@ fn in_words(design: &TrajectoryDesign, problem: &TrajectoryProblem<'_>) -> Strin
         format!("A trajectory of {duration} s for {}.", counted(problem.chain.joints.len(), "joint"));
     let plain = design.plain.as_ref().map(|of| (&of.evaluation, of.routine.name()));
     let compared = plain.into_iter().chain([(&design.random, "a random motion")]);
-    for (of, name) in compared.filter(|(of, _)| of.value.is_finite()) {
-        sentence += &gain((of, name), &design.optimal, problem);
-    }
+    let compared: Vec<_> = compared.filter(|(of, _)| of.value.is_finite()).collect();
+    sentence += &gains(&compared, &design.optimal, problem);
     if let Some(bound) = &design.bound {
         sentence += &format!(
             " A bound, whose minimum was looked for on a grid, leaves at most a factor of {} by this criterion; it is loose.",

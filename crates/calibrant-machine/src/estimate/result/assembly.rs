@@ -3,11 +3,12 @@
 use super::drift;
 use super::shared_errors::shared_errors;
 use crate::chain::JointKind;
-use crate::estimate::covariance::{budget, inflation, of_mounting};
+use crate::estimate::covariance::{budget, inflation};
 use crate::estimate::least_squares::{Minimum, Model, Pass, white_noise};
 use crate::estimate::noise::{Growths, Posterior};
 use crate::estimate::{
-    MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SampleResidual, SensorResidual,
+    MachineCalibration, MachineProblem, MachineTrust, MountVariance, ReferenceNoise, SampleResidual,
+    SensorResidual, mount_variances,
 };
 use crate::log::ReferenceLog;
 use calibrant_core::estimate::FitStatistics;
@@ -26,9 +27,11 @@ pub(crate) fn assembled(
     let (state, layout) = (&minimum.state, &model.layout);
     let inflation = inflation(layout, &posterior.covariance, &minimum.solved.information, &minimum.blocks);
     let n = layout.len();
-    let second = of_mounting(layout, &state.parameters, &posterior.covariance);
+    let of_mount = mount_variances(layout, &state.parameters, &posterior.covariance);
+    let beyond: Vec<f64> = of_mount.into_iter().map(MountVariance::beyond).collect();
     let covariance = DMatrix::from_fn(n, n, |i, j| {
-        posterior.covariance[(i, j)] * inflation[i] * inflation[j] + second[(i, j)]
+        let first = posterior.covariance[(i, j)] * inflation[i] * inflation[j];
+        if i == j { first + beyond[i] } else { first }
     });
     let noise: Vec<SensorResidual> = (0..model.streams.len())
         .map(|s| {
@@ -63,7 +66,7 @@ pub(crate) fn assembled(
         joints: model.joint_names(),
         quantities: layout.quantities.clone(),
         values: layout.quantities.iter().map(|of| state.parameters.value(*of, &layout.nominal)).collect(),
-        budget: budget(layout, posterior, &covariance, &second, model.trust),
+        budget: budget(layout, posterior, &covariance, &beyond, model.trust),
         shared: shared_errors(layout, &model.joint_names(), &posterior.covariance, &covariance),
         covariance,
         linear_covariance: posterior.covariance.clone(),
