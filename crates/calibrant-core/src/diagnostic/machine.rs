@@ -105,7 +105,7 @@ checks! {
         /// Its standard deviation, m/s².
         reading_sd_mps2: f64,
     }
-    decided "The specific force along an axis varies by less than a tenth of its mean. An error of the reference then moves bias and gain against \
+    decided "The specific force along an axis of a tracked body varies by less than a tenth of its mean. An error of the reference then moves bias and gain against \
         each other by more than ten times itself."
     remedy "Turn the sensor so that the axis points up, sideways and down. Until then use bias and gain together only, near this force."
     says format!(
