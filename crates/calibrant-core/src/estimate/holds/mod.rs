@@ -35,6 +35,7 @@ mod robust;
 mod robust_weights;
 mod saturated_holds;
 mod setup;
+mod sign_dependence;
 mod sphere;
 mod verdict;
 
