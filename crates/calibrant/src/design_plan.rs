@@ -60,7 +60,7 @@ pub struct DesignPlan {
     pub earlier: Vec<EarlierCalibration>,
     /// How the search goes.
     pub settings: DesignSettings,
-    /// What was noticed of the earlier calibrations.
+    /// What was noticed of the earlier calibrations, and what is assumed.
     pub notes: Vec<Diagnostic>,
     budget: Budget,
 }
@@ -106,7 +106,8 @@ impl DesignPlan {
             let help = "set certificate = true in [design], or leave option `gap` away";
             return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
         }
-        let notes = strangers(&earlier);
+        let mut notes = strangers(&earlier);
+        notes.extend(experiment.assumed_noise(&earlier));
         Ok(Self { experiment, earlier, settings, notes, budget: choice.budget })
     }
 

@@ -164,7 +164,7 @@ checks! {
         /// The noise that was found over the given noise.
         ratio: f64,
     }
-    decided "The residuals, or the samples within the holds, scatter by more than ten times the given noise."
+    decided "The residuals of a motion, or neighbouring samples on a machine, scatter by more than ten times the given noise."
     remedy "Check the sensor and the unit of the recording. Correct the noise in the experiment file."
     says format!(
         "the noise of the {sensor_kind} is {} times the given noise (axis {axis}). Check the sensor and the unit of \

@@ -4,7 +4,8 @@ use super::check::checks;
 use super::faces::FacePointing;
 use super::hold_span::{HoldReason, HoldSpan};
 use super::parts::{Phrase, listed};
-use crate::sensor::ReadingUnit;
+use crate::number_format::significant;
+use crate::sensor::{Axis, ReadingUnit, SensorKind};
 
 checks! {
     /// A hold is not used.
@@ -147,6 +148,40 @@ checks! {
         "the holds scatter by {:.0} mm/s² beyond their noise. Look for movement, drift, saturation, or a force other \
          than gravity.",
         1e3 * between_holds_sd_mps2
+    );
+
+    /// The samples within the holds scatter far more than the given noise. The sensor trembles or vibrates there, or the given noise is wrong.
+    HoldsTremble "holds-tremble" Warning {
+        sensor_kind: SensorKind,
+        /// The axis with the largest ratio.
+        axis: Axis,
+        /// The scatter over the given noise.
+        ratio: f64,
+    }
+    decided "They scatter by more than ten times the given noise. The result rests on the scatter that was found."
+    remedy "Lay the sensor down for each hold, where nothing vibrates. If it was still, correct the noise in the experiment file."
+    says format!(
+        "the samples of the {sensor_kind} scatter within the holds by {} times the noise in the experiment file (axis {axis}): \
+         it trembles or vibrates, or that noise is wrong. Lay the sensor down for each hold, or correct the noise.",
+        significant(*ratio, 3)
+    );
+
+    /// The accelerometer has another gain for positive forces than for negative ones. Bias and gain do not describe it.
+    GainDependsOnSign "gain-depends-on-sign" Warning {
+        /// The axis with the largest difference.
+        axis: Axis,
+        /// Gain for positive forces less that for negative ones, over the gain.
+        difference: f64,
+        /// How far a bias would move, in its standard deviations.
+        moved_sds: f64,
+    }
+    decided "With two gains for each axis the holds fit better; such a difference occurs by chance once in a thousand times, and would move a \
+        bias by more than two of its standard deviations."
+    remedy "Look for a sensor that is not linear or is near the end of its range. Choose a larger range, or another sensor."
+    says format!(
+        "axis {axis} of the accelerometer seems to have a gain that is {:+.2} % larger for positive forces than for negative ones: with such \
+         gains the holds fit far better, and a bias would move by {moved_sds:.1} standard deviations. Is the sensor near the end of its range?",
+        100.0 * difference
     );
 
     /// No hold has an axis pointing up, or down.

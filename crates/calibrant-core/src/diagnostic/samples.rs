@@ -122,7 +122,8 @@ checks! {
         /// How many of what.
         what: Phrase,
     }
-    decided "At most one sample in a thousand is a spike, or at most one in twenty of the holds or rotations is left out, or one of twelve or more. No sensor saturates there."
+    decided "At most one sample in a thousand is a spike, or at most one in twenty of the holds or rotations is left out, or one of twelve or more. No sensor saturates there. \
+        Of holds that were found, the gyroscope turns in fewer than half, and six others tell its bias. Of twelve holds and more, at most half as many stretches are too short."
     says format!("{} do not count: what was left out is too little to move the result ({})", codes.join(", "), what.0);
 
     /// The recording of an IMU has no gyroscope. Only the accelerometer was calibrated.

@@ -6,6 +6,15 @@ use crate::number_format::significant;
 use crate::sensor::SensorKind;
 
 checks! {
+    /// The experiment does not state the noise of the accelerometer. A simulation or a design of poses takes a usual one.
+    NoiseAssumed "noise-assumed" Note {
+        /// Standard deviation of one sample, m/s².
+        noise_mps2: f64,
+    }
+    decided "Neither noise_mps2 nor noise_counts is in [sensor]."
+    remedy "State noise_mps2 in [sensor], as the datasheet says it or `calibrant noise` finds it."
+    says format!("the experiment does not state the noise of one sample (noise_mps2 in [sensor]): a simulation or a design takes {noise_mps2} m/s²");
+
     /// All axes of a sensor are simulated with one noise.
     NoisiestAxis "noisiest-axis" Note {
         sensor_kind: SensorKind,

@@ -3,6 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, GainUnusual, ParameterImplausible};
 use crate::diagnostic::fit::{NoiseImplausible, NoiseNotAsGiven};
+use crate::diagnostic::holds::HoldsTremble;
 use crate::sensor::{Axis, Parameter, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
@@ -100,20 +101,36 @@ fn allows(ending: &str, parameters: &[Parameter], values: &[f64], sd: &[f64]) ->
         .any(|is_allowed| is_allowed)
 }
 
-/// The noise that was found, where it differs from the given noise by more than a factor of two on an axis.
+/// The noise within holds, where it differs from the given noise by more than a factor of two on an axis. A calibration from holds uses the noise that it finds.
 #[must_use]
 pub fn noise_not_as_given(
     sensor_kind: SensorKind,
     found: &Vector3<f64>,
     given: &Vector3<f64>,
 ) -> Option<Diagnostic> {
-    let ratio = |axis: Axis| found[axis.index()] / given[axis.index()];
-    let off = |axis: &Axis| ratio(*axis).max(1.0 / ratio(*axis));
-    let axis = Axis::ALL.into_iter().max_by(|one, other| off(one).total_cmp(&off(other)))?;
-    let ratio = ratio(axis);
-    match off(&axis) > NOT_AS_GIVEN {
-        true if ratio > IMPLAUSIBLE => Some(Diagnostic::from(NoiseImplausible { sensor_kind, axis, ratio })),
+    let (axis, ratio) = farthest(found, given)?;
+    match ratio.max(1.0 / ratio) > NOT_AS_GIVEN {
+        true if ratio > IMPLAUSIBLE => Some(Diagnostic::from(HoldsTremble { sensor_kind, axis, ratio })),
         true => Some(Diagnostic::from(NoiseNotAsGiven { sensor_kind, axis, ratio })),
         false => None,
     }
+}
+
+/// The noise of residuals, where it is so far above the given noise that sensor, unit or given noise is wrong.
+#[must_use]
+pub fn noise_implausible(
+    sensor_kind: SensorKind,
+    found: &Vector3<f64>,
+    given: &Vector3<f64>,
+) -> Option<NoiseImplausible> {
+    let (axis, ratio) = farthest(found, given)?;
+    (ratio > IMPLAUSIBLE).then_some(NoiseImplausible { sensor_kind, axis, ratio })
+}
+
+/// The axis whose noise differs most from the given one, and its ratio to that.
+fn farthest(found: &Vector3<f64>, given: &Vector3<f64>) -> Option<(Axis, f64)> {
+    let ratio = |axis: Axis| found[axis.index()] / given[axis.index()];
+    let off = |axis: &Axis| ratio(*axis).max(1.0 / ratio(*axis));
+    let axis = Axis::ALL.into_iter().max_by(|one, other| off(one).total_cmp(&off(other)))?;
+    Some((axis, ratio(axis)))
 }

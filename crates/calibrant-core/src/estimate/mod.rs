@@ -54,7 +54,7 @@ pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference, Place};
 pub use datasheet::{
     ALLOWED_SPREADS, allows_gain, beyond_datasheet, common_factor, implausible_bias, implausible_gains,
-    noise_not_as_given,
+    noise_implausible, noise_not_as_given,
 };
 pub use effective_degrees::degrees_of_sum;
 pub use gravity_error::{gravity_source, shared_gravity, tells_its_place};

@@ -8,6 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+/// Noise of one sample of an accelerometer that a simulation or a design of poses takes where none is stated, m/s².
+pub const USUAL_NOISE_MPS2: f64 = 0.01;
+
 /// An accelerometer's datasheet: its model, the unit of its readings, its noise and the spread of its errors.
 ///
 /// Spreads and noise are in SI. [`Sensor::noise`] and [`ParameterList::describe`] convert them to the unit of
@@ -106,6 +109,14 @@ impl Sensor {
                 self.noise_counts.or_else(|| self.noise_mps2.map(|noise| noise.component_mul(gain)))
             }
         }
+    }
+
+    /// The same sensor with a usual noise, [`USUAL_NOISE_MPS2`], where its datasheet states none. `None` where it does.
+    #[must_use]
+    pub fn with_usual_noise(&self) -> Option<Self> {
+        let is_stated = self.noise_mps2.is_some() || self.noise_counts.is_some();
+        let noise_mps2 = Some(Vector3::repeat(USUAL_NOISE_MPS2));
+        (!is_stated).then(|| Self { noise_mps2, ..self.clone() })
     }
 }
 

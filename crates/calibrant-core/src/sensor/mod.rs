@@ -33,7 +33,7 @@ mod temperature_model;
 pub use corrected_recording::{CorrectedRecording, CorrectedSensor};
 pub use covariance_degrees::CovarianceDegrees;
 pub(crate) use covariance_degrees::CovariancePart;
-pub use datasheet::{Parameter, Sensor};
+pub use datasheet::{Parameter, Sensor, USUAL_NOISE_MPS2};
 pub(crate) use extremes::quantile;
 pub use extremes::{greater, lesser};
 pub use frame_invariant::{Invariant, InvariantValue};

@@ -3,7 +3,7 @@
 
 use super::Rng;
 use super::recording::normal;
-use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording};
+use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, USUAL_NOISE_MPS2};
 use nalgebra::Vector3;
 
 /// Duration of a turn by hand from one hold to the next, s.
@@ -50,7 +50,7 @@ impl Default for ImuSimulation {
             turn_s: TURN_S,
             rate_hz: 100.0,
             gravity_mps2: 9.806_65,
-            accelerometer_noise: 0.01,
+            accelerometer_noise: USUAL_NOISE_MPS2,
             between_holds_sd_mps2: 0.0,
             gyroscope_noise: 2e-3,
             accelerometer_unit: ReadingUnit::MetrePerSecondSquared,

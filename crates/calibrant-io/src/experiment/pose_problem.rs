@@ -3,9 +3,11 @@
 use super::holds::HoldsPlan;
 use super::{Experiment, Plan};
 use crate::EarlierCalibration;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::simulation::NoiseAssumed;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{Calibration, FaceTilt};
-use calibrant_core::sensor::{ParameterList, SensorParameters};
+use calibrant_core::sensor::{ParameterList, SensorParameters, USUAL_NOISE_MPS2};
 use calibrant_design::poses::{DirectionKnowledge, PoseNuisance, PoseProblem};
 use nalgebra::Vector3;
 
@@ -17,14 +19,12 @@ impl Experiment {
     /// `[holds]`, or of an earlier calibration where that is larger.
     ///
     /// # Errors
-    /// [`Error::Experiment`] without `[holds]`, with no noise at all, or as
-    /// [`design_problem`](Self::design_problem).
+    /// [`Error::Experiment`] without `[holds]`, or as [`design_problem`](Self::design_problem).
     pub fn pose_problem(&self, earlier: &[EarlierCalibration], poses: Option<usize>) -> Result<PoseProblem> {
         let plan = self.holds()?;
         let list = self.pose_parameters(plan, self.design.knows_directions());
         let (at, prior) = self.known_before(&list, earlier)?;
-        let between = earlier.iter().filter_map(|earlier| earlier.between_holds_sd_mps2);
-        let between = between.fold(plan.between_holds_sd_mps2, f64::max);
+        let between = between_mps2(plan, earlier);
         let directions = if self.design.knows_directions() {
             DirectionKnowledge::Known { sd_rad: plan.face_sd_rad().unwrap_or(FaceTilt::ASSUMED_RAD) }
         } else {
@@ -32,7 +32,7 @@ impl Experiment {
         };
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
-            mean_sd: self.mean_sd(plan, &at, between)?,
+            mean_sd: self.mean_sd(plan, &at, between),
             nuisance: self.nuisance(plan, &at, self.design.knows_directions())?,
             list,
             at,
@@ -82,6 +82,14 @@ impl Experiment {
         Ok((problem, directions))
     }
 
+    /// The note that a usual noise stands in for that of the accelerometer, in a `[holds]` experiment that states none.
+    #[must_use]
+    pub fn assumed_noise(&self, earlier: &[EarlierCalibration]) -> Option<Diagnostic> {
+        let Plan::Holds(plan) = &self.plan else { return None };
+        let is_assumed = between_mps2(plan, earlier) == 0.0 && self.sensor.with_usual_noise().is_some();
+        is_assumed.then(|| NoiseAssumed { noise_mps2: USUAL_NOISE_MPS2 }.into())
+    }
+
     fn holds(&self) -> Result<&HoldsPlan> {
         match &self.plan {
             Plan::Holds(plan) => Ok(plan),
@@ -112,21 +120,19 @@ impl Experiment {
         })
     }
 
-    /// Standard deviation of the mean reading of a hold.
-    fn mean_sd(&self, plan: &HoldsPlan, at: &SensorParameters, between_mps2: f64) -> Result<Vector3<f64>> {
+    /// Standard deviation of the mean reading of a hold. Where neither noise nor scatter is stated, a usual noise stands in.
+    fn mean_sd(&self, plan: &HoldsPlan, at: &SensorParameters, between_mps2: f64) -> Vector3<f64> {
         let gain = at.matrix.diagonal();
+        let usual = self.sensor.with_usual_noise().filter(|_| between_mps2 == 0.0);
+        let sensor = usual.as_ref().unwrap_or(&self.sensor);
         let samples = (plan.hold_s * plan.rate_hz).max(1.0);
-        let white = self.sensor.noise(&gain).unwrap_or_else(Vector3::zeros) / samples.sqrt();
-        let sd = white.zip_map(&gain, |white, gain| white.hypot(between_mps2 * gain));
-        if sd.amin() > 0.0 {
-            return Ok(sd);
-        }
-        let input_error = InputError::new(
-            Refusal::KeyMissing,
-            "to design poses, the noise of the accelerometer must be known, and the experiment does not say it",
-            "write noise_mps2 (or noise_counts) under [sensor], the standard deviation of one sample, as the datasheet says it or \
-             `calibrant noise` finds it in a recording at rest; or between_holds_sd_mps2 under [holds]",
-        );
-        Err(Error::experiment(input_error.about_key("sensor.noise_mps2")))
+        let white = sensor.noise(&gain).unwrap_or_else(Vector3::zeros) / samples.sqrt();
+        white.zip_map(&gain, |white, gain| white.hypot(between_mps2 * gain))
     }
+}
+
+/// Scatter of the holds beyond their noise: that of `[holds]`, or of an earlier calibration where that is larger, m/s².
+fn between_mps2(plan: &HoldsPlan, earlier: &[EarlierCalibration]) -> f64 {
+    let found = earlier.iter().filter_map(|earlier| earlier.between_holds_sd_mps2);
+    found.fold(plan.between_holds_sd_mps2, f64::max)
 }

@@ -1,11 +1,8 @@
 //! The times of samples, as `inspect` shows them: rate, jitter, gaps.
 
-use crate::recording::stated_rate::stated_rate_hz;
+use crate::recording::stated_rate::{GAP, measured_rate_hz};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{missing, rate_hz};
-
-/// A time step is a gap from this many usual steps on.
-const GAP: f64 = 5.0;
 
 /// The times of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +11,7 @@ pub struct Sampling {
     pub samples: usize,
     /// First and last sample time, s.
     pub span_s: (f64, f64),
-    /// Samples over duration, gaps left out, Hz.
+    /// Samples over duration, gaps left out, Hz, with the digits that the times have.
     pub rate_hz: f64,
     /// Shortest and longest step without gaps, s.
     pub steps_s: (f64, f64),
@@ -51,7 +48,7 @@ impl Sampling {
         Self {
             samples: times_s.len(),
             span_s: (times_s[0], times_s[times_s.len() - 1]),
-            rate_hz: 1.0 / mean_step,
+            rate_hz: measured_rate_hz(times_s),
             steps_s: (bounds(f64::INFINITY, f64::min), bounds(0.0, f64::max)),
             jitter_s: variance.sqrt(),
             gaps,
@@ -69,7 +66,7 @@ json_object! {
         start_s: of.span_s.0,
         end_s: of.span_s.1,
         /// Gaps left out, with the digits that the times have.
-        rate_hz: stated_rate_hz(of.rate_hz, of.span_s.1),
+        rate_hz: of.rate_hz,
         shortest_step_s: of.steps_s.0,
         longest_step_s: of.steps_s.1,
         /// Standard deviation of the steps.

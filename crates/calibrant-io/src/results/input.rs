@@ -1,6 +1,6 @@
 //! The files that a result came from.
 
-use crate::recording::stated_rate::stated_rate_hz;
+use crate::recording::stated_rate::measured_rate_hz;
 use calibrant_core::number_format::{count, significant};
 use calibrant_core::sensor::Recording;
 use schemars::JsonSchema;
@@ -34,8 +34,7 @@ impl Input {
             file: file_name(path),
             sha256: sha256.to_owned(),
             samples: readings.map_or(0, Recording::len),
-            rate_hz: readings
-                .map_or(0.0, |of| stated_rate_hz(of.rate_hz(), of.times_s().last().copied().unwrap_or(0.0))),
+            rate_hz: readings.map_or(0.0, |of| measured_rate_hz(of.times_s())),
         }
     }
 }

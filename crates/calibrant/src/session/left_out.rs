@@ -1,10 +1,11 @@
 //! What was left out of a calibration, or replaced, where it is too little to matter: it does not count for the verdict.
 //!
 //! Spikes are single samples, and the line between their neighbours is in their place. A hold or a rotation that is left out has no influence; that there is one
-//! among many says little of the others, whose scatter the standard deviations contain.
+//! among many says little of the others, whose scatter the standard deviations contain. A hold that was found and turns tells nothing of the gyroscope's bias,
+//! and more than half of the holds tell it. What looks still but was too short for a hold was never used.
 
 use calibrant_core::diagnostic::gyroscope::RotationLeftOut;
-use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldMoved};
+use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldMoved, HoldsLostToFilter};
 use calibrant_core::diagnostic::noise::NoiseOutliers;
 use calibrant_core::diagnostic::samples::{LeftOutNegligible, Spikes};
 use calibrant_core::diagnostic::{Check, Code, Diagnostic, Phrase, RotationReason};
@@ -17,6 +18,8 @@ const SAMPLES: f64 = 1e-3;
 const OTHERS: f64 = 0.05;
 /// One of as many does not matter.
 const FEWEST: usize = 12;
+/// So many holds tell the gyroscope's bias and its scatter.
+const FEWEST_OF_BIAS: usize = 6;
 
 /// The codes among these warnings that do not count, and the note that says so. `held`: a calibration from holds.
 pub(crate) fn negligible(
@@ -36,10 +39,9 @@ pub(crate) fn negligible(
             found.push((code, words.collect::<Vec<_>>().join(", ")));
         }
     }
-    let others = held.map(others).unwrap_or_default();
-    for (code, what, count, of) in others {
-        let is_there = warnings.iter().any(|warning| warning.code() == code);
-        if is_there && of >= FEWEST && count as f64 <= (OTHERS * of as f64).max(1.0) {
+    let others = held.map(|held| others(held, warnings)).unwrap_or_default();
+    for (code, what, count, of, is_little) in others {
+        if is_little && warnings.iter().any(|warning| warning.code() == code) {
             found.push((code, format!("{count} of {of} {what}")));
         }
     }
@@ -64,20 +66,35 @@ fn samples(warning: &Diagnostic, recording: &ImuRecording) -> usize {
     examined.or(recorded.map(Recording::len)).unwrap_or(0)
 }
 
-/// Holds and rotations that are not used: code, what they are, how many, and of how many. None where a sensor saturates: that needs a larger range.
-fn others(calibration: &Calibration) -> Vec<(Code, &'static str, usize, usize)> {
+/// Holds and rotations that are not used: code, what they are, how many, of how many, and are these few? None where a sensor saturates: that needs a larger range.
+fn others(
+    calibration: &Calibration,
+    warnings: &[Diagnostic],
+) -> Vec<(Code, &'static str, usize, usize, bool)> {
+    let is_little = |count: usize, of: usize| of >= FEWEST && count as f64 <= (OTHERS * of as f64).max(1.0);
     let mut all = Vec::new();
     let Some(holds) = calibration.holds() else { return all };
     let count = holds.holds.len();
     if holds.holds.iter().all(|hold| hold.reason.is_none()) {
         let left_out = holds.holds.iter().filter(|hold| !hold.used).count();
-        all.push((HoldLeftOut::CODE, "holds", left_out, count));
+        all.push((HoldLeftOut::CODE, "holds", left_out, count, is_little(left_out, count)));
+    }
+    let lost = warnings.iter().find(|warning| warning.code() == HoldsLostToFilter::CODE);
+    if let Some(stretches) = lost.and_then(|lost| lost.number("stretches")).map(|of| of as usize) {
+        let are_few = count >= FEWEST && 2 * stretches <= count;
+        all.push((HoldsLostToFilter::CODE, "stretches at rest", stretches, count + stretches, are_few));
     }
     if let Some(gyroscope) = &calibration.gyroscope {
-        all.push((HoldMoved::CODE, "holds", gyroscope.still.turning_holds.len(), count));
+        let turning = gyroscope.still.turning_holds.len();
+        let are_few = match holds.detected {
+            true => count >= turning + FEWEST_OF_BIAS,
+            false => is_little(turning, count),
+        };
+        all.push((HoldMoved::CODE, "holds", turning, count, are_few));
         let unused: Vec<_> = gyroscope.rotations.iter().filter(|rotation| !rotation.used).collect();
         if unused.iter().all(|of| !matches!(of.reason, Some(RotationReason::Saturated(..)))) {
-            all.push((RotationLeftOut::CODE, "rotations", unused.len(), gyroscope.rotations.len()));
+            let (unused, count) = (unused.len(), gyroscope.rotations.len());
+            all.push((RotationLeftOut::CODE, "rotations", unused, count, is_little(unused, count)));
         }
     }
     all

@@ -1,8 +1,7 @@
 //! A result on a machine beside the datasheets of the sensors.
 
-use calibrant_core::diagnostic::fit::NoiseImplausible;
-use calibrant_core::diagnostic::{Check, Diagnostic};
-use calibrant_core::estimate::{beyond_datasheet, noise_not_as_given};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::estimate::{beyond_datasheet, noise_implausible};
 use calibrant_core::sensor::{ParameterList, Sensor, SensorKind, SensorParameters};
 use calibrant_io::ImuPlan;
 use calibrant_machine::estimate::MachineCalibration;
@@ -31,8 +30,7 @@ pub(crate) fn beyond_datasheets(
         SensorKind::Gyroscope => imu.and_then(|imu| imu.gyroscope.noise),
     };
     let noise = calibration.noise.iter().filter_map(|of| {
-        let found = noise_not_as_given(of.sensor, &of.white_noise, &given(of.sensor)?)?;
-        (found.code() == NoiseImplausible::CODE).then_some(found)
+        noise_implausible(of.sensor, &of.white_noise, &given(of.sensor)?).map(Diagnostic::from)
     });
     beyond_datasheet(&parameters, &values, &sd).into_iter().chain(noise).collect()
 }

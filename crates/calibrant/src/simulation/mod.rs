@@ -61,7 +61,7 @@ pub fn simulate(experiment: &Experiment, options: &SimulationOptions) -> Result<
         (Plan::Machine(plan), _) => machine::simulate(experiment, plan, options, random),
         (Plan::Holds(plan), Some(imu)) => imu::simulate(experiment, plan, imu, options, random),
         (Plan::Holds(plan), None) => {
-            check_simulable(&experiment.sensor)?;
+            check_simulable(experiment.sensor.with_usual_noise().as_ref().unwrap_or(&experiment.sensor))?;
             poses::simulate(experiment, plan, options, random)
         }
     }

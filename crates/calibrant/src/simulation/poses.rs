@@ -7,7 +7,9 @@ use super::simulated::Simulation;
 use super::table::{accelerometer_on_table, table};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::settings::SettingUnused;
+use calibrant_core::diagnostic::simulation::NoiseAssumed;
 use calibrant_core::error::Result;
+use calibrant_core::sensor::USUAL_NOISE_MPS2;
 use calibrant_core::simulate::{HoldsSimulation, draw_sensor, simulate_holds, simulate_holds_in};
 use calibrant_io::{Experiment, HoldsPlan, Truth};
 use nalgebra::Vector3;
@@ -21,7 +23,8 @@ pub(super) fn simulate(
     let poses = options.poses.as_ref();
     let plan = &HoldsPlan { poses: poses.map_or(plan.poses, Vec::len), ..plan.clone() };
     length::check_holds(plan, options.budget)?;
-    let sensor = &experiment.sensor;
+    let assumed = experiment.sensor.with_usual_noise();
+    let sensor = assumed.as_ref().unwrap_or(&experiment.sensor);
     let mut rng = random.sensor();
     let drawn = draw_sensor(sensor, &mut rng);
     let on_table = table(plan, &[]);
@@ -33,6 +36,7 @@ pub(super) fn simulate(
     let mut rng = random.happening(rng);
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let mut notes = unused_motion(options);
+    notes.extend(assumed.is_some().then(|| NoiseAssumed { noise_mps2: USUAL_NOISE_MPS2 }.into()));
     let recording = match (&on_table, poses) {
         (Some(steps), _) => {
             accelerometer_on_table(sensor, &truth, plan, steps, (options, &mut notes), &mut rng)?

@@ -3,6 +3,8 @@
 
 use crate::common::steady_holds;
 use crate::common::{messages, read_accelerometer, shared_data};
+use calibrant::diagnostic::holds::GainDependsOnSign;
+use calibrant::diagnostic::{Check, Diagnostic};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
     Recovered, Stimulus, calibrate, find_holds,
@@ -97,6 +99,26 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
             calibration.parameters[k].name,
             calibration.sd()[k]
         );
+    }
+}
+
+/// Positive readings of every axis are larger by 1 %: the bias would be wrong by tens of mm/s², with standard deviations of a few.
+#[test]
+fn a_gain_that_depends_on_the_sign_is_found() {
+    let found = |difference: f64, seed: u64| -> Vec<Diagnostic> {
+        let (truth, mut recording) = simulate(24, seed);
+        for reading in recording.readings_mut() {
+            *reading = reading.zip_map(&truth.bias, |y, bias| y + difference * (y - bias).max(0.0));
+        }
+        let calibration = run(&Sensor::triaxial(SensorModel::Full), &recording, &steady_holds());
+        let warnings = calibration.expect("identifiable").warnings;
+        warnings.into_iter().filter(|of| of.code() == GainDependsOnSign::CODE).collect()
+    };
+    for seed in 1..=3 {
+        assert_eq!(found(0.0, seed), [], "{seed}");
+        let warnings = found(0.01, seed);
+        let difference = warnings[0].number("difference").expect("a number");
+        assert!((difference - 0.01).abs() < 4e-3, "{seed}: {difference}");
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::common::{draw_feeling_imu, run_imu};
 use crate::common::{steady_holds, steady_imu};
 use calibrant::diagnostic::Check;
+use calibrant::diagnostic::holds::HoldMoved;
 use calibrant::diagnostic::samples::Spikes;
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, NoiseSource,
@@ -191,6 +192,25 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
 
     let refused = run(&experiment, on("one.csv"), &path("one.csv")).expect_err("the same data");
     assert!(refused.to_string().contains("calibrated from"), "{refused}");
+}
+
+/// In four of twenty holds it turns about the vertical, by 2 °/s: these tell nothing of the gyroscope's bias, and the others do.
+#[test]
+fn holds_that_turn_do_not_count_where_the_others_tell_the_bias() {
+    let mut recording = imu_recording(1);
+    let force = recording.accelerometer.clone().expect("there");
+    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    for ((t, reading), force) in force.times_s().iter().zip(gyroscope.readings_mut()).zip(force.readings()) {
+        let (hold, since_s) = ((t / 4.5) as usize, t % 4.5);
+        if hold % 5 == 3 && since_s < 2.5 {
+            *reading += 0.035 * force.normalize();
+        }
+    }
+    let session = Session::with(experiment("imu"), SessionOptions::default()).expect("prepared");
+    let outcome = session.calibrate(&Source::from_recording("turning", recording)).expect("calibrated");
+    let warnings = &outcome.calibration().expect("of sensors").warnings;
+    assert!(warnings.iter().any(|found| found.code() == HoldMoved::CODE), "{warnings:?}");
+    assert!(!outcome.verdict().codes.contains(&HoldMoved::CODE), "{:?}", outcome.verdict());
 }
 
 /// What was noticed before an error is not lost with it.

@@ -22,6 +22,8 @@ const VALLEY: (f64, f64) = (0.4, 1.2);
 const PEAK: f64 = 0.2;
 /// Share of a given hold that may lie outside the recording, since times may be rounded.
 const ROUNDED_TIME_SHARE: f64 = 0.02;
+/// Times are equal within this share of a step: times since 1970, or moved by an offset, are rounded elsewhere than times from 0.
+pub(in crate::estimate) const ROUNDED_TIME_STEPS: f64 = 1e-3;
 /// How far the mean may wander within a hold, in standard deviations of a sample.
 const WANDER: f64 = 2.0;
 
@@ -277,9 +279,10 @@ pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f6
 /// [`Error::Recording`] names an interval with fewer than two samples, or that overlaps another.
 pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Result<Vec<Hold>> {
     let mut holds: Vec<Hold> = Vec::with_capacity(intervals_s.len());
+    let slack_s = ROUNDED_TIME_STEPS / recording.rate_hz();
     for (k, &(start, stop)) in intervals_s.iter().enumerate() {
-        let first = recording.times_s.partition_point(|&t| t < start);
-        let end = recording.times_s.partition_point(|&t| t <= stop);
+        let first = recording.times_s.partition_point(|&t| t < start - slack_s);
+        let end = recording.times_s.partition_point(|&t| t <= stop + slack_s);
         if end < first + 2 {
             return Err(Error::recording(InputError::new(
                 Refusal::HoldsInvalid,

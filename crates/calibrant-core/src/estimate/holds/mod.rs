@@ -35,6 +35,7 @@ mod robust;
 mod robust_weights;
 mod saturated_holds;
 mod setup;
+mod sign_dependence;
 mod sphere;
 mod verdict;
 
@@ -47,7 +48,7 @@ pub(super) use sphere::sphere;
 pub(super) use verdict::{are_correlated, left_out};
 
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
-pub(super) use hold_detection::{as_recorded, beyond, median};
+pub(super) use hold_detection::{ROUNDED_TIME_STEPS, as_recorded, beyond, median};
 pub use hold_detection::{find_clean_holds, find_holds, holds_between};
 pub use low_pass_filtered::holds_lost_to_filter;
 pub(super) use low_pass_filtered::with_filter;

@@ -4,14 +4,14 @@ use super::context::Context;
 use super::{Calibration, Error, Result, Trust};
 use crate::diagnostic::datasheet::{GainImplausible, ScaleNegative, WeakerThanDatasheet};
 use crate::diagnostic::fit::{
-    EstimateBiased, FitBetterThanNoise, FitWorseThanNoise, ModelContradicted, NoiseImplausible, NotConverged,
-    NothingToCheck, ResidualsNotWhite,
+    EstimateBiased, FitBetterThanNoise, FitWorseThanNoise, ModelContradicted, NotConverged, NothingToCheck,
+    ResidualsNotWhite,
 };
 use crate::diagnostic::motion::{MotionNotRecorded, SamplesOutsideMotion};
 use crate::diagnostic::{Check, Diagnostic};
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
-use crate::estimate::datasheet::noise_not_as_given;
+use crate::estimate::datasheet::noise_implausible;
 use crate::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use nalgebra::Vector3;
 
@@ -82,14 +82,11 @@ pub(super) fn is_of_another_motion(found: &Diagnostic) -> bool {
 /// Residuals that are more than ten times the given noise: of the noise itself if they are white, otherwise of the model.
 fn far_beyond_noise(found: &Vector3<f64>, given: &Vector3<f64>, is_white: bool) -> Option<Diagnostic> {
     let sensor_kind = SensorKind::Accelerometer;
-    let noise = noise_not_as_given(sensor_kind, found, given)?;
-    if noise.code() != NoiseImplausible::CODE {
-        return None;
-    }
-    match noise.number("ratio") {
-        Some(ratio) if !is_white => Some(ModelContradicted { sensor_kind, ratio }.into()),
-        _ => Some(noise),
-    }
+    let noise = noise_implausible(sensor_kind, found, given)?;
+    Some(match is_white {
+        true => noise.into(),
+        false => ModelContradicted { sensor_kind, ratio: noise.ratio }.into(),
+    })
 }
 
 /// Parameters that the recording determines less well than the datasheet.

@@ -39,10 +39,10 @@ const MOST_STEPS: usize = 12;
 const MULTIPLE: f64 = 1e-3;
 /// Largest distance between the line and logged times before and after it, in ticks. A lost sample moves all times after it.
 const MOST_TICKS: f64 = 3.0;
-/// A host is late now and then by more, but then the earliest times of each such number of samples are on the line, to a tick and a quarter: a lost sample
-/// would move them all by a sample.
+/// A host is late by more, but then the medians of each such number of samples are on the line, to half a sample: a lost sample would move all that follow
+/// by a whole one.
 const BLOCK: usize = 50;
-const EARLIEST_TICKS: f64 = 1.25;
+const MEDIAN_STEPS: f64 = 0.5;
 /// The share of a step that such a tick is. Where it is less, the samples come in packets; where it is more, it is the step itself, and samples are lost.
 const TICK: std::ops::RangeInclusive<f64> = 0.25..=0.7;
 /// A coarser tick, in even steps, may be that of packets, and a lost packet would not show.
@@ -68,7 +68,7 @@ impl EvenTimes {
         let longest_s = steps(times).fold(0.0, f64::max);
         let is_even = tick_s <= COARSEST * line.step_s
             && (most - least <= (MOST_TICKS * tick_s).min(2.0 * line.step_s.max(tick_s))
-                || line.earliest_range_s(times) <= EARLIEST_TICKS * tick_s
+                || line.median_range_s(times) <= MEDIAN_STEPS * line.step_s
                     && (TICK.start() * line.step_s..=TICK.end() * line.step_s).contains(&tick_s))
             && longest_s <= GAP * line.step_s.max(tick_s);
         is_even.then_some(line)
@@ -112,12 +112,13 @@ impl EvenTimes {
         off.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), off| (least.min(off), most.max(off)))
     }
 
-    /// The range of the earliest times of blocks beside the line, s.
-    fn earliest_range_s(&self, times: &[f64]) -> f64 {
-        let off: Vec<f64> = times.iter().enumerate().map(|(k, t)| t - self.at(k)).collect();
-        let earliest =
-            off.chunks_exact(BLOCK).map(|block| block.iter().copied().fold(f64::INFINITY, f64::min));
-        let (least, most) = earliest
+    /// The range of the medians of blocks beside the line, s.
+    fn median_range_s(&self, times: &[f64]) -> f64 {
+        let mut off: Vec<f64> = times.iter().enumerate().map(|(k, t)| t - self.at(k)).collect();
+        let medians = off
+            .chunks_exact_mut(BLOCK)
+            .map(|block| *block.select_nth_unstable_by(BLOCK / 2, f64::total_cmp).1);
+        let (least, most) = medians
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), off| (least.min(off), most.max(off)));
         most - least
     }
@@ -184,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_host_that_is_late_now_and_then_is_seen_by_its_earliest_times() {
+    fn a_host_that_is_late_now_and_then_is_seen_by_its_median_times() {
         // steps of 1, 2 or 3 ticks of 5.12 ms, and seldom of more
         let late = |k: usize| 0.001 * (k * 7919 % 11) as f64 / 11.0 + if k % 487 == 3 { 0.021 } else { 0.0 };
         let logged = |k: usize| ((k as f64 / 104.0 + late(k)) / 0.00512).ceil() * 0.00512;
@@ -201,6 +202,22 @@ mod tests {
         let mut lost = times;
         lost.drain(2000..2001);
         assert_eq!(EvenTimes::found(&lost), None, "one lost sample moves all times after it");
+    }
+
+    /// Steps of 1 to 5 ticks: each sample is late by up to 15 ms of its own.
+    #[test]
+    fn a_host_that_is_always_late_by_chance_has_even_samples() {
+        let late = |k: usize| 0.015 * ((k * 7919) % 10_007) as f64 / 10_007.0;
+        let next = |last: &mut f64, k: usize| {
+            *last = (*last + 1.0).max(((k as f64 * 0.01 + late(k)) / 0.00512).floor());
+            Some(*last * 0.00512)
+        };
+        let times: Vec<f64> = (0..6000).scan(-1.0, next).collect();
+        let even = EvenTimes::found(&times).expect("even");
+        assert!((even.step_s * 100.0 - 1.0).abs() < 2e-5, "{even:?}");
+        let mut lost = times;
+        lost.drain(3000..3001);
+        assert_eq!(EvenTimes::found(&lost), None);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //!
 //! The gyroscope's mean rates in the holds then differ by these turns, and not by a bias that wanders.
 
-use crate::estimate::holds::median;
+use crate::estimate::holds::{ROUNDED_TIME_STEPS, median};
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorParameters};
 use nalgebra::Vector3;
@@ -59,8 +59,9 @@ pub(crate) fn gravity_at_ends(
         let of_mean = (1.0 / part.samples as f64 - 1.0 / all.samples as f64).max(0.0);
         Some((difference - up * up.dot(&difference), of_sample * of_mean))
     };
+    let slack_s = ROUNDED_TIME_STEPS / accelerometer.rate_hz();
     let of_hold = |hold: &&Hold| {
-        let about_s = 2.0 * margin_s(hold);
+        let about_s = 2.0 * margin_s(hold) + slack_s;
         [(hold.start_s, hold.start_s + about_s), (hold.end_s - about_s, hold.end_s)]
             .map(|part| difference(hold, part).unwrap_or_default())
     };

@@ -1,6 +1,7 @@
 //! The time of each rotation from one stationary interval to the next, and whether it can be integrated.
 
 use crate::diagnostic::RotationReason;
+use crate::estimate::holds::ROUNDED_TIME_STEPS;
 use crate::estimate::imu::model::{HoldData, LocalBias, RotationData, Samples};
 use crate::estimate::imu::rotations::gravity_at_ends::{AtEnds, MARGIN_S, margin_s};
 use crate::estimate::imu::rotations::knocks::Knocks;
@@ -27,14 +28,15 @@ pub(crate) struct Span {
 
 /// The times between these holds, with the gyroscope's samples.
 pub(crate) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span> {
+    let slack_s = ROUNDED_TIME_STEPS / gyroscope.rate_hz();
     holds
         .windows(2)
         .map(|pair| {
             let (from, to) = (pair[0], pair[1]);
             let (start_s, end_s) = (from.end_s - margin_s(from), to.start_s + margin_s(to));
             let times = &gyroscope.times_s;
-            let first = times.partition_point(|&t| t <= start_s).saturating_sub(1);
-            let end = (times.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
+            let first = times.partition_point(|&t| t <= start_s + slack_s).saturating_sub(1);
+            let end = (times.partition_point(|&t| t < end_s - slack_s) + 1).min(gyroscope.len());
             let covered = times[first] <= from.end_s && times[end - 1] >= to.start_s;
             if covered {
                 Span { start_s: times[first], end_s: times[end - 1], samples: first..end, covered }

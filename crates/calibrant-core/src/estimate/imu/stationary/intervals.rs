@@ -5,7 +5,7 @@
 //! that of the others is a rotation at a steady rate.
 
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::estimate::holds::{as_recorded, find_clean_holds, holds_between, median};
+use crate::estimate::holds::{ROUNDED_TIME_STEPS, as_recorded, find_clean_holds, holds_between, median};
 use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -47,11 +47,12 @@ pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<
     let (holds, calm) = (holds?, calm.unwrap_or_default());
     let turning = turning(gyroscope, &calm);
     let mut intervals = Vec::with_capacity(holds.len());
+    let shortest_s = minimum_s - ROUNDED_TIME_STEPS / accelerometer.rate_hz();
     for hold in &holds {
         let mut is_calm = false;
         for (segment, turning) in calm.iter().zip(&turning) {
             let (start_s, end_s) = (segment.start_s.max(hold.start_s), segment.end_s.min(hold.end_s));
-            if end_s - start_s >= minimum_s {
+            if end_s - start_s >= shortest_s {
                 is_calm = true;
                 intervals.extend((!turning).then_some((start_s, end_s)));
             }
