@@ -27,7 +27,7 @@ const CONTRADICTED: f64 = 4.0;
 /// A quantity that is farther than this is not what was described: a standard deviation that is stated ten times too small leaves three tenths of it.
 const REFUTED: f64 = 30.0;
 /// From this ratio of the residuals on, a mistake is looked for.
-pub(super) const LARGE: f64 = 2.0;
+const LARGE: f64 = 2.0;
 /// A ratio of the residuals beyond this refuses the model.
 pub(crate) const REFUSED: f64 = 10.0;
 /// From this factor on, nine tenths of a variance are of errors that the model does not have.
@@ -99,7 +99,7 @@ fn reversed_axes(calibration: &MachineCalibration) -> impl Iterator<Item = Diagn
 pub(crate) fn contradict(calibration: &MachineCalibration) -> bool {
     let is_contradiction =
         |found: &Diagnostic| found.severity() == Severity::Error || found.code() == PriorContradicted::CODE;
-    let is_large = |of: &SensorResidual| excess(of) > LARGE;
+    let is_large = |of: &SensorResidual| of.excess() > LARGE;
     calibration.warnings.iter().any(is_contradiction) || calibration.noise.iter().any(is_large)
 }
 
@@ -110,7 +110,7 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
         MachineTrust::Known => WITH_KNOWN_TRUST,
     };
     calibration.noise.iter().filter_map(move |of| {
-        let ratio = excess(of);
+        let ratio = of.excess();
         let sensor_kind = of.sensor;
         match ratio > limit {
             true if ratio > REFUSED => Some(Diagnostic::from(ModelContradicted { sensor_kind, ratio })),
@@ -118,11 +118,6 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
             false => None,
         }
     })
-}
-
-/// The residuals of a sensor in parts of the noise that neighbouring samples do not share.
-pub(super) fn excess(of: &SensorResidual) -> f64 {
-    (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt()
 }
 
 /// The drift of a sensor: beyond what is usual, or the reason of other warnings.

@@ -86,6 +86,13 @@ pub struct SensorResidual {
     pub drift: Option<SensorDrift>,
 }
 
+impl SensorResidual {
+    /// The residuals in parts of the noise that neighbouring samples do not share.
+    pub(crate) fn excess(&self) -> f64 {
+        (self.rms.norm_squared() / self.white_noise.norm_squared()).sqrt()
+    }
+}
+
 impl SampleResidual {
     /// The residual over its standard deviation.
     #[must_use]

@@ -2,7 +2,6 @@
 //! that; what they cannot see is an error that all blocks share, as that of a mount that gives way. Where the residuals do not show one, what they leave room for is
 //! added to the covariance, which then holds.
 
-use super::checks::{LARGE, excess};
 use super::flexure::Flexure;
 use crate::estimate::{MachineCalibration, MachineQuantity, MachineTrust};
 use calibrant_core::diagnostic::machine::{
@@ -14,6 +13,8 @@ use calibrant_core::diagnostic::{Check, Code, Diagnostic};
 const OF_TRACKERS: [Code; 3] = [MachineResiduals::CODE, ReferenceUndermodelled::CODE, LogOutliers::CODE];
 /// A log of which more than this part is outliers has errors of which the rest may have a share.
 const MANY_OUTLIERS: f64 = 0.02;
+/// Residuals of more than this many times the noise are of something else.
+const MILD: f64 = 2.0;
 
 /// Widens the covariance of a tracked body, and puts a note in the place of the warnings that it answers.
 pub(super) fn allow_for(
@@ -27,7 +28,7 @@ pub(super) fn allow_for(
     let is_mild = calibration.joints.is_empty()
         && calibration.trust == MachineTrust::Noisy
         && outliers as f64 <= MANY_OUTLIERS * samples as f64
-        && calibration.noise.iter().all(|of| excess(of) <= LARGE);
+        && calibration.noise.iter().all(|of| of.excess() <= MILD);
     let (None, Some(unseen)) = (&flexure.found, &flexure.unseen) else { return };
     let codes: Vec<String> =
         found.iter().filter(|of| is_answered(of)).map(|of| of.code().to_string()).collect();
