@@ -86,7 +86,8 @@ checks! {
         /// The factor of its standard deviation.
         factor: f64,
     }
-    decided "Without joints, and with a log that is not trusted: residuals are at most twice the noise, at most 2 % of the log are outliers, and none of the         terms of `mount-gives-way` is significant. What these terms are, and how uncertain, is added to the covariance."
+    decided "A tracked body, whose log is not trusted: residuals are at most twice the noise, at most 2 % of the log are outliers, and none of the \
+        terms of `mount-gives-way` is significant. What these terms are, and how uncertain, is added to the covariance."
     says format!(
         "the errors of the tracker are no noise ({}). What the whole recording shares of them is not in their scatter, so the standard deviations \
          include what a mount that gives way could do unseen: that of {parameter} is {factor:.1} times wider.",

@@ -12,7 +12,8 @@
 //! influence `J⁻¹ g_b`, whose scatter gives the covariance (`newey1987`): errors of a tracker that are correlated in time do not count as a mount. Wald's statistic
 //! follows Fisher's F (`hotelling1931`).
 //!
-//! Terms `θ` move the parameters by `M θ`. So what a mount may have done unseen has the second moment `M (C_θ + θ θᵀ) Mᵀ`.
+//! Terms `θ` move the parameters by `M θ`. So what a mount may have done unseen has the second moment `M (C_θ ν/(ν − 2) + θ θᵀ) Mᵀ`, with the `ν` degrees of
+//! freedom of the scatter.
 
 use crate::estimate::least_squares::{Block, Front, Minimum, Model, Pass, Scaled, State, huber};
 use crate::estimate::{MachineCalibration, MachineQuantity};
@@ -35,6 +36,8 @@ const BLOCKS: usize = 60;
 const SHORTEST_S: f64 = 0.5;
 /// Residuals of this probability are no chance.
 const NO_CHANCE: f64 = 1e-4;
+/// Fewest blocks that tell the terms.
+const FEWEST: f64 = 3.5;
 /// What moves no parameter by more than this many of its standard deviations is covered by them.
 const COVERED: f64 = 1.0;
 
@@ -114,7 +117,7 @@ impl Trial {
         }
         // blocks that tell the terms, and the degrees of freedom of their scatter
         let told = shares.iter().map(|(sum, squares)| sum * sum / squares).fold(number, f64::min);
-        if told < 5.0 {
+        if told < FEWEST {
             return None;
         }
         let squares = estimate.dot(&Scaled::new(&covariance)?.solve(&estimate));
@@ -125,6 +128,8 @@ impl Trial {
             alone.solve(&whole.information.view((0, own + axis), (own, 1)).column(0).into_owned())
         };
         let effect = DMatrix::from_columns(&[solved(0), solved(1), solved(2)]);
+        // so few blocks tell the covariance no better than Student's distribution has it
+        let covariance = covariance * ((told - 1.0) / (told - 3.0));
         let unseen = &effect * (covariance + &estimate * estimate.transpose()) * effect.transpose();
         ratio.is_finite().then(|| Self { step: step.rows(0, own).into_owned(), p_value, unseen })
     }
