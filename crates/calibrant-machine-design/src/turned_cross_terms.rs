@@ -12,18 +12,14 @@
 //! Where this is less for a sensor than what is of second order in `δ`, the calibration states the latter. For a scale factor it is a sum of two squares, whose distribution is
 //! exponential: with the mean `F`, and `s` of second order, the mean of what is missing is `s − F (1 − exp(−s/F))`.
 
-use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
 use calibrant_machine::estimate::{Layout, MachineQuantity, MountVariance};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// An entry of a matrix: sensor, row, column.
 fn entry(quantity: MachineQuantity) -> Option<(SensorKind, usize, usize)> {
     let MachineQuantity::Imu(ImuQuantity::Of(kind, of)) = quantity else { return None };
-    let (row, column) = match of {
-        Quantity::Scale(axis) => (axis, axis),
-        Quantity::CrossAxis(row, column) | Quantity::Symmetric(row, column) => (row, column),
-        Quantity::Bias(_) => return None,
-    };
+    let (row, column) = of.entry()?;
     Some((kind, row.index(), column.index()))
 }
 

@@ -267,7 +267,11 @@ fn gravity(value: &Value) -> Result<Option<MotionGravity>, Failure> {
 
 /// Bias and matrix. Axes that the sensor does not have are perfect.
 fn nominal(value: &Value) -> Result<SensorParameters, Failure> {
-    let mut at = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::identity() };
+    let mut at = SensorParameters {
+        bias: Vector3::zeros(),
+        matrix: Matrix3::identity(),
+        ..SensorParameters::identity()
+    };
     for (row, bias) in list(&value["bias"])?.iter().enumerate() {
         at.bias[row] = number(bias)?;
         for (column, entry) in list(&value["matrix"][row])?.iter().enumerate() {

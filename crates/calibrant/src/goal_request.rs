@@ -125,7 +125,7 @@ fn goal(
     let is_bias = matches!(quantity, Quantity::Bias(_));
     let fits = match request.dimension {
         Dimension::Own => true,
-        Dimension::Share => !is_bias,
+        Dimension::Share => quantity.unit(ReadingUnit::MetrePerSecondSquared) == "1",
         Dimension::Acceleration => is_bias,
         Dimension::Rate => false,
     };
@@ -135,12 +135,10 @@ fn goal(
         let help = if is_bias { "give mg, ug or m/s2" } else { "give ppm or %" };
         return reject(message, help.into());
     }
-    let (Quantity::Bias(axis)
-    | Quantity::Scale(axis)
-    | Quantity::CrossAxis(axis, _)
-    | Quantity::Symmetric(axis, _)) = quantity;
-    let gain = at.matrix.row(axis.index()).norm();
-    let is_counted = unit == ReadingUnit::Counts && request.dimension != Dimension::Own;
+    let gain = at.matrix.row(quantity.axis().index()).norm();
+    let is_counted = unit == ReadingUnit::Counts
+        && request.dimension != Dimension::Own
+        && !matches!(quantity, Quantity::Nonlinear(..));
     Ok(Goal { parameter, sd: request.value * if is_counted { gain } else { 1.0 } })
 }
 

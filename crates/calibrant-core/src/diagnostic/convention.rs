@@ -2,6 +2,7 @@
 
 use super::check::checks;
 use super::parts::Phrase;
+use crate::number_format::plain;
 use crate::sensor::{ReadingUnit, SensorKind};
 
 checks! {
@@ -20,6 +21,20 @@ checks! {
         true => format!("{format} has no place for {what}, kept under the key `calibrant`, which only calibrant reads"),
         false => format!("{format} has no place for {what}: keep the calibrant JSON"),
     };
+
+    /// A format of calibrations has no place for the terms that bend the accelerometer's response.
+    ResponseStraightened "response-straightened" Warning {
+        /// The format.
+        format: &'static str,
+        /// What it errs by at ±1 g along an axis, at most, m/s².
+        largest_mps2: f64,
+    }
+    decided "The format has a matrix and a bias only. The error is that of the terms at ±1 g along each axis."
+    remedy "Take the C header or the JSON of calibrant, or calibrate without `nonlinearity` for the best straight line."
+    says format!(
+        "{format} has no place for the terms that bend the accelerometer's response: what it corrects errs by up to {} mm/s² at ±1 g. Take the C header or the calibrant JSON",
+        plain(1e3 * largest_mps2, 2)
+    );
 
     /// A format of calibrations needs what the calibration does not have.
     FormatNeeds "format-needs" Warning {

@@ -4,7 +4,7 @@ use super::check::checks;
 use super::faces::FacePointing;
 use super::hold_span::{HoldReason, HoldSpan};
 use super::parts::{Phrase, listed};
-use crate::number_format::significant;
+use crate::number_format::{plain, significant};
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
 
 checks! {
@@ -177,11 +177,30 @@ checks! {
     }
     decided "With two gains for each axis the holds fit better; such a difference occurs by chance once in a thousand times, and would move a \
         bias by more than two of its standard deviations."
-    remedy "Look for a sensor that is not linear or is near the end of its range. Choose a larger range, or another sensor."
+    remedy "Add \"gain-by-sign\" to holds.nonlinearity, which estimates the two gains from some two dozen holds. Else choose a larger range, or another sensor."
     says format!(
         "axis {axis} of the accelerometer seems to have a gain that is {:+.2} % larger for positive forces than for negative ones: with such \
-         gains the holds fit far better, and a bias would move by {moved_sds:.1} standard deviations. Is the sensor near the end of its range?",
+         gains the holds fit far better, and a bias would move by {moved_sds:.1} standard deviations. Add \"gain-by-sign\" to holds.nonlinearity; \
+         or is the sensor near the end of its range?",
         100.0 * difference
+    );
+
+    /// The accelerometer's response is bent like a parabola. Bias and gain do not describe it.
+    SecondOrderResponse "second-order-response" Warning {
+        /// The axis with the largest coefficient.
+        axis: Axis,
+        /// Its second-order coefficient, (m/s²)⁻¹.
+        second_order_per_mps2: f64,
+        /// How far a bias would move, in its standard deviations.
+        moved_sds: f64,
+    }
+    decided "With a second-order coefficient for each axis the holds fit better than with two gains; such coefficients occur by chance once in a thousand \
+        times, and would move a bias by more than two of its standard deviations."
+    remedy "Add \"second-order\" to holds.nonlinearity, which estimates the coefficients from some two dozen holds. Else choose a larger range, or another sensor."
+    says format!(
+        "axis {axis} of the accelerometer seems to have a second-order coefficient of {} mg/g²: with such terms the holds fit far better, and a \
+         bias would move by {moved_sds:.1} standard deviations. Add \"second-order\" to holds.nonlinearity; or is the sensor near the end of its range?",
+        plain(1e3 * 9.806_65 * second_order_per_mps2, 2)
     );
 
     /// No hold has an axis pointing up, or down.

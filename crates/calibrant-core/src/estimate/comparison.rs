@@ -339,7 +339,7 @@ fn together(variances: &[[f64; 2]], of: [&CalibratedImu; 2], part: CovariancePar
 /// Does the covariance of an IMU determine an invariant?
 fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
     let has_matrix = |sensor_kind: SensorKind| {
-        let matrix = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, q) if *of == sensor_kind && !matches!(q, Quantity::Bias(_)));
+        let matrix = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, q) if *of == sensor_kind && q.entry().is_some());
         imu.quantities.iter().any(matrix)
     };
     imu.covariance.is_some()
@@ -352,6 +352,9 @@ fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
             Invariant::Thermal(sensor_kind, term) => {
                 imu.quantities.contains(&ImuQuantity::Thermal(sensor_kind, term))
             }
+            Invariant::Nonlinear(term, axis) => imu
+                .quantities
+                .contains(&ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Nonlinear(term, axis))),
             Invariant::GSensitivity(_) => {
                 imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
             }

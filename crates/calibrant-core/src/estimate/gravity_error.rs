@@ -7,8 +7,9 @@ use nalgebra::DVector;
 /// Derivative of each quantity with respect to the assumed gravity, `∂p/∂g = −p/g`.
 ///
 /// Gravity is a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the gyroscope's matrix and the temperature terms do not
-/// depend on it. `prior_share`: the share of each quantity's information that comes from a prior; this part does not follow gravity. Without any it is
-/// empty. Times the uncertainty of gravity, it is a column of the covariance's root.
+/// depend on it. A term that bends the response as the p-th power of the force has `−(p − 1) c/g`. `prior_share`: the share of each quantity's
+/// information that comes from a prior; this part does not follow gravity. Without any it is empty. Times the uncertainty of gravity, it is a column of
+/// the covariance's root.
 pub(super) fn gravity_slope(
     quantities: &[ImuQuantity],
     prior_share: &[f64],
@@ -23,7 +24,11 @@ pub(super) fn gravity_slope(
             | ImuQuantity::Thermal(..) => 0.0,
             ImuQuantity::Of(SensorKind::Accelerometer, _) | ImuQuantity::GSensitivity(..) => {
                 let of_data = 1.0 - prior_share.get(k).copied().unwrap_or(0.0);
-                -quantity.value(imu) / gravity.magnitude_mps2 * of_data
+                let power = match quantity {
+                    ImuQuantity::Of(_, Quantity::Nonlinear(term, _)) => f64::from(term.power() - 1),
+                    _ => 1.0,
+                };
+                -power * quantity.value(imu) / gravity.magnitude_mps2 * of_data
             }
         }),
     )
@@ -56,6 +61,7 @@ pub fn shared_gravity(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensor::{NonlinearTerm, ParameterList};
     use nalgebra::{Matrix3, Vector3};
 
     /// With gravity a little larger, forces are, and moved parameters give the same readings at every temperature.
@@ -65,6 +71,7 @@ mod tests {
             ImuQuantity::full_list(true, true, true),
             ImuQuantity::thermal_list(SensorKind::Accelerometer, 2, 2),
             ImuQuantity::thermal_list(SensorKind::Gyroscope, 2, 2),
+            ParameterList::from_quantities(Vec::new()).with_terms(&NonlinearTerm::ALL).of_accelerometer(),
         ]
         .concat();
         let mut imu = ImuParameters::identity();

@@ -46,7 +46,7 @@ impl Uncalibrated {
         let gain = datasheet.gain.unwrap_or_else(|| Vector3::repeat(own.mean()));
         let bias = datasheet.offset.unwrap_or_else(|| Vector3::repeat(found.bias.mean()));
         Self {
-            sensor: SensorParameters { bias, matrix: Matrix3::from_diagonal(&gain) },
+            sensor: SensorParameters::linear(bias, Matrix3::from_diagonal(&gain)),
             source: source.to_owned(),
         }
     }
@@ -65,10 +65,8 @@ mod tests {
 
     #[test]
     fn what_the_datasheet_does_not_give_is_one_for_all_axes() {
-        let found = SensorParameters {
-            bias: Vector3::new(33000.0, 33300.0, 32400.0),
-            matrix: Matrix3::new(3.0, 0.0, 4.0, 0.0, 6.0, 0.0, 0.0, 0.0, 7.0),
-        };
+        let matrix = Matrix3::new(3.0, 0.0, 4.0, 0.0, 6.0, 0.0, 0.0, 0.0, 7.0);
+        let found = SensorParameters::linear(Vector3::new(33000.0, 33300.0, 32400.0), matrix);
         let counts = Sensor {
             unit: ReadingUnit::Counts,
             gain: None,

@@ -232,7 +232,7 @@ mod tests {
     fn the_model_agrees_with_the_parameter_list() {
         let list = ParameterList::new(3, SensorModel::Full);
         let p = parameters();
-        let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+        let mut sensor = SensorParameters::linear(Vector3::zeros(), Matrix3::zeros());
         for (slot, value) in FULL_SLOTS.into_iter().zip(p.iter()) {
             list.quantities()[slot].add_to(&mut sensor, *value);
         }
@@ -240,7 +240,7 @@ mod tests {
         assert!((reading(&p, &a) - sensor.reading(&a)).amax() < 1e-15);
         assert_eq!(matrix::<3, 12>(&p), sensor.matrix);
         for (k, slot) in FULL_SLOTS.into_iter().enumerate() {
-            let derivative = list.quantities()[slot].derivative(&a);
+            let derivative = list.quantities()[slot].derivative(&sensor, &a);
             assert!((sensitivity(&a).column(k) - derivative).amax() < 1e-14);
         }
     }

@@ -110,7 +110,8 @@ pub(crate) fn from_reading_at_rest(list: &ParameterList, force_mps2: &Vector3<f6
         let Quantity::Bias(axis) = quantity else { continue };
         for (place, other) in list.quantities().iter().enumerate() {
             if !matches!(other, Quantity::Bias(_)) {
-                of[(bias, place)] = -other.derivative(force_mps2)[axis.index()];
+                of[(bias, place)] =
+                    -other.derivative(&SensorParameters::identity(), force_mps2)[axis.index()];
             }
         }
     }
@@ -169,7 +170,7 @@ mod tests {
             let list = ParameterList::new(3, model);
             let matrix =
                 if model == SensorModel::Full { matrix } else { Matrix3::from_diagonal(&matrix.diagonal()) };
-            let at = SensorParameters { bias: Vector3::new(0.1, 0.2, -0.3), matrix };
+            let at = SensorParameters::linear(Vector3::new(0.1, 0.2, -0.3), matrix);
             let p = list.len();
             let wave = |k: f64| DMatrix::from_fn(p, p, |i, j| (k * (3 * i + 5 * j + i * j) as f64).sin());
             let f = wave(1.0) * wave(1.0).transpose() * 100.0 + DMatrix::identity(p, p);

@@ -309,7 +309,7 @@ mod tests {
     fn the_second_derivative_is_that_of_differences() {
         let noise = InputNoise { floor_mps3: 0.01, ratio: 0.02 };
         let matrix = Matrix3::new(1.1, 0.1, -0.05, 0.02, 0.9, 0.03, 0.04, -0.02, 1.05);
-        let at = SensorParameters { bias: Vector3::new(0.1, 0.2, 0.3), matrix };
+        let at = SensorParameters::linear(Vector3::new(0.1, 0.2, 0.3), matrix);
         for (trust, ends) in [
             (Trust::Known, KnownEnds::Start),
             (Trust::Noisy(noise), KnownEnds::Start),

@@ -67,7 +67,7 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
     let mut columns: Vec<Axis> = quantities
         .iter()
         .filter_map(|quantity| match *quantity {
-            Quantity::Bias(_) => None,
+            Quantity::Bias(_) | Quantity::Nonlinear(..) => None,
             Quantity::Scale(axis) | Quantity::CrossAxis(_, axis) | Quantity::Symmetric(_, axis) => Some(axis),
         })
         .collect();

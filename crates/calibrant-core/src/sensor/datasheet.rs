@@ -97,7 +97,7 @@ impl Sensor {
     /// Nominal parameters, where gain and offset are known.
     #[must_use]
     pub fn nominal(&self) -> Option<SensorParameters> {
-        Some(SensorParameters { bias: self.offset?, matrix: Matrix3::from_diagonal(&self.gain?) })
+        Some(SensorParameters::linear(self.offset?, Matrix3::from_diagonal(&self.gain?)))
     }
 
     /// Standard deviation of one sample's noise per axis, in the unit of the readings, for a sensor of the given gain.
@@ -172,6 +172,7 @@ impl ParameterList {
                     Quantity::CrossAxis(row, _) | Quantity::Symmetric(row, _) => {
                         sensor.cross_axis_sd.map(|sd| sd * gain(row))
                     }
+                    Quantity::Nonlinear(..) => None,
                 };
                 Parameter {
                     name: quantity.name(),

@@ -2,17 +2,20 @@
 //! the coordinate system of all changes of frame and reference.
 //!
 //! The order is `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9). Then come `b_1`, `b_2`,
-//! `k_1`, `k_2` (3 each) of each sensor. Derivatives of results that depend on an IMU are taken with respect
+//! `k_1`, `k_2` (3 each) of each sensor, and the coefficients that bend the accelerometer's response (3 of each term). Derivatives of results that depend on an IMU are taken with respect
 //! to these entries. A covariance of any list of quantities becomes a covariance of the entries.
 
 use super::{
-    Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorParameters,
-    SensorThermal, SharedErrors, Thermal, ThermalPart,
+    Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, NonlinearTerm, ParameterList, Quantity,
+    SensorKind, SensorParameters, SensorThermal, SharedErrors, Thermal, ThermalPart,
 };
 use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
 
 /// Number of entries.
-pub(crate) const ENTRIES: usize = AT_REFERENCE + 2 * THERMAL_OF_SENSOR;
+pub(crate) const ENTRIES: usize = LINEAR + 3 * NonlinearTerm::ALL.len();
+
+/// Number of entries of a linear response; they come first.
+pub(crate) const LINEAR: usize = AT_REFERENCE + 2 * THERMAL_OF_SENSOR;
 
 /// Number of entries that are not temperature terms; they come first.
 pub(crate) const AT_REFERENCE: usize = 33;
@@ -54,6 +57,11 @@ pub(super) fn thermal(sensor_kind: SensorKind, part: ThermalPart, order: usize, 
     AT_REFERENCE + of_sensor + of_part + 3 * (order - 1) + axis
 }
 
+/// Place of the coefficient of a term that bends the accelerometer's response.
+pub(super) fn nonlinear(term: NonlinearTerm, axis: usize) -> usize {
+    LINEAR + 3 * term as usize + axis
+}
+
 fn first(sensor_kind: SensorKind) -> usize {
     match sensor_kind {
         SensorKind::Accelerometer => 0,
@@ -87,16 +95,27 @@ pub(super) fn from_parameters(imu: &ImuParameters) -> EntryVector {
             }
         }
     }
+    for term in NonlinearTerm::ALL {
+        for axis in 0..3 {
+            entries[nonlinear(term, axis)] = imu.accelerometer.nonlinearity.of(term)[axis];
+        }
+    }
     entries
 }
 
 /// An IMU with these entries: the inverse of [`from_parameters`]. The reference
 /// temperature is not among the entries.
 pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
-    let sensor = |sensor_kind| SensorParameters {
-        bias: Vector3::from_fn(|row, _| entries[bias(sensor_kind, row)]),
-        matrix: Matrix3::from_fn(|row, column| entries[matrix(sensor_kind, row, column)]),
+    let sensor = |sensor_kind| {
+        SensorParameters::linear(
+            Vector3::from_fn(|row, _| entries[bias(sensor_kind, row)]),
+            Matrix3::from_fn(|row, column| entries[matrix(sensor_kind, row, column)]),
+        )
     };
+    let mut accelerometer = sensor(SensorKind::Accelerometer);
+    for term in NonlinearTerm::ALL {
+        *accelerometer.nonlinearity.of_mut(term) = Vector3::from_fn(|axis, _| entries[nonlinear(term, axis)]);
+    }
     let sensor_thermal = |sensor_kind| {
         let of = |part| {
             std::array::from_fn(|m| {
@@ -106,7 +125,7 @@ pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
         SensorThermal { bias: of(ThermalPart::Bias), scale: of(ThermalPart::Scale) }
     };
     ImuParameters {
-        accelerometer: sensor(SensorKind::Accelerometer),
+        accelerometer,
         gyroscope: sensor(SensorKind::Gyroscope),
         g_sensitivity: Matrix3::from_fn(|row, column| entries[g_sensitivity(row, column)]),
         thermal: Thermal {
@@ -122,13 +141,6 @@ pub(super) fn of_quantity(quantity: ImuQuantity) -> EntryVector {
     let mut imu = to_imu(&EntryVector::zeros());
     quantity.add_to(&mut imu, 1.0);
     from_parameters(&imu)
-}
-
-/// A quantity for each entry, though in another order.
-pub(super) fn all_quantities() -> Vec<ImuQuantity> {
-    let mut all = ImuQuantity::full_list(true, true, true);
-    all.extend(ImuQuantity::all_thermal(true, true));
-    all
 }
 
 /// Covariance of the entries of an IMU, zero where they are known exactly; `None` where the IMU has no
@@ -167,6 +179,18 @@ pub(super) fn transformed(
 }
 
 impl ImuQuantity {
+    /// Every quantity that the model knows of these sensors: one for each entry, though in another order.
+    #[must_use]
+    pub fn all(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
+        let mut all = Self::full_list(accelerometer, gyroscope, gyroscope);
+        all.extend(Self::all_thermal(accelerometer, gyroscope));
+        if accelerometer {
+            let terms = ParameterList::from_quantities(Vec::new()).with_terms(&NonlinearTerm::ALL);
+            all.extend(terms.of_accelerometer());
+        }
+        all
+    }
+
     /// Every quantity of a full model, in the order of a result. Each sensor that is there has its bias,
     /// scale factors and cross-axis sensitivities. The g-sensitivity follows.
     #[must_use]
@@ -196,7 +220,7 @@ impl ImuQuantity {
     /// Is it an entry of the matrix of this sensor, on the diagonal or off it? A bias is not.
     #[must_use]
     pub(super) fn in_matrix_of(self, sensor_kind: SensorKind) -> bool {
-        matches!(self, Self::Of(of, quantity) if of == sensor_kind && !matches!(quantity, Quantity::Bias(_)))
+        matches!(self, Self::Of(of, quantity) if of == sensor_kind && quantity.entry().is_some())
     }
 }
 
@@ -221,7 +245,7 @@ mod tests {
         let entries = EntryVector::from_fn(|k, _| k as f64 + 1.0);
         assert_eq!(from_parameters(&to_imu(&entries)), entries);
         let imu = to_imu(&entries);
-        let all = all_quantities();
+        let all = ImuQuantity::all(true, true);
         for quantity in &all {
             assert_eq!(of_quantity(*quantity).dot(&entries), quantity.value(&imu), "{}", quantity.name());
         }

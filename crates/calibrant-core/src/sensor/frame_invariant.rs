@@ -8,8 +8,8 @@
 
 use super::entry_vector::{self, EntryMatrix, EntryVector};
 use super::{
-    Axis, CalibratedImu, CovariancePart, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
-    ThermalPart, ThermalTerm,
+    Axis, CalibratedImu, CovariancePart, ImuParameters, ImuQuantity, NonlinearTerm, Quantity, ReadingUnit,
+    SensorKind, ThermalPart, ThermalTerm,
 };
 use nalgebra::Vector3;
 
@@ -28,6 +28,8 @@ pub enum Invariant {
     GSensitivity(Axis),
     /// What temperature does to bias or gain of an axis.
     Thermal(SensorKind, ThermalTerm),
+    /// The coefficient of a term that bends the response of the accelerometer.
+    Nonlinear(NonlinearTerm, Axis),
 }
 
 crate::json_name!(Invariant);
@@ -80,6 +82,7 @@ impl Invariant {
             Self::AngleBetween(a, g) => format!("angle.accelerometer_{a}.gyroscope_{g}"),
             Self::GSensitivity(axis) => format!("gyroscope.g_sensitivity.{axis}"),
             Self::Thermal(sensor_kind, term) => format!("{sensor_kind}.{}", term.name()),
+            Self::Nonlinear(term, axis) => format!("{}.{}.{axis}", SensorKind::Accelerometer, term.name()),
         }
     }
 
@@ -100,6 +103,7 @@ impl Invariant {
             Self::Thermal(sensor_kind, term) => {
                 term.unit(imu.unit(sensor_kind).unwrap_or(sensor_kind.stimulus_unit()))
             }
+            Self::Nonlinear(term, _) => term.unit(),
         }
     }
 
@@ -110,7 +114,7 @@ impl Invariant {
             Self::Bias(sensor_kind, _) | Self::Gain(sensor_kind, _) => Some(sensor_kind),
             Self::GSensitivity(_) => Some(SensorKind::Gyroscope),
             Self::Thermal(sensor_kind, ThermalTerm { part: ThermalPart::Bias, .. }) => Some(sensor_kind),
-            Self::Angle(..) | Self::AngleBetween(..) | Self::Thermal(..) => None,
+            Self::Angle(..) | Self::AngleBetween(..) | Self::Thermal(..) | Self::Nonlinear(..) => None,
         }
     }
 
@@ -129,6 +133,9 @@ impl Invariant {
             Self::AngleBetween(_, axis) => ImuQuantity::Of(gyroscope, Quantity::Scale(axis)),
             Self::GSensitivity(axis) => ImuQuantity::GSensitivity(axis, axis),
             Self::Thermal(of, term) => ImuQuantity::Thermal(of, term),
+            Self::Nonlinear(term, axis) => {
+                ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Nonlinear(term, axis))
+            }
         };
         quantity.covariance_part()
     }
@@ -158,6 +165,10 @@ impl Invariant {
             Self::Thermal(sensor_kind, term) => {
                 gradient[entry_vector::thermal(sensor_kind, term.part, term.order, term.axis.index())] = 1.0;
                 term.value(imu.thermal.sensor(sensor_kind))
+            }
+            Self::Nonlinear(term, axis) => {
+                gradient[entry_vector::nonlinear(term, axis.index())] = 1.0;
+                imu.accelerometer.nonlinearity.of(term)[axis.index()]
             }
             Self::Bias(sensor_kind, axis) => {
                 gradient[entry_vector::bias(sensor_kind, axis.index())] = 1.0;
@@ -212,11 +223,14 @@ impl CalibratedImu {
     pub fn invariants(&self) -> Vec<InvariantValue> {
         let covariance = entry_vector::covariance(self).map(Box::new);
         let (accelerometer, gyroscope) = (self.accelerometer_unit.is_some(), self.gyroscope_unit.is_some());
-        let terms = ImuQuantity::all_thermal(accelerometer, gyroscope).into_iter().filter_map(|quantity| {
+        let terms = ImuQuantity::all(accelerometer, gyroscope).into_iter().filter_map(|quantity| {
             let there = quantity.value(&self.parameters) != 0.0 || self.quantities.contains(&quantity);
             match quantity {
                 ImuQuantity::Thermal(sensor_kind, term) if there => {
                     Some(Invariant::Thermal(sensor_kind, term))
+                }
+                ImuQuantity::Of(_, Quantity::Nonlinear(term, axis)) if there => {
+                    Some(Invariant::Nonlinear(term, axis))
                 }
                 _ => None,
             }

@@ -4,7 +4,8 @@
 //! same sensor for every rotation `R`. A gauge picks one. The correction is `s = S⁻¹ (y − b)`. `S` and `S⁻¹`
 //! are triangular (or symmetric) together, so one gauge names both directions.
 
-use super::{Axis, Quantity, SensorModel, SensorParameters};
+use super::nonlinearity::row_norms;
+use super::{Axis, Nonlinearity, Quantity, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -71,7 +72,7 @@ impl Gauge {
                 u * Matrix3::from_diagonal(&svd.singular_values) * u.transpose()
             }
         };
-        SensorParameters { bias: sensor.bias, matrix }
+        SensorParameters { matrix, ..*sensor }
     }
 }
 
@@ -87,13 +88,17 @@ fn lower_factor(s: &Matrix3<f64>) -> Matrix3<f64> {
     l
 }
 
-/// The correction, raw → true: `s = matrix · (y − bias)`. Its parts follow imu_tk: `s = T K (y − b)`.
+/// The correction, raw → true: `s = matrix · (y − bias)`. Its parts follow imu_tk: `s = T K (y − b)`. A response that is not linear is straightened first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Correction {
     /// `C = S⁻¹`, in m/s² per unit of the readings.
     pub matrix: Matrix3<f64>,
     /// Bias `b`, in the unit of the readings.
     pub bias: Vector3<f64>,
+    /// What bends the response.
+    pub nonlinearity: Nonlinearity,
+    /// Gain of each axis: the norm of its row of `S`.
+    gains: Vector3<f64>,
 }
 
 /// `M v`, written out because it runs for every sample: general products of matrices cost several times as
@@ -111,13 +116,33 @@ impl Correction {
     /// The correction of a sensor; `None` where its matrix has no inverse.
     #[must_use]
     pub fn of(sensor: &SensorParameters) -> Option<Self> {
-        Some(Self { matrix: sensor.matrix.try_inverse()?, bias: sensor.bias })
+        let (matrix, gains) = (sensor.matrix.try_inverse()?, row_norms(&sensor.matrix));
+        Some(Self { matrix, bias: sensor.bias, nonlinearity: sensor.nonlinearity, gains })
     }
 
     /// Corrected reading `C (y − b)`, m/s².
     #[must_use]
     pub fn apply(&self, reading: &Vector3<f64>) -> Vector3<f64> {
-        times(&self.matrix, &(reading - self.bias))
+        times(&self.matrix, &self.straightened(&(reading - self.bias)))
+    }
+
+    /// `S s` of a reading without its bias.
+    fn straightened(&self, unbiased: &Vector3<f64>) -> Vector3<f64> {
+        if self.nonlinearity.is_none() {
+            return *unbiased;
+        }
+        Vector3::from_fn(|axis, _| {
+            self.gains[axis] * self.nonlinearity.straightened(axis, unbiased[axis] / self.gains[axis])
+        })
+    }
+
+    /// Derivative of the corrected reading `stimulus` with respect to the reading: `C` where the response is linear.
+    #[must_use]
+    pub fn by_reading(&self, sensor: &SensorParameters, stimulus: &Vector3<f64>) -> Matrix3<f64> {
+        if self.nonlinearity.is_none() {
+            return self.matrix;
+        }
+        sensor.by_stimulus(stimulus).try_inverse().unwrap_or(self.matrix)
     }
 
     /// Diagonal of `K` in `C = T K`, m/s² per unit of the readings: `K_j = C_jj`. Its inverse is the gain as imu_tk prints it.
@@ -139,10 +164,8 @@ mod tests {
     use super::*;
 
     fn sensor() -> SensorParameters {
-        SensorParameters {
-            bias: Vector3::new(1.0, 2.0, 3.0),
-            matrix: Matrix3::new(415.0, 2.0, -4.0, 1.0, 413.0, 3.0, 8.0, -5.0, 411.0),
-        }
+        let matrix = Matrix3::new(415.0, 2.0, -4.0, 1.0, 413.0, 3.0, 8.0, -5.0, 411.0);
+        SensorParameters::linear(Vector3::new(1.0, 2.0, 3.0), matrix)
     }
 
     #[test]

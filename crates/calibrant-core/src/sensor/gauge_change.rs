@@ -266,10 +266,12 @@ pub(super) mod tests {
             accelerometer: SensorParameters {
                 bias: Vector3::new(33124.0, 33275.0, 32364.0),
                 matrix: Matrix3::new(414.5, 1.4, 3.7, -2.0, 412.0, 8.8, 0.5, 3.0, 414.6),
+                ..SensorParameters::identity()
             },
             gyroscope: SensorParameters {
                 bias: Vector3::new(32777.0, 32459.0, 32511.0),
                 matrix: Matrix3::new(4778.0, 30.0, -25.0, 14.0, 4764.0, 60.0, -43.0, 22.0, 4774.0),
+                ..SensorParameters::identity()
             },
             g_sensitivity: Matrix3::new(0.1, 0.02, -0.3, 0.04, 0.2, 0.01, -0.06, 0.05, 0.15),
             thermal: Thermal::none(),

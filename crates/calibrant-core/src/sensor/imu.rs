@@ -188,6 +188,7 @@ impl ImuQuantity {
     pub fn unit(self, reading: ReadingUnit) -> &'static str {
         match (self, reading) {
             (Self::Of(_, Quantity::Bias(_)), unit) => unit.symbol(),
+            (Self::Of(_, Quantity::Nonlinear(term, _)), _) => term.unit(),
             (Self::Of(SensorKind::Accelerometer, _), ReadingUnit::Counts) => "counts/(m/s²)",
             (Self::Of(SensorKind::Gyroscope, _), ReadingUnit::Counts) => "counts/(rad/s)",
             (Self::Of(..), _) => "1",
@@ -251,10 +252,14 @@ impl ImuQuantity {
         let thermal = &at.imu.thermal;
         let mut derivative = Vector3::zeros();
         match self {
-            Self::Of(_, quantity @ Quantity::Bias(_)) => return quantity.derivative(&at.stimulus),
             Self::Of(sensor_kind, quantity) => {
+                let of_reading = quantity.derivative(at.imu.sensor(sensor_kind), &at.stimulus);
+                if matches!(quantity, Quantity::Bias(_)) {
+                    return of_reading;
+                }
+                // the gain follows temperature, bent or not
                 let factor = thermal.sensor(sensor_kind).gain_factor(thermal.tau_k(at.temperature_c));
-                return quantity.derivative(&at.stimulus).component_mul(&factor);
+                return of_reading.component_mul(&factor);
             }
             Self::GSensitivity(row, column) => derivative[row.index()] = at.force[column.index()],
             Self::Thermal(sensor_kind, term) => {
@@ -262,9 +267,7 @@ impl ImuQuantity {
                 let power = term.power(thermal.tau_k(at.temperature_c));
                 derivative[axis] = match term.part {
                     ThermalPart::Bias => power,
-                    ThermalPart::Scale => {
-                        power * at.imu.sensor(sensor_kind).matrix.row(axis).transpose().dot(&at.stimulus)
-                    }
+                    ThermalPart::Scale => power * at.imu.sensor(sensor_kind).response(axis, &at.stimulus),
                 };
             }
         }

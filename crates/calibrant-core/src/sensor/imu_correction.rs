@@ -3,13 +3,14 @@
 //! `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)` with `C = S⁻¹`. An error of the parameters moves a
 //! corrected reading by `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`. The
 //! covariance of the parameters gives that of the correction. It does not contain the noise of the reading.
-//! Where biases and gains follow temperature, all of this is at the temperature of each sample.
+//! Where biases and gains follow temperature, all of this is at the temperature of each sample. A response that is bent has the slope at the
+//! corrected reading in place of `S`.
 
 use super::entry_vector::{self, ENTRIES, EntryMatrix};
 use super::{
-    CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
-    ImuQuantity, ImuRecording, ReadingUnit, Recording, SensorKind, Temperatures, ThermalPart, interpolated,
-    times,
+    Axis, CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
+    ImuQuantity, ImuRecording, NonlinearTerm, Quantity, ReadingUnit, Recording, SensorKind, Temperatures,
+    ThermalPart, interpolated, times,
 };
 use crate::error::{Error, InputError, Refusal, Result, TaskOption};
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -124,7 +125,20 @@ impl ImuCorrection {
     /// Does the correction depend on temperature, in its values or in their covariance?
     #[must_use]
     pub fn follows_temperature(&self) -> bool {
-        !self.imu.thermal.is_none() || self.covers(entry_vector::AT_REFERENCE..ENTRIES)
+        !self.imu.thermal.is_none() || self.covers(entry_vector::AT_REFERENCE..entry_vector::LINEAR)
+    }
+
+    /// Does a term bend the accelerometer's response, in its value or in the covariance?
+    fn is_bent(&self) -> bool {
+        !self.imu.accelerometer.nonlinearity.is_none() || self.covers(entry_vector::LINEAR..ENTRIES)
+    }
+
+    /// `∂f/∂y` of the accelerometer at a corrected force.
+    fn force_by_reading(&self, correction: &Correction, force: &Vector3<f64>) -> Matrix3<f64> {
+        match correction.nonlinearity.is_none() {
+            true => correction.matrix,
+            false => correction.by_reading(&self.imu.at(self.temperature_c).accelerometer, force),
+        }
     }
 
     /// Corrected specific force, m/s²; `None` without an accelerometer.
@@ -145,14 +159,15 @@ impl ImuCorrection {
     #[must_use]
     pub fn force_sd(&self, force: &Vector3<f64>) -> Option<Vector3<f64>> {
         let (correction, covariance) = (self.accelerometer?, self.covariance.as_deref()?);
-        let of_reading = if self.follows_temperature() {
+        let of_reading = if self.follows_temperature() || self.is_bent() {
             let errors = self.all_errors(SensorKind::Accelerometer, force);
             errors * covariance * errors.transpose()
         } else {
             let errors = own_errors(force, &Vector3::repeat(1.0));
             errors * covariance.fixed_view::<12, 12>(0, 0) * errors.transpose()
         };
-        let variance = correction.matrix * of_reading * correction.matrix.transpose();
+        let by_reading = self.force_by_reading(&correction, force);
+        let variance = by_reading * of_reading * by_reading.transpose();
         self.known[0].then(|| variance.diagonal().map(sqrt))
     }
 
@@ -168,7 +183,7 @@ impl ImuCorrection {
             let mut errors = self.all_errors(SensorKind::Gyroscope, rate);
             if let Some(accelerometer) = self.accelerometer {
                 errors -= self.g_sensitivity
-                    * accelerometer.matrix
+                    * self.force_by_reading(&accelerometer, force)
                     * self.all_errors(SensorKind::Accelerometer, force);
             }
             for row in 0..3 {
@@ -176,7 +191,7 @@ impl ImuCorrection {
                     errors[(row, entry_vector::g_sensitivity(row, column))] = force[column];
                 }
             }
-            if self.follows_temperature() {
+            if self.follows_temperature() || self.is_bent() {
                 errors * covariance * errors.transpose()
             } else {
                 const N: usize = entry_vector::AT_REFERENCE; // entries without temperature terms
@@ -193,18 +208,30 @@ impl ImuCorrection {
         let thermal = &self.imu.thermal;
         let tau_k = thermal.tau_k(self.temperature_c);
         let factor = thermal.sensor(sensor_kind).gain_factor(tau_k);
-        let response = self.imu.sensor(sensor_kind).matrix * stimulus;
+        let sensor = self.imu.sensor(sensor_kind);
         let mut errors = SMatrix::<f64, 3, ENTRIES>::zeros();
         errors
             .fixed_columns_mut::<12>(entry_vector::bias(sensor_kind, 0))
             .copy_from(&own_errors(stimulus, &factor));
+        if sensor_kind == SensorKind::Accelerometer && self.is_bent() {
+            for (row, axis) in Axis::ALL.into_iter().enumerate() {
+                let of = |quantity: Quantity| factor[row] * quantity.derivative(sensor, stimulus)[row];
+                for (column, other) in Axis::ALL.into_iter().enumerate() {
+                    errors[(row, entry_vector::matrix(sensor_kind, row, column))] =
+                        of(Quantity::CrossAxis(axis, other));
+                }
+                for term in NonlinearTerm::ALL {
+                    errors[(row, entry_vector::nonlinear(term, row))] = of(Quantity::Nonlinear(term, axis));
+                }
+            }
+        }
         for row in 0..3 {
             let mut power = 1.0;
             for order in 1..=HIGHEST_ORDER {
                 power *= tau_k;
                 errors[(row, entry_vector::thermal(sensor_kind, ThermalPart::Bias, order, row))] = power;
                 errors[(row, entry_vector::thermal(sensor_kind, ThermalPart::Scale, order, row))] =
-                    power * response[row];
+                    power * sensor.response(row, stimulus);
             }
         }
         errors

@@ -4,8 +4,8 @@
 //! Values stand twice. The sensors' matrices are complete. The list of parameters has the quantities of the covariance.
 
 use super::{
-    CalibratedImu, Correction, CovarianceDegrees, Gauge, ImuQuantity, Quantity, ReadingUnit, SensorKind,
-    SensorThermal,
+    CalibratedImu, Correction, CovarianceDegrees, Gauge, ImuQuantity, NonlinearTerm, Nonlinearity, Quantity,
+    ReadingUnit, SensorKind, SensorThermal,
 };
 use crate::form::{Form, block, finite, per_axis};
 use crate::json::{if_some, named, with_ending};
@@ -88,6 +88,8 @@ json_object! {
         /// `matrix`, or `matrix_counts_per_mps2`, `matrix_counts_per_radps` for readings in counts; and `g_sensitivity_radps_per_mps2` or
         /// `g_sensitivity_counts_per_mps2` of a gyroscope.
         matrices: named(of.matrices()),
+        /// What bends the response of each axis, where it is not linear.
+        nonlinearity: if_some(Some(of.of.imu.parameters.sensor(of.sensor_kind).nonlinearity).filter(|bends| !bends.is_none()).map(NonlinearityOf)),
         /// Raw to true.
         correction: if_some(Correction::of(of.of.imu.parameters.sensor(of.sensor_kind)).map(|correction| CorrectionOf { of, correction })),
     }
@@ -113,6 +115,17 @@ impl SensorOf<'_> {
     }
 }
 
+struct NonlinearityOf(Nonlinearity);
+
+json_object! {
+    /// The coefficients of the terms that bend the response, and how they do: `second_order_per_mps2`, `gain_by_sign`.
+    NonlinearityOf as of {
+        /// How readings follow from true values.
+        formula: "with r the norms of the rows of S and u = S f / r: y = b + r (u + second_order u^2 + gain_by_sign |u| / 2), each axis by itself",
+        terms: named(NonlinearTerm::ALL.map(|term| (term.key(), per_axis(of.0.of(term), 3)))),
+    }
+}
+
 struct CorrectionOf<'a> {
     of: &'a SensorOf<'a>,
     correction: Correction,
@@ -123,6 +136,7 @@ json_object! {
     CorrectionOf<'_> as correction {
         /// How true values follow from readings.
         direction: match correction.of.sensor_kind {
+            SensorKind::Accelerometer if !correction.correction.nonlinearity.is_none() => "raw to true: f = C (r u), with u from y_a = b_a + r h(u) of each axis; matrix is C, the inverse of S",
             SensorKind::Accelerometer => "raw to true: f = C (y_a - b_a); matrix is C, the inverse of S",
             SensorKind::Gyroscope => "raw to true: w = C (y_g - b_g - G f); matrix is C, the inverse of S",
         },

@@ -4,7 +4,7 @@
 //! A reading is `y = S s + b + ν` with `ν ~ N(0, diag σ²)`, in the direction **true → raw**. `s` is the
 //! specific force in m/s². `y` is in the reading's unit (m/s² or counts), and so is the bias `b`. `S` holds
 //! the scale factors on its diagonal. Off it are the cross-axis sensitivities (misalignment,
-//! non-orthogonality).
+//! non-orthogonality). Terms of a [`Nonlinearity`] bend the response of an axis.
 
 mod corrected_recording;
 mod covariance_degrees;
@@ -18,6 +18,7 @@ mod imu;
 mod imu_correction;
 mod imu_json;
 mod interpolation;
+mod nonlinearity;
 mod parameters;
 mod recording;
 mod recording_temperatures;
@@ -43,6 +44,7 @@ pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording
 pub use imu_correction::ImuCorrection;
 pub use imu_json::{ImuFields, ParameterKnowledge, correction_name};
 pub use interpolation::interpolated;
+pub use nonlinearity::{NonlinearTerm, Nonlinearity};
 pub use parameters::{ParameterList, Quantity, SensorModel, SensorParameters};
 pub(crate) use recording::gap_s;
 pub use recording::{MeanReading, Recording};

@@ -173,7 +173,7 @@ impl CalibratedImu {
                 _ => add(quantity),
             }
         }
-        let all = entry_vector::all_quantities();
+        let all = ImuQuantity::all(true, true);
         for &quantity in
             self.quantities.iter().filter(|quantity| matches!(quantity, ImuQuantity::Thermal(..)))
         {

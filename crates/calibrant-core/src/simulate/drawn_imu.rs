@@ -54,7 +54,7 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
     let felt = Matrix3::from_fn(|_, _| draw(G_SENSITIVITY_SD));
     ImuParameters {
         accelerometer: of_accelerometer,
-        gyroscope: SensorParameters { bias, matrix: gain * (Matrix3::identity() + errors) },
+        gyroscope: SensorParameters::linear(bias, gain * (Matrix3::identity() + errors)),
         g_sensitivity: if gyroscope.g_sensitivity { gain * felt } else { Matrix3::zeros() },
         thermal: Thermal::none(),
     }
@@ -110,6 +110,7 @@ pub fn draw_sensor(datasheet: &Sensor, rng: &mut Rng) -> SensorParameters {
     let mut sensor = SensorParameters {
         bias: datasheet.offset.unwrap_or_else(Vector3::zeros),
         matrix: Matrix3::from_diagonal(&datasheet.gain.unwrap_or_else(|| Vector3::repeat(1.0))),
+        ..SensorParameters::identity()
     };
     let list = datasheet.parameter_list();
     let spreads = list.describe(datasheet, &sensor);

@@ -151,7 +151,7 @@ impl Bounds<'_> {
             Quantity::Scale(axis) => (axis.index(), axis.index()),
             Quantity::CrossAxis(row, column) => (row.index(), column.index()),
             // no motion is designed for this parametrisation
-            Quantity::Symmetric(..) => return None,
+            Quantity::Symmetric(..) | Quantity::Nonlinear(..) => return None,
         };
         let bias =
             all.iter().position(|other| matches!(other, Quantity::Bias(axis) if axis.index() == row))?;

@@ -134,7 +134,7 @@ mod tests {
         let sensor =
             Sensor { noise_mps2: Some(Vector3::repeat(0.01)), ..Sensor::triaxial(SensorModel::Full) };
         let matrix = Matrix3::new(1.1, 0.1, -0.05, 0.02, 0.9, 0.03, 0.04, -0.02, 1.05);
-        let at = SensorParameters { bias: Vector3::zeros(), matrix };
+        let at = SensorParameters { bias: Vector3::zeros(), matrix, ..SensorParameters::identity() };
         let setting = MotionInformation::new(&sensor, at, trust, KnownEnds::Start, 10.0).expect("complete");
         let information = setting.full(&motion());
         let slots = information.slots;

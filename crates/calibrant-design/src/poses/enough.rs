@@ -1,6 +1,6 @@
 //! How many poses are enough to determine the parameters, and the errors that say so.
 
-use super::hold_information::{HoldInformation, OnEntries};
+use super::hold_information::{HoldInformation, Sum};
 use super::problem::{DirectionKnowledge, PoseProblem};
 use calibrant_core::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use calibrant_core::information::{Undetermined, undetermined};
@@ -60,7 +60,7 @@ fn completed(
     let of = |u: &Vector3<f64>| information.sum(std::iter::once((u, 1.0)));
     let reference = information.of_parameters(&information.sum(pool.iter().map(|u| (u, 1.0))));
     let scale = reference.diagonal().map(|of_all| if of_all > 0.0 { of_all.sqrt().recip() } else { 1.0 });
-    let height = |sum: &OnEntries| {
+    let height = |sum: &Sum| {
         let f = information.of_parameters(sum);
         let scaled = DMatrix::from_fn(f.nrows(), f.nrows(), |i, j| {
             f[(i, j)] * scale[i] * scale[j] + if i == j { NOTHING } else { 0.0 }
@@ -68,17 +68,22 @@ fn completed(
         scaled.cholesky().map_or(f64::NEG_INFINITY, |root| 2.0 * root.l().diagonal().map(f64::ln).sum())
     };
     let mut kept: Vec<Vector3<f64>> = Vec::new();
-    let mut sum = OnEntries::zeros();
+    let mut sum = information.nothing();
     while kept.len() < scale.len() && !left_free(information, &kept).is_empty() {
         let here = height(&sum);
         let best_of = |list: &[Vector3<f64>]| {
-            let raised = list.iter().map(|u| (height(&(sum + of(u))) - here, *u));
+            let with = |u: &Vector3<f64>| {
+                let mut with = sum.clone();
+                with += &of(u);
+                with
+            };
+            let raised = list.iter().map(|u| (height(&with(u)) - here, *u));
             raised.max_by(|one, other| one.0.total_cmp(&other.0))
         };
         // a direction in which there is nothing yet raises the determinant by much more than another
         let raises_rank = |(raised, _): &(f64, Vector3<f64>)| *raised > -0.5 * NOTHING.ln();
         let Some((_, next)) = best_of(first).filter(raises_rank).or_else(|| best_of(pool)) else { break };
-        sum += of(&next);
+        sum += &of(&next);
         kept.push(next);
     }
     kept

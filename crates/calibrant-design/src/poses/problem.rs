@@ -156,6 +156,8 @@ pub(super) fn gravity_slope(problem: &PoseProblem) -> DVector<f64> {
     let share = problem.nuisance.gravity_sd_mps2 / problem.gravity_mps2;
     let change = |quantity: &Quantity| match quantity {
         Quantity::Bias(_) => 0.0,
+        // forces that grow by a share lessen S by it, and (m/s²)¹⁻ᵖ by p − 1 times it
+        Quantity::Nonlinear(term, _) => share * f64::from(term.power() - 1) * quantity.value(&problem.at),
         _ => share * quantity.value(&problem.at),
     };
     DVector::from_iterator(problem.list.len(), problem.list.quantities().iter().map(change))

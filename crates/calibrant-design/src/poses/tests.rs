@@ -183,6 +183,7 @@ fn the_information_of_a_hold_is_that_of_an_estimate_with_its_direction_unknown()
     let at = SensorParameters {
         bias: Vector3::new(0.1, -0.2, 0.3),
         matrix: Matrix3::new(1.02, 0.01, -0.02, 0.0, 0.97, 0.03, 0.0, 0.0, 1.01),
+        ..SensorParameters::identity()
     };
     let u = Vector3::new(0.4, -0.7, 0.5).normalize();
     for directions in [DirectionKnowledge::Unknown, DirectionKnowledge::Known { sd_rad: 2e-3 }] {

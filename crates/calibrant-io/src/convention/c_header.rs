@@ -10,7 +10,7 @@
 use super::arrays::vector3;
 use super::c_constants::{HELP, matrix, numbers, vector};
 use super::words::{invalid, singular, written_by};
-use super::{CalibratedImuFile, ImuFormat, c_temperature};
+use super::{CalibratedImuFile, ImuFormat, c_nonlinearity, c_temperature};
 use crate::text::decoding::Checked;
 use calibrant_core::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
@@ -71,7 +71,16 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
             false => c_temperature::with_temperature(sensor_kind, at_reference),
         };
         match sensor_kind {
-            SensorKind::Accelerometer => out.push_str(&function(&in_unit(ACCELEROMETER, &unit))),
+            SensorKind::Accelerometer => {
+                let sensor = &imu.parameters.accelerometer;
+                out.push_str(&c_nonlinearity::coefficients(sensor));
+                // temperature comes first
+                out.push_str(&c_nonlinearity::straightened(
+                    sensor,
+                    &function(&in_unit(ACCELEROMETER, &unit)),
+                ));
+                out.push_str(&c_nonlinearity::forward(sensor, &unit));
+            }
             SensorKind::Gyroscope => {
                 let _ = writeln!(out, "\n/* What it shows of specific force, ({unit}) per (m/s^2). */");
                 let _ = writeln!(
@@ -147,10 +156,13 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         let Some(matrix) = Matrix3::from_row_slice(&correction).try_inverse() else {
             return Err(singular(sensor_kind));
         };
-        let sensor = SensorParameters { bias: vector3(&bias, &name)?, matrix };
+        let mut sensor = SensorParameters::linear(vector3(&bias, &name)?, matrix);
         *unit = Some(unit_of(text, sensor_kind)?);
         match sensor_kind {
-            SensorKind::Accelerometer => parameters.accelerometer = sensor,
+            SensorKind::Accelerometer => {
+                sensor.nonlinearity = c_nonlinearity::read(text)?;
+                parameters.accelerometer = sensor;
+            }
             SensorKind::Gyroscope => {
                 parameters.gyroscope = sensor;
                 if let Some(entries) = numbers(text, "calibrant_gyroscope_g_sensitivity", 9)? {
@@ -168,8 +180,9 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let g_sensitivity = parameters.g_sensitivity != Matrix3::zeros();
     parameters.thermal = c_temperature::read(text)?;
     let mut quantities = ImuQuantity::full_list(units[0].is_some(), units[1].is_some(), g_sensitivity);
-    let terms = ImuQuantity::all_thermal(units[0].is_some(), units[1].is_some());
-    quantities.extend(terms.into_iter().filter(|term| term.value(&parameters) != 0.0));
+    let all = ImuQuantity::all(units[0].is_some(), units[1].is_some()).into_iter();
+    let terms: Vec<_> = all.filter(|of| !quantities.contains(of) && of.value(&parameters) != 0.0).collect();
+    quantities.extend(terms);
     let frame = text.lines().find_map(|line| line.strip_prefix(" * frame: ")).unwrap_or("not said");
     let imu = CalibratedImu::new(parameters, units, quantities, frame.trim());
     Ok(CalibratedImuFile::new(imu, ImuFormat::CHeader))

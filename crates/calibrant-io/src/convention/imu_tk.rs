@@ -171,7 +171,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let Some(inverse) = (matrix(0) * matrix(9)).try_inverse() else {
         return Err(singular(sensor_kind));
     };
-    let sensor = SensorParameters { bias: Vector3::from_column_slice(&numbers[18..]), matrix: inverse };
+    let sensor = SensorParameters::linear(Vector3::from_column_slice(&numbers[18..]), inverse);
     let mut parameters = ImuParameters::identity();
     let accelerometer = sensor_kind == SensorKind::Accelerometer;
     if accelerometer {

@@ -151,10 +151,12 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         accelerometer: SensorParameters {
             bias: vector(&fields.b_a, "b_a")? * acc,
             matrix: matrix(&fields.K_a, "K_a")? * matrix(&fields.R_a, "R_a")? * (acc / force),
+            ..SensorParameters::identity()
         },
         gyroscope: SensorParameters {
             bias: vector(&fields.b_g, "b_g")? * gyr,
             matrix: matrix(&fields.K_g, "K_g")? * matrix(&fields.R_g, "R_g")? * (gyr / rate),
+            ..SensorParameters::identity()
         },
         g_sensitivity: matrix(&fields.K_ga, "K_ga")? * (gyr / force),
         thermal: Thermal::none(),

@@ -15,11 +15,12 @@ use calibrant_core::estimate::shared_gravity;
 use calibrant_core::form::block;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{
-    CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
-    SensorParameters, SharedErrors, correction_name,
+    CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, NonlinearTerm, Quantity, ReadingUnit,
+    SensorKind, SensorParameters, SharedErrors, correction_name,
 };
 use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
+use std::collections::HashMap;
 
 /// A standard deviation and the root of its variance differ by rounding to the digits that people keep.
 const AS_WRITTEN: f64 = 1e-5;
@@ -67,6 +68,8 @@ struct SensorCore {
     matrix_counts_per_radps: Option<Rows>,
     g_sensitivity_radps_per_mps2: Option<Rows>,
     g_sensitivity_counts_per_mps2: Option<Rows>,
+    /// The coefficients by their keys, and the formula.
+    nonlinearity: Option<HashMap<String, serde_json::Value>>,
     correction: Option<CorrectionCore>,
 }
 
@@ -251,13 +254,20 @@ impl SensorCore {
         let field = |name: &str| format!("{sensor_kind}.{name}");
         let bias = bias.ok_or_else(|| missing(&field(bias_name)))?;
         let matrix = matrix.ok_or_else(|| missing(&field(matrix_name)))?;
-        let sensor = match (bias.as_slice(), matrix.as_slice()) {
+        let mut sensor = match (bias.as_slice(), matrix.as_slice()) {
             ([bias], [row]) if row.len() == 1 => of_one_axis(*bias, row[0]),
             _ => SensorParameters {
                 bias: vector3(&bias, &field(bias_name))?,
                 matrix: matrix3(&matrix, &field(matrix_name))?,
+                ..SensorParameters::identity()
             },
         };
+        for term in NonlinearTerm::ALL {
+            let Some(values) = self.nonlinearity.as_ref().and_then(|of| of.get(term.key())) else { continue };
+            let name = field(&format!("nonlinearity.{}", term.key()));
+            let values: Vec<f64> = serde_json::from_value(values.clone()).map_err(|_| missing(&name))?;
+            *sensor.nonlinearity.of_mut(term) = vector3(&values, &name)?;
+        }
         // a gyroscope without a g-sensitivity has the matrix zero
         let g_sensitivity = match (sensor_kind, g_sensitivity) {
             (SensorKind::Gyroscope, Some(rows)) => matrix3(&rows, &field(g_name))?,
@@ -344,10 +354,8 @@ pub(super) fn quantity_of(
     symmetric: Option<&Vec<String>>,
 ) -> Option<ImuQuantity> {
     let (accelerometer, gyroscope) = (imu.accelerometer_unit.is_some(), imu.gyroscope_unit.is_some());
-    let found = ImuQuantity::full_list(accelerometer, gyroscope, true)
-        .into_iter()
-        .chain(ImuQuantity::all_thermal(accelerometer, gyroscope))
-        .find(|quantity| quantity.name() == name)?;
+    let found =
+        ImuQuantity::all(accelerometer, gyroscope).into_iter().find(|quantity| quantity.name() == name)?;
     imu.unit(found.sensor_kind())?;
     match (found, symmetric) {
         (ImuQuantity::Of(sensor_kind, Quantity::CrossAxis(row, column)), Some(names))

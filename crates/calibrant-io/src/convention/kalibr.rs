@@ -233,7 +233,11 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         stated.as_ref().map_or(Ok(Vector3::zeros()), |(bias, field)| vector3(bias, field))
     };
     let mut parameters = ImuParameters::identity();
-    parameters.accelerometer = SensorParameters { bias: bias(&stated_biases[0])?, matrix: m_a * c_i_b };
+    parameters.accelerometer = SensorParameters {
+        bias: bias(&stated_biases[0])?,
+        matrix: m_a * c_i_b,
+        ..SensorParameters::identity()
+    };
     let accelerometer_unit =
         Some(unit(SensorKind::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
     let gyroscope_unit = match &imu.gyroscopes {
@@ -244,6 +248,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             parameters.gyroscope = SensorParameters {
                 bias: bias(&stated_biases[1])?,
                 matrix: needed(&gyroscopes.m, "gyroscopes.M")? * c_gyro_i * c_i_b,
+                ..SensorParameters::identity()
             };
             parameters.g_sensitivity =
                 optional(&gyroscopes.a, "gyroscopes.A", Matrix3::zeros())? * c_gyro_i * c_i_b;
@@ -319,7 +324,9 @@ fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, 
     if Gauge::Lower.is_form_of(s) && s.diagonal().min() > 0.0 {
         return Ok((*s, Matrix3::identity()));
     }
-    let l = Gauge::Lower.apply(&SensorParameters { bias: Vector3::zeros(), matrix: *s }).matrix;
+    let l = Gauge::Lower
+        .apply(&SensorParameters { bias: Vector3::zeros(), matrix: *s, ..SensorParameters::identity() })
+        .matrix;
     let l = Matrix3::from_fn(|row, column| if column > row { 0.0 } else { l[(row, column)] });
     let q = l.try_inverse().map(|inverse| inverse * s);
     q.map(|q| (l, q)).ok_or_else(|| singular(sensor_kind))

@@ -15,6 +15,7 @@
 mod arrays;
 mod c_constants;
 mod c_header;
+mod c_nonlinearity;
 mod c_temperature;
 mod calibrant_json;
 mod degrees_of_freedom;

@@ -6,8 +6,9 @@ use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_
 use crate::files::atomic_output::write_text;
 use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::convention::FormatLoses;
+use calibrant_core::diagnostic::convention::{FormatLoses, ResponseStraightened};
 use calibrant_core::error::{Error, Refusal, Result};
+use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
 
@@ -61,6 +62,14 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
             ),
             "choose another format, or take the values at one temperature with option `temperature` CELSIUS",
         ));
+    }
+    let bends = &file.imu.parameters.accelerometer.nonlinearity;
+    if !bends.is_none() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
+        let of_axis = |axis: usize| {
+            [1.0, -1.0].map(|sign| bends.bend(axis, sign * Gravity::SOMEWHERE.magnitude_mps2).abs())
+        };
+        let largest_mps2 = (0..3).flat_map(of_axis).fold(0.0, f64::max);
+        warnings.push(ResponseStraightened { format: format.title(), largest_mps2 }.into());
     }
     let one = |text: String| vec![(None, text)];
     let texts = match format {

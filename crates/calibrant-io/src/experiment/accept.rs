@@ -7,9 +7,7 @@ use super::remedies::remedy;
 use super::similar_word::nearest;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{
-    Axis, Gauge, HIGHEST_ORDER, ImuQuantity, ParameterList, SensorKind, SensorModel, ThermalPart, ThermalTerm,
-};
+use calibrant_core::sensor::{Gauge, ImuQuantity, ParameterList, SensorKind, SensorModel};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -92,16 +90,7 @@ fn names() -> Vec<String> {
         let lists =
             [ParameterList::new(3, SensorModel::Full), Gauge::Symmetric.parameter_list(SensorModel::Full)];
         lists.iter().flat_map(|list| list.quantities()).for_each(|of| add(ImuQuantity::Of(kind, *of)));
-        for (part, order) in [ThermalPart::Bias, ThermalPart::Scale]
-            .into_iter()
-            .flat_map(|part| (1..=HIGHEST_ORDER).map(move |order| (part, order)))
-        {
-            let term = |axis| ImuQuantity::Thermal(kind, ThermalTerm { part, axis, order });
-            Axis::ALL.into_iter().for_each(|axis| add(term(axis)));
-        }
     }
-    for row in Axis::ALL {
-        Axis::ALL.into_iter().for_each(|column| add(ImuQuantity::GSensitivity(row, column)));
-    }
+    ImuQuantity::all(true, true).into_iter().for_each(add);
     names
 }

@@ -9,7 +9,7 @@ use super::remedies::remedy;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::HoldsSetup;
 use calibrant_core::motion::Gravity;
-use calibrant_core::sensor::Gauge;
+use calibrant_core::sensor::{Gauge, NonlinearTerm, ParameterList, SensorModel};
 use nalgebra::Vector3;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -27,6 +27,9 @@ pub struct HoldsPlan {
     pub height_m: Option<Within<Height>>,
     /// Convention that fixes the true frame. A file states it.
     pub gauge: Gauge,
+    /// Terms that bend the accelerometer's response, to be estimated: "second-order", "gain-by-sign". None without it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub nonlinearity: Vec<NonlinearTerm>,
     /// Start and end of each hold, s, in order. Without it the program searches for them.
     #[serde(deserialize_with = "intervals")]
     pub intervals_s: Option<Vec<(f64, f64)>>,
@@ -63,6 +66,7 @@ impl Default for HoldsPlan {
             latitude_deg: None,
             height_m: None,
             gauge,
+            nonlinearity: Vec::new(),
             intervals_s: None,
             directions: None,
             face_sd_deg: None,
@@ -114,6 +118,7 @@ impl HoldsPlan {
         Ok(HoldsSetup {
             gravity: self.gravity()?,
             gauge: self.gauge,
+            nonlinearity: self.nonlinearity.clone(),
             intervals_s: self.intervals_s.clone(),
             bias_drift_sd_mps2: self.bias_drift_sd_mps2,
             minimum_hold_s: self.minimum_hold_s,
@@ -128,6 +133,16 @@ impl HoldsPlan {
     pub fn gravity(&self) -> Result<Gravity> {
         // beside a value, a latitude serves for Earth's rate: `check` says for which sensors
         self.gravity_where(true)
+    }
+
+    /// The parameters that a calibration estimates of an accelerometer of this model: those of the gauge, or all where the directions of the holds are known.
+    #[must_use]
+    pub fn parameter_list(&self, model: SensorModel, known_directions: bool) -> ParameterList {
+        let linear = match known_directions {
+            true => ParameterList::new(3, model),
+            false => self.gauge.parameter_list(model),
+        };
+        linear.with_terms(&self.nonlinearity)
     }
 
     /// The unit vectors of the directions, where they are known.
@@ -155,6 +170,12 @@ impl HoldsPlan {
         if hold_s * rate_hz < 1.0 - 1e-9 {
             let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
             return Err(refused("holds", message, "raise rate_hz or hold_s"));
+        }
+        if let Some(twice) =
+            (1..self.nonlinearity.len()).find(|&k| self.nonlinearity[..k].contains(&self.nonlinearity[k]))
+        {
+            let message = "this term stands twice";
+            return Err(refused(format!("holds.nonlinearity[{twice}]"), message, "keep one of the two"));
         }
         let intervals = self.intervals_s.as_deref().unwrap_or_default();
         if self.intervals_s.is_some() && intervals.is_empty() {

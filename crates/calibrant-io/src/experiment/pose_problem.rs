@@ -106,7 +106,7 @@ impl Experiment {
     /// The parameters that a calibration from poses estimates: those of the gauge, or all where the directions
     /// of the holds are known.
     fn pose_parameters(&self, plan: &HoldsPlan, known: bool) -> ParameterList {
-        if known { self.sensor.parameter_list() } else { plan.gauge.parameter_list(self.sensor.model) }
+        plan.parameter_list(self.sensor.model, known)
     }
 
     /// A calibration of an accelerometer alone in known directions allows for no drift.

@@ -199,7 +199,7 @@ impl ExperimentFile {
         }
         let list = match &plan {
             Plan::Motion(_) | Plan::Machine(_) => sensor.parameter_list(),
-            Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
+            Plan::Holds(holds) => holds.parameter_list(sensor.model, false),
         };
         let limits = self.limits.as_ref().map(|limits| limits.limits("limits", sensor.axes)).transpose()?;
         let design = self.design.clone().unwrap_or_default();

@@ -137,7 +137,11 @@ impl EarlierCalibration {
         // axes that the sensor does not have count as perfect
         let axes = list.quantities().iter().filter(|quantity| matches!(quantity, Quantity::Bias(_))).count();
         let absent = Vector3::from_fn(|k, _| if k < axes { 0.0 } else { 1.0 });
-        let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::from_diagonal(&absent) };
+        let mut sensor = SensorParameters {
+            bias: Vector3::zeros(),
+            matrix: Matrix3::from_diagonal(&absent),
+            ..SensorParameters::identity()
+        };
         for (quantity, value) in list.quantities().iter().zip(&self.values) {
             quantity.add_to(&mut sensor, *value);
         }

@@ -164,14 +164,13 @@ fn gauge_of<'q>(
 
 /// The quantities that are not zero and not among these, however they are written down.
 fn beside(quantities: &[ImuQuantity], truth: &ImuParameters) -> Vec<ImuQuantity> {
-    let nothing = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+    let nothing = SensorParameters::linear(Vector3::zeros(), Matrix3::zeros());
     let mut reported =
         ImuParameters { accelerometer: nothing, gyroscope: nothing, ..ImuParameters::identity() };
     for quantity in quantities {
         quantity.add_to(&mut reported, quantity.value(truth));
     }
-    let all =
-        ImuQuantity::full_list(true, true, true).into_iter().chain(ImuQuantity::all_thermal(true, true));
+    let all = ImuQuantity::all(true, true).into_iter();
     // both entries of a symmetric pair are the same up to rounding
     let rounding = |quantity: &ImuQuantity| 1e-12 * quantity.value(truth).abs();
     all.filter(|quantity| (quantity.value(&reported) - quantity.value(truth)).abs() > rounding(quantity))

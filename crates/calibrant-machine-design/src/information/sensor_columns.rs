@@ -23,15 +23,16 @@ impl SensorColumns {
     /// # Errors
     /// A quantity that no motion of a machine determines: a temperature coefficient, or the g-sensitivity, which is not designed for.
     pub(crate) fn new(quantities: &[ImuQuantity]) -> Result<Self> {
+        let refused = |quantity: &ImuQuantity| {
+            Err(Error::experiment(InputError::new(
+                Refusal::ValueInvalid,
+                format!("a trajectory cannot be designed for {}", quantity.name()),
+                "leave it out of the parameters of the design",
+            )))
+        };
         let mut entries = DMatrix::zeros(ENTRIES, quantities.len());
         for (k, quantity) in quantities.iter().enumerate() {
-            let ImuQuantity::Of(kind, of) = *quantity else {
-                return Err(Error::experiment(InputError::new(
-                    Refusal::ValueInvalid,
-                    format!("a trajectory cannot be designed for {}", quantity.name()),
-                    "leave it out of the parameters of the design",
-                )));
-            };
+            let ImuQuantity::Of(kind, of) = *quantity else { return refused(quantity) };
             let sensor = usize::from(kind == SensorKind::Gyroscope);
             let mut set = |row: Axis, column: usize| entries[(entry(sensor, row.index(), column), k)] = 1.0;
             match of {
@@ -42,6 +43,7 @@ impl SensorColumns {
                     set(row, 1 + column.index());
                     set(column, 1 + row.index());
                 }
+                Quantity::Nonlinear(..) => return refused(quantity),
             }
         }
         Ok(Self { entries })

@@ -10,7 +10,7 @@
 
 use crate::estimate::problem::Layout;
 use crate::estimate::{MachineParameters, MachineQuantity};
-use calibrant_core::sensor::{Axis, ImuQuantity, Quantity};
+use calibrant_core::sensor::{Axis, ImuQuantity};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// The part of a quantity's variance that comes from the mounting.
@@ -58,11 +58,7 @@ pub fn mount_variances(
 /// `Q` of an entry of a matrix; `None` for other quantities.
 fn form(quantity: MachineQuantity, parameters: &MachineParameters) -> Option<Matrix3<f64>> {
     let MachineQuantity::Imu(ImuQuantity::Of(sensor, of)) = quantity else { return None };
-    let (row, column) = match of {
-        Quantity::Scale(axis) => (axis, axis),
-        Quantity::CrossAxis(row, column) | Quantity::Symmetric(row, column) => (row, column),
-        Quantity::Bias(_) => return None,
-    };
+    let (row, column) = of.entry()?;
     let matrix = &parameters.imu.sensor(sensor).matrix;
     let mut along = Vector3::zeros();
     along[column.index()] = 1.0;
@@ -76,7 +72,7 @@ mod tests {
     use super::*;
     use crate::chain::chains_for_tests::Numbers;
     use crate::estimate::{MachineSetup, MountingPrior};
-    use calibrant_core::sensor::{ImuParameters, ParameterList, SensorKind, SensorModel};
+    use calibrant_core::sensor::{ImuParameters, ParameterList, Quantity, SensorKind, SensorModel};
     use nalgebra::UnitQuaternion;
 
     /// A full accelerometer on a mount that is known to `sd`.

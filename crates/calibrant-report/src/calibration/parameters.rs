@@ -111,6 +111,10 @@ fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> S
         }
         ImuQuantity::Of(_, Quantity::Scale(axis)) => (axis, "1", ""),
         ImuQuantity::Of(_, Quantity::CrossAxis(row, _) | Quantity::Symmetric(row, _)) => (row, "1", ""),
+        // of the stimulus, whatever the unit of the readings
+        ImuQuantity::Of(_, Quantity::Nonlinear(term, _)) => {
+            return in_display_unit(term.unit(), "", Some(quantity.value(&calibration.imu)), sd);
+        }
     };
     let gain = |imu: &ImuParameters| imu.sensor(sensor_kind).matrix.row(axis.index()).norm();
     if counts && matches!(quantity, ImuQuantity::Of(_, Quantity::Bias(_) | Quantity::Scale(_))) {

@@ -51,6 +51,7 @@ pub(crate) fn motion_case(axes: usize, intervals: usize, rate_hz: f64, seed: u64
     let truth = SensorParameters {
         bias: dice.vector(0.1).component_mul(&active),
         matrix: Matrix3::from_diagonal(&(Vector3::repeat(1.0) + dice.vector(0.005))),
+        ..SensorParameters::identity()
     };
     let samples = (intervals as f64 * 5.0 * rate_hz) as usize + 1;
     let times_s: Vec<f64> = (0..samples).map(|j| j as f64 / rate_hz).collect();
@@ -150,15 +151,9 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
     let mut dice = Dice::new(38);
     let mut datasheet = Sensor::triaxial(SensorModel::Full);
     datasheet.unit = ReadingUnit::Counts;
-    let truth = SensorParameters {
-        bias: Vector3::new(33124.18, 33275.18, 32364.42),
-        matrix: Gauge::Upper
-            .apply(&SensorParameters {
-                bias: Vector3::zeros(),
-                matrix: Matrix3::new(414.46, 1.4, 3.7, 0.0, 412.01, 8.8, 0.0, 0.0, 414.65),
-            })
-            .matrix,
-    };
+    let matrix = Matrix3::new(414.46, 1.4, 3.7, 0.0, 412.01, 8.8, 0.0, 0.0, 414.65);
+    let bias = Vector3::new(33124.18, 33275.18, 32364.42);
+    let truth = Gauge::Upper.apply(&SensorParameters::linear(bias, matrix));
     let (rate, between) = (100.0, samples_per_hold / 3);
     let mut recording = Recording::new(Vec::new(), Vec::new(), 3, ReadingUnit::Counts).expect("no samples");
     let mut holds = Vec::new();

@@ -30,8 +30,8 @@ pub(super) fn simulate(
     let on_table = table(plan, &[]);
     // known directions fix the true frame; otherwise the gauge does
     let (truth, list) = match &on_table {
-        Some(_) => (drawn, sensor.parameter_list()),
-        None => (plan.gauge.apply(&drawn), plan.gauge.parameter_list(sensor.model)),
+        Some(_) => (drawn, plan.parameter_list(sensor.model, true)),
+        None => (plan.gauge.apply(&drawn), plan.parameter_list(sensor.model, false)),
     };
     let mut rng = random.happening(rng);
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);

@@ -30,6 +30,7 @@ fn draw(turn_rad: f64, rng: &mut Rng) -> SensorParameters {
     SensorParameters {
         bias: Vector3::from_fn(|_, _| 0.1 * normal(rng)),
         matrix: (Matrix3::identity() + errors) * turn.matrix(),
+        ..SensorParameters::identity()
     }
 }
 

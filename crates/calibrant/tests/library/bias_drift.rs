@@ -57,7 +57,7 @@ fn calibrated(number: u64, drift: &Vector3<f64>, in_order: bool, allowed: f64) -
     let errors = |size: f64, rng: &mut Rng| Matrix3::from_fn(|_, _| size * normal(rng));
     let bias = Vector3::from_fn(|_, _| 0.1 * normal(&mut rng));
     let matrix = Matrix3::identity() + errors(0.01, &mut rng);
-    let sensor = Gauge::Upper.apply(&SensorParameters { bias, matrix });
+    let sensor = Gauge::Upper.apply(&SensorParameters { bias, matrix, ..SensorParameters::identity() });
     let mut order = directions(20);
     if !in_order {
         rand::seq::SliceRandom::shuffle(order.as_mut_slice(), &mut rng);

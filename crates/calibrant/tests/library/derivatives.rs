@@ -9,8 +9,11 @@ use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 fn sensor_like(model: SensorModel) -> SensorParameters {
-    let mut at =
-        SensorParameters { bias: Vector3::new(0.1, -0.2, 0.05), matrix: Matrix3::from_diagonal_element(1.0) };
+    let mut at = SensorParameters {
+        bias: Vector3::new(0.1, -0.2, 0.05),
+        matrix: Matrix3::from_diagonal_element(1.0),
+        ..SensorParameters::identity()
+    };
     at.matrix[(0, 0)] = 1.1;
     at.matrix[(1, 1)] = 0.9;
     if model == SensorModel::Full {

@@ -56,7 +56,7 @@ fn dense(
         let force = case.command.motion.acceleration_at(case.recording.times_s()[k]) + gravity.force_mps2;
         let mut rows = DMatrix::zeros(3, p + 3);
         for (place, quantity) in list.quantities().iter().enumerate() {
-            rows.column_mut(place).copy_from(&quantity.derivative(&force));
+            rows.column_mut(place).copy_from(&quantity.derivative(&SensorParameters::identity(), &force));
         }
         rows.columns_mut(p, 3).copy_from(matrix);
         rows /= 2e-4;
@@ -160,7 +160,7 @@ fn gravity_changes_the_bias_and_nothing_else() {
             } else if place < 3 {
                 0.0
             } else {
-                -quantity.derivative(&gravity.force_mps2)[2]
+                -quantity.derivative(&SensorParameters::identity(), &gravity.force_mps2)[2]
             };
         }
         let expected = row.dot(&(c * &row));

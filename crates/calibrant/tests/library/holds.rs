@@ -332,6 +332,7 @@ fn holds_are_found_at_any_noise_and_unit() {
         let truth = SensorParameters {
             bias: Vector3::new(10.0, -20.0, 5.0) * gain,
             matrix: Matrix3::identity() * gain,
+            ..SensorParameters::identity()
         };
         let (recording, _) = simulate_holds(
             &truth,

@@ -16,7 +16,7 @@ use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
     Recovered, Uncalibrated, coarse_axes_in, statistics,
 };
-use crate::sensor::{ImuParameters, Recording, SensorModel, SensorParameters};
+use crate::sensor::{ImuParameters, Recording, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
@@ -47,15 +47,12 @@ pub(in crate::estimate) fn calibrate(
         .and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s))
         .map(Diagnostic::from);
     let detected = holds.clone();
-    let fitted = match problem.sensor.model {
-        SensorModel::ScaleBias => drift_fit::fit::<6>(problem, setup, settings, holds, (sound, of_mean)),
-        SensorModel::Full => drift_fit::fit::<9>(problem, setup, settings, holds, (sound, of_mean)),
-    }
-    .map_err(|error| with_clipped(error, &clipped, as_read))
-    .map_err(|error| match found {
-        Some((recording, minimum_s)) => with_filter(error, recording, &detected, minimum_s),
-        None => error,
-    })?;
+    let fitted = drift_fit::fit(problem, setup, settings, holds, (sound, of_mean))
+        .map_err(|error| with_clipped(error, &clipped, as_read))
+        .map_err(|error| match found {
+            Some((recording, minimum_s)) => with_filter(error, recording, &detected, minimum_s),
+            None => error,
+        })?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
     let mut calibration = assemble(problem, setup, reasons, fitted);
     calibration.warnings.extend(lost);
@@ -71,7 +68,7 @@ fn assemble(
     reasons: Vec<Option<HoldReason>>,
     Fitted { holds, robust, drift, without }: Fitted,
 ) -> Calibration {
-    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let list = setup.parameter_list(problem.sensor.model);
     let sensor = robust.sensor;
     let g = setup.gravity;
     let mut covariance = robust.covariance.clone();
@@ -118,10 +115,8 @@ fn assemble(
         noise_estimate: Some(robust.within_sd),
         whiteness: Vec::new(),
     };
-    let nominal = problem.sensor.nominal().unwrap_or(SensorParameters {
-        bias: sensor.bias,
-        matrix: Matrix3::from_diagonal(&sensor.matrix.diagonal()),
-    });
+    let gains = Matrix3::from_diagonal(&sensor.matrix.diagonal());
+    let nominal = problem.sensor.nominal().unwrap_or(SensorParameters::linear(sensor.bias, gains));
     let mut calibration = Calibration {
         status: robust.status,
         iterations: robust.iterations,

@@ -34,7 +34,7 @@ pub(super) struct Fitted {
 }
 
 /// Fits the holds with a drift.
-pub(super) fn fit<const P: usize>(
+pub(super) fn fit(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
@@ -42,7 +42,7 @@ pub(super) fn fit<const P: usize>(
     (sound, of_mean): (Vec<usize>, Vector3<f64>),
 ) -> Result<Fitted> {
     let fit = |holds: &[Hold], conditions: Conditions| {
-        robust_weights::fit::<P>(problem, setup, settings, holds, (sound.clone(), of_mean, conditions))
+        robust_weights::fit(problem, setup, settings, holds, (sound.clone(), of_mean, conditions))
     };
     let without = fit(&holds, Conditions::default())?;
     if setup.bias_drift_sd_mps2 <= 0.0 || holds.len() < 3 {
@@ -66,7 +66,8 @@ pub(super) fn fit<const P: usize>(
             let step = drift.value - before.value;
             let corrected = drift.taken_out(&holds);
             let is_left =
-                count(start) as f64 - P as f64 - posterior.drift.degrees_of_freedom >= FEWEST_DEGREES;
+                count(start) as f64 - without.covariance.nrows() as f64 - posterior.drift.degrees_of_freedom
+                    >= FEWEST_DEGREES;
             let least_between = if is_left { 0.0 } else { without.between_holds_sd };
             let is_rough = round < ROUGH_ROUNDS;
             let used = is_rough.then(|| start.to_vec());

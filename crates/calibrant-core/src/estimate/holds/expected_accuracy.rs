@@ -76,7 +76,7 @@ pub fn expected_calibration(
     gauge: Gauge,
 ) -> Result<ExpectedCalibration> {
     let list = gauge.parameter_list(SensorModel::Full);
-    let (like, noise, information) = robust_weights::expect::<9>(holds, list.clone(), gravity_mps2)?;
+    let (like, noise, information) = robust_weights::expect(holds, list.clone(), gravity_mps2)?;
     let covariance =
         information::covariance(&information).unwrap_or_else(|| DMatrix::from_element(9, 9, f64::INFINITY));
     let scaled = DMatrix::from_fn(9, 9, |i, j| {

@@ -4,27 +4,34 @@ use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangent_plane::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, SensorParameters};
-use nalgebra::{SMatrix, SVector, Vector3};
+use crate::sensor::{Correction, NonlinearTerm, ParameterList, SensorParameters};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector3};
 
 /// The problem for given weights.
-pub(super) struct Directions<'a, const P: usize> {
+pub(super) struct Directions<'a> {
     pub(super) list: &'a ParameterList,
     pub(super) holds: Vec<&'a Hold>,
     /// Inverse variance of each hold's mean, per axis.
     pub(super) weights: Vec<Vector3<f64>>,
     pub(super) gravity: f64,
     /// Prior on the parameters: mean and inverse variance.
-    pub(super) prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+    pub(super) prior: Option<Prior>,
 }
 
+/// Mean and inverse variance of each parameter, 0 where nothing is known of it.
+pub(super) type Prior = (DVector<f64>, DVector<f64>);
+
+/// Number of parameters of a linear response, and of one with all terms: fits have room for so many.
+const LINEAR: usize = 9;
+const BENT: usize = LINEAR + 3 * NonlinearTerm::ALL.len();
+
 /// Where the iteration ended.
-pub(super) struct Fit<const P: usize> {
+pub(super) struct Fit {
     pub(super) sensor: SensorParameters,
     pub(super) forces: Vec<Vector3<f64>>,
-    pub(super) information: SMatrix<f64, P, P>,
+    pub(super) information: DMatrix<f64>,
     /// Diagonal of the information before the directions were eliminated.
-    pub(super) unreduced: SVector<f64, P>,
+    pub(super) unreduced: DVector<f64>,
     /// That of the data and of the prior.
     pub(super) chi2: f64,
     pub(super) prior_chi2: f64,
@@ -33,14 +40,12 @@ pub(super) struct Fit<const P: usize> {
     pub(super) gradient_norm: f64,
 }
 
-impl<const P: usize> Directions<'_, P> {
+impl Directions<'_> {
     /// The force of each hold that the sensor's correction gives, scaled to gravity.
     pub(super) fn forces(&self, sensor: &SensorParameters) -> Option<Vec<Vector3<f64>>> {
-        let inverse = sensor.matrix.try_inverse()?;
-        self.holds
-            .iter()
-            .map(|hold| (inverse * (hold.mean - sensor.bias)).try_normalize(1e-300).map(|u| u * self.gravity))
-            .collect()
+        let correction = Correction::of(sensor)?;
+        let force = |hold: &&Hold| correction.apply(&hold.mean).try_normalize(1e-300);
+        self.holds.iter().map(|hold| force(hold).map(|u| u * self.gravity)).collect()
     }
 
     fn chi2(&self, sensor: &SensorParameters, forces: &[Vector3<f64>]) -> f64 {
@@ -71,33 +76,45 @@ impl<const P: usize> Directions<'_, P> {
         })
     }
 
-    fn values(&self, sensor: &SensorParameters) -> SVector<f64, P> {
-        SVector::from_fn(|k, _| self.list.quantities()[k].value(sensor))
+    fn values(&self, sensor: &SensorParameters) -> DVector<f64> {
+        DVector::from_fn(self.list.len(), |k, _| self.list.quantities()[k].value(sensor))
     }
 
-    /// Derivative of the reading with respect to the parameters, 3 × P.
-    pub(super) fn sensitivity(&self, force: &Vector3<f64>) -> SMatrix<f64, 3, P> {
-        let columns: Vec<_> =
-            self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
-        SMatrix::from_fn(|row, column| columns[column][row])
+    /// Derivative of the reading with respect to the parameters; columns beyond them are zero.
+    pub(super) fn sensitivity<const P: usize>(
+        &self,
+        sensor: &SensorParameters,
+        force: &Vector3<f64>,
+    ) -> SMatrix<f64, 3, P> {
+        let mut matrix = SMatrix::<f64, 3, P>::zeros();
+        for (k, quantity) in self.list.quantities().iter().enumerate() {
+            matrix.set_column(k, &quantity.derivative(sensor, force));
+        }
+        matrix
     }
 
-    fn factor(
+    fn factor<const P: usize>(
         &self,
         sensor: &SensorParameters,
         forces: &[Vector3<f64>],
     ) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
-        let (mut border, mut rhs) = (SMatrix::zeros(), SVector::zeros());
+        let (mut border, mut rhs) = (SMatrix::<f64, P, P>::zeros(), SVector::<f64, P>::zeros());
         if let Some((mean, weight)) = &self.prior {
-            border = SMatrix::from_diagonal(weight);
-            rhs = (mean - self.values(sensor)).component_mul(weight);
+            for (k, value) in self.values(sensor).iter().enumerate() {
+                border[(k, k)] = weight[k];
+                rhs[k] = (mean[k] - value) * weight[k];
+            }
         }
         let mut unreduced = border.diagonal();
+        // places without a parameter
+        for k in self.list.len()..P {
+            border[(k, k)] = 1.0;
+        }
         let link = |j: usize| {
             let (hold, force, weight) = (self.holds[j], &forces[j], &self.weights[j]);
             let w = SMatrix::from_diagonal(weight);
-            let turn = sensor.matrix * tangents(force) * self.gravity;
-            let g = self.sensitivity(force);
+            let turn = sensor.by_stimulus(force) * tangents(force) * self.gravity;
+            let g = self.sensitivity::<P>(sensor, force);
             let wr = weight.component_mul(&(hold.mean - sensor.reading(force)));
             let c = g.tr_mul(&(w * g));
             unreduced += c.diagonal();
@@ -120,11 +137,22 @@ impl<const P: usize> Directions<'_, P> {
     }
 
     /// Iterates from a sensor; `None` where its matrix is singular.
-    pub(super) fn fit(&self, start: &SensorParameters, settings: &CalibrationSettings) -> Option<Fit<P>> {
+    pub(super) fn fit(&self, start: &SensorParameters, settings: &CalibrationSettings) -> Option<Fit> {
+        match self.list.len() {
+            ..=LINEAR => self.iterate::<LINEAR>(start, settings),
+            _ => self.iterate::<BENT>(start, settings),
+        }
+    }
+
+    fn iterate<const P: usize>(
+        &self,
+        start: &SensorParameters,
+        settings: &CalibrationSettings,
+    ) -> Option<Fit> {
         let mut sensor = *start;
         let mut forces = self.forces(&sensor)?;
         let mut chi2 = self.chi2(&sensor, &forces);
-        let (mut system, mut unreduced) = self.factor(&sensor, &forces)?;
+        let (mut system, mut unreduced) = self.factor::<P>(&sensor, &forces)?;
         let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
         let rounding = self.rounding();
         let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
@@ -172,12 +200,13 @@ impl<const P: usize> Directions<'_, P> {
                 }
             }
         }
+        let size = self.list.len();
         Some(Fit {
             prior_chi2: self.prior_chi2(&sensor),
             sensor,
             forces,
-            information: system.information,
-            unreduced,
+            information: DMatrix::from_fn(size, size, |i, j| system.information[(i, j)]),
+            unreduced: DVector::from_fn(size, |k, _| unreduced[k]),
             chi2,
             status,
             iterations,
@@ -186,7 +215,7 @@ impl<const P: usize> Directions<'_, P> {
     }
 
     /// Parameters and directions after a step, the directions scaled back to gravity.
-    fn take(
+    fn take<const P: usize>(
         &self,
         sensor: &SensorParameters,
         forces: &[Vector3<f64>],

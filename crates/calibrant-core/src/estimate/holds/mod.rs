@@ -21,6 +21,7 @@
 //! is removed before the fit (`saturated_holds`).
 
 mod accelerometer_change;
+mod bent_response;
 mod calibrate;
 mod coarse_steps;
 mod drift_fit;
@@ -35,7 +36,6 @@ mod robust;
 mod robust_weights;
 mod saturated_holds;
 mod setup;
-mod sign_dependence;
 mod sphere;
 mod verdict;
 

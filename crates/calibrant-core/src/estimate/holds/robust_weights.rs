@@ -4,7 +4,7 @@
 //! do they come from the fit with the prior. There `n − tr(Σ F)` degrees of freedom are left to n holds of information F, with Σ the covariance.
 
 use super::HoldsSetup;
-use super::fit::{Directions, Fit};
+use super::fit::{Directions, Fit, Prior};
 use super::hardly_determined::hardly_determined;
 use super::robust::{Conditions, Magnitude, Robust};
 use super::sphere::sphere;
@@ -15,8 +15,8 @@ use crate::estimate::change::longest_run;
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, SensorParameters};
-use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
+use crate::sensor::{Correction, ParameterList, SensorParameters};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A hold is left out when a residual as large as its own would be seen in fewer than this share of recordings.
@@ -29,8 +29,8 @@ const WEIGHT_TOLERANCE: f64 = 1e-3;
 const BIWEIGHT: f64 = 4.685;
 
 /// A fit with its weights.
-struct Weighted<const P: usize> {
-    fit: Fit<P>,
+struct Weighted {
+    fit: Fit,
     covariance: DMatrix<f64>,
     between: f64,
     /// Degrees of freedom that the holds leave.
@@ -41,7 +41,7 @@ struct Weighted<const P: usize> {
 
 /// The holds with what weighs them.
 #[derive(Clone)]
-struct Problem<'a, const P: usize> {
+struct Problem<'a> {
     holds: &'a [Hold],
     /// Places of those that may be used.
     sound: Vec<usize>,
@@ -50,20 +50,20 @@ struct Problem<'a, const P: usize> {
     within: Vector3<f64>,
     /// Variance of a mean that more samples do not lower: that of coarse steps.
     of_mean: Vector3<f64>,
-    prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+    prior: Option<Prior>,
     conditions: Conditions,
     settings: &'a CalibrationSettings,
 }
 
 /// Fits, finds the scatter between holds, leaves bad holds out. `sound`: places of the holds that may be used; `of_mean`: variance of a mean that more samples do not lower.
-pub(super) fn fit<const P: usize>(
+pub(super) fn fit(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
     holds: &[Hold],
     (sound, of_mean, conditions): (Vec<usize>, Vector3<f64>, Conditions),
 ) -> Result<Robust> {
-    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let list = setup.parameter_list(problem.sensor.model);
     let usable: Vec<Hold> = sound.iter().map(|&j| holds[j].clone()).collect();
     let start = match problem.sensor.nominal() {
         Some(nominal) if usable.len() >= 2 => nominal,
@@ -72,7 +72,7 @@ pub(super) fn fit<const P: usize>(
     };
     let within = pooled_sd(&usable, &start, setup.gravity.magnitude_mps2);
     let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
-    let problem = Problem::<P> {
+    let problem = Problem {
         holds,
         sound,
         list,
@@ -95,7 +95,7 @@ pub(super) fn fit<const P: usize>(
 }
 
 /// The sensor that the holds look like, their scatter, and the information that they would give on its parameters.
-pub(super) fn expect<const P: usize>(
+pub(super) fn expect(
     holds: &[Hold],
     list: ParameterList,
     gravity: f64,
@@ -106,19 +106,16 @@ pub(super) fn expect<const P: usize>(
     let within = pooled_sd(holds, &start, gravity);
     let (sound, of_mean) = ((0..holds.len()).collect(), Vector3::zeros());
     let (prior, conditions, settings) = (None, Conditions::default(), &settings);
-    let problem = Problem::<P> { holds, sound, list, gravity, within, of_mean, prior, conditions, settings };
+    let problem = Problem { holds, sound, list, gravity, within, of_mean, prior, conditions, settings };
     let information = problem.information(&start)?;
     Ok((start, within, information))
 }
 
-fn prior<const P: usize>(
-    problem: &CalibrationProblem<'_>,
-    list: &ParameterList,
-) -> Option<(SVector<f64, P>, SVector<f64, P>)> {
+fn prior(problem: &CalibrationProblem<'_>, list: &ParameterList) -> Option<Prior> {
     let parameters = list.describe(problem.sensor, &problem.sensor.nominal()?);
     Some((
-        SVector::from_fn(|k, _| parameters[k].nominal.unwrap_or(0.0)),
-        SVector::from_fn(|k, _| parameters[k].spread.map_or(0.0, |spread| spread.powi(-2))),
+        DVector::from_fn(list.len(), |k, _| parameters[k].nominal.unwrap_or(0.0)),
+        DVector::from_fn(list.len(), |k, _| parameters[k].spread.map_or(0.0, |spread| spread.powi(-2))),
     ))
 }
 
@@ -132,10 +129,15 @@ fn pooled_sd(holds: &[Hold], start: &SensorParameters, gravity: f64) -> Vector3<
     Vector3::from_fn(|axis, _| pooled[axis].max(1e-9 * gravity * start.matrix[(axis, axis)].abs()))
 }
 
-impl<const P: usize> Problem<'_, P> {
+impl Problem<'_> {
+    /// Number of parameters.
+    fn size(&self) -> usize {
+        self.list.len()
+    }
+
     /// Number of parameters of which something is known beforehand.
     fn priors(&self) -> usize {
-        self.prior.map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count())
+        self.prior.as_ref().map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count())
     }
 
     /// Variance of a hold's mean, per axis.
@@ -154,7 +156,7 @@ impl<const P: usize> Problem<'_, P> {
         weight: &dyn Fn(usize) -> f64,
         between: f64,
         at: &SensorParameters,
-    ) -> Directions<'_, P> {
+    ) -> Directions<'_> {
         Directions {
             list: &self.list,
             holds: chosen.iter().map(|&j| &self.holds[j]).collect(),
@@ -163,7 +165,7 @@ impl<const P: usize> Problem<'_, P> {
                 .map(|&j| self.variance(&self.holds[j], between, at).map(|v| weight(j) / v))
                 .collect(),
             gravity: self.gravity,
-            prior: self.prior,
+            prior: self.prior.clone(),
         }
     }
 
@@ -175,11 +177,10 @@ impl<const P: usize> Problem<'_, P> {
             .directions(&self.sound, &|_| 1.0, 0.0, start)
             .fit(start, &none)
             .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&holds, &self.list))))?;
-        let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
-        let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
+        let information = fit.information;
+        let groups = information::undetermined(&information, &fit.unreduced);
         if groups.is_empty() {
-            let prior =
-                self.prior.map_or(DVector::zeros(P), |(_, weight)| DVector::from_fn(P, |k, _| weight[k]));
+            let prior = self.prior.as_ref().map_or(DVector::zeros(self.size()), |(_, weight)| weight.clone());
             return match hardly_determined(&information, &prior) {
                 tangled if tangled.is_empty() => Ok(information),
                 tangled => {
@@ -196,7 +197,7 @@ impl<const P: usize> Problem<'_, P> {
     }
 
     /// The holds that are used, and the fit of these.
-    fn select(&self, start: &SensorParameters) -> Result<(Vec<bool>, Weighted<P>)> {
+    fn select(&self, start: &SensorParameters) -> Result<(Vec<bool>, Weighted)> {
         if let Some(used) = &self.conditions.used {
             return Ok((used.clone(), self.weigh(used, start)?));
         }
@@ -224,7 +225,7 @@ impl<const P: usize> Problem<'_, P> {
     }
 
     /// Do the holds look like gravity at all?
-    fn plausible(&self, used: &[bool], weighted: &Weighted<P>) -> Result<()> {
+    fn plausible(&self, used: &[bool], weighted: &Weighted) -> Result<()> {
         let residuals = self.magnitude_residuals(&weighted.fit.sensor);
         let count = used.iter().filter(|used| **used).count();
         let squares: f64 = residuals.iter().zip(used).filter(|(_, used)| **used).map(|(e, _)| e * e).sum();
@@ -258,7 +259,7 @@ impl<const P: usize> Problem<'_, P> {
             (0..self.holds.len()).map(|j| all.contains(&j) && of(j)).collect()
         };
         let every = || chosen(&|_| true);
-        if all.len() < P + 3 {
+        if all.len() < self.size() + 3 {
             return every();
         }
         let mut scale = 0.0;
@@ -273,7 +274,7 @@ impl<const P: usize> Problem<'_, P> {
             let mut sizes: Vec<f64> = all.iter().map(|&j| residuals[j].abs()).collect();
             let middle = sizes.len() / 2;
             let mad = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-            let correction = (all.len() as f64 / (all.len() - P) as f64).sqrt();
+            let correction = (all.len() as f64 / (all.len() - self.size()) as f64).sqrt();
             scale = (1.4826 * mad * correction).max(1e-12 * self.gravity);
             let mut change = 0.0_f64;
             for (weight, e) in weights.iter_mut().zip(&residuals) {
@@ -287,19 +288,20 @@ impl<const P: usize> Problem<'_, P> {
         }
         let residuals = self.magnitude_residuals(&sensor);
         let good = chosen(&|j| residuals[j].abs() <= 6.0 * scale);
-        if good.iter().filter(|good| **good).count() >= P + 2 { good } else { every() }
+        if good.iter().filter(|good| **good).count() >= self.size() + 2 { good } else { every() }
     }
 
     /// `|C (ȳ − b)| − g` of every hold.
     fn magnitude_residuals(&self, sensor: &SensorParameters) -> Vec<f64> {
-        let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
-        self.holds.iter().map(|hold| (inverse * (hold.mean - sensor.bias)).norm() - self.gravity).collect()
+        let correction = Correction::of(sensor);
+        let force = |hold: &Hold| correction.map_or(hold.mean - sensor.bias, |of| of.apply(&hold.mean));
+        self.holds.iter().map(|hold| force(hold).norm() - self.gravity).collect()
     }
 
     /// Fits the used holds with the scatter between holds that makes χ² equal its degrees of freedom.
-    fn weigh(&self, used: &[bool], start: &SensorParameters) -> Result<Weighted<P>> {
+    fn weigh(&self, used: &[bool], start: &SensorParameters) -> Result<Weighted> {
         let chosen = chosen(used);
-        let rms = |fit: &Fit<P>| {
+        let rms = |fit: &Fit| {
             let residuals = self.magnitude_residuals(&fit.sensor);
             let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
             (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity)
@@ -326,57 +328,55 @@ impl<const P: usize> Problem<'_, P> {
     }
 
     /// The fit of the used holds, with weights that were found without the prior.
-    fn with_weights_of(&self, used: &[bool], without: &Weighted<P>) -> Result<Weighted<P>> {
+    fn with_weights_of(&self, used: &[bool], without: &Weighted) -> Result<Weighted> {
         let chosen = chosen(used);
         let directions = self.directions(&chosen, &|_| 1.0, without.between, &without.gains_of);
         let fit = directions.fit(&without.fit.sensor, self.settings).ok_or_else(singular)?;
         self.weighted(chosen.len(), fit, without.between, without.gains_of)
     }
 
-    fn weighted(
-        &self,
-        count: usize,
-        fit: Fit<P>,
-        between: f64,
-        gains_of: SensorParameters,
-    ) -> Result<Weighted<P>> {
+    fn weighted(&self, count: usize, fit: Fit, between: f64, gains_of: SensorParameters) -> Result<Weighted> {
         let covariance = covariance_of(&fit).ok_or_else(singular)?;
         let degrees = self.degrees_left(count, &fit).ok_or_else(singular)?;
         Ok(Weighted { fit, covariance, between, degrees, gains_of })
     }
 
     /// Degrees of freedom that holds leave: their number less `tr(Σ F)`, the parameters that they determine.
-    fn degrees_left(&self, count: usize, fit: &Fit<P>) -> Option<f64> {
+    fn degrees_left(&self, count: usize, fit: &Fit) -> Option<f64> {
         let left = count as f64 - self.conditions.taken;
-        let Some((_, weight)) = self.prior else { return Some((left - P as f64).max(0.0)) };
+        let size = self.size();
+        let Some((_, weight)) = &self.prior else { return Some((left - size as f64).max(0.0)) };
         let covariance = covariance_of(fit)?;
-        let of_prior: f64 = (0..P).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum();
-        Some((left - (P as f64 - of_prior)).max(f64::EPSILON))
+        let of_prior: f64 = (0..size).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum();
+        Some((left - (size as f64 - of_prior)).max(f64::EPSILON))
     }
 
-    fn magnitudes(&self, weighted: &Weighted<P>) -> Vec<Magnitude> {
+    fn magnitudes(&self, weighted: &Weighted) -> Vec<Magnitude> {
         let sensor = &weighted.fit.sensor;
-        let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
-        let directions = self.directions(&[], &|_| 1.0, 0.0, sensor);
+        let correction = Correction::of(sensor);
         let of_hold = |hold: &Hold| {
-            let s = inverse * (hold.mean - sensor.bias);
+            let s = correction.map_or(hold.mean - sensor.bias, |of| of.apply(&hold.mean));
             let magnitude = s.norm();
             let along = s / magnitude;
-            let row = inverse.tr_mul(&along); // uᵀ C
+            let force = along * self.gravity;
+            let by_reading = correction.map_or_else(Matrix3::identity, |of| of.by_reading(sensor, &force));
+            let row = by_reading.tr_mul(&along); // uᵀ C
             let v = self.variance(hold, weighted.between, &weighted.gains_of);
-            let j = directions.sensitivity(&(along * self.gravity)).tr_mul(&row);
+            let quantities = self.list.quantities();
             Magnitude {
                 error: magnitude - self.gravity,
                 own: row.component_mul(&row).dot(&v),
                 along,
-                by_parameters: DVector::from_fn(P, |k, _| j[k]),
+                by_parameters: DVector::from_fn(self.size(), |k, _| {
+                    quantities[k].derivative(sensor, &force).dot(&row)
+                }),
             }
         };
         self.holds.iter().map(of_hold).collect()
     }
 
     /// Residual of each hold in standard deviations expected of it, its own influence removed.
-    fn studentise(&self, used: &[bool], weighted: &Weighted<P>, magnitudes: &[Magnitude]) -> Vec<f64> {
+    fn studentise(&self, used: &[bool], weighted: &Weighted, magnitudes: &[Magnitude]) -> Vec<f64> {
         let degrees = weighted.degrees;
         let chi2 = weighted.fit.chi2 - weighted.fit.prior_chi2;
         let scatter = if degrees > 0.0 { (chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
@@ -399,9 +399,10 @@ impl<const P: usize> Problem<'_, P> {
             .collect()
     }
 
-    fn summarise(&self, used: Vec<bool>, weighted: Weighted<P>) -> Robust {
+    fn summarise(&self, used: Vec<bool>, weighted: Weighted) -> Robust {
         let Weighted { fit, covariance, between, .. } = &weighted;
-        let scaled = DMatrix::from_fn(P, P, |i, j| {
+        let size = self.size();
+        let scaled = DMatrix::from_fn(size, size, |i, j| {
             fit.information[(i, j)] / (fit.information[(i, i)] * fit.information[(j, j)]).sqrt()
         });
         let eigen = scaled.symmetric_eigen();
@@ -409,7 +410,7 @@ impl<const P: usize> Problem<'_, P> {
         let direction = eigen.eigenvectors.column(weakest);
         let quantities = self.list.of_accelerometer();
         let shares: Vec<String> =
-            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
+            (0..size).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
         let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
         // the directions of the fit for the holds that were used, those of the correction for the others
         let mut forces =
@@ -427,7 +428,7 @@ impl<const P: usize> Problem<'_, P> {
             weakest: shares,
             covariance: covariance.clone(),
             chi2: fit.chi2,
-            degrees_of_freedom: (chosen(&used).len() + self.priors()).saturating_sub(P),
+            degrees_of_freedom: (chosen(&used).len() + self.priors()).saturating_sub(size),
             within_sd: self.within,
             between_holds_sd: *between,
             status: fit.status,
@@ -446,8 +447,8 @@ fn singular() -> Error {
     ))
 }
 
-fn covariance_of<const P: usize>(fit: &Fit<P>) -> Option<DMatrix<f64>> {
-    information::covariance(&DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]))
+fn covariance_of(fit: &Fit) -> Option<DMatrix<f64>> {
+    information::covariance(&fit.information)
 }
 
 /// Places of the holds that are used.

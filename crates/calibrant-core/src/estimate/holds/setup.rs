@@ -1,7 +1,7 @@
 //! The prior knowledge of the holds.
 
 use crate::motion::{Gravity, Hold};
-use crate::sensor::Gauge;
+use crate::sensor::{Gauge, NonlinearTerm, ParameterList, SensorModel};
 
 /// The prior knowledge of the holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,6 +10,8 @@ pub struct HoldsSetup {
     pub gravity: Gravity,
     /// The gauge of the result.
     pub gauge: Gauge,
+    /// The terms that bend the accelerometer's response, to be estimated; none where it is linear.
+    pub nonlinearity: Vec<NonlinearTerm>,
     /// Holds given by the user as (start, end) in s; `None` to find them.
     pub intervals_s: Option<Vec<(f64, f64)>>,
     /// Standard deviation of the drift of each bias from the first hold to the last, m/s²; 0 for none. See [`BiasDrift`](crate::estimate::BiasDrift).
@@ -23,6 +25,12 @@ pub struct HoldsSetup {
 impl HoldsSetup {
     /// Usual drift of a bias over a recording, m/s²: 2 mg, as while a MEMS sensor warms up.
     pub const USUAL_DRIFT_SD_MPS2: f64 = 0.02;
+
+    /// The parameters that are estimated of an accelerometer of this model, in the gauge: 6 for scale-bias, 9 for full, and 3 of each term.
+    #[must_use]
+    pub fn parameter_list(&self, model: SensorModel) -> ParameterList {
+        self.gauge.parameter_list(model).with_terms(&self.nonlinearity)
+    }
 }
 
 /// As in the preset `static-poses`.
@@ -31,6 +39,7 @@ impl Default for HoldsSetup {
         Self {
             gravity: Gravity::SOMEWHERE,
             gauge: Gauge::Upper,
+            nonlinearity: Vec::new(),
             intervals_s: None,
             bias_drift_sd_mps2: Self::USUAL_DRIFT_SD_MPS2,
             minimum_hold_s: 1.0,

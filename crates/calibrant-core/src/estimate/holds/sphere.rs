@@ -27,5 +27,6 @@ pub(in crate::estimate) fn sphere(holds: &[Hold], gravity: f64) -> Option<Sensor
     (radius.is_finite() && radius > 0.0).then(|| SensorParameters {
         bias: center + c * size,
         matrix: Matrix3::identity() * (radius * size / gravity),
+        ..SensorParameters::identity()
     })
 }

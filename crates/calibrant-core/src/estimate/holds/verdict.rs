@@ -1,6 +1,6 @@
 //! Warnings about a static calibration, and the reason if it is not determined.
 
-use super::sign_dependence::sign_dependence;
+use super::bent_response::bent_response;
 use crate::diagnostic::fit::{FewDegreesOfFreedom, ModelContradicted, NotConverged, NothingToCheck};
 use crate::diagnostic::holds::{
     GravityUnusual, HoldLeftOut, HoldsLeftOutInARow, HoldsScatter, HoldsSpreadLittle, OrientationMissing,
@@ -132,7 +132,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     if between_holds_sd_mps2 > SCATTERED_MPS2 {
         warnings.push(HoldsScatter { between_holds_sd_mps2 }.into());
     }
-    warnings.extend(sign_dependence(calibration, &used));
+    warnings.extend(bent_response(calibration, &used));
     let ratio = between_holds_sd_mps2 / SCATTERED_MPS2;
     if ratio > CONTRADICTED {
         warnings.push(ModelContradicted { sensor_kind: SensorKind::Accelerometer, ratio }.into());

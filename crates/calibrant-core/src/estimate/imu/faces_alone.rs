@@ -7,7 +7,7 @@ use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{beyond, magnitude_rms};
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
-use crate::estimate::imu::initial::known_faces::from_faces;
+use crate::estimate::imu::initial::known_faces::{about, from_faces};
 use crate::estimate::imu::model::singular;
 use crate::estimate::imu::shared_face_errors::SharedError;
 use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
@@ -51,11 +51,9 @@ fn solved(
     first: InitialAccelerometer,
     settings: &CalibrationSettings,
 ) -> Result<Calibration> {
-    let list = ParameterList::new(3, problem.sensor.model);
-    let nominal = problem.sensor.nominal().unwrap_or(SensorParameters {
-        bias: first.sensor.bias,
-        matrix: Matrix3::from_diagonal(&first.sensor.matrix.diagonal()),
-    });
+    let list = ParameterList::new(3, problem.sensor.model).with_terms(&problem.holds.nonlinearity);
+    let gains = Matrix3::from_diagonal(&first.sensor.matrix.diagonal());
+    let nominal = problem.sensor.nominal().unwrap_or(SensorParameters::linear(first.sensor.bias, gains));
     let parameters = list.describe_accelerometer(problem.sensor, &nominal);
     let prior = prior(&parameters, settings.datasheet_prior);
     let mut information = DMatrix::from_diagonal(&prior.weight);
@@ -69,26 +67,24 @@ fn solved(
         .map(|(hold, force)| first.weight_on_face(hold, force, &scatter))
         .collect();
     for ((hold, force), weight) in used.holds.iter().zip(&used.forces).zip(&weights) {
-        let columns: Vec<Vector3<f64>> = list.quantities().iter().map(|of| of.derivative(force)).collect();
+        let columns: Vec<Vector3<f64>> =
+            list.quantities().iter().map(|of| of.derivative(&first.sensor, force)).collect();
         let weighted = DMatrix::from_fn(list.len(), 3, |k, i| columns[k].dot(&weight.column(i)));
         information += &weighted * DMatrix::from_fn(3, list.len(), |i, k| columns[k][i]);
-        gradient += weighted * hold.mean;
+        gradient += weighted * about(&first.sensor, &hold.mean, force);
     }
     let mut covariance = information::covariance(&information).ok_or_else(singular)?;
     let values = &covariance * gradient;
-    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
-    for (quantity, value) in list.quantities().iter().zip(values.iter()) {
-        quantity.add_to(&mut sensor, *value);
-    }
+    let sensor = list.sensor(&values);
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
     let shared_rad = first.alignment.map_or(0.0, |alignment| alignment.tilt.shared_sd_rad);
     let of_noise = covariance.clone();
     for error in SharedError::all(shared_rad) {
         let mut by = DVector::zeros(list.len());
         for (force, weight) in used.forces.iter().zip(&weights) {
-            let weighted = weight * (sensor.matrix * error.of(force));
+            let weighted = weight * (sensor.by_stimulus(force) * error.of(force));
             for (sum, quantity) in by.iter_mut().zip(list.quantities()) {
-                *sum += quantity.derivative(force).dot(&weighted);
+                *sum += quantity.derivative(&sensor, force).dot(&weighted);
             }
         }
         let step = &of_noise * by;

@@ -141,8 +141,8 @@ impl ImuSetup {
     pub fn quantities(&self, accelerometer: SensorModel, gyroscope: &Gyroscope) -> Vec<ImuQuantity> {
         // known directions are the true frame, otherwise the gauge fixes it
         let of_accelerometer = match self.directions {
-            Some(_) => ParameterList::new(3, accelerometer),
-            None => self.holds.gauge.parameter_list(accelerometer),
+            Some(_) => ParameterList::new(3, accelerometer).with_terms(&self.holds.nonlinearity),
+            None => self.holds.parameter_list(accelerometer),
         };
         let of_gyroscope = ParameterList::new(3, gyroscope.model);
         let mut quantities = Vec::new();

@@ -143,7 +143,7 @@ impl FirstPart {
         let solved = solve_at(&context).ok()?;
         let p_value = statistics::chi2_p_value(solved.chi2, solved.degrees_of_freedom)?;
         let list = problem.sensor.parameter_list();
-        let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+        let mut sensor = SensorParameters::linear(Vector3::zeros(), Matrix3::zeros());
         for (quantity, value) in list.quantities().iter().zip(&solved.values) {
             quantity.add_to(&mut sensor, *value);
         }

@@ -28,7 +28,7 @@ pub(super) fn take_out(
     let list = sensor.parameter_list();
     let p = list.len();
     // the matrix S of the axes that the sensor has
-    let mut parameters = crate::sensor::SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+    let mut parameters = crate::sensor::SensorParameters::linear(Vector3::zeros(), Matrix3::zeros());
     for (quantity, value) in list.quantities().iter().zip(&solved.values) {
         quantity.add_to(&mut parameters, *value);
     }

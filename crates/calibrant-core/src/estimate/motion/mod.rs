@@ -67,7 +67,7 @@ fn assemble(
     let list = problem.sensor.parameter_list();
     // axes that the sensor does not have count as perfect
     let absent = Vector3::from_fn(|k, _| if k < problem.sensor.axes { 0.0 } else { 1.0 });
-    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::from_diagonal(&absent) };
+    let mut sensor = SensorParameters::linear(Vector3::zeros(), Matrix3::from_diagonal(&absent));
     for (quantity, value) in list.quantities().iter().zip(&solved.values) {
         quantity.add_to(&mut sensor, *value);
     }
@@ -153,5 +153,5 @@ fn assemble(
 
 /// Nominal values for a sensor whose gain and offset are not known: those of the data, without cross-axis terms.
 fn nominal_from_data(sensor: &SensorParameters) -> SensorParameters {
-    SensorParameters { bias: sensor.bias, matrix: Matrix3::from_diagonal(&sensor.matrix.diagonal()) }
+    SensorParameters { matrix: Matrix3::from_diagonal(&sensor.matrix.diagonal()), ..*sensor }
 }

@@ -8,7 +8,7 @@ use super::predicted_error::{Item, Place, Scattered};
 use super::prediction::Prediction;
 use crate::estimate::imu::StationaryMean;
 use crate::motion::Hold;
-use crate::sensor::{Condition, SensorKind};
+use crate::sensor::{Condition, Correction, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Below these errors nothing is told apart: rounding.
@@ -58,8 +58,9 @@ impl HoldPrediction {
             temperature_c,
         };
         let size = prediction.quantities.len();
-        let correction = imu.accelerometer.matrix.try_inverse()?;
-        let force = correction * (hold.mean - imu.accelerometer.bias);
+        let of_accelerometer = Correction::of(&imu.accelerometer)?;
+        let force = of_accelerometer.apply(&hold.mean);
+        let correction = of_accelerometer.by_reading(&imu.accelerometer, &force);
         let mut by_parameters = DMatrix::zeros(3, size);
         for (k, quantity) in prediction.quantities.iter().enumerate() {
             if quantity.sensor_kind() == SensorKind::Accelerometer {

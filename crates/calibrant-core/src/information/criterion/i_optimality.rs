@@ -54,6 +54,8 @@ impl IOptimality {
                 Quantity::Symmetric(row, column) => {
                     vec![(unit(row), 1 + column.index()), (unit(column), 1 + row.index())]
                 }
+                // of holds only, where stimuli do not fill a range
+                Quantity::Nonlinear(..) => Vec::new(),
             }
         };
         let weight = DMatrix::from_fn(list.len(), list.len(), |i, j| {
@@ -95,6 +97,7 @@ mod tests {
         let at = SensorParameters {
             bias: Vector3::new(0.1, -0.2, 0.3),
             matrix: Matrix3::new(1.1, 0.02, -0.03, 0.01, 0.9, 0.05, -0.04, 0.02, 1.3),
+            ..SensorParameters::identity()
         };
         let factor = DMatrix::from_fn(12, 12, |i, j| ((3 * i + 7 * j + i * j) as f64).sin());
         let covariance = &factor * factor.transpose();
@@ -103,7 +106,8 @@ mod tests {
         let mut mean = 0.0;
         for corner in 0..8_u32 {
             let s = Vector3::from_fn(|k, _| if corner >> k & 1 == 1 { r } else { -r } / 3.0_f64.sqrt());
-            let g = DMatrix::from_fn(3, 12, |row, k| (inverse * list.quantities()[k].derivative(&s))[row]);
+            let g =
+                DMatrix::from_fn(3, 12, |row, k| (inverse * list.quantities()[k].derivative(&at, &s))[row]);
             mean += (&g * &covariance * g.transpose()).trace() / 8.0;
         }
         let value = IOptimality::new(&list, &at, r).expect("regular").value(&covariance);

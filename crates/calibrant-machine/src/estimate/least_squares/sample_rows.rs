@@ -152,11 +152,13 @@ fn gains(sensor: SensorKind, axis: usize, at: &MachineParameters) -> Vector6<f64
 fn sensor_entry(quantity: ImuQuantity) -> Entry {
     let index = |axis: Axis| axis.index();
     match quantity {
-        ImuQuantity::Of(sensor, Quantity::Bias(axis)) => Entry::Sensor(sensor, index(axis), 3),
-        ImuQuantity::Of(sensor, Quantity::Scale(axis)) => Entry::Sensor(sensor, index(axis), index(axis)),
-        ImuQuantity::Of(sensor, Quantity::CrossAxis(row, column) | Quantity::Symmetric(row, column)) => {
-            Entry::Sensor(sensor, index(row), index(column))
-        }
+        ImuQuantity::Of(sensor, of) => match (of.entry(), of) {
+            (Some((row, column)), _) => Entry::Sensor(sensor, index(row), index(column)),
+            (None, Quantity::Bias(axis) | Quantity::Nonlinear(_, axis)) => {
+                Entry::Sensor(sensor, index(axis), 3)
+            }
+            (None, _) => Entry::Sensor(sensor, 0, 3),
+        },
         ImuQuantity::GSensitivity(row, column) => Entry::GSensitivity(index(row), index(column)),
         // a machine's recording is calibrated at one temperature
         ImuQuantity::Thermal(sensor, _) => Entry::Sensor(sensor, 0, 3),

@@ -91,10 +91,12 @@ fn truth() -> ImuParameters {
         accelerometer: SensorParameters {
             bias: Vector3::new(33124.0, 33275.0, 32364.0),
             matrix: Matrix3::new(414.5, 1.4, 3.7, 0.0, 412.0, 8.8, 0.0, 0.0, 414.7),
+            ..SensorParameters::identity()
         },
         gyroscope: SensorParameters {
             bias: Vector3::new(32777.0, 32459.0, 32511.0),
             matrix: Matrix3::new(4778.0, -25.0, 60.0, 18.0, 4764.0, -31.0, 44.0, 9.0, 4766.0),
+            ..SensorParameters::identity()
         },
         g_sensitivity: Matrix3::new(0.1, 0.3, -0.1, 0.0, 0.2, 0.1, -0.2, 0.1, 0.4),
         thermal: Thermal::none(),

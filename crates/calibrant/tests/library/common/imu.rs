@@ -36,6 +36,7 @@ pub(crate) fn draw_imu(rng: &mut Rng) -> ImuParameters {
     let mut sensor = |bias: f64, spread: f64| SensorParameters {
         bias: Vector3::from_fn(|_, _| bias * normal(rng)),
         matrix: Matrix3::identity() + Matrix3::from_fn(|_, _| spread * normal(rng)),
+        ..SensorParameters::identity()
     };
     let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
     let gyroscope = sensor(0.02, 0.01);

@@ -246,6 +246,7 @@ pub(super) fn holds_in_counts() -> Calibration {
     let parameters = SensorParameters {
         bias: Vector3::new(100.0, 200.0, 300.0),
         matrix: Matrix3::new(2.0, 1.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 8.0),
+        ..SensorParameters::identity()
     };
     let list = Gauge::Upper.parameter_list(SensorModel::Full);
     calibration(&sensor, parameters, Recovered::Holds(holds), list)

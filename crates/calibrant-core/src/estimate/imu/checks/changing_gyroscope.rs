@@ -5,7 +5,7 @@ use crate::estimate::change::Series;
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::model::{Fit, GravityResidual, ImuModel};
 use crate::motion::Hold;
-use crate::sensor::{Axis, Condition, ImuQuantity, MeanReading, Quantity, SensorKind};
+use crate::sensor::{Axis, Condition, ImuQuantity, MeanReading, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// The gyroscope of a fitted problem.
@@ -148,13 +148,8 @@ impl Changing<'_> {
 
 /// How an entry of the gyroscope's matrix `M` changes with shares of its rows, and with a turn `ω` of its axes, `M [ω]×`; `None` for what is no entry of it.
 fn entry(quantity: ImuQuantity, matrix: &Matrix3<f64>) -> Option<(Vector3<f64>, Vector3<f64>)> {
-    let (row, column) = match quantity {
-        ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(axis)) => (axis.index(), axis.index()),
-        ImuQuantity::Of(SensorKind::Gyroscope, Quantity::CrossAxis(row, column)) => {
-            (row.index(), column.index())
-        }
-        _ => return None,
-    };
+    let ImuQuantity::Of(SensorKind::Gyroscope, of) = quantity else { return None };
+    let (row, column) = of.entry().map(|(row, column)| (row.index(), column.index()))?;
     let turn = |axis: usize| (matrix * Vector3::ith(axis, 1.0).cross_matrix())[(row, column)];
     Some((Vector3::ith(row, matrix[(row, column)]), Vector3::from_fn(|axis, _| turn(axis))))
 }

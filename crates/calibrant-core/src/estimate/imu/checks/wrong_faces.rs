@@ -10,7 +10,7 @@ use crate::estimate::holds::sphere;
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::problem::FacesProblem;
 use crate::motion::Hold;
-use crate::sensor::ReadingUnit;
+use crate::sensor::{Correction, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
 
 /// Directions closer than this to each other, or to opposite ones, fix no turn, rad.
@@ -39,8 +39,8 @@ pub(crate) fn turned_faces(
         return None;
     }
     let guess = problem.sensor.nominal()?;
-    let correction = guess.matrix.try_inverse()?;
-    let shown = |hold: &Hold| (correction * (hold.mean - guess.bias)).try_normalize(0.0);
+    let correction = Correction::of(&guess)?;
+    let shown = |hold: &Hold| correction.apply(&hold.mean).try_normalize(0.0);
     let wrong: Vec<FaceMismatch> = holds
         .iter()
         .zip(problem.directions)
@@ -65,8 +65,8 @@ fn input_error(problem: &FacesProblem<'_>, holds: &[Hold]) -> Option<InputError>
         ReadingUnit::Counts => sphere(holds, gravity),
         _ => problem.sensor.nominal(),
     }?;
-    let correction = guess.matrix.try_inverse()?;
-    let up = |hold: &Hold| (correction * (hold.mean - guess.bias)).try_normalize(0.0);
+    let correction = Correction::of(&guess)?;
+    let up = |hold: &Hold| correction.apply(&hold.mean).try_normalize(0.0);
     let measured: Vec<Vector3<f64>> = holds.iter().map(up).collect::<Option<_>>()?;
     let given: Vec<Vector3<f64>> = problem.directions.iter().map(|direction| direction.normalize()).collect();
     let faces = Faces { given: &given, measured: &measured };

@@ -43,7 +43,7 @@ impl InitialAccelerometer {
     ) -> Matrix3<f64> {
         inverse_covariance(
             &noise_variance(hold, &self.within, &self.of_mean),
-            &self.sensor.matrix,
+            &self.sensor.by_stimulus(force),
             &scatter.covariance(force),
         )
     }

@@ -1,7 +1,7 @@
 //! Statistics of the residuals of faces: degrees of freedom, noise and χ², along and across the given directions.
 
 use crate::estimate::imu::initial::face_alignment::{Chi2, Degrees};
-use crate::sensor::Quantity;
+use crate::sensor::{Quantity, SensorParameters};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Equations along gravity count as one if they differ by less than this share.
@@ -10,9 +10,10 @@ const SAME_SHARE: f64 = 1e-6;
 /// Degrees of freedom of the scatter of faces along these forces. `others`: number of further parameters.
 pub(crate) fn face_degrees(forces: &[Vector3<f64>], quantities: &[Quantity], others: usize) -> Degrees {
     // along gravity, in a sensor without errors: one equation for each face
+    let ideal = SensorParameters::identity();
     let rows = DMatrix::from_fn(forces.len(), quantities.len(), |j, k| {
         let up = forces[j].normalize();
-        up.dot(&quantities[k].derivative(&up))
+        up.dot(&quantities[k].derivative(&ideal, &up))
     });
     let all = (3 * forces.len()).saturating_sub(quantities.len() + others);
     Degrees {

@@ -107,7 +107,11 @@ fn start_values(
 ) -> ImuParameters {
     let mut imu = ImuParameters {
         accelerometer: first.sensor,
-        gyroscope: SensorParameters { bias: mean_bias(holds, &thermal), matrix: Matrix3::identity() },
+        gyroscope: SensorParameters {
+            bias: mean_bias(holds, &thermal),
+            matrix: Matrix3::identity(),
+            ..SensorParameters::identity()
+        },
         g_sensitivity: Matrix3::zeros(),
         thermal,
     };

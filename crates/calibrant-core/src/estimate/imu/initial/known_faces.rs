@@ -1,6 +1,7 @@
 //! The accelerometer from holds whose directions are known: six faces on a table, a turntable, a robot.
 //!
-//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and
+//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. Where terms bend the response, the
+//! readings are those about the last solution, a few times (Gauss–Newton). `ε_j` is the noise of the mean and
 //! the face alignment (`face_alignment`).
 
 use crate::diagnostic::faces::{FaceBrief, FacesScatter};
@@ -23,7 +24,7 @@ use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, Recording, SensorParameters, SensorThermal};
+use crate::sensor::{Correction, ParameterList, Recording, SensorParameters, SensorThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
@@ -53,7 +54,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
     let holds = holds_between(recording, intervals)?;
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
-    let list = ParameterList::new(3, problem.sensor.model);
+    let list = ParameterList::new(3, problem.sensor.model).with_terms(&setup.nonlinearity);
     let as_read = problem.recording;
     let clipped = clipped_holds(as_read, &holds);
     let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
@@ -82,15 +83,16 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
     }
     accelerometer_gains::check(problem.sensor.unit, &sensor.matrix)?;
     let turned = turned_faces(problem, &holds, &sensor.matrix);
-    let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+    let correction = Correction::of(&sensor);
+    let corrected = |hold: &Hold| correction.map_or(hold.mean - sensor.bias, |of| of.apply(&hold.mean));
     let results: Vec<HoldResult> = holds
         .iter()
         .zip(&forces)
         .zip(&clipped)
         .map(|((hold, force), clipped)| {
-            let off = (correction * (hold.mean - sensor.bias)).norm() - setup.gravity.magnitude_mps2;
-            let along = sensor.matrix * force.normalize();
-            let weight = linear.weight(hold, force, &sensor.matrix, &alignment.scatter);
+            let off = corrected(hold).norm() - setup.gravity.magnitude_mps2;
+            let along = sensor.by_stimulus(force) * force.normalize();
+            let weight = linear.weight(hold, force, &sensor.by_stimulus(force), &alignment.scatter);
             let precision = along.dot(&(weight * along)).sqrt();
             HoldResult {
                 hold: hold.clone(),
@@ -104,8 +106,8 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         })
         .collect();
     let brief: Vec<Diagnostic> = holds.iter().enumerate().filter_map(|(k, hold)| brief(k, hold)).collect();
-    let scattered = is_scattered
-        .then(|| scattered(&results, &sensor, &correction, (shown_rad, alignment.scatter.along_mps2)));
+    let scattered =
+        is_scattered.then(|| scattered(&results, corrected, (shown_rad, alignment.scatter.along_mps2)));
     let holds = HoldCalibration {
         magnitude_residual_rms_mps2: magnitude_rms(&results),
         degrees_of_freedom: alignment.along_degrees,
@@ -152,19 +154,24 @@ fn brief(number: usize, hold: &Hold) -> Option<Diagnostic> {
 /// The faces with the largest residuals. If only two faces determine the direction of an axis, both are named.
 fn scattered(
     results: &[HoldResult],
-    sensor: &SensorParameters,
-    correction: &Matrix3<f64>,
+    corrected: impl Fn(&Hold) -> Vector3<f64>,
     (tilt_rad, along_mps2): (f64, f64),
 ) -> Diagnostic {
     let used = || results.iter().enumerate().filter(|(_, result)| result.used);
-    let off: Vec<f64> = results
-        .iter()
-        .map(|result| (correction * (result.hold.mean - sensor.bias)).angle(&result.force_mps2))
-        .collect();
+    let off: Vec<f64> =
+        results.iter().map(|result| corrected(&result.hold).angle(&result.force_mps2)).collect();
     let most = used().map(|(k, _)| off[k]).fold(0.0, f64::max);
     let is_worst = |(k, _): &(usize, &HoldResult)| off[*k] > 0.8 * most;
     let worst = used().filter(is_worst).map(|(k, result)| HoldSpan::of(k, &result.hold)).collect();
     Diagnostic::from(FacesScatter { tilt_rad, along_mps2, worst_rad: most, worst })
+}
+
+/// A reading less what is not linear in the parameters about a sensor: `y + Σ_k c_k ρ e_k(u)`.
+pub(crate) fn about(at: &SensorParameters, reading: &Vector3<f64>, force: &Vector3<f64>) -> Vector3<f64> {
+    if at.nonlinearity.is_none() {
+        return *reading;
+    }
+    reading + at.reading(force) - at.bias - at.matrix * force
 }
 
 struct Linear<'a> {
@@ -179,7 +186,7 @@ impl Linear<'_> {
     /// The sensor, the face alignment, and the condition number of the scaled information.
     fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, FaceAlignment, f64)> {
         let (one, none) = (Matrix3::identity(), FaceScatter::default());
-        let (f, _) = self.normal(&one, &none);
+        let (f, _) = self.normal(&SensorParameters::identity(), &one, &none);
         let groups = information::undetermined(&f, &f.diagonal());
         if !groups.is_empty() {
             return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
@@ -219,16 +226,23 @@ impl Linear<'_> {
         inverse_covariance(&noise_variance(hold, &self.within, &self.of_mean), s, &scatter.covariance(force))
     }
 
-    fn normal(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> (DMatrix<f64>, DVector<f64>) {
+    /// About a sensor.
+    fn normal(
+        &self,
+        at: &SensorParameters,
+        s: &Matrix3<f64>,
+        scatter: &FaceScatter,
+    ) -> (DMatrix<f64>, DVector<f64>) {
         let size = self.list.len();
         let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
         for (hold, force) in self.holds.iter().zip(self.forces) {
             let weight = self.weight(hold, force, s, scatter);
             let columns: Vec<Vector3<f64>> =
-                self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
+                self.list.quantities().iter().map(|quantity| quantity.derivative(at, force)).collect();
+            let mean = about(at, &hold.mean, force);
             for i in 0..size {
                 let weighted = weight * columns[i];
-                g[i] += weighted.dot(&hold.mean);
+                g[i] += weighted.dot(&mean);
                 for j in 0..size {
                     f[(i, j)] += weighted.dot(&columns[j]);
                 }
@@ -238,13 +252,12 @@ impl Linear<'_> {
     }
 
     fn fit(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<SensorParameters> {
-        let (f, g) = self.normal(s, scatter);
-        let values = information::covariance(&f)? * g;
-        let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
-        for (quantity, value) in self.list.quantities().iter().zip(values.iter()) {
-            quantity.add_to(&mut sensor, *value);
+        let mut at = SensorParameters::identity();
+        for _ in 0..self.list.rounds() {
+            let (f, g) = self.normal(&at, s, scatter);
+            at = self.list.sensor(&(information::covariance(&f)? * g));
         }
-        Some(sensor)
+        Some(at)
     }
 
     fn chi2(&self, sensor: &SensorParameters, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<Chi2> {

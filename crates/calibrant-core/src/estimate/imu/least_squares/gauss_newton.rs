@@ -100,7 +100,7 @@ impl ImuModel<'_> {
             let imu = state.imu.at(temperature_c);
             let g = self.sensitivity(SensorKind::Accelerometer, &felt);
             let r = hold.accelerometer - imu.accelerometer.reading(force);
-            add(imu.accelerometer.matrix, g, r, hold.accelerometer_weight);
+            add(imu.accelerometer.by_stimulus(force), g, r, hold.accelerometer_weight);
             if let Some((mean, weight)) = &hold.gyroscope {
                 let stimulus = self.earth.rate(j, force);
                 let g = self.sensitivity(SensorKind::Gyroscope, &Condition { stimulus, ..felt });

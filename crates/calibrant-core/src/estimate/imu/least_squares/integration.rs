@@ -235,6 +235,8 @@ impl IntegratedRotation {
                 Quantity::Symmetric(row, column) => {
                     entry(row.index(), column.index()) + entry(column.index(), row.index())
                 }
+                // terms bend the response of accelerometers only
+                Quantity::Nonlinear(..) => Vector3::zeros(),
             },
             ImuQuantity::GSensitivity(row, column) => {
                 own(&self.by_force, row.index(), column.index(), |end| &end.force)
@@ -253,6 +255,7 @@ mod tests {
             gyroscope: SensorParameters {
                 bias: Vector3::new(0.02, -0.03, 0.01),
                 matrix: Matrix3::new(1.05, 0.02, -0.01, 0.03, 0.97, 0.02, -0.02, 0.01, 1.02),
+                ..SensorParameters::identity()
             },
             g_sensitivity: Matrix3::new(1.0, 0.5, -0.3, 0.2, -0.8, 0.1, 0.4, 0.3, 0.6) * 1e-3,
             ..ImuParameters::identity()

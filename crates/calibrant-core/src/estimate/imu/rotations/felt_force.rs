@@ -1,6 +1,6 @@
 //! The specific force at the gyroscope's samples, which acts through the g-sensitivity.
 
-use crate::sensor::{Recording, SensorParameters, interpolated, times};
+use crate::sensor::{Correction, Recording, SensorParameters, interpolated};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -13,8 +13,8 @@ pub(crate) fn interpolated_forces(
     gyroscope: &Recording,
     sensor: &SensorParameters,
 ) -> Option<Vec<Vector3<f64>>> {
-    let correction = sensor.matrix.try_inverse()?;
-    let force = |k: usize| times(&correction, &(accelerometer.readings[k] - sensor.bias));
+    let correction = Correction::of(sensor)?;
+    let force = |k: usize| correction.apply(&accelerometer.readings[k]);
     let at = |k: usize| interpolated(&accelerometer.times_s, force, gyroscope.times_s[k], k);
     // zero only for an accelerometer without samples
     let felt = |k: usize| at(k).unwrap_or_else(Vector3::zeros);

@@ -8,8 +8,8 @@
 
 use crate::estimate::holds::{ROUNDED_TIME_STEPS, median};
 use crate::motion::Hold;
-use crate::sensor::{Recording, SensorParameters};
-use nalgebra::Vector3;
+use crate::sensor::{Correction, Recording, SensorParameters};
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::LN_2;
 
 /// A rotation begins this time before the end of a hold, s. A hand begins so gently that the first milliradians look stationary.
@@ -46,16 +46,17 @@ pub(crate) fn gravity_at_ends(
     holds: &[&Hold],
     known: Option<TurnsInHolds>,
 ) -> (Vec<AtEnds>, TurnsInHolds) {
-    let correction = sensor.matrix.try_inverse().unwrap_or_default();
-    let force = |hold: &Hold| correction * (hold.mean - sensor.bias);
+    let correction = Correction::of(sensor);
+    let force = |hold: &Hold| correction.map_or_else(Vector3::zeros, |of| of.apply(&hold.mean));
     let difference = |hold: &Hold, (from_s, to_s): (f64, f64)| -> Option<Difference> {
         let (part, all) = (
             accelerometer.mean_between(from_s, to_s)?,
             accelerometer.mean_between(hold.start_s, hold.end_s)?,
         );
         let up = force(hold).try_normalize(0.0).unwrap_or_default();
-        let difference = correction * (part.mean - all.mean);
-        let of_sample = (correction * hold.sd).norm_squared() / 3.0;
+        let by_reading = correction.map_or_else(Matrix3::zeros, |of| of.by_reading(sensor, &force(hold)));
+        let difference = by_reading * (part.mean - all.mean);
+        let of_sample = (by_reading * hold.sd).norm_squared() / 3.0;
         let of_mean = (1.0 / part.samples as f64 - 1.0 / all.samples as f64).max(0.0);
         Some((difference - up * up.dot(&difference), of_sample * of_mean))
     };

@@ -28,12 +28,14 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
         accelerometer: SensorParameters {
             bias: Vector3::new(zero_a, 1.004 * zero_a, 0.97 * zero_a),
             matrix: shape * gain_a,
+            ..SensorParameters::identity()
         },
         gyroscope: SensorParameters {
             bias: Vector3::new(zero_g, 0.99 * zero_g, 1.01 * zero_g),
             matrix: shape.transpose()
                 * Matrix3::new(1.0, 0.0, 0.01, 0.02, 0.997, 0.0, 0.0, -0.03, 0.998)
                 * gain_g,
+            ..SensorParameters::identity()
         },
         g_sensitivity: if g_sensitivity {
             Matrix3::new(1e-4, -2e-4, 3e-5, 4e-5, 1.5e-4, -6e-5, 7e-5, 8e-5, 9e-5) * gain_g
