@@ -5,7 +5,18 @@ use super::faces::FacePointing;
 use super::hold_span::{HoldReason, HoldSpan};
 use super::parts::{Phrase, listed};
 use crate::number_format::{plain, significant};
-use crate::sensor::{Axis, ReadingUnit, SensorKind};
+use crate::sensor::{Axis, NonlinearTerm, ReadingUnit, SensorKind};
+
+/// What to do about a term that is missing.
+fn estimate_it(term: NonlinearTerm, is_told: bool) -> String {
+    let words = match (is_told, term) {
+        (true, NonlinearTerm::SecondOrder) => "\"second-order\"",
+        (true, NonlinearTerm::GainBySign) => "\"gain-by-sign\"",
+        (false, _) => "\"second-order\", \"gain-by-sign\"",
+    };
+    let both = if is_told { "" } else { ": the holds do not tell which of the two it is" };
+    format!("Write nonlinearity = [{words}] in [holds]{both}; or is the sensor near the end of its range?")
+}
 
 checks! {
     /// A hold is not used.
@@ -174,15 +185,18 @@ checks! {
         difference: f64,
         /// How far a bias would move, in its standard deviations.
         moved_sds: f64,
+        /// Do the holds tell it from a second-order response?
+        is_told: bool,
     }
     decided "With two gains for each axis the holds fit better; such a difference occurs by chance once in a thousand times, and would move a \
         bias by more than two of its standard deviations."
-    remedy "Add \"gain-by-sign\" to holds.nonlinearity, which estimates the two gains from some two dozen holds. Else choose a larger range, or another sensor."
+    remedy "Write nonlinearity = [\"gain-by-sign\"] in [holds], which estimates the two gains from some two dozen holds; with \"second-order\" beside it where the \
+        holds do not tell the two apart. Else choose a larger range, or another sensor."
     says format!(
         "axis {axis} of the accelerometer seems to have a gain that is {:+.2} % larger for positive forces than for negative ones: with such \
-         gains the holds fit far better, and a bias would move by {moved_sds:.1} standard deviations. Add \"gain-by-sign\" to holds.nonlinearity; \
-         or is the sensor near the end of its range?",
-        100.0 * difference
+         gains the holds fit far better, and a bias would move by {moved_sds:.1} standard deviations. {}",
+        100.0 * difference,
+        estimate_it(NonlinearTerm::GainBySign, *is_told)
     );
 
     /// The accelerometer's response is bent like a parabola. Bias and gain do not describe it.
@@ -193,14 +207,37 @@ checks! {
         second_order_per_mps2: f64,
         /// How far a bias would move, in its standard deviations.
         moved_sds: f64,
+        /// Do the holds tell it from a gain that depends on the sign?
+        is_told: bool,
     }
     decided "With a second-order coefficient for each axis the holds fit better than with two gains; such coefficients occur by chance once in a thousand \
         times, and would move a bias by more than two of its standard deviations."
-    remedy "Add \"second-order\" to holds.nonlinearity, which estimates the coefficients from some two dozen holds. Else choose a larger range, or another sensor."
+    remedy "Write nonlinearity = [\"second-order\"] in [holds], which estimates the coefficients from some two dozen holds; with \"gain-by-sign\" beside it where \
+        the holds do not tell the two apart. Else choose a larger range, or another sensor."
     says format!(
         "axis {axis} of the accelerometer seems to have a second-order coefficient of {} mg/g²: with such terms the holds fit far better, and a \
-         bias would move by {moved_sds:.1} standard deviations. Add \"second-order\" to holds.nonlinearity; or is the sensor near the end of its range?",
-        plain(1e3 * 9.806_65 * second_order_per_mps2, 2)
+         bias would move by {moved_sds:.1} standard deviations. {}",
+        plain(1e3 * 9.806_65 * second_order_per_mps2, 2),
+        estimate_it(NonlinearTerm::SecondOrder, *is_told)
+    );
+
+    /// A term that bends the accelerometer's response was estimated, and another one fits the holds as well.
+    ResponseTermOpen "response-term-open" Warning {
+        /// The term that was estimated.
+        estimated: NonlinearTerm,
+        /// The other one.
+        rival: NonlinearTerm,
+        /// How far a bias would move with the other one, in its standard deviations.
+        moved_sds: f64,
+    }
+    decided "The χ² of the holds with the other term in place of the one that was estimated is not larger by 9, and a bias would move by more than two of its \
+        standard deviations."
+    remedy "Estimate both: nonlinearity = [\"second-order\", \"gain-by-sign\"] in [holds]. Holds near all six faces and between them tell the two apart."
+    says format!(
+        "the holds fit {} as well as {}, with which a bias would be {moved_sds:.1} standard deviations elsewhere. Estimate both: \
+         nonlinearity = [\"second-order\", \"gain-by-sign\"]",
+        rival.name(),
+        estimated.name()
     );
 
     /// No hold has an axis pointing up, or down.

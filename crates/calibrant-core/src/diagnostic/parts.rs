@@ -1,7 +1,7 @@
 //! A diagnostic's subject (`gyroscope axis x`) and its named numbers, made of the fields of its check. Each type of a field implements [`Part`].
 
 use super::numbers::Numbers;
-use crate::sensor::{Axis, ReadingUnit, SensorKind};
+use crate::sensor::{Axis, NonlinearTerm, ReadingUnit, SensorKind};
 use nalgebra::Vector3;
 use std::fmt::Display;
 
@@ -60,6 +60,12 @@ impl Part for SensorKind {
 impl Part for Axis {
     fn add_to(&self, parts: &mut Parts, _: &'static str) {
         parts.subject.push(format!("axis {self}"));
+    }
+}
+
+impl Part for NonlinearTerm {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        parts.subject.push(self.name().to_owned());
     }
 }
 

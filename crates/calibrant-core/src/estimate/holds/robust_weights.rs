@@ -15,7 +15,7 @@ use crate::estimate::change::longest_run;
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{Correction, ParameterList, SensorParameters};
+use crate::sensor::{Correction, ParameterList, Quantity, SensorParameters};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -402,7 +402,10 @@ impl Problem<'_> {
     fn summarise(&self, used: Vec<bool>, weighted: Weighted) -> Robust {
         let Weighted { fit, covariance, between, .. } = &weighted;
         let size = self.size();
-        let scaled = DMatrix::from_fn(size, size, |i, j| {
+        // how spread the holds are shows in the linear part: terms that bend the response look alike however the holds lie
+        let is_linear = |of: &&Quantity| !matches!(of, Quantity::Nonlinear(..));
+        let linear = self.list.quantities().iter().filter(is_linear).count();
+        let scaled = DMatrix::from_fn(linear, linear, |i, j| {
             fit.information[(i, j)] / (fit.information[(i, i)] * fit.information[(j, j)]).sqrt()
         });
         let eigen = scaled.symmetric_eigen();
@@ -410,7 +413,7 @@ impl Problem<'_> {
         let direction = eigen.eigenvectors.column(weakest);
         let quantities = self.list.of_accelerometer();
         let shares: Vec<String> =
-            (0..size).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
+            (0..linear).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
         let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
         // the directions of the fit for the holds that were used, those of the correction for the others
         let mut forces =
