@@ -230,7 +230,7 @@ checks! {
         /// How far a bias would move with the other one, in its standard deviations.
         moved_sds: f64,
     }
-    decided "The χ² of the holds with the other term in place of the one that was estimated is not larger by 9, and a bias would move by more than two of its \
+    decided "The holds do not make the term that was estimated 1000 times as likely as the other one in its place, and a bias would move by more than two of its \
         standard deviations."
     remedy "Estimate both: nonlinearity = [\"second-order\", \"gain-by-sign\"] in [holds]. Holds near all six faces and between them tell the two apart."
     says format!(

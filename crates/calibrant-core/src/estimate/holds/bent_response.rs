@@ -4,6 +4,8 @@
 //! and take up a part of it as a bias. So one more least squares over the magnitudes, for each choice of terms, tells the `c`, how well the choice fits,
 //! and how far the biases would move with it. Fisher's F tests the three `c` of a term together.
 //!
+//! A drift of the biases can look like a bent response, too: where the holds are enough it is fitted beside the terms, and freely.
+//!
 //! Terms look alike: `u³` and `u |u|` differ by a few per cent of themselves. Two that fit equally well give other biases, and only both together are safe.
 
 use crate::diagnostic::Diagnostic;
@@ -19,8 +21,8 @@ const CHANCE: f64 = 1e-3;
 const MATTERS: f64 = 2.0;
 /// Fewest degrees of freedom that tell a variance.
 const FEWEST: usize = 5;
-/// Two choices of terms are told apart where their χ² differ by more: one is then 90 times as likely as the other.
-const TOLD_APART: f64 = 9.0;
+/// Two choices of as many terms are told apart where one is so many times as likely as the other, the scatter being unknown.
+const TOLD_APART: f64 = 1000.0;
 
 /// The finding, in a fit to the magnitude of gravity.
 pub(super) fn bent_response(calibration: &Calibration, used: &[&HoldResult]) -> Option<Diagnostic> {
@@ -42,7 +44,7 @@ pub(super) fn bent_response(calibration: &Calibration, used: &[&HoldResult]) -> 
         .collect();
     if let Some((term, with)) = more.iter().min_by(|one, other| one.1.chi2.total_cmp(&other.1.chi2)) {
         let moved_sds = magnitudes.moved_sds(&now, with);
-        let as_good = |other: &Fit| other.chi2 - with.chi2 < TOLD_APART * with.variance();
+        let as_good = |other: &Fit| !with.is_told_from(other);
         let is_told = more.iter().filter(|(_, other)| as_good(other)).count() == 1;
         let (axis, coefficient) = with.largest();
         return Some(match term {
@@ -56,18 +58,26 @@ pub(super) fn bent_response(calibration: &Calibration, used: &[&HoldResult]) -> 
     }
     let [estimated] = known.as_slice() else { return None };
     let rivals = missing.iter().filter_map(|&rival| Some((rival, magnitudes.fit(&[rival])?)));
-    let open = rivals.filter(|(_, with)| with.chi2 - now.chi2 < TOLD_APART * now.variance());
+    let open = rivals.filter(|(_, with)| !now.is_told_from(with));
     let moved = open.map(|(rival, with)| (rival, magnitudes.moved_sds(&now, &with)));
     let (rival, moved_sds) = moved.max_by(|one, other| one.1.total_cmp(&other.1))?;
     (moved_sds > MATTERS).then(|| ResponseTermOpen { estimated: *estimated, rival, moved_sds }.into())
 }
 
+/// A hold with its weight.
+struct Weighed {
+    force_mps2: Vector3<f64>,
+    weight: f64,
+    /// The part of the drift that it has.
+    of_drift: f64,
+}
+
 /// The magnitudes of the holds less gravity, as if no term had been estimated, in their standard deviations.
 struct Magnitudes {
-    /// Force along each axis, m/s², and the weight.
-    holds: Vec<(Vector3<f64>, f64)>,
+    holds: Vec<Weighed>,
     errors: DVector<f64>,
     has_cross_terms: bool,
+    has_drift: bool,
     /// Standard deviations of the biases, m/s².
     bias_sd: Vector3<f64>,
 }
@@ -82,7 +92,13 @@ impl Magnitudes {
                 / (hold.hold.samples() as f64).sqrt();
             within.hypot(of_holds.between_holds_sd_mps2).max(f64::MIN_POSITIVE).recip()
         };
-        let holds: Vec<_> = used.iter().map(|hold| (hold.force_mps2, weigh(hold))).collect();
+        let part = |hold: &HoldResult| of_holds.drift.as_ref().map_or(0.0, |drift| drift.part_of(&hold.hold));
+        let weighed = |hold: &&HoldResult| Weighed {
+            force_mps2: hold.force_mps2,
+            weight: weigh(hold),
+            of_drift: part(hold),
+        };
+        let holds: Vec<Weighed> = used.iter().map(weighed).collect();
         let taken = |force: &Vector3<f64>| {
             let of = |term: &NonlinearTerm| effect(*term, force).dot(sensor.nonlinearity.of(*term));
             known.iter().map(of).sum::<f64>()
@@ -90,7 +106,7 @@ impl Magnitudes {
         let errors = used
             .iter()
             .zip(&holds)
-            .map(|(hold, (force, weight))| (hold.magnitude_residual_mps2 + taken(force)) * weight);
+            .map(|(hold, of)| (hold.magnitude_residual_mps2 + taken(&of.force_mps2)) * of.weight);
         let (sd, bias) =
             (calibration.sd(), |axis| ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(axis)));
         let place = |axis: Axis| calibration.quantities.iter().position(|of| *of == bias(axis));
@@ -100,8 +116,11 @@ impl Magnitudes {
             .quantities
             .iter()
             .any(|of| matches!(of, ImuQuantity::Of(_, Quantity::CrossAxis(..) | Quantity::Symmetric(..))));
+        // for one more term
+        let unknowns = 3 + if has_cross_terms { 6 } else { 3 } + 3 * known.len() + 3;
         Some(Self {
             errors: DVector::from_iterator(used.len(), errors),
+            has_drift: of_holds.drift.is_some() && used.len() >= unknowns + 3 + FEWEST,
             holds,
             has_cross_terms,
             bias_sd: Vector3::from(bias_sd),
@@ -114,16 +133,19 @@ impl Magnitudes {
             true => &[(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)],
             false => &[(0, 0), (1, 1), (2, 2)],
         };
-        let unknowns = 3 + products.len() + 3 * terms.len();
+        let drift = if self.has_drift { 3 } else { 0 };
+        let unknowns = 3 + products.len() + drift + 3 * terms.len();
         if self.holds.len() < unknowns + FEWEST {
             return None;
         }
         let mut rows = DMatrix::zeros(self.holds.len(), unknowns);
-        for (j, (force, weight)) in self.holds.iter().enumerate() {
+        for (j, Weighed { force_mps2: force, weight, of_drift }) in self.holds.iter().enumerate() {
             let u = force.normalize();
             let parameters = (0..3).map(|axis| u[axis]).chain(products.iter().map(|&(i, k)| u[i] * u[k]));
             let of_terms = terms.iter().flat_map(|&term| <[f64; 3]>::from(effect(term, force)));
+            let of_drift = (0..drift).map(|axis| u[axis] * of_drift);
             parameters
+                .chain(of_drift)
                 .chain(of_terms)
                 .enumerate()
                 .for_each(|(column, value)| rows[(j, column)] = weight * value);
@@ -146,7 +168,7 @@ fn effect(term: NonlinearTerm, force: &Vector3<f64>) -> Vector3<f64> {
 }
 
 struct Fit {
-    /// Those of `u`, of the products, and of the terms, three each.
+    /// Those of `u`, of the products, of the drift, and of the terms, three each.
     solved: DVector<f64>,
     chi2: f64,
     free: f64,
@@ -156,6 +178,11 @@ impl Fit {
     /// χ² over the degrees of freedom.
     fn variance(&self) -> f64 {
         self.chi2 / self.free
+    }
+
+    /// Is it far likelier than another fit with as many unknowns? The likelihoods go as `χ^−ν`.
+    fn is_told_from(&self, other: &Self) -> bool {
+        0.5 * self.free * (other.chi2 / self.chi2).ln() > TOLD_APART.ln()
     }
 
     /// The largest coefficient of the last term, and its axis.
