@@ -3,14 +3,17 @@
 
 use crate::common::steady_holds;
 use crate::common::{messages, read_accelerometer, shared_data};
-use calibrant::diagnostic::holds::GainDependsOnSign;
+use calibrant::diagnostic::holds::{GainDependsOnSign, ResponseTermOpen, SecondOrderResponse};
 use calibrant::diagnostic::{Check, Diagnostic};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
     Recovered, Stimulus, calibrate, find_holds,
 };
 use calibrant::motion::Gravity;
-use calibrant::sensor::{Correction, Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{
+    Correction, Gauge, ImuParameters, NonlinearTerm, Nonlinearity, ReadingUnit, Recording, Sensor,
+    SensorModel, SensorParameters,
+};
 use calibrant::simulate::{HoldsSimulation, Purpose, draw_sensor, simulate_holds, stream};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use rand::RngExt;
@@ -27,8 +30,13 @@ fn sensor(model: SensorModel) -> Sensor {
 }
 
 fn simulate(poses: usize, seed: u64) -> (SensorParameters, Recording) {
+    simulate_bent(poses, seed, |_| {})
+}
+
+fn simulate_bent(poses: usize, seed: u64, bend: impl Fn(&mut Nonlinearity)) -> (SensorParameters, Recording) {
     let mut rng = stream(seed, Purpose::Sensor, 0);
-    let truth = Gauge::Upper.apply(&draw_sensor(&sensor(SensorModel::Full), &mut rng));
+    let mut truth = Gauge::Upper.apply(&draw_sensor(&sensor(SensorModel::Full), &mut rng));
+    bend(&mut truth.nonlinearity);
     let simulation = HoldsSimulation {
         poses,
         hold_s: 4.0,
@@ -119,6 +127,55 @@ fn a_gain_that_depends_on_the_sign_is_found() {
         let warnings = found(0.01, seed);
         let difference = warnings[0].number("difference").expect("a number");
         assert!((difference - 0.01).abs() < 4e-3, "{seed}: {difference}");
+    }
+}
+
+/// A parabola and two gains: named where they are not estimated; where they are, standard deviations hold and nothing is left to say.
+#[test]
+fn terms_that_bend_the_response_are_estimated() {
+    let both = HoldsSetup { nonlinearity: NonlinearTerm::ALL.to_vec(), ..steady_holds() };
+    let (mut squares, mut count) = (0.0, 0.0);
+    for seed in 1..=8 {
+        let (truth, recording) = simulate_bent(36, seed, |bends| {
+            *bends.of_mut(NonlinearTerm::SecondOrder) = Vector3::new(2e-4, -1e-4, 1.5e-4);
+            *bends.of_mut(NonlinearTerm::GainBySign) = Vector3::new(0.005, 0.005, -0.003);
+        });
+        let linear =
+            run(&Sensor::triaxial(SensorModel::Full), &recording, &steady_holds()).expect("identifiable");
+        let is_named =
+            |of: &Diagnostic| [GainDependsOnSign::CODE, SecondOrderResponse::CODE].contains(&of.code());
+        assert!(linear.warnings.iter().any(is_named), "{seed}: {:?}", messages(&linear.warnings));
+        let calibration = run(&Sensor::triaxial(SensorModel::Full), &recording, &both).expect("identifiable");
+        assert_eq!(messages(&calibration.warnings), Vec::<String>::new(), "{seed}");
+        let truth = ImuParameters { accelerometer: truth, ..ImuParameters::identity() };
+        for ((quantity, value), sd) in
+            calibration.quantities.iter().zip(&calibration.values).zip(calibration.sd().iter())
+        {
+            squares += ((value - quantity.value(&truth)) / sd).powi(2);
+            count += 1.0;
+        }
+    }
+    // 120 of them, correlated within a recording
+    let rms = f64::sqrt(squares / count);
+    assert!((0.75..1.25).contains(&rms), "{rms}");
+}
+
+/// With the wrong term alone biases are many standard deviations off: it is said.
+#[test]
+fn a_term_that_looks_like_another_is_not_taken_for_it() {
+    for (seed, truth, wrong) in [
+        (1, NonlinearTerm::SecondOrder, NonlinearTerm::GainBySign),
+        (2, NonlinearTerm::GainBySign, NonlinearTerm::SecondOrder),
+    ] {
+        let size = if truth == NonlinearTerm::SecondOrder { 2e-4 } else { 0.005 };
+        let (_, recording) = simulate_bent(24, seed, |bends| *bends.of_mut(truth) = Vector3::repeat(size));
+        let setup = HoldsSetup { nonlinearity: vec![wrong], ..steady_holds() };
+        let calibration =
+            run(&Sensor::triaxial(SensorModel::Full), &recording, &setup).expect("identifiable");
+        let said = |of: &Diagnostic| {
+            [ResponseTermOpen::CODE, GainDependsOnSign::CODE, SecondOrderResponse::CODE].contains(&of.code())
+        };
+        assert!(calibration.warnings.iter().any(said), "{truth:?}: {:?}", messages(&calibration.warnings));
     }
 }
 

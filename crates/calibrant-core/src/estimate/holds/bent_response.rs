@@ -30,23 +30,33 @@ pub(super) fn bent_response(calibration: &Calibration, used: &[&HoldResult]) -> 
     let is_estimated = |term: &NonlinearTerm| {
         quantities.iter().any(|of| matches!(of, ImuQuantity::Of(_, Quantity::Nonlinear(of, _)) if of == term))
     };
-    let (known, missing): (Vec<_>, Vec<_>) = NonlinearTerm::ALL.into_iter().partition(is_estimated);
+    let known: Vec<NonlinearTerm> = NonlinearTerm::ALL.into_iter().filter(is_estimated).collect();
     let magnitudes = Magnitudes::of(calibration, used, &known)?;
-    let now = magnitudes.fit(&known)?;
+    finding(&known, |terms| magnitudes.fit(terms))
+}
+
+/// What fits with other terms than the ones that were estimated say of these.
+pub(in crate::estimate) fn finding(
+    known: &[NonlinearTerm],
+    fit: impl Fn(&[NonlinearTerm]) -> Option<TermsFit>,
+) -> Option<Diagnostic> {
+    let now = fit(known)?;
+    let missing: Vec<_> = NonlinearTerm::ALL.into_iter().filter(|term| !known.contains(term)).collect();
     let chance = CHANCE / missing.len().max(1) as f64;
-    let more: Vec<(NonlinearTerm, Fit)> = missing
+    let more: Vec<(NonlinearTerm, TermsFit)> = missing
         .iter()
         .filter_map(|&term| {
-            let with = magnitudes.fit(&[known.as_slice(), &[term]].concat())?;
+            let with = fit(&[known, &[term]].concat())?;
             let p_value = f_p_value((now.chi2 - with.chi2) / with.variance(), 3, with.free)?;
-            (p_value < chance && magnitudes.moved_sds(&now, &with) > MATTERS).then_some((term, with))
+            (p_value < chance && now.moved_sds(&with) > MATTERS).then_some((term, with))
         })
         .collect();
     if let Some((term, with)) = more.iter().min_by(|one, other| one.1.chi2.total_cmp(&other.1.chi2)) {
-        let moved_sds = magnitudes.moved_sds(&now, with);
-        let as_good = |other: &Fit| !with.is_told_from(other);
-        let is_told = more.iter().filter(|(_, other)| as_good(other)).count() == 1;
-        let (axis, coefficient) = with.largest();
+        let moved_sds = now.moved_sds(with);
+        let is_told = more.iter().filter(|(_, other)| !with.is_told_from(other)).count() == 1;
+        let of = Axis::ALL.map(|axis| (axis, with.coefficients[axis.index()]));
+        let (axis, coefficient) =
+            of.into_iter().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         return Some(match term {
             NonlinearTerm::GainBySign => {
                 GainDependsOnSign { axis, difference: coefficient, moved_sds, is_told }.into()
@@ -56,12 +66,39 @@ pub(super) fn bent_response(calibration: &Calibration, used: &[&HoldResult]) -> 
             }
         });
     }
-    let [estimated] = known.as_slice() else { return None };
-    let rivals = missing.iter().filter_map(|&rival| Some((rival, magnitudes.fit(&[rival])?)));
+    let [estimated] = known else { return None };
+    let rivals = missing.iter().filter_map(|&rival| Some((rival, fit(&[rival])?)));
     let open = rivals.filter(|(_, with)| !now.is_told_from(with));
-    let moved = open.map(|(rival, with)| (rival, magnitudes.moved_sds(&now, &with)));
+    let moved = open.map(|(rival, with)| (rival, now.moved_sds(&with)));
     let (rival, moved_sds) = moved.max_by(|one, other| one.1.total_cmp(&other.1))?;
     (moved_sds > MATTERS).then(|| ResponseTermOpen { estimated: *estimated, rival, moved_sds }.into())
+}
+
+/// A fit with a choice of terms.
+pub(in crate::estimate) struct TermsFit {
+    /// The biases in their standard deviations, from wherever.
+    pub(in crate::estimate) biases: Vector3<f64>,
+    /// Those of the last term.
+    pub(in crate::estimate) coefficients: Vector3<f64>,
+    pub(in crate::estimate) chi2: f64,
+    /// Degrees of freedom.
+    pub(in crate::estimate) free: f64,
+}
+
+impl TermsFit {
+    fn variance(&self) -> f64 {
+        self.chi2 / self.free
+    }
+
+    /// Is it far likelier than another fit with as many unknowns? The likelihoods go as `χ^−ν`.
+    fn is_told_from(&self, other: &Self) -> bool {
+        0.5 * self.free * (other.chi2 / self.chi2).ln() > TOLD_APART.ln()
+    }
+
+    /// How far a bias is most from that of another fit, in its standard deviations.
+    fn moved_sds(&self, other: &Self) -> f64 {
+        (self.biases - other.biases).amax()
+    }
 }
 
 /// A hold with its weight.
@@ -128,7 +165,7 @@ impl Magnitudes {
     }
 
     /// The least squares with these terms. `None` of too few holds.
-    fn fit(&self, terms: &[NonlinearTerm]) -> Option<Fit> {
+    fn fit(&self, terms: &[NonlinearTerm]) -> Option<TermsFit> {
         let products: &[(usize, usize)] = match self.has_cross_terms {
             true => &[(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)],
             false => &[(0, 0), (1, 1), (2, 2)],
@@ -152,12 +189,12 @@ impl Magnitudes {
         }
         let solved = (rows.transpose() * &rows).cholesky()?.solve(&(rows.transpose() * &self.errors));
         let chi2 = (&self.errors - &rows * &solved).norm_squared();
-        Some(Fit { solved, chi2, free: (self.holds.len() - unknowns) as f64 })
-    }
-
-    /// How far a bias moves most from one fit to another, in its standard deviations.
-    fn moved_sds(&self, one: &Fit, other: &Fit) -> f64 {
-        (0..3).map(|k| ((one.solved[k] - other.solved[k]) / self.bias_sd[k]).abs()).fold(0.0, f64::max)
+        Some(TermsFit {
+            biases: Vector3::from_fn(|axis, _| solved[axis] / self.bias_sd[axis]),
+            coefficients: solved.fixed_rows::<3>(unknowns - 3).into_owned(),
+            chi2,
+            free: (self.holds.len() - unknowns) as f64,
+        })
     }
 }
 
@@ -165,30 +202,4 @@ impl Magnitudes {
 fn effect(term: NonlinearTerm, force: &Vector3<f64>) -> Vector3<f64> {
     let u = force.normalize();
     Vector3::from_fn(|axis, _| u[axis] * term.value(force[axis]))
-}
-
-struct Fit {
-    /// Those of `u`, of the products, of the drift, and of the terms, three each.
-    solved: DVector<f64>,
-    chi2: f64,
-    free: f64,
-}
-
-impl Fit {
-    /// χ² over the degrees of freedom.
-    fn variance(&self) -> f64 {
-        self.chi2 / self.free
-    }
-
-    /// Is it far likelier than another fit with as many unknowns? The likelihoods go as `χ^−ν`.
-    fn is_told_from(&self, other: &Self) -> bool {
-        0.5 * self.free * (other.chi2 / self.chi2).ln() > TOLD_APART.ln()
-    }
-
-    /// The largest coefficient of the last term, and its axis.
-    fn largest(&self) -> (Axis, f64) {
-        let first = self.solved.len() - 3;
-        let of = Axis::ALL.map(|axis| (axis, self.solved[first + axis.index()]));
-        of.into_iter().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs())).unwrap_or(of[0])
-    }
 }

@@ -39,6 +39,7 @@ mod setup;
 mod sphere;
 mod verdict;
 
+pub(super) use bent_response::{TermsFit, finding as finding_of_terms};
 pub(super) use calibrate::calibrate;
 pub(super) use coarse_steps::coarse_steps;
 pub(super) use residuals::magnitude_rms;

@@ -33,6 +33,27 @@ fn its_uncertainty_is_that_of_differences_at_other_temperatures_too() {
     }
 }
 
+#[test]
+fn its_uncertainty_is_that_of_differences_where_the_response_is_bent() {
+    let mut bent = warm();
+    *bent.parameters.accelerometer.nonlinearity.of_mut(NonlinearTerm::SecondOrder) =
+        Vector3::new(2e-3, -1e-3, 5e-4);
+    *bent.parameters.accelerometer.nonlinearity.of_mut(NonlinearTerm::GainBySign) =
+        Vector3::new(0.01, 0.02, -0.03);
+    let is_term = |of: &ImuQuantity| matches!(of, ImuQuantity::Of(_, Quantity::Nonlinear(..)));
+    bent.quantities.extend(ImuQuantity::all(true, true).into_iter().filter(is_term));
+    let old = bent.covariance.take().expect("there");
+    let (first, n) = (old.nrows(), bent.quantities.len());
+    bent.covariance = Some(nalgebra::DMatrix::from_fn(n, n, |i, j| match i.max(j) < first {
+        true => old[(i, j)],
+        false if i == j => 1e-8 * (1 + i) as f64,
+        false => 0.0,
+    }));
+    for temperature in [25.0, 41.0] {
+        is_that_of_differences(&bent, temperature);
+    }
+}
+
 fn is_that_of_differences(imu: &CalibratedImu, temperature_c: f64) {
     let (y_a, y_g) = readings(imu);
     let corrected = |imu: &CalibratedImu| {
@@ -49,7 +70,9 @@ fn is_that_of_differences(imu: &CalibratedImu, temperature_c: f64) {
                 quantity.add_to(&mut moved.parameters, step);
                 corrected(&moved)
             };
-            let h = if matches!(quantity, ImuQuantity::Thermal(..)) { 1e-6 } else { 1e-3 };
+            let is_small =
+                matches!(quantity, ImuQuantity::Thermal(..) | ImuQuantity::Of(_, Quantity::Nonlinear(..)));
+            let h = if is_small { 1e-6 } else { 1e-3 };
             let (up, down) = (moved(h), moved(-h));
             ((up.0 - down.0) / (2.0 * h), (up.1 - down.1) / (2.0 * h))
         })

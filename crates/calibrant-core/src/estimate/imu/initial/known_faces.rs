@@ -10,7 +10,8 @@ use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, Undeterm
 use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::hold_result::{HoldCalibration, HoldResult};
 use crate::estimate::holds::{
-    clipped_holds, clipped_reason, coarse_steps, holds_between, left_out, magnitude_rms, with_clipped,
+    TermsFit, clipped_holds, clipped_reason, coarse_steps, finding_of_terms, holds_between, left_out,
+    magnitude_rms, with_clipped,
 };
 use crate::estimate::imu::checks::accelerometer_gains;
 use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
@@ -24,11 +25,16 @@ use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{Correction, ParameterList, Recording, SensorParameters, SensorThermal};
+use crate::sensor::{
+    Correction, NonlinearTerm, ParameterList, Recording, SensorModel, SensorParameters, SensorThermal,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
 const WRONG_SCATTER: f64 = 0.05;
+
+/// Fewest degrees of freedom that tell whether a term bends the response.
+const FEWEST_FREE: usize = 5;
 
 /// Fewest samples of a face. A face with fewer has wrong times.
 const FEWEST_SAMPLES: usize = 10;
@@ -62,7 +68,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         sound.map(|j| (holds[j].clone(), forces[j])).unzip();
     let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
-    let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
+    let linear = Linear { holds: &usable, forces: &along, list: list.clone(), within, of_mean };
     let (mut sensor, alignment, condition) = match linear.solve(problem.face_sd_rad) {
         Ok(solved) => solved,
         Err(error) => {
@@ -82,6 +88,9 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         wrong_faces::check(problem, &holds, mirrored)?;
     }
     accelerometer_gains::check(problem.sensor.unit, &sensor.matrix)?;
+    let bent = finding_of_terms(&setup.nonlinearity, |terms| {
+        linear.with_terms(problem.sensor.model, terms, &sensor, &alignment.scatter)
+    });
     let turned = turned_faces(problem, &holds, &sensor.matrix);
     let correction = Correction::of(&sensor);
     let corrected = |hold: &Hold| correction.map_or(hold.mean - sensor.bias, |of| of.apply(&hold.mean));
@@ -137,6 +146,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
             .chain(brief)
             .chain(scattered)
             .chain(of_tilt)
+            .chain(bent)
             .chain(coarse_steps(&coarse, as_read))
             .collect(),
         holds,
@@ -174,10 +184,11 @@ pub(crate) fn about(at: &SensorParameters, reading: &Vector3<f64>, force: &Vecto
     reading + at.reading(force) - at.bias - at.matrix * force
 }
 
+#[derive(Clone)]
 struct Linear<'a> {
     holds: &'a [Hold],
     forces: &'a [Vector3<f64>],
-    list: &'a ParameterList,
+    list: ParameterList,
     within: Vector3<f64>,
     of_mean: Vector3<f64>,
 }
@@ -214,6 +225,31 @@ impl Linear<'_> {
         })
         .ok_or_else(singular)?;
         Ok((sensor, alignment, condition))
+    }
+
+    /// The fit with other terms, the weights those of this sensor. `None` where the faces do not determine it.
+    fn with_terms(
+        &self,
+        model: SensorModel,
+        terms: &[NonlinearTerm],
+        sensor: &SensorParameters,
+        scatter: &FaceScatter,
+    ) -> Option<TermsFit> {
+        let list = ParameterList::new(3, model).with_terms(terms);
+        let free = (3 * self.holds.len()).checked_sub(list.len() + FEWEST_FREE)? + FEWEST_FREE;
+        let with = Self { list, ..self.clone() };
+        let (f, _) = with.normal(&SensorParameters::identity(), &sensor.matrix, scatter);
+        if !information::undetermined(&f, &f.diagonal()).is_empty() {
+            return None;
+        }
+        let found = with.fit(&sensor.matrix, scatter)?;
+        let covariance = information::covariance(&self.normal(sensor, &sensor.matrix, scatter).0)?;
+        Some(TermsFit {
+            biases: found.bias.component_div(&Vector3::from_fn(|axis, _| covariance[(axis, axis)].sqrt())),
+            coefficients: terms.last().map_or_else(Vector3::zeros, |term| *found.nonlinearity.of(*term)),
+            chi2: with.chi2(&found, &sensor.matrix, scatter)?.all,
+            free: free as f64,
+        })
     }
 
     fn weight(

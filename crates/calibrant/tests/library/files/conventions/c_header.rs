@@ -2,7 +2,7 @@
 
 use super::{COUNTS, file, imu, readings};
 use calibrant::io::{ImuFormat, write_calibrated_imu};
-use calibrant::sensor::ImuCorrection;
+use calibrant::sensor::{CalibratedImu, ImuCorrection};
 use nalgebra::Vector3;
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -20,6 +20,11 @@ int main(void)
         for (i = 0; i < 3; i++) { a[i] = (CALIBRANT_REAL)in[i]; g[i] = (CALIBRANT_REAL)in[i + 3]; }
         calibrant_correct_accelerometer(a, f);
         calibrant_correct_gyroscope(g, f, w);
+#ifdef FORWARD
+        /* the reading of the corrected reading, less the reading */
+        calibrant_read_accelerometer(f, w);
+        for (i = 0; i < 3; i++) f[i] = w[i] - a[i];
+#endif
         printf("%.17g %.17g %.17g %.17g %.17g %.17g\n", (double)f[0], (double)f[1], (double)f[2],
                (double)w[0], (double)w[1], (double)w[2]);
     }
@@ -27,11 +32,10 @@ int main(void)
 }
 "#;
 
-/// The largest difference of a thousand readings corrected in C; `None` without a compiler.
-fn largest_difference(options: &[&str]) -> Option<f64> {
+/// The largest difference of a thousand readings corrected in C, with `-DFORWARD` of readings of their corrections; `None` without a compiler.
+pub(super) fn largest_difference_in_c(imu: &CalibratedImu, options: &[&str]) -> Option<f64> {
     Command::new("cc").arg("--version").output().ok()?;
     let directory = tempfile::tempdir().expect("a directory");
-    let imu = imu(COUNTS, true);
     write_calibrated_imu(&directory.path().join("imu.h"), &file(imu.clone()), ImuFormat::CHeader)
         .expect("written");
     std::fs::write(directory.path().join("main.c"), PROGRAM).expect("written");
@@ -42,7 +46,7 @@ fn largest_difference(options: &[&str]) -> Option<f64> {
         .output()
         .expect("a compiler");
     assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
-    let readings = readings(&imu, 1000, 5);
+    let readings = readings(imu, 1000, 5);
     let mut child = Command::new(directory.path().join("main"))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -56,12 +60,16 @@ fn largest_difference(options: &[&str]) -> Option<f64> {
     let writer = std::thread::spawn(move || input.write_all(lines.as_bytes()));
     let output = child.wait_with_output().expect("ends");
     writer.join().expect("no panic").expect("read by the program");
-    let correction = ImuCorrection::of(&imu).expect("regular");
+    let correction = ImuCorrection::of(imu).expect("regular");
     let text = String::from_utf8(output.stdout).expect("text");
     assert_eq!(text.lines().count(), readings.len());
     let mut largest = 0.0_f64;
     for (line, [a, g]) in text.lines().zip(&readings) {
         let v: Vec<f64> = line.split(' ').map(|word| word.parse().expect("a number")).collect();
+        if options.contains(&"-DFORWARD") {
+            largest = largest.max(Vector3::new(v[0], v[1], v[2]).amax());
+            continue;
+        }
         let force = correction.force(a).expect("there");
         let rate = correction.rate(g, &force).expect("there");
         largest = largest.max((Vector3::new(v[0], v[1], v[2]) - force).amax());
@@ -72,14 +80,14 @@ fn largest_difference(options: &[&str]) -> Option<f64> {
 
 #[test]
 fn it_compiles_without_warnings_and_corrects_as_we_do() {
-    if let Some(difference) = largest_difference(&[]) {
+    if let Some(difference) = largest_difference_in_c(&imu(COUNTS, true), &[]) {
         assert!(difference < 1e-12, "{difference:e}");
     }
 }
 
 #[test]
 fn single_precision_is_good_for_its_digits() {
-    if let Some(difference) = largest_difference(&["-DCALIBRANT_REAL=float"]) {
+    if let Some(difference) = largest_difference_in_c(&imu(COUNTS, true), &["-DCALIBRANT_REAL=float"]) {
         assert!(difference < 1e-4 && difference > 1e-9, "{difference:e}");
     }
 }

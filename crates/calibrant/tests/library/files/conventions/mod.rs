@@ -3,6 +3,7 @@
 
 mod broken;
 mod c_header;
+mod nonlinearity;
 mod round_trips;
 mod temperature;
 mod warnings;

@@ -1,5 +1,6 @@
 //! Tests of the temperature model through calibrant JSON and the C header; other formats refuse it.
 
+use super::nonlinearity::bent;
 use super::{COUNTS, SI, file, imu, largest_difference, readings, there_and_back};
 use calibrant::io::{
     ConventionOptions, ImuFormat, calibrated_imu_texts, parse_calibrated_imu, write_calibrated_imu,
@@ -70,11 +71,15 @@ int main(void)
 
 #[test]
 fn the_c_header_takes_the_temperature() {
+    c_takes_the_temperature(&warm(COUNTS));
+    c_takes_the_temperature(&bent(warm(COUNTS)));
+}
+
+fn c_takes_the_temperature(imu: &CalibratedImu) {
     if Command::new("cc").arg("--version").output().is_err() {
         return;
     }
     let directory = tempfile::tempdir().expect("a directory");
-    let imu = warm(COUNTS);
     write_calibrated_imu(&directory.path().join("imu.h"), &file(imu.clone()), ImuFormat::CHeader)
         .expect("written");
     std::fs::write(directory.path().join("main.c"), PROGRAM).expect("written");
@@ -88,7 +93,7 @@ fn the_c_header_takes_the_temperature() {
     let mut lines = String::new();
     let mut expected = Vec::new();
     for temperature in temperatures {
-        let here = ImuCorrection::of(&imu).and_then(|of| of.at(temperature)).expect("regular");
+        let here = ImuCorrection::of(imu).and_then(|of| of.at(temperature)).expect("regular");
         for [a, g] in readings(&imu.at(temperature).expect("positive gains"), 50, 4) {
             lines +=
                 &format!("{temperature:?} {:?} {:?} {:?} {:?} {:?} {:?}\n", a.x, a.y, a.z, g.x, g.y, g.z);
