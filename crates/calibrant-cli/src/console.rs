@@ -1,5 +1,6 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
+mod excerpt;
 mod flags;
 mod harmless;
 mod manner;
@@ -12,9 +13,9 @@ pub(crate) use manner::{Manner, color_among, leave_stdout, set as set_manner, sh
 use calibrant::Error;
 use calibrant::diagnostic::Severity;
 use calibrant::report::{Sheet, wrapped};
-use harmless::{excerpt, harmless};
+use excerpt::Excerpt;
+use harmless::harmless;
 use indicatif::{ProgressBar, ProgressStyle};
-use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -130,15 +131,17 @@ pub(crate) fn error(error: &Error) {
             let (text, range) = input_error.excerpt.clone().unwrap_or_default();
             let mut title = input_error.clone();
             (title.excerpt, title.help) = (None, String::new());
-            let mut diagnostic = MietteDiagnostic::new(in_one_line(&title.to_string()))
-                .with_code(error.code().name())
-                .with_label(LabeledSpan::at(range, "here"));
-            if !input_error.help.is_empty() {
-                diagnostic = diagnostic.with_help(in_one_line(&input_error.help));
-            }
-            let name = input_error.file.as_ref().map_or_else(|| "experiment".into(), |file| name(file));
-            let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, excerpt(&text)));
-            say(ERROR, &format!("{report:?}"));
+            let file = input_error.file.as_ref().map_or_else(|| "experiment".into(), |file| name(file));
+            let (line, column) = (input_error.line.unwrap_or(1), input_error.column.unwrap_or(1));
+            let shown = Excerpt {
+                code: error.code().name(),
+                message: &in_one_line(&title.to_string()),
+                place: &format!("{file}:{line}:{column}"),
+                text: &harmless::excerpt(&text),
+                range,
+                help: &in_one_line(&input_error.help),
+            };
+            say(ERROR, &shown.shown(width::get(), manner::get().in_colour));
         }
         _ => say(ERROR, &format!("{} [{}]", in_one_line(&error.to_string()), error.code().name())),
     }

@@ -20,6 +20,8 @@ mod noise;
 mod recording_options;
 #[cfg(feature = "records")]
 mod records;
+#[cfg(not(feature = "records"))]
+mod records_missing;
 mod run;
 mod schema;
 mod simulate;
@@ -34,6 +36,8 @@ use calibrant::diagnostic::settings::ThreadsUnset;
 use clap::{ArgMatches, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Manner;
 use exit::Exit;
+#[cfg(not(feature = "records"))]
+use records_missing as records;
 use run::Run;
 use std::ffi::OsString;
 
@@ -75,7 +79,6 @@ enum Command {
     Convert(convert::Arguments),
     Apply(apply::Arguments),
     Compare(compare::Arguments),
-    #[cfg(feature = "records")]
     Records(records::Arguments),
     Explain(explain::Arguments),
     Schema(schema::Arguments),
@@ -118,7 +121,6 @@ pub fn main(arguments: Vec<OsString>) -> u8 {
         Command::Convert(arguments) => arguments,
         Command::Apply(arguments) => arguments,
         Command::Compare(arguments) => arguments,
-        #[cfg(feature = "records")]
         Command::Records(arguments) => arguments,
         Command::Explain(arguments) => arguments,
         Command::Schema(arguments) => arguments,

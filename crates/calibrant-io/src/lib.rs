@@ -116,7 +116,7 @@ pub use results::trajectory_sweep::{TrajectorySweepFile, write_trajectory_sweep_
 #[cfg(feature = "parquet")]
 pub use table::ParquetRows;
 pub use table::{ColumnValues, Table, TableColumn, TableFormat};
-pub use text::decoding::{Checked, open_file, read_text};
+pub use text::decoding::{Checked, install_with, open_file, read_text};
 pub use trajectory::{
     MOST_POINTS, Trajectory, goal_text, read_trajectory, urscript_text, write_goal, write_trajectory,
     write_urscript,

@@ -19,14 +19,10 @@ pub(crate) struct Manner {
 static MANNER: OnceLock<Manner> = OnceLock::new();
 static IS_LEFT: AtomicBool = AtomicBool::new(false);
 
-/// Sets the manner, also for errors that show a place in a file.
+/// Sets the manner.
 pub(crate) fn set(manner: Manner) {
-    if MANNER.set(manner).is_ok() {
-        // fails only where a hook is set already
-        let _ = miette::set_hook(Box::new(move |_| {
-            Box::new(miette::MietteHandlerOpts::new().color(manner.in_colour).build())
-        }));
-    }
+    // fails only where it is set already
+    let _ = MANNER.set(manner);
 }
 
 /// Leaves stdout to a result that is written there: no tables from now on.

@@ -34,15 +34,10 @@ const COMMANDS: &[&str] = &[
     "explain spikes not-identifiable",
     "schema",
     "man pages",
-    #[cfg(feature = "study")]
     "study --sensors 2 --starts 2 -o study",
-    #[cfg(feature = "records")]
     "records add all.db one/calibration.json two/calibration.json",
-    #[cfg(feature = "records")]
     "records list all.db",
-    #[cfg(feature = "records")]
     "records fleet all.db",
-    #[cfg(feature = "records")]
     "records export all.db -o records.csv",
 ];
 

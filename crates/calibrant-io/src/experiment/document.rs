@@ -1,6 +1,6 @@
 //! The text of an experiment file, and the places in it at which errors point.
 
-use super::fault::Fault;
+use super::fault::{Fault, Wrong};
 use super::known_keys::suggest;
 use super::similar_word::shorten;
 use super::toml_value::TomlValue;
@@ -61,7 +61,7 @@ impl<'a> Document<'a> {
     }
 
     fn of(&self, fault: Fault) -> Error {
-        let Fault { code, key, message, mut help, known, .. } = fault;
+        let Wrong { code, key, message, mut help, known, .. } = *fault.0;
         if code == Refusal::KeyUnknown {
             let (section, unknown) = key.rsplit_once('.').unwrap_or(("", &key));
             help = suggest(section, unknown, known, |section| self.has(section));

@@ -6,9 +6,13 @@ use calibrant_core::error::Refusal;
 use serde::de::{Error, Expected, Unexpected};
 use std::fmt;
 
-/// What is wrong, and with which key. A text of serde is the message and, on a second line, the remedy.
+/// What is wrong, and with which key. A text of serde is the message and, on a second line, the remedy. In a box: every step of serde returns one.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub(super) struct Fault(pub(super) Box<Wrong>);
+
+/// The content of a [`Fault`].
+#[derive(Debug)]
+pub(super) struct Wrong {
     pub(super) code: Refusal,
     /// The key at fault, once it is known; before, that of a missing field in its table.
     pub(super) key: String,
@@ -22,7 +26,7 @@ pub(super) struct Fault {
 impl Fault {
     fn new(code: Refusal, message: impl Into<String>, help: impl Into<String>) -> Self {
         let (message, help) = (message.into(), help.into());
-        Self { code, key: String::new(), is_placed: false, message, help, known: &[] }
+        Self(Box::new(Wrong { code, key: String::new(), is_placed: false, message, help, known: &[] }))
     }
 
     /// A value of another kind than is needed.
@@ -45,11 +49,12 @@ impl Fault {
 
     /// The same fault, about this key where none is known yet.
     pub(super) fn at(mut self, key: &str) -> Self {
-        if !self.is_placed {
-            self.key = joined(key, &self.key);
-            self.is_placed = true;
-            if self.help.is_empty() {
-                self.help = remedy(&self.key).into();
+        let wrong = self.0.as_mut();
+        if !wrong.is_placed {
+            wrong.key = joined(key, &wrong.key);
+            wrong.is_placed = true;
+            if wrong.help.is_empty() {
+                wrong.help = remedy(&wrong.key).into();
             }
         }
         self
@@ -107,11 +112,15 @@ impl Error for Fault {
     }
 
     fn unknown_field(key: &str, known: &'static [&'static str]) -> Self {
-        Self { key: shorten(key), known, ..Self::new(Refusal::KeyUnknown, "unknown key", "") }
+        let mut fault = Self::new(Refusal::KeyUnknown, "unknown key", "");
+        (fault.0.key, fault.0.known) = (shorten(key), known);
+        fault
     }
 
     fn missing_field(key: &'static str) -> Self {
-        Self { key: key.into(), ..Self::new(Refusal::KeyMissing, "this required key is missing", "") }
+        let mut fault = Self::new(Refusal::KeyMissing, "this required key is missing", "");
+        fault.0.key = key.into();
+        fault
     }
 }
 
@@ -119,6 +128,6 @@ impl std::error::Error for Fault {}
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`: {} ({})", self.key, self.message, self.help)
+        write!(f, "`{}`: {} ({})", self.0.key, self.0.message, self.0.help)
     }
 }

@@ -99,27 +99,27 @@ impl<R> Serialize for Within<R> {
 
 impl<'de, R: Range> Deserialize<'de> for Within<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Number<R>(PhantomData<R>);
+        deserializer.deserialize_f64(R::BOUNDS).map(Self::from)
+    }
+}
 
-        impl<R: Range> Visitor<'_> for Number<R> {
-            type Value = Within<R>;
+/// Reads a number within: one visitor for all ranges.
+impl Visitor<'_> for Bounds {
+    type Value = f64;
 
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "a number\n{}", R::BOUNDS)
-            }
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a number\n{self}")
+    }
 
-            fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
-                self.visit_f64(number as f64)
-            }
+    fn visit_i64<E: Error>(self, number: i64) -> Result<f64, E> {
+        self.visit_f64(number as f64)
+    }
 
-            fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
-                match R::BOUNDS.complaint(number) {
-                    None => Ok(number.into()),
-                    Some(complaint) => Err(E::custom(format!("{complaint}\n{}", R::BOUNDS))),
-                }
-            }
+    fn visit_f64<E: Error>(self, number: f64) -> Result<f64, E> {
+        match self.complaint(number) {
+            None => Ok(number),
+            Some(complaint) => Err(E::custom(format!("{complaint}\n{self}"))),
         }
-        deserializer.deserialize_f64(Number(PhantomData))
     }
 }
 
@@ -175,22 +175,27 @@ impl<const LEAST: u64, const MOST: u64> From<u64> for Count<LEAST, MOST> {
 
 impl<'de, const LEAST: u64, const MOST: u64> Deserialize<'de> for Count<LEAST, MOST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Whole<const LEAST: u64, const MOST: u64>;
+        deserializer.deserialize_u64(Whole { least: LEAST, most: MOST }).map(Self)
+    }
+}
 
-        impl<const LEAST: u64, const MOST: u64> Visitor<'_> for Whole<LEAST, MOST> {
-            type Value = Count<LEAST, MOST>;
+/// Reads a whole number within.
+struct Whole {
+    least: u64,
+    most: u64,
+}
 
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "a whole number\na whole number from {LEAST}")?;
-                if MOST > 1 << 62 { Ok(()) } else { write!(f, " to {MOST}") }
-            }
+impl Visitor<'_> for Whole {
+    type Value = u64;
 
-            fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
-                let within = u64::try_from(number).ok().filter(|number| (LEAST..=MOST).contains(number));
-                within.map(Count).ok_or_else(|| E::invalid_value(Unexpected::Signed(number), &self))
-            }
-        }
-        deserializer.deserialize_u64(Whole)
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a whole number\na whole number from {}", self.least)?;
+        if self.most > 1 << 62 { Ok(()) } else { write!(f, " to {}", self.most) }
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<u64, E> {
+        let within = u64::try_from(number).ok().filter(|number| (self.least..=self.most).contains(number));
+        within.ok_or_else(|| E::invalid_value(Unexpected::Signed(number), &self))
     }
 }
 

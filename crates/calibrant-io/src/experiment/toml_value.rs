@@ -4,12 +4,12 @@ use super::fault::{Fault, choice, joined};
 use super::remedies::remedy;
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{
-    DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor,
-    value::StrDeserializer,
+    DeserializeSeed, Deserializer, Error, Expected, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
+    Visitor, value::StrDeserializer,
 };
 use std::vec::IntoIter;
 use toml::Spanned;
-use toml::de::{DeString, DeValue};
+use toml::de::{DeInteger, DeString, DeTable, DeValue};
 
 /// A value and its key.
 pub(super) struct TomlValue<'a, 't> {
@@ -37,6 +37,21 @@ impl<'de> TomlValue<'de, '_> {
         Fault::of_kind(needed, found, help).at(&self.key)
     }
 
+    /// Refuses what is no table, and a table that has other keys.
+    fn needs_keys(&self, known: &'static [&'static str]) -> Result<(), Fault> {
+        let Some(table) = self.value.as_table() else {
+            let line = format!("write [{}] on a line of its own, its keys below", self.key);
+            let example = remedy(&self.key);
+            return Err(self.of_kind("a table", if example.is_empty() { &line } else { example }));
+        };
+        // a misspelt key first: what it leaves out follows from it
+        let unknown = table.keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
+        match unknown.min_by_key(|key| key.span().start) {
+            Some(key) => Err(Fault::unknown_field(key.get_ref(), known).at(&self.key)),
+            None => Ok(()),
+        }
+    }
+
     fn needs(&self, is_it: bool, needed: &str, help: &str) -> Result<(), Fault> {
         if is_it { Ok(()) } else { Err(self.of_kind(needed, help)) }
     }
@@ -49,20 +64,15 @@ impl<'de> Deserializer<'de> for TomlValue<'de, '_> {
         let key = self.key.clone();
         let read = match self.value {
             DeValue::String(text) => visitor.visit_str(text),
-            DeValue::Integer(whole) => match i64::from_str_radix(whole.as_str(), whole.radix()) {
+            DeValue::Integer(whole) => match as_i64(whole, &visitor) {
                 Ok(number) => visitor.visit_i64(number),
-                Err(_) => Err(Fault::invalid_value(Unexpected::Str(&whole.to_string()), &visitor)),
+                Err(fault) => Err(fault),
             },
             DeValue::Float(number) => visitor.visit_f64(number.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(truth) => visitor.visit_bool(*truth),
             DeValue::Datetime(_) => Err(Fault::invalid_type(Unexpected::Other("date"), &visitor)),
             DeValue::Array(items) => visitor.visit_seq(Items { key: self.key, place: 0, items }),
-            DeValue::Table(table) => {
-                // in the order of the text: of several mistakes, the first is said
-                let mut entries: Vec<_> = table.iter().collect();
-                entries.sort_by_key(|(name, _)| name.span().start);
-                visitor.visit_map(Entries { key: self.key, entries: entries.into_iter(), value: None })
-            }
+            DeValue::Table(table) => visitor.visit_map(Entries::of(table, self.key)),
         };
         read.map_err(|fault| fault.at(&key))
     }
@@ -73,17 +83,8 @@ impl<'de> Deserializer<'de> for TomlValue<'de, '_> {
         known: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Fault> {
-        let Some(table) = self.value.as_table() else {
-            let line = format!("write [{}] on a line of its own, its keys below", self.key);
-            let example = remedy(&self.key);
-            return Err(self.of_kind("a table", if example.is_empty() { &line } else { example }));
-        };
-        // a misspelt key first: what it leaves out follows from it
-        let unknown = table.keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
-        match unknown.min_by_key(|key| key.span().start) {
-            Some(key) => Err(Fault::unknown_field(key.get_ref(), known).at(&self.key)),
-            None => self.deserialize_any(visitor),
-        }
+        self.needs_keys(known)?;
+        self.deserialize_any(visitor)
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
@@ -139,6 +140,11 @@ impl<'de> Deserializer<'de> for TomlValue<'de, '_> {
     }
 }
 
+fn as_i64(whole: &DeInteger<'_>, needed: &dyn Expected) -> Result<i64, Fault> {
+    i64::from_str_radix(whole.as_str(), whole.radix())
+        .map_err(|_| Fault::invalid_value(Unexpected::Str(&whole.to_string()), needed))
+}
+
 /// The items of an array.
 struct Items<'a, 't> {
     key: String,
@@ -150,10 +156,18 @@ impl<'de> SeqAccess<'de> for Items<'de, '_> {
     type Error = Fault;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
-        let Some(item) = self.items.get(self.place) else { return Ok(None) };
+        self.next().map(|item| item.read(seed)).transpose()
+    }
+}
+
+impl<'a, 't> Iterator for Items<'a, 't> {
+    type Item = TomlValue<'a, 't>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let item = self.items.get(self.place)?;
         let key = format!("{}[{}]", self.key, self.place);
         self.place += 1;
-        TomlValue { key, value: item.get_ref() }.read(seed).map(Some)
+        Some(TomlValue { key, value: item.get_ref() })
     }
 }
 
@@ -164,13 +178,27 @@ struct Entries<'a, 't> {
     value: Option<TomlValue<'a, 't>>,
 }
 
+impl<'a, 't> Entries<'a, 't> {
+    /// In the order of the text: of several mistakes, the first is said.
+    fn of(table: &'a DeTable<'t>, key: String) -> Self {
+        let mut entries: Vec<_> = table.iter().collect();
+        entries.sort_by_key(|(name, _)| name.span().start);
+        Self { key, entries: entries.into_iter(), value: None }
+    }
+
+    /// The name of the next entry, whose value is kept.
+    fn next_name(&mut self) -> Option<&'a str> {
+        let (name, value) = self.entries.next()?;
+        self.value = Some(TomlValue { key: joined(&self.key, name.get_ref()), value: value.get_ref() });
+        Some(name.get_ref())
+    }
+}
+
 impl<'de> MapAccess<'de> for Entries<'de, '_> {
     type Error = Fault;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
-        let Some((name, value)) = self.entries.next() else { return Ok(None) };
-        let name: &'de str = name.get_ref();
-        self.value = Some(TomlValue { key: joined(&self.key, name), value: value.get_ref() });
+        let Some(name) = self.next_name() else { return Ok(None) };
         seed.deserialize(BorrowedStrDeserializer::new(name))
             .map(Some)
             .map_err(|fault: Fault| fault.at(&self.key))

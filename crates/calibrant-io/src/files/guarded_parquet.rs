@@ -2,7 +2,9 @@
 
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
+use parquet::basic::Compression;
 use parquet::errors::ParquetError;
+use parquet::file::metadata::ColumnChunkMetaData;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use std::sync::Once;
@@ -18,6 +20,21 @@ pub(crate) fn damaged(error: &ParquetError) -> InputError {
         Refusal::FileDamaged,
         format!("the Parquet file is damaged: {error}"),
         "was it written to its end?",
+    )
+}
+
+/// Refuses a part of a column that nothing here unpacks.
+pub(crate) fn check_compression(column: &ColumnChunkMetaData) -> Checked<()> {
+    let found = match column.compression() {
+        Compression::BROTLI(_) => "brotli",
+        Compression::LZO => "LZO",
+        _ => return Ok(()),
+    };
+    let name = column.column_path().string();
+    refuse(
+        Refusal::FormatUnsupported,
+        format!("column `{name}` is compressed with {found}, which is not read"),
+        "write the file again with zstd, snappy or no compression",
     )
 }
 

@@ -1,10 +1,11 @@
 //! Reads a table of Parquet by rows: each is an object of its columns.
 
-use crate::files::guarded_parquet::{damaged, guarded};
+use crate::files::guarded_parquet::{check_compression, damaged, guarded};
 use crate::files::parquet_decimal::{big_endian, decimal};
 use crate::text::decoding::{Checked, open_file};
 use calibrant_core::error::{Error, Result};
-use parquet::file::reader::SerializedFileReader;
+use parquet::file::metadata::RowGroupMetaData;
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::reader::RowIter;
 use parquet::record::{Field, Row};
 use serde_json::Value;
@@ -20,11 +21,17 @@ impl ParquetRows {
     /// Opens a file.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where the file cannot be opened, or is no Parquet.
+    /// [`Error::Experiment`] where the file cannot be opened, is no Parquet, or is compressed as nothing here reads it.
     pub fn open(path: &Path) -> Result<Self> {
         let opened = open_file(path, "a data set").map_err(Error::Experiment)?;
         let rows = guarded(|| {
             let reader = SerializedFileReader::new(opened).map_err(|error| damaged(&error))?;
+            reader
+                .metadata()
+                .row_groups()
+                .iter()
+                .flat_map(RowGroupMetaData::columns)
+                .try_for_each(check_compression)?;
             Ok(RowIter::from_file_into(Box::new(reader)))
         });
         let rows = rows.map_err(|error| Error::experiment(error.in_file(path)))?;

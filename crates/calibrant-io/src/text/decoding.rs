@@ -19,7 +19,15 @@ pub(crate) fn refuse<T>(code: Refusal, message: impl Into<String>, help: impl In
 #[cfg(not(all(feature = "mcap", feature = "parquet")))]
 pub(crate) fn without<T>(feature: &str) -> Checked<T> {
     let message = format!("this build of calibrant does not read {feature} files");
-    refuse(Refusal::FormatUnsupported, message, format!("build it with the feature `{feature}`"))
+    refuse(Refusal::FormatUnsupported, message, install_with(feature))
+}
+
+/// The remedy where this build lacks what a feature adds.
+#[must_use]
+pub fn install_with(feature: &str) -> String {
+    format!(
+        "build it with the feature `{feature}`: in its sources, cargo install --locked --path crates/calibrant-cli --features {feature}"
+    )
 }
 
 /// Reads a file whole, unless it is larger than `limit` bytes or plainly binary.

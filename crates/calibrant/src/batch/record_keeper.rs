@@ -50,7 +50,8 @@ impl RecordKeeper {
             None => Ok(Self {}),
             Some(path) => {
                 let option = TaskOption::Records;
-                let help = format!("leave {option} away, or build calibrant with the feature `records`");
+                let help =
+                    format!("leave {option} away. For records, {}", calibrant_io::install_with("records"));
                 let error = InputError::new(Refusal::FormatUnsupported, "this build keeps no records", help);
                 Err(Error::experiment(error.in_file(path)))
             }

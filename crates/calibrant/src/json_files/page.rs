@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// The head of the page.
 const HEAD: &str = "# JSON files\n
-<!-- Made from the types that are written: cargo run -p calibrant --features programs --example json_page > docs/json.md -->\n
+<!-- Made from the types that are written: cargo run -p calibrant --features programs,records --example json_page > docs/json.md -->\n
 Every file says `schema`, the version of all of them, `program`, and as `kind` the name of its chapter here; a list says none of them. `calibrant schema KIND` prints the JSON Schema of a kind.
 A key with `?` is left out where there is nothing to say. What is not known is `null`, and so is a number that is not finite. Vectors are lists over the axes, matrices lists of rows.
 Keys end in their unit; where the unit follows from the readings, it stands beside the number.

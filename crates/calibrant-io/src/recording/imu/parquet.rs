@@ -6,14 +6,14 @@ use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::parquet_pages::Pages;
 use super::parquet_type::{LIST, Whole, check_numbers, describe, time};
-use crate::files::guarded_parquet::{damaged, guarded};
+use crate::files::guarded_parquet::{check_compression, damaged, guarded};
 use crate::recording::text_times::DAY_NS;
 use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::{Checked, refuse};
 use bytes::Bytes;
 use calibrant_core::budget::Budget;
 use calibrant_core::error::{InputError, Refusal};
-use parquet::basic::{Compression, Type};
+use parquet::basic::Type;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::file::metadata::RowGroupMetaData;
@@ -67,13 +67,7 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) ->
             };
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
-                if group.metadata().column(at).compression() == Compression::LZO {
-                    return refuse(
-                        Refusal::FormatUnsupported,
-                        "the file is compressed with LZO, which is not read",
-                        "write it again with zstd, snappy or no compression",
-                    );
-                }
+                check_compression(group.metadata().column(at))?;
                 let pages = group.get_column_page_reader(at).map_err(|error| damaged(&error))?;
                 let pages = Pages { pages, least };
                 column.read(get_column_reader(descriptor.clone(), Box::new(pages)))?;

@@ -108,7 +108,6 @@ fn a_table_reads_with_any_compression() {
         Compression::LZ4_RAW,
         Compression::ZSTD(Default::default()),
         Compression::GZIP(Default::default()),
-        Compression::BROTLI(Default::default()),
     ] {
         let file = read(&write(SCHEMA, &groups, compression), &ImuReadOptions::default());
         assert_eq!((file.format, file.rows), (FileFormat::Parquet, 6));
@@ -130,6 +129,29 @@ fn a_table_reads_with_any_compression() {
         );
         assert_eq!(file.columns[8].unused.as_deref(), Some("not known to be needed"));
     }
+}
+
+#[test]
+fn a_compression_that_is_not_read_is_named_with_its_column() {
+    let file = write(SCHEMA, &[group(0)], Compression::SNAPPY);
+    // in the metadata, the codec follows the column's name: SNAPPY is 1, LZO 3 and BROTLI 4, each twice that
+    let name = b"ay_mps2\x15\x02";
+    let at = file.windows(name.len()).position(|bytes| bytes == name).expect("the column") + name.len() - 1;
+    for (codec, says) in
+        [(6, "column `ay_mps2` is compressed with LZO"), (8, "is compressed with brotli, which")]
+    {
+        let mut changed = file.clone();
+        changed[at] = codec;
+        let refused = parse_imu_recording(&changed, &ImuReadOptions::default()).expect_err("not read");
+        assert_eq!(refused.code(), Refusal::FormatUnsupported);
+        assert!(refused.to_string().contains(says), "{refused}");
+    }
+    let unused = b"label\x15\x02";
+    let at =
+        file.windows(unused.len()).position(|bytes| bytes == unused).expect("the column") + unused.len() - 1;
+    let mut changed = file.clone();
+    changed[at] = 8;
+    assert_eq!(read(&changed, &ImuReadOptions::default()).rows, 3, "what is not needed is not unpacked");
 }
 
 #[test]
