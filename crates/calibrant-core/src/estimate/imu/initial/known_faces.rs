@@ -25,6 +25,7 @@ use crate::estimate::uncalibrated::Uncalibrated;
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{Correction, ParameterList, Recording, SensorParameters, SensorThermal};
+use crate::solve::ScaledInformation;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
@@ -191,10 +192,7 @@ impl Linear<'_> {
         if !groups.is_empty() {
             return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
         }
-        let size = self.list.len();
-        let scaled = DMatrix::from_fn(size, size, |i, j| f[(i, j)] / (f[(i, i)] * f[(j, j)]).sqrt());
-        let eigenvalues = scaled.symmetric_eigenvalues();
-        let condition = eigenvalues.max() / eigenvalues.min().max(f64::MIN_POSITIVE);
+        let condition = ScaledInformation::of(&f).condition_number();
         let singular = || {
             Error::recording(InputError::new(
                 Refusal::FitFailed,
