@@ -47,7 +47,7 @@ mod unknown_latitude;
 mod validation;
 
 pub use crate::diagnostic::{Change, Changed, Course};
-pub use crate::solve::{chi2_p_value, f_p_value};
+pub use crate::solve::{CalibrationStatus, chi2_p_value, f_p_value};
 pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference, Place};
