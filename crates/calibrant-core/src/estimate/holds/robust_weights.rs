@@ -180,7 +180,7 @@ impl Problem<'_> {
             .fit(start, &none)
             .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&holds, &self.list))))?;
         let information = fit.information;
-        let groups = information::undetermined(&information, &fit.unreduced);
+        let groups = information::undetermined(&information, &fit.unreduced, holds.len());
         if groups.is_empty() {
             let prior = self.prior.as_ref().map_or(DVector::zeros(self.size()), |(_, weight)| weight.clone());
             return match hardly_determined(&information, &prior) {

@@ -128,9 +128,10 @@ fn starting_state<const D: usize, const P: usize>(
         .collect();
     let last = commanded.len() - 1;
     let check = |information: &SMatrix<f64, P, P>, reference: &SVector<f64, P>, view: View| {
+        let eliminated = if view == View::Noise { chain.moments.len() } else { 0 };
         let information = DMatrix::from_fn(P, P, |i, j| information[(i, j)]);
         let reference = nalgebra::DVector::from_fn(P, |i, _| reference[i]);
-        let groups = information::undetermined(&information, &reference);
+        let groups = information::undetermined(&information, &reference, eliminated);
         if groups.is_empty() { Ok(()) } else { Err(explain(context, &groups, &slots, view)) }
     };
     let factor =
@@ -143,7 +144,11 @@ fn starting_state<const D: usize, const P: usize>(
         if let Some((_, weight)) = &chain.prior {
             ends += SMatrix::from_diagonal(weight);
         }
-        check(&ends, &ends.diagonal(), View::Ends)?;
+        // ends of a sine are 0 to rounding: two usual samples of the motion are the scale
+        let samples: usize = chain.moments.iter().map(|m| m.samples).sum();
+        let state = State { p: SVector::zeros(), a: commanded.clone() };
+        let usual = chain.as_commanded(&state).information.diagonal() * (2.0 / samples.max(2) as f64);
+        check(&ends, &ends.diagonal().sup(&usual), View::Ends)?;
         let start = axes.map(|axis| context.start_from_ends(axis));
         let p = model::diagonal::<D, P>(
             &SVector::from_fn(|k, _| start[k].0),

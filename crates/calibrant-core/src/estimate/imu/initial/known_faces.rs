@@ -188,7 +188,7 @@ impl Linear<'_> {
     fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, FaceAlignment, f64)> {
         let (one, none) = (Matrix3::identity(), FaceScatter::default());
         let (f, _) = self.normal(&SensorParameters::identity(), &one, &none);
-        let groups = information::undetermined(&f, &f.diagonal());
+        let groups = information::undetermined(&f, &f.diagonal(), 0);
         if !groups.is_empty() {
             return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
         }
