@@ -27,5 +27,6 @@ pub mod progress;
 mod root;
 pub mod sensor;
 pub mod simulate;
+mod solve;
 
 pub use error::{Error, Result};

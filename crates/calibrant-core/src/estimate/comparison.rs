@@ -19,7 +19,6 @@ pub use place::Place;
 
 use super::effective_degrees;
 use super::gravity_error::tells_its_place;
-use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
 use crate::diagnostic::comparison::{
     ComparedAtTemperature, NotBroughtTogether, NotInBoth, PlaceUnknown, RecordingsSupposed,
     SignificanceUncertain, UnitsApart, UnknownUncertainty,
@@ -31,6 +30,7 @@ use crate::json::if_some;
 use crate::sensor::{
     CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
 };
+use crate::solve::{chi2_of_p_value, chi2_p_value, f_p_value};
 use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;

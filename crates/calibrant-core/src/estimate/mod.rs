@@ -15,7 +15,6 @@
 //! agree with that.
 
 mod alignment;
-mod between_hold_variance;
 mod bias_drift;
 mod calibrate;
 mod change;
@@ -40,7 +39,6 @@ mod recovered_gravity;
 mod repeated_readings;
 mod result;
 mod settings;
-pub(crate) mod statistics;
 mod studentised_fit;
 mod tangent_plane;
 mod uncalibrated;
@@ -49,6 +47,7 @@ mod unknown_latitude;
 mod validation;
 
 pub use crate::diagnostic::{Change, Changed, Course};
+pub use crate::solve::{CalibrationStatus, chi2_p_value, f_p_value};
 pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference, Place};
@@ -78,7 +77,6 @@ pub use recovered_gravity::RecoveredGravity;
 pub use repeated_readings::repeated_readings;
 pub use result::*;
 pub use settings::CalibrationSettings;
-pub use statistics::{chi2_p_value, f_p_value};
 pub use uncalibrated::Uncalibrated;
 pub use uncertain_gravity::UncertainGravity;
 pub use unknown_latitude::UnknownLatitude;

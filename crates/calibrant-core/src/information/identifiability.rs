@@ -11,7 +11,7 @@ pub struct Undetermined {
     pub free_combinations: usize,
 }
 
-/// Relative size of an eigenvalue that counts as zero: the rounding error of the elimination, with a margin.
+/// Size of an eigenvalue that counts as zero, for each parameter: rounding of the reference, with a margin.
 const RANK_TOLERANCE: f64 = 5e-15;
 /// A smallest eigenvalue above this is certainly not zero.
 const SAFE: f64 = 1e-9;
@@ -26,7 +26,8 @@ const INVOLVED: f64 = 1e-6;
 ///
 /// # Shapes and units
 /// `information`: p × p. `reference`: the diagonal of the information before anything was marginalised, in
-/// the same units. It is the scale of the rounding errors.
+/// the same units. It is the scale of the rounding errors, however little is left of it. `eliminated`: number
+/// of nodes that were marginalised, 0 for none. Each rounds what is left once more.
 ///
 /// # Examples
 /// An axis that stands still at 2 m/s²: only one combination of bias and scale factor is determined.
@@ -34,12 +35,16 @@ const INVOLVED: f64 = 1e-6;
 /// use calibrant_core::information::undetermined;
 /// use nalgebra::DMatrix;
 /// let f = DMatrix::from_row_slice(2, 2, &[10.0, 20.0, 20.0, 40.0]);
-/// let groups = undetermined(&f, &f.diagonal());
+/// let groups = undetermined(&f, &f.diagonal(), 0);
 /// assert_eq!(groups[0].parameters, [0, 1]);
 /// assert_eq!(groups[0].free_combinations, 1);
 /// ```
 #[must_use]
-pub fn undetermined(information: &DMatrix<f64>, reference: &DVector<f64>) -> Vec<Undetermined> {
+pub fn undetermined(
+    information: &DMatrix<f64>,
+    reference: &DVector<f64>,
+    eliminated: usize,
+) -> Vec<Undetermined> {
     let size = reference.len();
     let scale = reference.map(|r| if r > 0.0 { 1.0 / r.sqrt() } else { 1.0 });
     let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
@@ -50,8 +55,9 @@ pub fn undetermined(information: &DMatrix<f64>, reference: &DVector<f64>) -> Vec
         return Vec::new();
     }
     let eigen = scaled.symmetric_eigen();
-    let largest = eigen.eigenvalues.amax();
-    let floor = RANK_TOLERANCE * largest.max(f64::MIN_POSITIVE) * size as f64;
+    // the reference has the size 1: what is left of it may all be rounding
+    let rounding = (RANK_TOLERANCE * size as f64).max(f64::EPSILON * eliminated as f64);
+    let floor = rounding * eigen.eigenvalues.amax().max(1.0);
     let null: Vec<_> = (0..size)
         .filter(|&k| eigen.eigenvalues[k].partial_cmp(&floor) != Some(std::cmp::Ordering::Greater))
         .map(|k| eigen.eigenvectors.column(k).into_owned())
@@ -130,7 +136,7 @@ mod tests {
     #[test]
     fn full_rank_leaves_nothing_undetermined() {
         let f = DMatrix::from_row_slice(2, 2, &[1e20, 1e3, 1e3, 1e-10]);
-        assert!(undetermined(&f, &f.diagonal()).is_empty(), "units alone do not make a rank deficiency");
+        assert!(undetermined(&f, &f.diagonal(), 0).is_empty(), "units alone do not make a rank deficiency");
     }
 
     #[test]
@@ -139,16 +145,29 @@ mod tests {
         f.view_mut((0, 0), (2, 2)).copy_from_slice(&[1.0, 3.0, 3.0, 9.0]);
         f[(2, 2)] = 4.0;
         f.view_mut((3, 3), (2, 2)).copy_from_slice(&[2.0, -2.0, -2.0, 2.0]);
-        let groups = undetermined(&f, &f.diagonal());
+        let groups = undetermined(&f, &f.diagonal(), 0);
         let members: Vec<_> = groups.iter().map(|group| group.parameters.clone()).collect();
         assert_eq!(members, [vec![0, 1], vec![3, 4]]);
+    }
+
+    /// Where all information was marginalised, what is left is rounding, and its largest eigenvalue no scale.
+    #[test]
+    fn rounding_is_measured_by_the_reference() {
+        let f = DMatrix::from_row_slice(2, 2, &[1e-3, 2e-17, 2e-17, 4e-17]);
+        let reference = DVector::from_vec(vec![1.0, 1.0]);
+        assert_eq!(undetermined(&f, &reference, 0)[0].parameters, [1]);
+        assert!(undetermined(&f, &f.diagonal(), 0).is_empty(), "by itself it would be of full rank");
+        // more nodes round more
+        let f = DMatrix::from_row_slice(2, 2, &[1e-3, 0.0, 0.0, 1e-13]);
+        assert!(undetermined(&f, &reference, 20).is_empty());
+        assert_eq!(undetermined(&f, &reference, 2000)[0].parameters, [1]);
     }
 
     #[test]
     fn a_parameter_without_any_information_stands_alone() {
         let f = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 0.0]));
         assert_eq!(
-            undetermined(&f, &f.diagonal()),
+            undetermined(&f, &f.diagonal(), 0),
             [Undetermined { parameters: vec![1], free_combinations: 1 }]
         );
     }

@@ -44,7 +44,7 @@ pub(super) fn enough(problem: &PoseProblem, information: &HoldInformation) -> Re
 /// What these directions leave undetermined.
 fn left_free(information: &HoldInformation, directions: &[Vector3<f64>]) -> Vec<Undetermined> {
     let f = information.of_parameters(&information.sum(directions.iter().map(|u| (u, 1.0))));
-    undetermined(&f, &f.diagonal())
+    undetermined(&f, &f.diagonal(), 0)
 }
 
 /// As many directions as are needed to determine all parameters: of `first` as far as they add to the rank, then of `pool`.

@@ -41,7 +41,7 @@ pub fn covariance_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -
     let information = HoldInformation::new(problem)?;
     let sum = information.sum(directions.iter().map(|u| (u, 1.0)));
     let f = information.of_parameters(&sum);
-    if undetermined(&f, &f.diagonal()).is_empty() { covariance(&f) } else { None }
+    if undetermined(&f, &f.diagonal(), 0).is_empty() { covariance(&f) } else { None }
 }
 
 /// The information of these poses, given as directions of the specific force (up) in the sensor's axes, in the
@@ -62,7 +62,7 @@ pub fn evaluate_poses(
     let names = problem.list.names();
     let reason = format!("the directions of the {} holds are too few or too similar", directions.len());
     let groups =
-        named(&undetermined(&f, &f.diagonal()), &names, &reason, "hold the sensor in more directions");
+        named(&undetermined(&f, &f.diagonal(), 0), &names, &reason, "hold the sensor in more directions");
     if !groups.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
     }

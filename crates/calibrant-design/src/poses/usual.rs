@@ -40,7 +40,7 @@ pub(super) fn usual_poses(
         .map(|(name, directions)| {
             let sum = information.sum(directions.iter().map(|u| (u, 1.0)));
             let f = information.of_parameters(&sum);
-            let determined = undetermined(&f, &f.diagonal()).is_empty();
+            let determined = undetermined(&f, &f.diagonal(), 0).is_empty();
             let c = determined.then(|| covariance(&f)).flatten();
             let share = |own: f64| efficiency(&problem.criterion, own, value, problem.list.len());
             UsualPoses { name, information_over: c.map(|c| share(problem.criterion.value(&c)).recip()) }

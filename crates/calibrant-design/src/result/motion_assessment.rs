@@ -164,7 +164,7 @@ pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> R
         information += prior;
         reference += prior.diagonal();
     }
-    let groups = undetermined(&information, &reference);
+    let groups = undetermined(&information, &reference, motion.intervals());
     let mut c = if groups.is_empty() { covariance(&information) } else { None };
     if let Some(gravity) = &gravity {
         c = c.map(|c| gravity.covariance(&c));
@@ -199,7 +199,7 @@ fn reasons(
         if let Some(prior) = gravity.as_ref().map(|gravity| &gravity.prior).or(problem.prior.as_ref()) {
             exact += prior;
         }
-        let without_noise = undetermined(&exact, &exact.diagonal());
+        let without_noise = undetermined(&exact, &exact.diagonal(), 0);
         if without_noise.is_empty() {
             view = View::Noise;
         } else {

@@ -1,11 +1,11 @@
 //! Tests of the reference cases of the design problem, and of what every design must keep.
 
-use calibrant::design::{Design, DesignProblem, DesignSettings, DesignStatus, design};
+use calibrant::design::{Design, DesignProblem, DesignSettings, DesignStatus, design, evaluate};
 use calibrant::information::Criterion;
 use calibrant::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
 };
-use calibrant::motion::{InputNoise, KnownEnds, Limits, MotionClock, Rest, Trust};
+use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, Rest, Trust};
 use calibrant::report::{About, design_sheet};
 use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
@@ -289,6 +289,38 @@ fn every_criterion_is_served_best_by_its_own_design() {
                     other.criterion.letter()
                 );
             }
+        }
+    }
+}
+
+/// What the elimination of the motion leaves of the scale factors is rounding, however many nodes there are.
+#[test]
+fn a_sine_with_known_ends_at_rest_determines_no_scale() {
+    let sensor = Sensor { model: SensorModel::ScaleBias, ..Sensor::memsic_mxd2020u() };
+    let (limits, size) = (Limits::default(), sensor.parameter_list().len());
+    for intervals in [20, 50, 100, 200, 500, 1000, 2000] {
+        for rate_hz in [2.0, 5.0, 20.0, 100.0] {
+            let problem = DesignProblem {
+                rate_hz,
+                known_ends: KnownEnds::Both,
+                ..problem(&sensor, &limits, Trust::Unknown, a_optimality(size))
+            };
+            let end_mps2 = |end: f64| {
+                let node = |i: usize| {
+                    let phase = std::f64::consts::TAU * i as f64 / intervals as f64;
+                    let ramp = end * i as f64 / intervals as f64;
+                    Vector3::new(9.0 * phase.sin(), 5.0 * (3.0 * phase).sin(), (7.0 * phase).sin())
+                        .add_scalar(ramp)
+                };
+                let motion = JerkControlledMotion::uniform(1.0, (0..=intervals).map(node).collect());
+                evaluate(&problem, &motion.expect("valid")).expect("evaluated")
+            };
+            let name = format!("{intervals} intervals at {rate_hz} Hz");
+            let free: Vec<_> =
+                end_mps2(0.0).undetermined.into_iter().flat_map(|group| group.parameters).collect();
+            assert_eq!(free, ["scale.x", "scale.y", "scale.z"], "{name}");
+            // a thousandth of the amplitude is enough to tell it, though badly
+            assert!(end_mps2(9e-3).undetermined.is_empty(), "{name}");
         }
     }
 }

@@ -210,6 +210,24 @@ fn a_still_axis_is_named() {
     }
 }
 
+/// The last value of a computed sine is rounding, and no acceleration that differs from that of the start.
+#[test]
+fn a_sine_of_which_only_the_ends_are_known_is_not_calibrated() {
+    for intervals in [20, 200, 2000] {
+        let node = |i: usize| {
+            let phase = std::f64::consts::TAU * i as f64 / intervals as f64;
+            Vector3::new(9.0 * phase.sin(), 5.0 * (3.0 * phase).sin(), (7.0 * phase).sin())
+        };
+        let motion = JerkControlledMotion::uniform(1.0, (0..=intervals).map(node).collect()).expect("valid");
+        let case = Case::with_motion(SensorModel::ScaleBias, Trust::Unknown, motion, 10.0, 1);
+        let error = case.calibrate().expect_err("nothing tells the scale").to_string();
+        for axis in ["x", "y", "z"] {
+            let expected = format!("axis {axis} has the same acceleration, 0 m/s², at both ends");
+            assert!(error.contains(&expected), "{intervals}: {error}");
+        }
+    }
+}
+
 #[test]
 fn a_prior_determines_what_the_data_do_not() {
     let nodes: Vec<_> =

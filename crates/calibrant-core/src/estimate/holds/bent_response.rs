@@ -10,9 +10,9 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::holds::{GainDependsOnSign, ResponseTermOpen, SecondOrderResponse};
-use crate::estimate::statistics::f_p_value;
 use crate::estimate::{Calibration, HoldResult};
 use crate::sensor::{Axis, ImuQuantity, NonlinearTerm, Quantity, SensorKind};
+use crate::solve::f_p_value;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Probability of coefficients at least this large of any term in a sensor of linear response.

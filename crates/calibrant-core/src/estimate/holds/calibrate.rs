@@ -14,9 +14,10 @@ use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
-    Recovered, Uncalibrated, coarse_axes_in, statistics,
+    Recovered, Uncalibrated, coarse_axes_in,
 };
 use crate::sensor::{ImuParameters, Recording, SensorParameters};
+use crate::solve::chi2_p_value;
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
@@ -108,7 +109,7 @@ fn assemble(
         p_value: if robust.between_holds_sd > 0.0 {
             None
         } else {
-            statistics::chi2_p_value(robust.chi2, degrees_of_freedom)
+            chi2_p_value(robust.chi2, degrees_of_freedom)
         },
         residual_rms: Some(residual_rms.map(f64::sqrt)),
         assumed_noise: problem.sensor.noise(&sensor.matrix.diagonal()),

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{Gauge, ParameterList, ReadingUnit, SensorModel, SensorParameters};
+use crate::solve::ScaledInformation;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// How well holds will determine an accelerometer.
@@ -79,10 +80,6 @@ pub fn expected_calibration(
     let (like, noise, information) = robust_weights::expect(holds, list.clone(), gravity_mps2)?;
     let covariance =
         information::covariance(&information).unwrap_or_else(|| DMatrix::from_element(9, 9, f64::INFINITY));
-    let scaled = DMatrix::from_fn(9, 9, |i, j| {
-        information[(i, j)] / (information[(i, i)] * information[(j, j)]).sqrt()
-    });
-    let eigenvalues = scaled.symmetric_eigenvalues();
-    let condition_number = eigenvalues.max() / eigenvalues.min().max(f64::MIN_POSITIVE);
+    let condition_number = ScaledInformation::of(&information).condition_number();
     Ok(ExpectedCalibration { list, unit, like, covariance, noise, condition_number })
 }

@@ -1,10 +1,11 @@
 //! Gauss–Newton on the directions and the parameters, for given weights of the holds.
 
 use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::estimate::CalibrationSettings;
 use crate::estimate::tangent_plane::tangents;
-use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::motion::Hold;
 use crate::sensor::{Correction, NonlinearTerm, ParameterList, SensorParameters};
+use crate::solve::{CalibrationStatus, Equations, LeastSquares, LoopSettings, minimise};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector3};
 
 /// The problem for given weights.
@@ -48,20 +49,6 @@ impl Directions<'_> {
         self.holds.iter().map(|hold| force(hold).map(|u| u * self.gravity)).collect()
     }
 
-    fn chi2(&self, sensor: &SensorParameters, forces: &[Vector3<f64>]) -> f64 {
-        let data: f64 = self
-            .holds
-            .iter()
-            .zip(forces)
-            .zip(&self.weights)
-            .map(|((hold, force), weight)| {
-                let r = hold.mean - sensor.reading(force);
-                r.component_mul(&r).dot(weight)
-            })
-            .sum();
-        data + self.prior_chi2(sensor)
-    }
-
     /// A step below this many standard deviations may be rounding. For nearly exact data that is the rounding of the means themselves.
     fn rounding(&self) -> f64 {
         let sum = self.holds.iter().zip(&self.weights);
@@ -93,11 +80,68 @@ impl Directions<'_> {
         matrix
     }
 
-    fn factor<const P: usize>(
+    /// Iterates from a sensor; `None` where its matrix is singular.
+    pub(super) fn fit(&self, start: &SensorParameters, settings: &CalibrationSettings) -> Option<Fit> {
+        match self.list.len() {
+            ..=LINEAR => self.iterate::<LINEAR>(start, settings),
+            _ => self.iterate::<BENT>(start, settings),
+        }
+    }
+
+    fn iterate<const P: usize>(
         &self,
-        sensor: &SensorParameters,
-        forces: &[Vector3<f64>],
-    ) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
+        start: &SensorParameters,
+        settings: &CalibrationSettings,
+    ) -> Option<Fit> {
+        let at = (*start, self.forces(start)?);
+        let equations = LeastSquares::<2, P>::equations(self, &at)?;
+        let rounding = self.rounding();
+        let settings = LoopSettings {
+            most: settings.max_iterations,
+            tolerance: settings.tolerance,
+            rounding: &[(rounding, 1)],
+            untested_below: rounding,
+            least_chi2: 0.0,
+            damping: [1e-4, 1e14],
+            has_last_step: true,
+        };
+        let end = minimise(self, at, equations, &settings);
+        let size = self.list.len();
+        let (information, unreduced) = (end.information(size), end.unreduced(size));
+        let (sensor, forces) = end.point;
+        Some(Fit {
+            prior_chi2: self.prior_chi2(&sensor),
+            sensor,
+            forces,
+            information,
+            unreduced,
+            chi2: end.chi2,
+            status: end.status,
+            iterations: end.iterations,
+            gradient_norm: end.gradient_norm,
+        })
+    }
+}
+
+impl<const P: usize> LeastSquares<2, P> for Directions<'_> {
+    /// A sensor with the forces of the holds.
+    type Point = (SensorParameters, Vec<Vector3<f64>>);
+
+    fn chi2(&self, (sensor, forces): &Self::Point) -> f64 {
+        let data: f64 = self
+            .holds
+            .iter()
+            .zip(forces)
+            .zip(&self.weights)
+            .map(|((hold, force), weight)| {
+                let r = hold.mean - sensor.reading(force);
+                r.component_mul(&r).dot(weight)
+            })
+            .sum();
+        data + self.prior_chi2(sensor)
+    }
+
+    fn equations(&self, (sensor, forces): &Self::Point) -> Option<Equations<2, P>> {
         let (mut border, mut rhs) = (SMatrix::<f64, P, P>::zeros(), SVector::<f64, P>::zeros());
         if let Some((mean, weight)) = &self.prior {
             for (k, value) in self.values(sensor).iter().enumerate() {
@@ -136,92 +180,13 @@ impl Directions<'_> {
         Some((system, unreduced))
     }
 
-    /// Iterates from a sensor; `None` where its matrix is singular.
-    pub(super) fn fit(&self, start: &SensorParameters, settings: &CalibrationSettings) -> Option<Fit> {
-        match self.list.len() {
-            ..=LINEAR => self.iterate::<LINEAR>(start, settings),
-            _ => self.iterate::<BENT>(start, settings),
-        }
-    }
-
-    fn iterate<const P: usize>(
+    /// The directions are scaled back to gravity.
+    fn moved(
         &self,
-        start: &SensorParameters,
-        settings: &CalibrationSettings,
-    ) -> Option<Fit> {
-        let mut sensor = *start;
-        let mut forces = self.forces(&sensor)?;
-        let mut chi2 = self.chi2(&sensor, &forces);
-        let (mut system, mut unreduced) = self.factor::<P>(&sensor, &forces)?;
-        let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
-        let rounding = self.rounding();
-        let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
-        while iterations < settings.max_iterations {
-            iterations += 1;
-            norm = system.gradient_norm();
-            if norm <= settings.tolerance || (norm < rounding && norm > 0.5 * last_norm) {
-                status = CalibrationStatus::Converged;
-                // the parameters rest; the directions still follow their last step
-                let last =
-                    system.border_step(0.0).and_then(|step| self.take(&sensor, &forces, &system, &step));
-                if let Some((next, turned)) = last
-                    && let Some(factored) = self.factor(&next, &turned)
-                {
-                    (sensor, forces) = (next, turned);
-                    (system, unreduced) = factored;
-                    chi2 = self.chi2(&sensor, &forces);
-                }
-                break;
-            }
-            last_norm = norm;
-            let trial =
-                system.border_step(damping).and_then(|step| self.take(&sensor, &forces, &system, &step));
-            let accepted = trial.and_then(|(trial, trial_forces)| {
-                let trial_chi2 = self.chi2(&trial, &trial_forces);
-                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < rounding).then_some((
-                    trial,
-                    trial_forces,
-                    trial_chi2,
-                ))
-            });
-            match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
-                Some(((next, diagonal), found)) => {
-                    (sensor, forces, chi2) = found;
-                    (system, unreduced) = (next, diagonal);
-                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
-                }
-                None => {
-                    damping = (damping * 10.0).max(1e-4);
-                    last_norm = f64::INFINITY;
-                    if damping > 1e14 {
-                        status = CalibrationStatus::Stalled;
-                        break;
-                    }
-                }
-            }
-        }
-        let size = self.list.len();
-        Some(Fit {
-            prior_chi2: self.prior_chi2(&sensor),
-            sensor,
-            forces,
-            information: DMatrix::from_fn(size, size, |i, j| system.information[(i, j)]),
-            unreduced: DVector::from_fn(size, |k, _| unreduced[k]),
-            chi2,
-            status,
-            iterations,
-            gradient_norm: norm,
-        })
-    }
-
-    /// Parameters and directions after a step, the directions scaled back to gravity.
-    fn take<const P: usize>(
-        &self,
-        sensor: &SensorParameters,
-        forces: &[Vector3<f64>],
+        (sensor, forces): &Self::Point,
         system: &Arrowhead<2, P>,
         step: &SVector<f64, P>,
-    ) -> Option<(SensorParameters, Vec<Vector3<f64>>)> {
+    ) -> Option<Self::Point> {
         let mut next = *sensor;
         for (quantity, step) in self.list.quantities().iter().zip(step.iter()) {
             quantity.add_to(&mut next, *step);

@@ -27,7 +27,6 @@ mod coarse_steps;
 mod drift_fit;
 mod expected_accuracy;
 mod fit;
-mod hardly_determined;
 mod hold_detection;
 mod low_pass_filtered;
 mod orientation_coverage;

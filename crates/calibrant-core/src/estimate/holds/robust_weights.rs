@@ -5,17 +5,19 @@
 
 use super::HoldsSetup;
 use super::fit::{Directions, Fit, Prior};
-use super::hardly_determined::hardly_determined;
 use super::robust::{Conditions, Magnitude, Robust};
 use super::sphere::sphere;
 use super::verdict::explain;
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
-use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::change::longest_run;
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{Correction, ParameterList, Quantity, SensorParameters};
+use crate::solve::{
+    Judged, ScaledInformation, Scatter, Trial, degrees_left, excess, hardly_determined, leave_out,
+    shares_of_prior, studentised,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -178,7 +180,7 @@ impl Problem<'_> {
             .fit(start, &none)
             .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&holds, &self.list))))?;
         let information = fit.information;
-        let groups = information::undetermined(&information, &fit.unreduced);
+        let groups = information::undetermined(&information, &fit.unreduced, holds.len());
         if groups.is_empty() {
             let prior = self.prior.as_ref().map_or(DVector::zeros(self.size()), |(_, weight)| weight.clone());
             return match hardly_determined(&information, &prior) {
@@ -201,25 +203,20 @@ impl Problem<'_> {
         if let Some(used) = &self.conditions.used {
             return Ok((used.clone(), self.weigh(used, start)?));
         }
-        let mut used = self.first_guess(start);
-        let mut weighted = self.weigh(&used, start)?;
-        // one change at a time: leave out the worst hold that is too bad, take back the best that is not
-        for _ in 0..3 * self.sound.len() {
-            let studentised = self.studentise(&used, &weighted, &self.magnitudes(&weighted));
-            let limit = critical(self.sound.len(), weighted.degrees as usize);
-            let worst = (0..used.len())
-                .filter(|&j| used[j] && studentised[j].abs() > limit)
-                .max_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
-            let best = (self.sound.iter().copied())
-                .filter(|&j| !used[j] && studentised[j].abs() <= limit)
-                .min_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
-            match (worst, best) {
-                (Some(j), _) if weighted.degrees > 2.0 => used[j] = false,
-                (_, Some(j)) => used[j] = true,
-                _ => break,
-            }
-            weighted = self.weigh(&used, &weighted.fit.sensor)?;
-        }
+        let is_sound: Vec<bool> = (0..self.holds.len()).map(|j| self.sound.contains(&j)).collect();
+        let (used, weighted) = leave_out(
+            &is_sound,
+            self.first_guess(start),
+            3 * self.sound.len(),
+            |used, before: Option<&Weighted>| {
+                self.weigh(used, before.map_or(start, |before| &before.fit.sensor))
+            },
+            |used, weighted| Judged {
+                studentised: self.studentise(used, weighted, &self.magnitudes(weighted)),
+                limit: critical(self.sound.len(), weighted.degrees as usize),
+                may_leave_out: weighted.degrees > 2.0,
+            },
+        )?;
         self.plausible(&used, &weighted)?;
         Ok((used, weighted))
     }
@@ -344,11 +341,9 @@ impl Problem<'_> {
     /// Degrees of freedom that holds leave: their number less `tr(Σ F)`, the parameters that they determine.
     fn degrees_left(&self, count: usize, fit: &Fit) -> Option<f64> {
         let left = count as f64 - self.conditions.taken;
-        let size = self.size();
-        let Some((_, weight)) = &self.prior else { return Some((left - size as f64).max(0.0)) };
-        let covariance = covariance_of(fit)?;
-        let of_prior: f64 = (0..size).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum();
-        Some((left - (size as f64 - of_prior)).max(f64::EPSILON))
+        let Some((_, weight)) = &self.prior else { return Some(degrees_left(left, self.size(), None)) };
+        let of_prior = shares_of_prior(weight.as_slice(), &covariance_of(fit)?);
+        Some(degrees_left(left, self.size(), Some(&of_prior)))
     }
 
     fn magnitudes(&self, weighted: &Weighted) -> Vec<Magnitude> {
@@ -377,24 +372,14 @@ impl Problem<'_> {
 
     /// Residual of each hold in standard deviations expected of it, its own influence removed.
     fn studentise(&self, used: &[bool], weighted: &Weighted, magnitudes: &[Magnitude]) -> Vec<f64> {
-        let degrees = weighted.degrees;
         let chi2 = weighted.fit.chi2 - weighted.fit.prior_chi2;
-        let scatter = if degrees > 0.0 { (chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
+        let scatter = Scatter { chi2, degrees_of_freedom: weighted.degrees };
         magnitudes
             .iter()
             .zip(used)
             .map(|(Magnitude { error, own, by_parameters, .. }, &used)| {
                 let from_parameters = (&weighted.covariance * by_parameters).dot(by_parameters);
-                if !used {
-                    return error / (own + from_parameters).sqrt();
-                }
-                let left = (own - from_parameters).max(1e-6 * own);
-                let internal = error / left.sqrt() / scatter.sqrt();
-                if degrees < 2.0 {
-                    return internal;
-                }
-                // external: the scatter estimated without this hold
-                internal * ((degrees - 1.0) / (degrees - internal * internal).max(1e-3 * degrees)).sqrt()
+                studentised(*error, (*own, from_parameters), used, scatter)
             })
             .collect()
     }
@@ -405,12 +390,8 @@ impl Problem<'_> {
         // how spread the holds are shows in the linear part: terms that bend the response look alike however the holds lie
         let is_linear = |of: &&Quantity| !matches!(of, Quantity::Nonlinear(..));
         let linear = self.list.quantities().iter().filter(is_linear).count();
-        let scaled = DMatrix::from_fn(linear, linear, |i, j| {
-            fit.information[(i, j)] / (fit.information[(i, i)] * fit.information[(j, j)]).sqrt()
-        });
-        let eigen = scaled.symmetric_eigen();
-        let weakest = eigen.eigenvalues.imin();
-        let direction = eigen.eigenvectors.column(weakest);
+        let scaled = ScaledInformation::of(&fit.information.view((0, 0), (linear, linear)).into_owned());
+        let direction = scaled.weakest();
         let quantities = self.list.of_accelerometer();
         let shares: Vec<String> =
             (0..linear).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
@@ -427,7 +408,7 @@ impl Problem<'_> {
             forces,
             studentised: self.studentise(&used, &weighted, &magnitudes),
             magnitudes,
-            condition_number: eigen.eigenvalues.max() / eigen.eigenvalues.min().max(f64::MIN_POSITIVE),
+            condition_number: scaled.condition_number(),
             weakest: shares,
             covariance: covariance.clone(),
             chi2: fit.chi2,

@@ -12,6 +12,7 @@ use crate::estimate::quantisation::CoarseAxis;
 use crate::information;
 use crate::motion::Gravity;
 use crate::sensor::{Condition, ImuParameters, ImuQuantity, SensorKind};
+use crate::solve::shares_of_prior;
 use nalgebra::{DMatrix, DVector};
 
 /// The uncertainty of the estimates and its sources.
@@ -36,14 +37,10 @@ impl Uncertainty {
     ) -> Result<Self> {
         let imu = &solution.fit.state.imu;
         let mut covariance = information::covariance(&solution.fit.information).ok_or_else(singular)?;
-        let prior_share: Vec<f64> = (0..model.quantities.len())
-            .map(|k| {
-                model
-                    .prior
-                    .as_ref()
-                    .map_or(0.0, |(_, weight)| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0))
-            })
-            .collect();
+        let prior_share = match &model.prior {
+            Some((_, weight)) => shares_of_prior(weight, &covariance),
+            None => vec![0.0; model.quantities.len()],
+        };
         // the uncertainty of gravity
         let slope = gravity_slope(&model.quantities, &prior_share, imu, g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);

@@ -11,10 +11,11 @@ use crate::estimate::imu::initial::known_faces::{about, from_faces};
 use crate::estimate::imu::model::singular;
 use crate::estimate::imu::shared_face_errors::SharedError;
 use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
-use crate::estimate::result::{Calibration, CalibrationStatus, FitStatistics, Recovered};
+use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
 use crate::information;
 use crate::sensor::{Correction, ImuParameters, Parameter, ParameterList, SensorKind, SensorParameters};
+use crate::solve::CalibrationStatus;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::borrow::Cow;
 

@@ -8,9 +8,9 @@ use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::imu::rotations::knocks::Knocks;
 use crate::estimate::quantisation::{CoarseAxis, of_means};
-use crate::estimate::result::CalibrationStatus;
 use crate::estimate::tangent_plane::tangents;
 use crate::sensor::{ImuParameters, ImuQuantity, SensorKind};
+use crate::solve::CalibrationStatus;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix2xX, Matrix3, Vector2, Vector3};
 
 /// Degrees of freedom of Student's distribution of the errors by knocks.

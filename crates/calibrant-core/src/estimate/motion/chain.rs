@@ -6,12 +6,12 @@ use super::fit::{Chain, Fit, State};
 use super::sample_pairs::PairSums;
 use super::undetermined::{View, explain, explain_node};
 use super::{CalibrationStatus, DMatrix, Trust, Vector3};
-use crate::arrowhead::Arrowhead;
 use crate::error::UndeterminedGroup;
 use crate::information::{
     self,
     chain_model::{self as model, FittedNode, reading_covariance},
 };
+use crate::solve::Equations;
 use nalgebra::{SMatrix, SVector};
 
 /// A solved chain, or several merged, in the order of the parameter list.
@@ -97,11 +97,10 @@ pub(super) fn solve<const D: usize, const P: usize, const Q: usize>(
     slots: [usize; P],
 ) -> std::result::Result<Solved, Vec<UndeterminedGroup>> {
     let chain = context.chain::<D, P>(axes, slots);
-    let (start, system) = starting_state(context, &chain, axes, slots)?;
-    let fit =
-        chain.fit(start, system, context.settings).map_err(|node| vec![explain_node(context, axes, node)])?;
+    let (start, equations) = starting_state(context, &chain, axes, slots)?;
+    let fit = chain.fit(start, equations, context.settings);
     let clock = (context.command.trust != Trust::Unknown)
-        .then(|| chain.clock_equations::<Q>(&fit.state, &context.nodes_s()).ok())
+        .then(|| chain.clock_equations::<Q>(&fit.point, &context.nodes_s()).ok())
         .flatten()
         .map(|(information, rhs)| ClockEquations {
             information: DMatrix::from_fn(Q, Q, |i, j| information[(i, j)]),
@@ -110,8 +109,8 @@ pub(super) fn solve<const D: usize, const P: usize, const Q: usize>(
     Ok(Solved { clock, ..summarise(&chain, fit, &context.pairs, axes, slots) })
 }
 
-/// A state and its factored system.
-type Start<const D: usize, const P: usize> = (State<D, P>, Arrowhead<D, P>);
+/// A state and its equations.
+type Start<const D: usize, const P: usize> = (State<D, P>, Equations<D, P>);
 
 /// Checks that the commanded motion determines the parameters, and computes the initial ones.
 fn starting_state<const D: usize, const P: usize>(
@@ -129,9 +128,10 @@ fn starting_state<const D: usize, const P: usize>(
         .collect();
     let last = commanded.len() - 1;
     let check = |information: &SMatrix<f64, P, P>, reference: &SVector<f64, P>, view: View| {
+        let eliminated = if view == View::Noise { chain.moments.len() } else { 0 };
         let information = DMatrix::from_fn(P, P, |i, j| information[(i, j)]);
         let reference = nalgebra::DVector::from_fn(P, |i, _| reference[i]);
-        let groups = information::undetermined(&information, &reference);
+        let groups = information::undetermined(&information, &reference, eliminated);
         if groups.is_empty() { Ok(()) } else { Err(explain(context, &groups, &slots, view)) }
     };
     let factor =
@@ -144,7 +144,11 @@ fn starting_state<const D: usize, const P: usize>(
         if let Some((_, weight)) = &chain.prior {
             ends += SMatrix::from_diagonal(weight);
         }
-        check(&ends, &ends.diagonal(), View::Ends)?;
+        // ends of a sine are 0 to rounding: two usual samples of the motion are the scale
+        let samples: usize = chain.moments.iter().map(|m| m.samples).sum();
+        let state = State { p: SVector::zeros(), a: commanded.clone() };
+        let usual = chain.as_commanded(&state).information.diagonal() * (2.0 / samples.max(2) as f64);
+        check(&ends, &ends.diagonal().sup(&usual), View::Ends)?;
         let start = axes.map(|axis| context.start_from_ends(axis));
         let p = model::diagonal::<D, P>(
             &SVector::from_fn(|k, _| start[k].0),
@@ -157,8 +161,8 @@ fn starting_state<const D: usize, const P: usize>(
             .collect();
         (a[0], a[last]) = (commanded[0], commanded[last]);
         let state = State { p, a };
-        let (system, _) = factor(&state)?;
-        return Ok((state, system));
+        let equations = factor(&state)?;
+        return Ok((state, equations));
     }
     // with the motion as commanded the problem is linear in the parameters: one step from anywhere
     let mut state = State { p: SVector::zeros(), a: commanded };
@@ -167,11 +171,11 @@ fn starting_state<const D: usize, const P: usize>(
     if let Some(step) = as_commanded.border_step(0.0) {
         state.p = step;
     }
-    let (system, unreduced) = factor(&state)?;
+    let equations = factor(&state)?;
     if context.command.trust != Trust::Known {
-        check(&system.information, &unreduced, View::Noise)?;
+        check(&equations.0.information, &equations.1, View::Noise)?;
     }
-    Ok((state, system))
+    Ok((state, equations))
 }
 
 /// Covariances, leverage and degrees of freedom of a fitted chain.
@@ -195,18 +199,18 @@ fn summarise<const D: usize, const P: usize>(
         }
         whole
     };
-    let s = model::matrix(&fit.state.p);
-    let mut node_sd = Vec::with_capacity(fit.state.a.len());
+    let s = model::matrix(&fit.point.p);
+    let mut node_sd = Vec::with_capacity(fit.point.a.len());
     node_sd.push(Vector3::zeros());
     let mut leverage = SVector::<f64, D>::zeros();
     let mut shortfall = vec![SVector::<f64, D>::zeros(); pairs.lags];
-    let mut start = FittedNode { a: fit.state.a[0], with_parameters: SMatrix::zeros() };
+    let mut start = FittedNode { a: fit.point.a[0], with_parameters: SMatrix::zeros() };
     let mut v_start = reading_covariance(&s, &SMatrix::zeros(), &start, &start, &border);
     // the node before the interval, and the covariance of the readings there with those at the interval's start
     let mut before: Option<(FittedNode<D, P>, SVector<f64, D>)> = None;
     fit.system.walk_covariance(&border, |i, at| {
         node_sd.push(spread(&at.node1.diagonal().map(|variance| variance.max(0.0).sqrt())));
-        let end = FittedNode { a: fit.state.a[i + 1], with_parameters: at.node1_border };
+        let end = FittedNode { a: fit.point.a[i + 1], with_parameters: at.node1_border };
         let v_end = reading_covariance(&s, &at.node1, &end, &end, &border);
         let v_step = reading_covariance(&s, &at.node1_node0, &end, &start, &border);
         let m = &chain.moments[i];
@@ -241,9 +245,9 @@ fn summarise<const D: usize, const P: usize>(
     }
     Solved {
         slots: slots.to_vec(),
-        values: fit.state.p.iter().copied().collect(),
+        values: fit.point.p.iter().copied().collect(),
         covariance,
-        nodes: fit.state.a.iter().map(spread).collect(),
+        nodes: fit.point.a.iter().map(spread).collect(),
         node_sd,
         leverage: spread(&leverage),
         shortfall: shortfall.iter().map(spread).collect(),

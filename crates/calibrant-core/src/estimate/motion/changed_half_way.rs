@@ -6,12 +6,13 @@
 
 use super::context::Context;
 use super::solution::solve_at;
-use super::{CalibrationProblem, CalibrationSettings, clock, statistics};
+use super::{CalibrationProblem, CalibrationSettings, clock};
 use crate::diagnostic::motion::MotionChanges;
 use crate::diagnostic::{Diagnostic, Phrase};
 use crate::estimate::RecoveredClock;
 use crate::motion::{CommandedMotion, Trust};
 use crate::sensor::{Recording, SensorParameters};
+use crate::solve::chi2_p_value;
 use nalgebra::{Matrix3, Vector3};
 
 /// p-value below which noise does not explain a part.
@@ -141,7 +142,7 @@ impl FirstPart {
         let part = CalibrationProblem { recording: &on_clock, ..part };
         let context = Context::new(&part, command, settings, used).ok()?;
         let solved = solve_at(&context).ok()?;
-        let p_value = statistics::chi2_p_value(solved.chi2, solved.degrees_of_freedom)?;
+        let p_value = chi2_p_value(solved.chi2, solved.degrees_of_freedom)?;
         let list = problem.sensor.parameter_list();
         let mut sensor = SensorParameters::linear(Vector3::zeros(), Matrix3::zeros());
         for (quantity, value) in list.quantities().iter().zip(&solved.values) {

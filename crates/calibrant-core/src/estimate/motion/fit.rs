@@ -1,16 +1,16 @@
-//! Gauss–Newton with Levenberg–Marquardt damping on the chain.
+//! The least squares of a chain.
 //!
 //! ```text
 //! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_W + ½ Σ_i (a_{i+1} − a_i − Δ_i)²/q_i + prior
 //! ```
 //!
-//! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped. For given
-//! parameters the motion is a linear problem, and needs no damping.
+//! For given parameters the motion is a linear problem.
 
 use super::interval_moments::Moments;
 use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
-use crate::estimate::{CalibrationSettings, CalibrationStatus};
+use crate::estimate::CalibrationSettings;
 use crate::information::chain_model as model;
+use crate::solve::{Equations, LeastSquares, LoopSettings, Minimum, minimise};
 use nalgebra::{SMatrix, SVector};
 
 /// One chain: D readings, P = D (D + 1) parameters.
@@ -48,17 +48,7 @@ pub(super) struct State<const D: usize, const P: usize> {
 }
 
 /// The end of the iteration.
-pub(super) struct Fit<const D: usize, const P: usize> {
-    pub(super) state: State<D, P>,
-    /// The system factored at the end: information, gains.
-    pub(super) system: Arrowhead<D, P>,
-    pub(super) status: CalibrationStatus,
-    pub(super) iterations: usize,
-    /// Norm of the parameters' gradient (motion eliminated) in the metric of their covariance: `√(gᵀ F⁻¹ g)`, the length of the
-    /// remaining step in standard deviations.
-    pub(super) gradient_norm: f64,
-    pub(super) chi2: f64,
-}
+pub(super) type Fit<const D: usize, const P: usize> = Minimum<State<D, P>, D, P>;
 
 impl<const D: usize, const P: usize> Chain<D, P> {
     /// Normal equations of one interval at a state.
@@ -103,10 +93,7 @@ impl<const D: usize, const P: usize> Chain<D, P> {
     }
 
     /// The system factored at a state, and the diagonal of the border's information before the chain was eliminated.
-    pub(super) fn factor(
-        &self,
-        state: &State<D, P>,
-    ) -> Result<(Arrowhead<D, P>, SVector<f64, P>), Undetermined> {
+    pub(super) fn factor(&self, state: &State<D, P>) -> Result<Equations<D, P>, Undetermined> {
         if self.rigid {
             let system = self.as_commanded(state);
             let unreduced = system.information.diagonal();
@@ -177,8 +164,31 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         }
     }
 
+    /// Iterates from a state with its equations.
+    pub(super) fn fit(
+        &self,
+        state: State<D, P>,
+        equations: Equations<D, P>,
+        settings: &CalibrationSettings,
+    ) -> Fit<D, P> {
+        let settings = LoopSettings {
+            most: settings.max_iterations,
+            tolerance: settings.tolerance,
+            rounding: &[(SHORT, 1), (STEADY, 3)],
+            untested_below: STEADY,
+            least_chi2: 1.0,
+            damping: [1e-3, 1e12],
+            has_last_step: true,
+        };
+        minimise(self, state, equations, &settings)
+    }
+}
+
+impl<const D: usize, const P: usize> LeastSquares<D, P> for Chain<D, P> {
+    type Point = State<D, P>;
+
     /// χ² of the data, the process noise and the prior.
-    pub(super) fn chi2(&self, state: &State<D, P>) -> f64 {
+    fn chi2(&self, state: &State<D, P>) -> f64 {
         let mut chi2 = 0.0;
         let mut d0 = model::reading(&state.p, &state.a[0]) - self.reference[0];
         for (i, m) in self.moments.iter().enumerate() {
@@ -204,77 +214,26 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         chi2
     }
 
-    /// Damped Gauss–Newton iterations from `state`. `system` is the normal equations, factored at that state.
-    pub(super) fn fit(
-        &self,
-        mut state: State<D, P>,
-        mut system: Arrowhead<D, P>,
-        settings: &CalibrationSettings,
-    ) -> Result<Fit<D, P>, Undetermined> {
-        let mut chi2 = self.chi2(&state);
-        let mut damping = 0.0_f64;
-        let (mut best, mut since) = (f64::INFINITY, 0);
-        let mut status = CalibrationStatus::IterationLimit;
-        let mut iterations = 0;
-        let mut norm = best;
-        while iterations < settings.max_iterations {
-            iterations += 1;
-            // for given parameters the motion is a linear problem that each step solves: only the parameters must converge
-            norm = system.gradient_norm();
-            if norm < 0.5 * best {
-                (best, since) = (norm, 0);
-            } else {
-                since += 1;
-            }
-            if norm <= settings.tolerance || (norm < SHORT && since >= 1) || (norm < STEADY && since >= 3) {
-                status = CalibrationStatus::Converged;
-                // the parameters have converged; the motion still follows their last step
-                if let Some(last) = self.step(&state, &system, 0.0) {
-                    state = last;
-                    (system, _) = self.factor(&state)?;
-                    chi2 = self.chi2(&state);
-                }
-                break;
-            }
-            let Some(mut trial) = self.step(&state, &system, damping) else {
-                status = CalibrationStatus::Stalled;
-                break;
-            };
-            let acceptable = chi2 + 1e-9 * chi2.abs().max(1.0);
-            let mut trial_chi2 = self.chi2(&trial);
-            if trial_chi2 > acceptable && norm >= STEADY {
-                // a step of parameters and motion together leaves the curved valley: let the motion follow the parameters exactly
-                trial = self.follow(trial)?;
-                trial_chi2 = self.chi2(&trial);
-            }
-            if trial_chi2 <= acceptable || norm < STEADY {
-                (state, chi2) = (trial, trial_chi2);
-                (system, _) = self.factor(&state)?;
-                damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
-            } else {
-                damping = (damping * 10.0).max(1e-3);
-                since = 0;
-                if damping > 1e12 {
-                    status = CalibrationStatus::Stalled;
-                    break;
-                }
-            }
-        }
-        Ok(Fit { state, system, status, iterations, gradient_norm: norm, chi2 })
+    fn equations(&self, state: &State<D, P>) -> Option<Equations<D, P>> {
+        self.factor(state).ok()
     }
 
-    /// The motion that is best for the parameters of a state: a linear problem, solved in one step.
-    fn follow(&self, mut state: State<D, P>) -> Result<State<D, P>, Undetermined> {
-        let (system, _) = self.factor(&state)?;
+    fn moved(
+        &self,
+        state: &State<D, P>,
+        system: &Arrowhead<D, P>,
+        step: &SVector<f64, P>,
+    ) -> Option<State<D, P>> {
+        let a = state.a.iter().zip(system.chain_step(step)).map(|(a, step)| a + step).collect();
+        Some(State { p: state.p + step, a })
+    }
+
+    /// A step of parameters and motion together may leave the curved valley. For given parameters the motion is a linear problem, solved in one step.
+    fn followed(&self, mut state: State<D, P>) -> Option<State<D, P>> {
+        let (system, _) = self.factor(&state).ok()?;
         for (a, step) in state.a.iter_mut().zip(system.chain_step(&SVector::zeros())) {
             *a += step;
         }
-        Ok(state)
-    }
-
-    fn step(&self, state: &State<D, P>, system: &Arrowhead<D, P>, damping: f64) -> Option<State<D, P>> {
-        let p_step = system.border_step(damping)?;
-        let a = state.a.iter().zip(system.chain_step(&p_step)).map(|(a, step)| a + step).collect();
-        Some(State { p: state.p + p_step, a })
+        Some(state)
     }
 }

@@ -17,14 +17,16 @@ mod sample_pairs;
 mod solution;
 mod undetermined;
 mod verdict;
+mod whiteness;
 
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
-    RecoveredClock, RecoveredGravity, RecoveredMotion, statistics,
+    RecoveredClock, RecoveredGravity, RecoveredMotion,
 };
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use crate::sensor::{Axis, ImuParameters, SensorParameters};
+use crate::solve::chi2_p_value;
 use chain::Solved;
 use context::Context;
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -97,7 +99,7 @@ fn assemble(
     let mut fit = FitStatistics {
         chi2: solved.chi2,
         degrees_of_freedom: solved.degrees_of_freedom,
-        p_value: statistics::chi2_p_value(solved.chi2, solved.degrees_of_freedom),
+        p_value: chi2_p_value(solved.chi2, solved.degrees_of_freedom),
         residual_rms: None,
         assumed_noise: Some(context.noise),
         noise_estimate: None,
@@ -107,12 +109,12 @@ fn assemble(
     for &axis in problem.sensor.active_axes() {
         let k = axis.index();
         let own: Vec<f64> = residuals.iter().map(|r| r[k]).collect();
-        let squares = statistics::dot(&own, &own);
+        let squares = whiteness::dot(&own, &own);
         residual_rms[k] = (squares / samples).sqrt();
         let left = samples - solved.leverage[k];
         noise_estimate[k] = if left > 0.5 { (squares / left).sqrt() } else { f64::NAN };
         let shortfall: Vec<f64> = solved.shortfall.iter().map(|c| c[k]).collect();
-        fit.whiteness.extend(statistics::ljung_box(&own, &shortfall, solved.leverage[k]));
+        fit.whiteness.extend(whiteness::ljung_box(&own, &shortfall, solved.leverage[k]));
     }
     fit.residual_rms = Some(residual_rms);
     if noise_estimate.iter().all(|noise| noise.is_finite()) {

@@ -5,7 +5,7 @@
 //! their places `λ`. So c_l needs only these sums for each interval, once for all axes.
 
 use super::interval_moments::Positions;
-use crate::estimate::statistics::dot;
+use super::whiteness::dot;
 use nalgebra::Matrix2;
 
 /// Largest lag of the whiteness test.

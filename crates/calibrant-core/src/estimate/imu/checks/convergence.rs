@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::fit::NotConverged;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::result::CalibrationStatus;
+use crate::solve::CalibrationStatus;
 
 /// Nothing where it did.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {

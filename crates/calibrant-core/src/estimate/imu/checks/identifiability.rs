@@ -16,7 +16,7 @@ const REMEDY: &str = "turn the sensor between the holds, by 90° and more, about
 
 /// Refuses a problem that leaves parameters open at this state. `fit`: the problem linearised there.
 pub(crate) fn check(model: &ImuModel<'_>, state: &State, fit: &Fit) -> Result<()> {
-    let groups = information::undetermined(&fit.information, &fit.unreduced);
+    let groups = information::undetermined(&fit.information, &fit.unreduced, model.holds.len());
     if !groups.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(undetermined(model, &groups))));
     }

@@ -7,8 +7,8 @@ use crate::diagnostic::datasheet::KnownContradicted;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::KnownTerm;
 use crate::estimate::result::Calibration;
-use crate::estimate::result::CalibrationStatus;
 use crate::sensor::{Condition, ImuQuantity, SensorKind};
+use crate::solve::CalibrationStatus;
 use nalgebra::Vector3;
 
 /// Combined standard deviations beyond which a term contradicts the recording.

@@ -13,8 +13,8 @@
 use crate::diagnostic::gyroscope::GainDependsOnRate;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::model::{ImuModel, RotationData, Samples, State};
-use crate::estimate::statistics::f_p_value;
 use crate::sensor::{ImuQuantity, Quantity, SensorKind};
+use crate::solve::f_p_value;
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 
 /// Probability of `κ` at least this large where the gains are constant.

@@ -21,8 +21,8 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::faces::{TiltAssumed, TiltContradicted};
-use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::hold_result::{FaceTilt, TiltSource};
+use crate::solve::{Trial, excess};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

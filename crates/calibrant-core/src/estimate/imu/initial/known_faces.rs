@@ -28,6 +28,7 @@ use crate::motion::Hold;
 use crate::sensor::{
     Correction, NonlinearTerm, ParameterList, Recording, SensorModel, SensorParameters, SensorThermal,
 };
+use crate::solve::ScaledInformation;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
@@ -198,14 +199,11 @@ impl Linear<'_> {
     fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, FaceAlignment, f64)> {
         let (one, none) = (Matrix3::identity(), FaceScatter::default());
         let (f, _) = self.normal(&SensorParameters::identity(), &one, &none);
-        let groups = information::undetermined(&f, &f.diagonal());
+        let groups = information::undetermined(&f, &f.diagonal(), 0);
         if !groups.is_empty() {
             return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
         }
-        let size = self.list.len();
-        let scaled = DMatrix::from_fn(size, size, |i, j| f[(i, j)] / (f[(i, i)] * f[(j, j)]).sqrt());
-        let eigenvalues = scaled.symmetric_eigenvalues();
-        let condition = eigenvalues.max() / eigenvalues.min().max(f64::MIN_POSITIVE);
+        let condition = ScaledInformation::of(&f).condition_number();
         let singular = || {
             Error::recording(InputError::new(
                 Refusal::FitFailed,
@@ -239,7 +237,7 @@ impl Linear<'_> {
         let free = (3 * self.holds.len()).checked_sub(list.len() + FEWEST_FREE)? + FEWEST_FREE;
         let with = Self { list, ..self.clone() };
         let (f, _) = with.normal(&SensorParameters::identity(), &sensor.matrix, scatter);
-        if !information::undetermined(&f, &f.diagonal()).is_empty() {
+        if !information::undetermined(&f, &f.diagonal(), 0).is_empty() {
             return None;
         }
         let found = with.fit(&sensor.matrix, scatter)?;

@@ -5,7 +5,6 @@
 //! recording converted to the reference temperature, and finds the outliers.
 
 use crate::error::Result;
-use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::imu::checks::identifiability;
@@ -23,6 +22,7 @@ use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, SensorKind};
+use crate::solve::{Trial, excess};
 use nalgebra::{Matrix3, Vector3};
 
 /// Largest number of rounds, which estimate terms and outliers in turn.

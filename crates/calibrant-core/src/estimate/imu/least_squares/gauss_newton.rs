@@ -16,12 +16,12 @@
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::error::Result;
 use crate::estimate::imu::model::{Fit, GravityResidual, GravityResiduals, ImuModel, State, singular};
-use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::tangent_plane::tangents;
 use crate::sensor::entry_vector::{AT_REFERENCE, ENTRIES};
 use crate::sensor::{Condition, SensorKind};
-use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
+use crate::solve::{Equations, LeastSquares, LoopSettings, minimise};
+use nalgebra::{DVector, Matrix3, SMatrix, SVector, Vector3};
 
 /// A step below this length, in standard deviations, needs no test. The derivatives of a rotation are only exact to second order in the sample step,
 /// so the last steps may not lower χ².
@@ -38,11 +38,11 @@ impl ImuModel<'_> {
         matrix
     }
 
-    fn factor<const P: usize>(
+    fn equations_at<const P: usize>(
         &self,
         state: &State,
         residuals: &[Option<GravityResidual>],
-    ) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
+    ) -> Option<Equations<2, P>> {
         let imu = &state.imu;
         let (mut border, mut rhs) = (SMatrix::<f64, P, P>::zeros(), SVector::<f64, P>::zeros());
         if let Some((mean, weight)) = &self.prior {
@@ -168,7 +168,7 @@ impl ImuModel<'_> {
         state: &State,
         residuals: &[Option<GravityResidual>],
     ) -> Option<DVector<f64>> {
-        let step = self.factor::<P>(state, residuals)?.0.border_step(0.0)?;
+        let step = self.equations_at::<P>(state, residuals)?.0.border_step(0.0)?;
         Some(DVector::from_fn(self.quantities.len(), |k, _| step[k]))
     }
 
@@ -178,65 +178,58 @@ impl ImuModel<'_> {
         residuals: GravityResiduals,
         settings: &CalibrationSettings,
     ) -> Option<Fit> {
-        let (mut state, mut residuals) = (start, residuals);
-        let mut chi2 = self.chi2(&state, &residuals);
-        let (mut system, mut unreduced) = self.factor::<P>(&state, &residuals)?;
-        let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
-        let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
-        while iterations < settings.max_iterations {
-            iterations += 1;
-            norm = system.gradient_norm();
-            if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
-                status = CalibrationStatus::Converged;
-                break;
-            }
-            last_norm = norm;
-            let trial = system.border_step(damping).and_then(|step| self.take(&state, &system, &step));
-            let accepted = trial.and_then(|trial| {
-                let trial_residuals = self.gravity_residuals(&trial)?;
-                let trial_chi2 = self.chi2(&trial, &trial_residuals);
-                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < CLOSE).then_some((
-                    trial,
-                    trial_residuals,
-                    trial_chi2,
-                ))
-            });
-            match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
-                Some(((next, diagonal), found)) => {
-                    (state, residuals, chi2) = found;
-                    (system, unreduced) = (next, diagonal);
-                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
-                }
-                None => {
-                    damping = (damping * 10.0).max(1e-4);
-                    last_norm = f64::INFINITY;
-                    if damping > 1e14 {
-                        status = CalibrationStatus::Stalled;
-                        break;
-                    }
-                }
-            }
-        }
+        let equations = self.equations_at::<P>(&start, &residuals)?;
+        let settings = LoopSettings {
+            most: settings.max_iterations,
+            tolerance: settings.tolerance,
+            rounding: &[(1e-6, 1)],
+            untested_below: CLOSE,
+            least_chi2: 0.0,
+            damping: [1e-4, 1e14],
+            has_last_step: false,
+        };
+        let end = minimise(self, (start, residuals), equations, &settings);
         let size = self.quantities.len();
+        let (information, unreduced) = (end.information(size), end.unreduced(size));
+        let (state, residuals) = end.point;
         Some(Fit {
             state,
             residuals,
-            information: DMatrix::from_fn(size, size, |i, j| system.information[(i, j)]),
-            unreduced: DVector::from_fn(size, |k, _| unreduced[k]),
-            chi2,
-            status,
-            iterations,
-            gradient_norm: norm,
+            information,
+            unreduced,
+            chi2: end.chi2,
+            status: end.status,
+            iterations: end.iterations,
+            gradient_norm: end.gradient_norm,
         })
     }
 
-    /// The state after a step, the directions scaled back to gravity.
-    fn take<const P: usize>(
+    /// The problem linearised at a state.
+    pub(crate) fn linearised(&self, state: &State, settings: &CalibrationSettings) -> Result<Fit> {
+        let none = CalibrationSettings { max_iterations: 0, ..settings.clone() };
+        let residuals = self.gravity_residuals(state).ok_or_else(singular)?;
+        self.fit(state.clone(), residuals, &none).ok_or_else(singular)
+    }
+}
+
+impl<const P: usize> LeastSquares<2, P> for ImuModel<'_> {
+    type Point = (State, GravityResiduals);
+
+    fn chi2(&self, (state, residuals): &Self::Point) -> f64 {
+        self.chi2(state, residuals)
+    }
+
+    fn equations(&self, (state, residuals): &Self::Point) -> Option<Equations<2, P>> {
+        self.equations_at(state, residuals)
+    }
+
+    /// The directions are scaled back to gravity.
+    fn moved(
         &self,
-        state: &State,
+        (state, _): &Self::Point,
         system: &Arrowhead<2, P>,
         step: &SVector<f64, P>,
-    ) -> Option<State> {
+    ) -> Option<Self::Point> {
         let mut imu = state.imu;
         for (quantity, step) in self.quantities.iter().zip(step.iter()) {
             quantity.add_to(&mut imu, *step);
@@ -259,15 +252,8 @@ impl ImuModel<'_> {
                     .map(|u| u * self.gravity)
             })
             .collect::<Option<Vec<_>>>()?;
-        Some(State { imu, forces })
-    }
-}
-
-impl ImuModel<'_> {
-    /// The problem linearised at a state.
-    pub(crate) fn linearised(&self, state: &State, settings: &CalibrationSettings) -> Result<Fit> {
-        let none = CalibrationSettings { max_iterations: 0, ..settings.clone() };
-        let residuals = self.gravity_residuals(state).ok_or_else(singular)?;
-        self.fit(state.clone(), residuals, &none).ok_or_else(singular)
+        let state = State { imu, forces };
+        let residuals = self.gravity_residuals(&state)?;
+        Some((state, residuals))
     }
 }

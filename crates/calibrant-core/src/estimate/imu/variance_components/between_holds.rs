@@ -2,9 +2,9 @@
 //!
 //! Each mean is explained by a constant, by the specific force where asked for, by powers of the temperature and by the Earth's rate.
 
-use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData};
 use crate::sensor::{MeanReading, SensorThermal, ThermalTerm};
+use crate::solve::{Trial, excess};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
 use rayon::prelude::*;
 

@@ -6,18 +6,18 @@
 //!
 //! A knock that is as short as a few sample steps has an integral that its samples show only roughly. The factor of that error is a second variance component, of the largest likelihood.
 
-use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::imu::model::{
     GravityResidual, ImuModel, KNOCK_DEGREES, RotationScatter, State, USUAL_KNOCK_FACTOR,
 };
+use crate::solve::{Judged, Trial, degrees_left, excess, leave_out, shares_of_prior, studentised_length};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 use std::f64::consts::FRAC_PI_2;
 
 /// A rotation is left out when an error as large as its own would be seen in fewer than this share of recordings.
 const SIGNIFICANCE: f64 = 0.01;
 
-/// Rounds of leaving out one rotation, or taking one back; twice their number where there are more.
-const ROUNDS: usize = 200;
+/// Most changes, each of which leaves out one rotation or takes one back; twice their number where there are more.
+const CHANGES: usize = 200;
 
 /// Knock factors that are compared. A sensor whose samples are means over their steps integrates knocks exactly.
 const KNOCK_FACTORS: [f64; 9] = [0.004, 0.008, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0];
@@ -98,36 +98,21 @@ pub(crate) fn weigh_rotations(
         .map(|residual| residual.as_ref().is_some_and(|residual| residual.error.norm() < FRAC_PI_2))
         .collect();
     let are_enough = |used: &[bool]| 2 * count(used) > unknowns_of_gyroscope + 4;
-    let mut used = if are_enough(&upright) { upright } else { is_there };
-    let mut scatter;
-    let mut solved;
-    let (mut rounds, most) = (0, ROUNDS.max(2 * residuals.len()));
-    loop {
-        (scatter, solved) = linear.scatter(&used)?;
-        let studentised = linear.studentised(&used, &scatter, &solved);
-        let limit = critical(all);
-        let worst = (0..used.len())
-            .filter(|&i| used[i] && studentised[i] > limit)
-            .max_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
-        let best = (0..used.len())
-            .filter(|&i| !used[i] && residuals[i].is_some() && studentised[i] <= limit)
-            .min_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
-        rounds += 1;
-        match (worst, best) {
-            (Some(i), _) if are_enough(&used) && rounds < most => used[i] = false,
-            (_, Some(i)) if rounds < most => used[i] = true,
-            _ => {
-                return Some(RotationWeights {
-                    scatter,
-                    used,
-                    studentised,
-                    length: solved.length,
-                    step: solved.step,
-                    covariance: solved.covariance,
-                });
-            }
-        }
-    }
+    let (used, (scatter, solved)) = leave_out(
+        &is_there,
+        if are_enough(&upright) { upright } else { is_there.clone() },
+        CHANGES.max(2 * residuals.len()),
+        |used, _| linear.scatter(used).ok_or(()),
+        |used, (scatter, solved)| Judged {
+            studentised: linear.studentised(used, scatter, solved),
+            limit: critical(all),
+            may_leave_out: are_enough(used),
+        },
+    )
+    .ok()?;
+    let studentised = linear.studentised(&used, &scatter, &solved);
+    let Solved { step, covariance, length, .. } = solved;
+    Some(RotationWeights { scatter, used, studentised, step, covariance, length })
 }
 
 /// The step and the covariance with weights that are given.
@@ -308,23 +293,14 @@ impl Linear<'_> {
             |_| USUAL_EXCESS_RAD,
             |excess| {
                 let solved = self.solve(used, &with(excess))?;
-                let degrees_of_freedom = self.degrees_left(2 * count(used), &solved);
+                let of_prior = |weight: &DVector<f64>| shares_of_prior(weight.as_slice(), &solved.covariance);
+                let shares = self.prior.as_ref().map(of_prior);
+                let open = self.size - self.determined;
+                let degrees_of_freedom = degrees_left(2.0 * count(used) as f64, open, shares.as_deref());
                 Some(Trial { chi2: solved.chi2, degrees_of_freedom, fitted: solved })
             },
         )
         .map(|(excess, solved)| (with(excess), solved))
-    }
-
-    /// Degrees of freedom of the rotations: their equations less the unknowns that they determine.
-    fn degrees_left(&self, equations: usize, solved: &Solved) -> f64 {
-        let open = self.size - self.determined;
-        match &self.prior {
-            None => equations.saturating_sub(open) as f64,
-            Some(weight) => {
-                let of_prior = weight.dot(&solved.covariance.diagonal());
-                (equations as f64 - (open as f64 - of_prior)).max(f64::EPSILON)
-            }
-        }
     }
 
     fn studentised(&self, used: &[bool], scatter: &RotationScatter, solved: &Solved) -> Vec<f64> {
@@ -336,12 +312,7 @@ impl Linear<'_> {
                 let Some((residual, j)) = residual else { return f64::INFINITY };
                 let own = scatter.covariance(i, residual);
                 let from: Matrix2<f64> = j * &solved.covariance * j.transpose();
-                let expected = if *used { own - from } else { own + from };
-                let error = Self::error(residual, j, &solved.step);
-                // a rotation that decides the parameters by itself has no error of its own
-                let inverse =
-                    expected.try_inverse().filter(|_| expected.determinant() > 1e-6 * own.determinant());
-                inverse.map_or(0.0, |inverse| error.dot(&(inverse * error)).max(0.0).sqrt())
+                studentised_length(&Self::error(residual, j, &solved.step), (&own, &from), *used)
             })
             .collect()
     }

@@ -9,8 +9,8 @@ use crate::estimate::imu::variance_components::between_holds::Means;
 use crate::estimate::imu::variance_components::iteration::{apply, variance_components};
 use crate::estimate::imu::variance_components::linear_problem::{reweigh, with_same_weights};
 use crate::estimate::imu::variance_components::rotations::RotationWeights;
-use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
+use crate::solve::CalibrationStatus;
 use nalgebra::Vector3;
 
 /// Tolerance of a fit that another follows, in standard deviations.

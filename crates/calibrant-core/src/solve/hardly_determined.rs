@@ -1,17 +1,15 @@
-//! Combinations of parameters that the holds hardly determine.
+//! Combinations of parameters that the data hardly determine.
 
+use super::identify::ScaledInformation;
 use nalgebra::{DMatrix, DVector};
 
 /// A condition number at which the data no longer determine a combination: the noise in the directions of the holds then decides it.
 const LARGEST_CONDITION: f64 = 1e5;
 
 /// Parameters that make up the combinations whose information, scaled, is a vanishing part of the best, and not that of the prior.
-pub(super) fn hardly_determined(information: &DMatrix<f64>, prior: &DVector<f64>) -> Vec<usize> {
+pub(crate) fn hardly_determined(information: &DMatrix<f64>, prior: &DVector<f64>) -> Vec<usize> {
     let size = information.nrows();
-    let scaled = DMatrix::from_fn(size, size, |i, j| {
-        information[(i, j)] / (information[(i, i)] * information[(j, j)]).sqrt()
-    });
-    let eigen = scaled.symmetric_eigen();
+    let ScaledInformation(eigen) = ScaledInformation::of(information);
     let floor = eigen.eigenvalues.max() / LARGEST_CONDITION;
     let is_prior = |e: usize| {
         let of_prior = |k: usize| eigen.eigenvectors[(k, e)].powi(2) * prior[k] / information[(k, k)];

@@ -12,17 +12,17 @@ const LARGEST_FACTOR: f64 = 1e30;
 
 /// A fit with a trial value of σ.
 #[derive(Debug, PartialEq)]
-pub(super) struct Trial<T> {
-    pub(super) chi2: f64,
+pub(crate) struct Trial<T> {
+    pub(crate) chi2: f64,
     /// ν. It follows σ where a prior determines a part of the unknowns.
-    pub(super) degrees_of_freedom: f64,
-    pub(super) fitted: T,
+    pub(crate) degrees_of_freedom: f64,
+    pub(crate) fitted: T,
 }
 
 /// The between-hold σ with its fit. It is zero if the noise explains the scatter, or without degrees of freedom.
 ///
 /// `fit(σ)` fits with a trial value. `None` ends the search. The first call has σ = 0, and `guess` derives a σ of the right size from its fit.
-pub(super) fn excess<T>(
+pub(crate) fn excess<T>(
     guess: impl Fn(&T) -> f64,
     fit: impl FnMut(f64) -> Option<Trial<T>>,
 ) -> Option<(f64, T)> {
