@@ -3,7 +3,7 @@
 //!
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
-//! [`noise`] examines a sensor at rest. [`estimate`] calibrates.
+//! [`noise`] examines a sensor at rest. `solve` has the least squares that estimates share. [`estimate`] calibrates.
 //! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
 //! recordings. [`budget`] says what work takes, [`progress`] how far it is, and [`interruption`] ends it early. [`number_format`] writes
 //! numbers for people, [`json`] and [`form`] results for programs.

@@ -2,33 +2,43 @@
 
 use crate::motion::Gravity;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind, SharedErrors};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
-/// Derivative of each quantity with respect to the assumed gravity, `∂p/∂g = −p/g`.
+/// Derivative of each estimate with respect to the assumed gravity. Times the uncertainty of gravity, it is a column of the covariance's root.
 ///
-/// Gravity is a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the gyroscope's matrix and the temperature terms do not
-/// depend on it. A term that bends the response as the p-th power of the force has `−(p − 1) c/g`. `prior_share`: the share of each quantity's
-/// information that comes from a prior; this part does not follow gravity. Without any it is empty. Times the uncertainty of gravity, it is a column of
-/// the covariance's root.
+/// Data follow gravity and a prior does not. With the information `F = F_d + W` of data and prior and `Σ = F⁻¹`, the estimate is
+/// `Σ (F_d p_d + W m)`, and so `∂p/∂g = Σ F_d ∂p_d/∂g = (I − Σ W) ∂p_d/∂g`. `prior`: the diagonal of W, and Σ.
 pub(super) fn gravity_slope(
     quantities: &[ImuQuantity],
-    prior_share: &[f64],
     imu: &ImuParameters,
     gravity: &Gravity,
+    prior: Option<(&[f64], &DMatrix<f64>)>,
 ) -> DVector<f64> {
+    let mut slope = slope_of_data(quantities, imu, gravity);
+    if let Some((weight, covariance)) = prior {
+        let told = DVector::from_fn(slope.len(), |k, _| weight[k] * slope[k]);
+        slope -= covariance * told;
+    }
+    slope
+}
+
+/// Derivative of each quantity that data alone determine with respect to the assumed gravity, `∂p_d/∂g = −p/g`.
+///
+/// Gravity is a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the gyroscope's matrix and the temperature terms do not
+/// depend on it. A term that bends the response as the p-th power of the force has `−(p − 1) c/g`.
+fn slope_of_data(quantities: &[ImuQuantity], imu: &ImuParameters, gravity: &Gravity) -> DVector<f64> {
     DVector::from_iterator(
         quantities.len(),
-        quantities.iter().enumerate().map(|(k, quantity)| match quantity {
+        quantities.iter().map(|quantity| match quantity {
             ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(_))
             | ImuQuantity::Of(SensorKind::Gyroscope, _)
             | ImuQuantity::Thermal(..) => 0.0,
             ImuQuantity::Of(SensorKind::Accelerometer, _) | ImuQuantity::GSensitivity(..) => {
-                let of_data = 1.0 - prior_share.get(k).copied().unwrap_or(0.0);
                 let power = match quantity {
                     ImuQuantity::Of(_, Quantity::Nonlinear(term, _)) => f64::from(term.power() - 1),
                     _ => 1.0,
                 };
-                -power * quantity.value(imu) / gravity.magnitude_mps2 * of_data
+                -power * quantity.value(imu) / gravity.magnitude_mps2
             }
         }),
     )
@@ -47,6 +57,9 @@ pub fn tells_its_place(source: &str) -> bool {
 }
 
 /// What an unknown error of gravity does to a calibration against gravity at rest: all calibrations at one place have it. `None` where gravity is exact.
+///
+/// `prior_share`: the share of each quantity's information that comes from a prior; empty without any. It stands for `Σ W` where no more than the shares
+/// is written.
 #[must_use]
 pub fn shared_gravity(
     quantities: &[ImuQuantity],
@@ -54,7 +67,9 @@ pub fn shared_gravity(
     imu: &ImuParameters,
     gravity: &Gravity,
 ) -> Option<SharedErrors> {
-    let column = gravity_slope(quantities, prior_share, imu, gravity) * gravity.sd_mps2;
+    let of_data = |k: usize| 1.0 - prior_share.get(k).copied().unwrap_or(0.0);
+    let slope = slope_of_data(quantities, imu, gravity);
+    let column = DVector::from_fn(slope.len(), |k, _| slope[k] * of_data(k)) * gravity.sd_mps2;
     SharedErrors::of_source(gravity_source(gravity), column.as_slice())
 }
 
@@ -82,7 +97,7 @@ mod tests {
         let gravity = Gravity { magnitude_mps2: 9.8, sd_mps2: 0.0 };
         let share = 1e-6;
         let mut moved = imu;
-        let slope = gravity_slope(&quantities, &[], &imu, &gravity);
+        let slope = slope_of_data(&quantities, &imu, &gravity);
         for (quantity, slope) in quantities.iter().zip(slope.iter()) {
             quantity.add_to(&mut moved, slope * share * gravity.magnitude_mps2);
         }

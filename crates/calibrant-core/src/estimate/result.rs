@@ -1,6 +1,6 @@
 //! The result of a calibration.
 
-use super::gravity_error::{gravity_source, shared_gravity};
+use super::gravity_error::gravity_source;
 use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use super::{RecoveredClock, RecoveredGravity, datasheet};
@@ -36,8 +36,10 @@ pub struct Calibration {
     pub values: Vec<f64>,
     /// Covariance of the estimates, p × p, entry (i, j) in unit i times unit j. The motion (or the directions) is marginalised.
     pub covariance: DMatrix<f64>,
-    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty for an accelerometer alone, whose prior is the datasheet.
+    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty without a prior, and for a commanded motion.
     pub prior_share: Vec<f64>,
+    /// Derivative of each estimate with respect to the assumed gravity, in its unit over m/s². Empty for a commanded motion.
+    pub gravity_slope: Vec<f64>,
     /// Is the datasheet a prior?
     pub datasheet_prior: bool,
     /// The estimates as a model, fixed quantities included. A sensor that was not calibrated is a perfect one.
@@ -214,7 +216,9 @@ impl Calibration {
     fn shared_errors(&self) -> Option<SharedErrors> {
         let recovered = match &self.recovered {
             Recovered::Holds(holds) => {
-                return shared_gravity(&self.quantities, &self.prior_share, &self.imu, &holds.gravity);
+                let of_one_sd = |slope: &f64| slope * holds.gravity.sd_mps2;
+                let column: Vec<f64> = self.gravity_slope.iter().map(of_one_sd).collect();
+                return SharedErrors::of_source(gravity_source(&holds.gravity), &column);
             }
             Recovered::Motion(motion) => motion.gravity.as_ref()?,
         };

@@ -1,7 +1,6 @@
 //! The part of a calibration's uncertainty that is gravity's: an error that all gains of the accelerometer share.
 
 use super::Calibration;
-use super::gravity_error::gravity_slope;
 use super::unknown_latitude::SIZEABLE;
 use crate::motion::Gravity;
 use crate::sensor::ImuQuantity;
@@ -24,16 +23,17 @@ impl Calibration {
     #[must_use]
     pub fn uncertain_gravity(&self) -> Option<UncertainGravity> {
         let gravity = self.holds()?.gravity;
-        let slope = gravity_slope(&self.quantities, &self.prior_share, &self.imu, &gravity) * gravity.sd_mps2;
         let variances = self.covariance.diagonal();
         let effect = |k: usize| UncertainGravity {
             gravity,
             parameter: self.quantities[k],
             sd: variances[k].sqrt(),
-            sd_without: (variances[k] - slope[k].powi(2)).max(f64::MIN_POSITIVE).sqrt(),
+            sd_without: (variances[k] - (self.gravity_slope[k] * gravity.sd_mps2).powi(2))
+                .max(f64::MIN_POSITIVE)
+                .sqrt(),
         };
         let times = |of: &UncertainGravity| of.sd / of.sd_without;
-        (0..self.quantities.len())
+        (0..self.gravity_slope.len())
             .map(effect)
             .max_by(|one, other| times(one).total_cmp(&times(other)))
             .filter(|most| times(most) > SIZEABLE)

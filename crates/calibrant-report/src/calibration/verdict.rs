@@ -130,8 +130,9 @@ fn hardly_determined(calibration: &Calibration) -> Option<String> {
 }
 
 fn mostly_prior(calibration: &Calibration) -> Option<String> {
-    let names =
-        names(calibration, |k| calibration.prior_share.get(k).is_some_and(|share| *share > MOSTLY_PRIOR))?;
+    let is_told = |k: usize| calibration.prior_share.get(k).is_some_and(|share| *share > MOSTLY_PRIOR);
+    // of the datasheet, `hardly_determined` says it
+    let names = names(calibration, is_told).filter(|_| !calibration.datasheet_prior)?;
     Some(format!("The data give less information than the prior about {names}."))
 }
 

@@ -12,7 +12,8 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use sensor::{
-    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+    Gauge, ImuParameters, ImuRecording, Quantity, ReadingUnit, Recording, Sensor, SensorModel,
+    SensorParameters,
 };
 use study::SingleCase;
 
@@ -119,6 +120,7 @@ fn calibrated(
         values: list.quantities().iter().map(|quantity| quantity.value(&estimate)).collect(),
         covariance,
         prior_share: Vec::new(),
+        gravity_slope: Vec::new(),
         datasheet_prior: false,
         imu: ImuParameters { accelerometer: estimate, ..ImuParameters::identity() },
         accelerometer_unit: recording.unit(),
@@ -200,6 +202,8 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         let correlation = if i == j { 1.0 } else { 0.9 * ((i * 7 + j * 7 + i * j) as f64).sin() };
         correlation * sd[i] * sd[j]
     });
+    let by_gravity =
+        |of: &Quantity| if matches!(of, Quantity::Bias(_)) { 0.0 } else { -of.value(&truth) / 9.81744 };
     let calibration = Calibration {
         status: CalibrationStatus::Converged,
         iterations: 6,
@@ -209,6 +213,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         values: list.quantities().iter().map(|quantity| quantity.value(&truth)).collect(),
         covariance,
         prior_share: Vec::new(),
+        gravity_slope: list.quantities().iter().map(by_gravity).collect(),
         datasheet_prior: false,
         imu: ImuParameters { accelerometer: truth, ..ImuParameters::identity() },
         accelerometer_unit: ReadingUnit::Counts,

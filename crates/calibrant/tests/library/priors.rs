@@ -6,7 +6,10 @@ use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuSetup, KnownTerm,
     Stimulus, calibrate,
 };
-use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorKind, SensorModel, SensorParameters};
+use calibrant::motion::Gravity;
+use calibrant::sensor::{
+    Gauge, Parameter, ReadingUnit, Recording, Sensor, SensorKind, SensorModel, SensorParameters,
+};
 use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, simulate_holds, simulate_imu, stream};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
@@ -49,14 +52,19 @@ fn in_poses(poses: usize, seed: u64) -> Recording {
     simulate_holds(&truth(seed), &Vector3::repeat(0.01), unit, &simulation, &mut rng).0
 }
 
-/// Holds with gravity in the plane of y and z alone.
+/// Holds with gravity in the plane of y and z alone, all around.
 fn about_x(poses: usize, seed: u64) -> (Recording, Vec<(f64, f64)>) {
+    at_angles((0..poses).map(|pose| 2.4 * pose as f64), seed)
+}
+
+/// Holds with gravity in the plane of y and z, at angles from z.
+fn at_angles(angles_rad: impl Iterator<Item = f64>, seed: u64) -> (Recording, Vec<(f64, f64)>) {
     let (truth, mut rng) = (truth(seed), stream(seed, Purpose::Sensor, 2));
     let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
     let (mut times_s, mut readings) = (Vec::new(), Vec::new());
     let mut intervals = Vec::new();
-    for pose in 0..poses {
-        let (sin, cos) = (2.4 * pose as f64).sin_cos();
+    for angle_rad in angles_rad {
+        let (sin, cos) = angle_rad.sin_cos();
         let force = Vector3::new(0.0, sin, cos) * 9.80665;
         let start = times_s.len();
         for _ in 0..300 {
@@ -123,6 +131,46 @@ fn a_prior_gives_what_holds_about_one_axis_leave_open() {
     // the bias of x times a cross-axis term looks like a bias of y: its standard deviation is linearised, and too large
     assert!(squares.iter().all(|z2| *z2 < 1.5), "z² of each parameter: {squares:.2?}");
     assert!(squares[3] > 0.6, "scale.x is as the datasheet says: {squares:.2?}");
+}
+
+/// The covariance has gravity's share by the slope of the estimates: against fits with another gravity. A gain that the prior tells does not follow it,
+/// and where holds tell no more than a sum of bias and gain, both follow it as the prior divides them.
+#[test]
+fn estimates_with_a_prior_follow_gravity_by_the_slope_that_is_stated() {
+    let around = at_angles((0..14).map(|pose| 2.4 * f64::from(pose)), 3);
+    let upright = at_angles((0..14).map(|pose| 0.02 * (2.4 * f64::from(pose)).sin()), 3);
+    for (name, (recording, intervals)) in [("around", around), ("upright", upright)] {
+        let at = |magnitude_mps2: f64| {
+            let gravity = Gravity { magnitude_mps2, sd_mps2: 0.02 };
+            let setup = HoldsSetup { intervals_s: Some(intervals.clone()), gravity, ..steady_holds() };
+            run(&sensor(1.0), &recording, &setup, true).expect("the datasheet says the rest")
+        };
+        let (now, step) = (at(9.80665), 1e-3);
+        let (low, high) = (at(9.80665 - step), at(9.80665 + step));
+        for (k, parameter) in now.parameters.iter().enumerate() {
+            let expected = (high.values[k] - low.values[k]) / (2.0 * step);
+            let stated = now.gravity_slope[k];
+            // one percent of the slope of a gain, and of a bias, by itself
+            let whole = if parameter.name.contains("bias") { 1.0 } else { 1.0 / 9.80665 };
+            assert!(
+                (stated - expected).abs() < 0.01 * whole,
+                "{name} {}: {stated} {expected}",
+                parameter.name
+            );
+        }
+        let slope_of = |end: &str| {
+            let named = |parameter: &Parameter| parameter.name.ends_with(end);
+            now.gravity_slope[now.parameters.iter().position(named).expect(end)]
+        };
+        assert!(slope_of("scale.x").abs() < 1e-3, "{name}: the prior tells it");
+        if name == "upright" {
+            assert!(slope_of("bias.z").abs() > 0.5, "a bias of 0.1 m/s² is likelier than a gain of 0.5 %");
+        }
+        // what is shared at one place is what the covariance has
+        let shared = now.calibrated().shared.expect("uncertain");
+        let off = now.gravity_slope.iter().zip(shared.root.iter()).map(|(slope, error)| slope * 0.02 - error);
+        assert!(off.map(f64::abs).fold(0.0, f64::max) < 1e-15, "{name}");
+    }
 }
 
 /// What is known of every gyroscope of this kind: each quantity with the spread of the population, times a factor.

@@ -17,7 +17,7 @@ use crate::estimate::{
     Recovered, Uncalibrated, coarse_axes_in,
 };
 use crate::sensor::{ImuParameters, Recording, SensorParameters};
-use crate::solve::chi2_p_value;
+use crate::solve::{chi2_p_value, shares_of_prior};
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
@@ -75,7 +75,9 @@ fn assemble(
     let mut covariance = robust.covariance.clone();
     let quantities = list.of_accelerometer();
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
-    let slope = gravity_slope(&quantities, &[], &imu, &g);
+    let prior = robust.prior_weight.as_ref().map(|weight| (weight.as_slice(), &robust.covariance));
+    let prior_share = prior.map_or_else(Vec::new, |(weight, sigma)| shares_of_prior(weight, sigma));
+    let slope = gravity_slope(&quantities, &imu, &g, prior);
     covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
 
     let results: Vec<HoldResult> = holds
@@ -126,7 +128,8 @@ fn assemble(
         quantities,
         values: list.quantities().iter().map(|quantity| quantity.value(&sensor)).collect(),
         covariance,
-        prior_share: Vec::new(),
+        prior_share,
+        gravity_slope: slope.iter().copied().collect(),
         datasheet_prior: false,
         imu,
         accelerometer_unit: problem.sensor.unit,

@@ -12,6 +12,8 @@ pub(super) struct Robust {
     pub(super) studentised: Vec<f64>,
     pub(super) used: Vec<bool>,
     pub(super) covariance: DMatrix<f64>,
+    /// Inverse variances of the prior, where there is one.
+    pub(super) prior_weight: Option<DVector<f64>>,
     pub(super) chi2: f64,
     pub(super) degrees_of_freedom: usize,
     /// Pooled scatter of samples within holds, unit of the readings.

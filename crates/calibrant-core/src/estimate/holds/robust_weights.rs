@@ -411,6 +411,7 @@ impl Problem<'_> {
             condition_number: scaled.condition_number(),
             weakest: shares,
             covariance: covariance.clone(),
+            prior_weight: self.prior.as_ref().map(|(_, weight)| weight.clone()),
             chi2: fit.chi2,
             degrees_of_freedom: (chosen(&used).len() + self.priors()).saturating_sub(size),
             within_sd: self.within,

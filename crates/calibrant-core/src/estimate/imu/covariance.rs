@@ -20,6 +20,8 @@ pub(crate) struct Uncertainty {
     pub(crate) covariance: DMatrix<f64>,
     /// The share of each quantity's information that comes from the prior, 0 to 1.
     pub(crate) prior_share: Vec<f64>,
+    /// Derivative of each estimate with respect to the assumed gravity.
+    pub(crate) gravity_slope: DVector<f64>,
     /// Error of each estimate by one standard deviation of the Earth's rate about the vertical, if that is unknown.
     pub(crate) of_vertical: Option<DVector<f64>>,
     /// Root mean square of each component of the Earth's rate about the north, rad/s.
@@ -42,8 +44,9 @@ impl Uncertainty {
             None => vec![0.0; model.quantities.len()],
         };
         // the uncertainty of gravity
-        let slope = gravity_slope(&model.quantities, &prior_share, imu, g);
-        covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+        let prior = model.prior.as_ref().map(|(_, weight)| (weight.as_slice(), &covariance));
+        let gravity_slope = gravity_slope(&model.quantities, imu, g, prior);
+        covariance += &gravity_slope * gravity_slope.transpose() * (g.sd_mps2 * g.sd_mps2);
         for slope in systematic {
             covariance += &slope * slope.transpose();
         }
@@ -55,7 +58,7 @@ impl Uncertainty {
             covariance += &slope * slope.transpose() * (sd * sd);
         }
         let (of_vertical, north_rms_radps) = add_earth(model, &solution.weighed, &mut covariance)?;
-        Ok(Self { covariance, prior_share, of_vertical, north_rms_radps })
+        Ok(Self { covariance, prior_share, gravity_slope, of_vertical, north_rms_radps })
     }
 }
 

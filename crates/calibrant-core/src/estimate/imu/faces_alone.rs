@@ -15,7 +15,7 @@ use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
 use crate::information;
 use crate::sensor::{Correction, ImuParameters, Parameter, ParameterList, SensorKind, SensorParameters};
-use crate::solve::CalibrationStatus;
+use crate::solve::{CalibrationStatus, shares_of_prior};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::borrow::Cow;
 
@@ -92,7 +92,9 @@ fn solved(
         covariance += &step * step.transpose();
     }
     let quantities = list.of_accelerometer();
-    let slope = gravity_slope(&quantities, &[], &imu, &problem.holds.gravity);
+    let told = settings.datasheet_prior.then(|| (prior.weight.as_slice(), &of_noise));
+    let prior_share = told.map_or_else(Vec::new, |(weight, sigma)| shares_of_prior(weight, sigma));
+    let slope = gravity_slope(&quantities, &imu, &problem.holds.gravity, told);
     covariance += &slope * slope.transpose() * problem.holds.gravity.sd_mps2.powi(2);
     let off = &values - &prior.mean;
     let (mut chi2, mut squares) = (off.component_mul(&off).dot(&prior.weight), Vector3::zeros());
@@ -110,7 +112,8 @@ fn solved(
         quantities,
         parameters,
         covariance,
-        prior_share: Vec::new(),
+        prior_share,
+        gravity_slope: slope.iter().copied().collect(),
         datasheet_prior: settings.datasheet_prior,
         imu,
         accelerometer_unit: problem.sensor.unit,

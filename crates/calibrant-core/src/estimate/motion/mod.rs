@@ -130,6 +130,7 @@ fn assemble(
         values: solved.values,
         covariance: solved.covariance,
         prior_share: Vec::new(),
+        gravity_slope: Vec::new(),
         datasheet_prior: context.settings.datasheet_prior,
         imu: ImuParameters { accelerometer: sensor, ..ImuParameters::identity() },
         accelerometer_unit: problem.sensor.unit,

@@ -2,12 +2,11 @@
 
 use super::statistics::Degrees;
 use crate::estimate::earth::{UNKNOWN_SD_RADPS, vertical_slope};
-use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::imu::TurnsInHolds;
 use crate::estimate::{Calibration, GyroscopeInHolds, HoldCalibration, ImuSetup};
 use crate::motion::{Gravity, Hold};
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, SensorKind, ThermalPart};
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// The claim of a calibration.
 #[derive(Debug, Clone)]
@@ -171,9 +170,8 @@ fn inverse_hold_s(holds: &HoldCalibration) -> f64 {
 
 /// The covariance without the uncertainty that gravity and latitude have in common here and there.
 fn without_place(calibration: &Calibration, holds: &HoldCalibration, setup: &ImuSetup) -> DMatrix<f64> {
-    let Calibration { covariance, quantities, imu, prior_share, .. } = calibration;
-    let covariance =
-        recentred(covariance, (quantities, prior_share), imu, &holds.gravity, &setup.holds.gravity);
+    let Calibration { covariance, quantities, imu, prior_share, gravity_slope, .. } = calibration;
+    let covariance = recentred(covariance, gravity_slope, &holds.gravity, &setup.holds.gravity);
     let Some(gyroscope) = &calibration.gyroscope else { return covariance };
     match (&gyroscope.of_vertical, setup.latitude_deg) {
         (Some(slope), None) => covariance - slope * slope.transpose(),
@@ -189,12 +187,11 @@ fn without_place(calibration: &Calibration, holds: &HoldCalibration, setup: &Imu
 /// gravity looks like one of the scale factors.
 fn recentred(
     covariance: &DMatrix<f64>,
-    (quantities, prior_share): (&[ImuQuantity], &[f64]),
-    imu: &ImuParameters,
+    gravity_slope: &[f64],
     calibrated: &Gravity,
     now: &Gravity,
 ) -> DMatrix<f64> {
     let variance = if calibrated == now { -now.sd_mps2.powi(2) } else { now.sd_mps2.powi(2) };
-    let slope = gravity_slope(quantities, prior_share, imu, calibrated);
+    let slope = DVector::from_column_slice(gravity_slope);
     covariance + &slope * slope.transpose() * variance
 }

@@ -128,6 +128,7 @@ fn calibration(
         parameters: described,
         covariance: DMatrix::identity(p, p) * 0.25,
         prior_share: Vec::new(),
+        gravity_slope: Vec::new(),
         datasheet_prior: true,
         imu: ImuParameters { accelerometer: parameters, ..ImuParameters::identity() },
         accelerometer_unit: sensor.unit,

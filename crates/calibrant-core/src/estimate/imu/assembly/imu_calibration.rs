@@ -66,6 +66,7 @@ impl Finished<'_> {
             quantities: model.quantities.clone(),
             covariance: uncertainty.covariance,
             prior_share: uncertainty.prior_share,
+            gravity_slope: uncertainty.gravity_slope.iter().copied().collect(),
             datasheet_prior: false,
             imu,
             accelerometer_unit: problem.accelerometer.unit,
