@@ -212,6 +212,7 @@ def pose_recordings(maker):
     yield "poses-folds", replaced(static, ("poses = 24 ", "poses = 30 "), ('"upper"', '"lower"')), "--seed 3", "--folds 5 "
     yield "poses-few", replaced(static, ("poses = 24 ", "poses = 12 ")), "--seed 4", "--folds 2 --no-report "
     yield "poses-prior", replaced(static, ('prior = "none"', 'prior = "datasheet"'), ('"upper"', '"symmetric"'), ("poses = 24 ", "poses = 8 ")), "--seed 5", "--no-report "
+    yield "poses-bent", replaced(static, ("poses = 24 ", 'nonlinearity = ["second-order", "gain-by-sign"]\nposes = 40 ')), "--seed 9", ""
     yield "poses-scale-bias", replaced(static, ('model = "full"', 'model = "scale-bias"')), "--seed 6", "--json "
     yield "poses-counts", counts, "--seed 7", ""
     yield "poses-counts-folds", counts, "--seed 8 --recording 2", "--folds 4 --no-report --threads 2 "
