@@ -1,5 +1,6 @@
 //! The overlapping Allan deviation of readings, with its confidence bounds.
 
+use super::series::{mean, phase};
 use super::variance_interval::CONFIDENCE;
 use super::{PowerLaw, lag_sums};
 use crate::error::{Error, InputError, Refusal, Result};
@@ -64,12 +65,14 @@ impl AllanDeviation {
     /// # Errors
     /// [`Error::Recording`] for fewer than nine samples, or where a reading is not finite.
     pub fn of(readings: &[f64], interval_s: f64) -> Result<Self> {
-        Self::with_confidence(readings, interval_s, &Confidence::of(readings.len()))
+        let phase = phase(readings, mean(readings));
+        Self::with_confidence(readings, &phase, interval_s, &Confidence::of(readings.len()))
     }
 
-    /// The same with the [`Confidence`] for their number already computed.
+    /// The same with their [phase], and the [`Confidence`] for their number, already computed.
     pub(super) fn with_confidence(
         readings: &[f64],
+        phase: &[f64],
         interval_s: f64,
         confidence: &Confidence,
     ) -> Result<Self> {
@@ -89,14 +92,16 @@ impl AllanDeviation {
                 "leave out what is missing",
             )));
         }
-        let phase = phase(readings);
         let mut process = PowerLaw::ALL[0];
         let points = confidence
             .clusters
             .iter()
             .map(|cluster| {
-                process = process.max(identify(&phase, cluster.size).unwrap_or(PowerLaw::White));
-                AllanPoint::of(&phase, interval_s, cluster.size, process, cluster.spread(n, process))
+                // nothing is steeper than a random walk
+                if process < PowerLaw::RandomWalk {
+                    process = process.max(identify(phase, cluster.size).unwrap_or(PowerLaw::White));
+                }
+                AllanPoint::of(phase, interval_s, cluster.size, process, cluster.spread(n, process))
             })
             .collect();
         Ok(Self { interval_s, samples: n, points })
@@ -155,20 +160,6 @@ impl Cluster {
     }
 }
 
-/// Running sums of the readings less their mean, from zero on: the phase `x`. Subtracting the mean saves the
-/// digits that it would take.
-pub(super) fn phase(readings: &[f64]) -> Vec<f64> {
-    let mean = readings.iter().sum::<f64>() / readings.len() as f64;
-    let mut phase = Vec::with_capacity(readings.len() + 1);
-    let mut sum = 0.0;
-    phase.push(sum);
-    for reading in readings {
-        sum += reading - mean;
-        phase.push(sum);
-    }
-    phase
-}
-
 /// Differences of the means of adjacent clusters of `m` samples, at every start.
 pub(super) struct Differences {
     count: f64,
@@ -178,18 +169,24 @@ pub(super) struct Differences {
 
 impl Differences {
     pub(super) fn of(phase: &[f64], m: usize) -> Self {
-        // in parallel, as the processor needs several cycles for a sum
+        // side by side: the processor needs several cycles for a sum, and adds two or more at once
         const LANES: usize = 4;
         let count = phase.len() - 2 * m;
-        let (before, at, after) = (&phase[..count], &phase[m..m + count], &phase[2 * m..]);
         let (mut sums, mut squares) = ([0.0; LANES], [0.0; LANES]);
-        let chunks = before.chunks(LANES).zip(at.chunks(LANES)).zip(after.chunks(LANES));
-        for ((before, at), after) in chunks {
-            for (lane, ((before, at), after)) in before.iter().zip(at).zip(after).enumerate() {
-                let d = after - 2.0 * at + before;
-                sums[lane] += d;
-                squares[lane] += d * d;
+        let mut add = |lane: usize, before: f64, at: f64, after: f64| {
+            let d = after - 2.0 * at + before;
+            sums[lane] += d;
+            squares[lane] += d * d;
+        };
+        let from = |start: usize| phase[start..start + count].as_chunks::<LANES>();
+        let (before, at, after) = (from(0), from(m), from(2 * m));
+        for ((before, at), after) in before.0.iter().zip(at.0).zip(after.0) {
+            for lane in 0..LANES {
+                add(lane, before[lane], at[lane], after[lane]);
             }
+        }
+        for (lane, ((before, at), after)) in before.1.iter().zip(at.1).zip(after.1).enumerate() {
+            add(lane, *before, *at, *after);
         }
         let size = m as f64;
         let (sum, squares) = (sums.iter().sum::<f64>() / size, squares.iter().sum::<f64>() / (size * size));
@@ -216,12 +213,8 @@ fn cluster_sizes(n: usize) -> Vec<usize> {
 }
 
 fn identify(phase: &[f64], m: usize) -> Option<PowerLaw> {
-    let means: Vec<f64> = phase
-        .iter()
-        .step_by(m)
-        .zip(phase.iter().step_by(m).skip(1))
-        .map(|(a, b)| (b - a) / m as f64)
-        .collect();
+    let starts = || phase.chunks(m).map(|cluster| cluster[0]);
+    let means: Vec<f64> = starts().zip(starts().skip(1)).map(|(a, b)| (b - a) / m as f64).collect();
     PowerLaw::identify(&means)
 }
 

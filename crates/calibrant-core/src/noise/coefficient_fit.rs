@@ -2,9 +2,9 @@
 
 use super::allan_regression::MISFIT;
 use super::model_selection::choose;
-use super::outliers::Tails;
+use super::series::Series;
 use super::vibration::{Lines, Vibration};
-use super::{Drift, Moments, NoiseModel, PowerLaw, allan};
+use super::{Drift, Moments, NoiseModel, PowerLaw};
 use crate::error::{Error, InputError, Refusal, Result};
 
 /// Fewest samples: six cluster times.
@@ -60,7 +60,12 @@ impl NoiseFit {
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn of(readings: &[f64], interval_s: f64, moments: &Moments) -> Result<Self> {
-        let n = readings.len();
+        Self::of_series(&Series::of(readings.to_vec()), interval_s, moments)
+    }
+
+    /// The same for the series of the readings.
+    pub(super) fn of_series(series: &Series, interval_s: f64, moments: &Moments) -> Result<Self> {
+        let n = series.values.len();
         assert_eq!(n, moments.samples(), "the moments are those of the readings");
         if n < FEWEST {
             return Err(Error::recording(InputError::new(
@@ -69,7 +74,7 @@ impl NoiseFit {
                 format!("it takes {FEWEST} samples at least; record the sensor at rest for minutes"),
             )));
         }
-        let observed = moments.observe(&allan::phase(readings));
+        let observed = moments.observe(&series.phase);
         if observed.iter().any(|v| !v.is_finite() || *v <= 0.0) {
             return Err(Error::recording(InputError::new(
                 Refusal::AxisConstant,
@@ -77,13 +82,13 @@ impl NoiseFit {
                 "is the axis connected? its resolution may be coarser than its noise",
             )));
         }
-        let lines = Lines::of(readings, moments.scales(), moments.periodogram());
+        let lines = Lines::of(series, moments.scales(), moments.periodogram());
         let without = lines.as_ref().map(|lines| lines.taken_off(&observed));
         let regression = choose(moments, without.as_ref().unwrap_or(&observed));
         let vibration = lines.and_then(|lines| lines.vibration(&observed, &regression, interval_s));
         let mut model = regression.model(interval_s);
-        model.random_walk = Tails::of(readings).widen(model.random_walk);
-        let drift = Drift::of(readings, interval_s, &model);
+        model.random_walk = series.steps.widen(model.random_walk);
+        let drift = Drift::of(&series.values, interval_s, &model);
         let scales = &moments.scales()[regression.first..];
         let tau = |m: Option<&usize>| m.map_or(0.0, |&m| m as f64 * interval_s);
         let share = |tau: f64| model.share(PowerLaw::Flicker, tau) / model.deviation(tau);

@@ -52,7 +52,7 @@
 //! An estimate of a variance is skewed. At each bound of `θ_i`, an estimate as high, or as low, as this one
 //! has a probability of 2.5 %. The estimate follows a gamma distribution with the mean and the variance that
 //! the model gives it *there*. With few degrees of freedom this is the familiar χ² interval. Heavy tails
-//! widen that of N (`heavy_tails`). A filter that does not show may have taken a little from N. Where a fit
+//! widen that of N (`steps`). A filter that does not show may have taken a little from N. Where a fit
 //! with its share has more, the upper bound is higher by the difference. The standard deviation is that of
 //! noise without a filter. A Monte Carlo test checks the coverage.
 //!
@@ -74,6 +74,8 @@ mod periodogram;
 mod power_law;
 mod segment;
 mod sensor_noise;
+mod series;
+mod steps;
 mod unit_conversion;
 mod variance_interval;
 mod vibration;

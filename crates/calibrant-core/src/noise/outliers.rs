@@ -21,14 +21,8 @@
 //! The replacement is another sample, as far away as the noise is still white. It varies as the lost one did,
 //! and N neither gains nor loses. A median would vary less, and repeat its neighbours' errors. Where the
 //! readings wander or are filtered, no sample far away is like it, and the median is used.
-//!
-//! Heavy tails of the noise. They widen the interval of N, which assumes Gaussian noise otherwise.
-//!
-//! For independent samples of excess kurtosis κ every Allan variance varies more by the same term,
-//! `var(N̂²)/N⁴` by `κ/n`. Each sample has the weight `1/(m n)` in the variance at `m`, which is `N²/m`.
-//! Differences of successive samples have half of κ, and little of slow noise.
 
-use super::{Coefficient, Estimate};
+use super::steps::{Steps, typical_step};
 
 /// Number of samples, the examined one included, whose median is compared with it.
 const WINDOW_SAMPLES: usize = 9;
@@ -42,8 +36,6 @@ const HEAVY_TAIL: usize = 3;
 const MOST_OUTLIERS_ONE_IN: usize = 50;
 /// The sensor moves where more than one sample is far off without isolation for this number of isolated ones.
 const MOVING: usize = 10;
-/// Standard deviation of normal noise over the median of its absolute deviations.
-const MAD: f64 = 1.4826;
 /// Largest distance, in samples, of the sample that replaces an outlier.
 const LARGEST_DISTANCE: usize = 64;
 /// At that distance, samples differ by at most this factor more than successive ones.
@@ -79,8 +71,8 @@ pub(super) struct Found {
 
 /// Looks for outliers. `None` where there are none, where the sensor moves, and where its noise has such
 /// tails.
-pub(super) fn find(values: &[f64]) -> Option<Found> {
-    let found = OutlierCandidates::of(values)?;
+pub(super) fn find(values: &[f64], steps: &Steps) -> Option<Found> {
+    let found = OutlierCandidates::of(values, steps)?;
     let isolated = found.isolated();
     let farthest = isolated.iter().max_by(|one, other| one.off.total_cmp(&other.off))?;
     let samples: Vec<usize> = isolated.iter().map(|sample| sample.k).collect();
@@ -92,7 +84,7 @@ pub(super) fn find(values: &[f64]) -> Option<Found> {
     Some(Found {
         farthest: farthest.k,
         deviations: farthest.off / found.scale,
-        without: few.then(|| replaced(values, &found, &isolated)),
+        without: few.then(|| replaced(values, steps, &found, &isolated)),
         samples,
     })
 }
@@ -118,15 +110,13 @@ struct Sample {
 
 impl OutlierCandidates {
     /// `None` for a few values, and where nothing is off by half as much.
-    fn of(values: &[f64]) -> Option<Self> {
+    fn of(values: &[f64], steps: &Steps) -> Option<Self> {
         let n = values.len();
         if n < WINDOW_SAMPLES {
             return None;
         }
-        let steps = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         // readings coarser than their noise mostly equal their neighbours
-        let finest = steps().filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
-        let scale = typical_step(values, 1).max(if finest.is_finite() { finest } else { 0.0 });
+        let scale = steps.typical.max(if steps.finest.is_finite() { steps.finest } else { 0.0 });
         let far = OUTLIER_DEVIATIONS * scale;
         let mut found = Self { scale, samples: Vec::new(), half_as_far: 0 };
         for k in (0..n).filter(|&k| may_be_off(values, k, far / 2.0)) {
@@ -149,14 +139,6 @@ impl OutlierCandidates {
         };
         self.samples.iter().filter(|sample| within(sample.k) <= WINDOW_SAMPLES / 2).copied().collect()
     }
-}
-
-/// Robust standard deviation of the difference of values at this distance.
-pub(super) fn typical_step(values: &[f64], apart: usize) -> f64 {
-    let mut sizes: Vec<f64> =
-        values.iter().zip(&values[apart..]).map(|(one, other)| (other - one).abs()).collect();
-    let middle = sizes.len() / 2;
-    MAD * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// A quick bound. A value this far from the median of the nine about it is also this far from one of the four
@@ -192,10 +174,10 @@ fn off_line_at_end(values: &[f64], k: usize) -> f64 {
 }
 
 /// The values with replacements at these places.
-fn replaced(values: &[f64], found: &OutlierCandidates, isolated: &[Sample]) -> Vec<f64> {
+fn replaced(values: &[f64], steps: &Steps, found: &OutlierCandidates, isolated: &[Sample]) -> Vec<f64> {
     let n = values.len();
-    let is_white = n > 2 * LARGEST_DISTANCE
-        && typical_step(values, LARGEST_DISTANCE) <= WHITE_FACTOR * typical_step(values, 1);
+    let is_white =
+        n > 2 * LARGEST_DISTANCE && typical_step(values, LARGEST_DISTANCE) <= WHITE_FACTOR * steps.typical;
     let is_good = |k: &usize| *k < n && found.samples.binary_search_by_key(k, |sample| sample.k).is_err();
     let mut without = values.to_vec();
     for sample in isolated {
@@ -206,66 +188,15 @@ fn replaced(values: &[f64], found: &OutlierCandidates, isolated: &[Sample]) -> V
     without
 }
 
-/// Below this excess kurtosis nothing is changed. Gaussian noise of a few thousand samples does not reach it.
-const HEAVY: f64 = 0.5;
-/// Samples far off make most of the noise from this ratio on: standard deviation of differences over their
-/// robust one. Student's t of three degrees of freedom has 1.4.
-const FAR_OFF: f64 = 1.6;
-/// From this step on, in standard deviations, the quantisation makes a median jump.
-const COARSE: f64 = 0.3;
-/// Half a 95 % interval in standard deviations.
-const HALF_INTERVAL: f64 = 1.96;
-
-/// The tails of some values.
-pub(super) struct Tails {
-    samples: usize,
-    /// Excess kurtosis of the samples, from their differences.
-    excess: f64,
-    /// Standard deviation of differences over their robust one.
-    reach: f64,
-}
-
-impl Tails {
-    /// The tails of values at equal intervals, at least two of them different.
-    pub(super) fn of(values: &[f64]) -> Self {
-        let sizes: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-        let count = sizes.len() as f64;
-        let moment = |power: i32| sizes.iter().map(|size| size.powi(power)).sum::<f64>() / count;
-        let (second, fourth) = (moment(2), moment(4));
-        let finest = sizes.iter().copied().filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
-        let robust = typical_step(values, 1);
-        let reach = if finest < COARSE * robust { second.sqrt() / robust } else { 1.0 };
-        Self { samples: values.len(), excess: 2.0 * (fourth / (second * second) - 3.0), reach }
-    }
-
-    /// Do a few samples far off make most of the noise?
-    pub(super) fn reach_far(&self) -> bool {
-        self.reach > FAR_OFF
-    }
-
-    /// The density of white noise with the uncertainty that these tails give it.
-    pub(super) fn widen(&self, density: Coefficient) -> Coefficient {
-        match density {
-            Coefficient::Determined(found) if self.excess > HEAVY => {
-                let sd = 0.5 * found.value * (self.excess / self.samples as f64).sqrt();
-                let half = |half: f64| half.hypot(HALF_INTERVAL * sd);
-                Coefficient::Determined(Estimate {
-                    value: found.value,
-                    sd: found.sd.hypot(sd),
-                    low: (found.value - half(found.value - found.low)).max(0.0),
-                    high: found.value + half(found.high - found.value),
-                })
-            }
-            other => other,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::noise::PowerLaw;
     use crate::simulate::{Purpose, simulate_noise, stream};
+
+    fn find(values: &[f64]) -> Option<Found> {
+        super::find(values, &Steps::of(values))
+    }
 
     fn noise(process: PowerLaw, coefficient: f64, seed: u64) -> Vec<f64> {
         simulate_noise(process, coefficient, 0.01, 20_000, &mut stream(seed, Purpose::Sensor, 0))

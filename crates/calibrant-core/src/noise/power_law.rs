@@ -1,5 +1,6 @@
 //! The random processes whose sum is the noise of a sensor at rest: their Allan variances and covariances.
 
+use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
 /// A random process with a power-law spectrum; each has its slope in an Allan deviation plot.
@@ -124,18 +125,13 @@ impl PowerLaw {
     pub fn identify(means: &[f64]) -> Option<Self> {
         /// Fewest clusters.
         const FEWEST: usize = 30;
-        let mut values = means.to_vec();
+        let mut values = Cow::Borrowed(means);
         let mut differences = 0.0;
         loop {
-            let n = values.len();
-            if n < FEWEST {
+            if values.len() < FEWEST {
                 return None;
             }
-            let mean = values.iter().sum::<f64>() / n as f64;
-            values.iter_mut().for_each(|value| *value -= mean);
-            let squares: f64 = values.iter().map(|value| value * value).sum();
-            let products: f64 = values.windows(2).map(|pair| pair[0] * pair[1]).sum();
-            let r = products / squares;
+            let r = lag_one_correlation(&values);
             if !r.is_finite() {
                 return None;
             }
@@ -154,6 +150,28 @@ impl PowerLaw {
             differences += 1.0;
         }
     }
+}
+
+/// Autocorrelation of at least two values at lag one.
+fn lag_one_correlation(values: &[f64]) -> f64 {
+    // side by side: the processor needs several cycles for a sum, and adds two or more at once
+    const LANES: usize = 4;
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    chunks.iter().for_each(|chunk| (0..LANES).for_each(|lane| sums[lane] += chunk[lane]));
+    let mean = sums.iter().chain(rest).sum::<f64>() / values.len() as f64;
+    let (mut squares, mut products) = ([0.0; LANES], [0.0; LANES]);
+    let mut add = |lane: usize, one: f64, next: f64| {
+        squares[lane] += (one - mean) * (one - mean);
+        products[lane] += (one - mean) * (next - mean);
+    };
+    let (last, next) = (values[values.len() - 1], values[1..].as_chunks::<LANES>());
+    let (chunks, rest) = values[..values.len() - 1].as_chunks::<LANES>();
+    for (one, next) in chunks.iter().zip(next.0) {
+        (0..LANES).for_each(|lane| add(lane, one[lane], next[lane]));
+    }
+    rest.iter().zip(next.1).for_each(|(one, next)| add(0, *one, *next));
+    products.iter().sum::<f64>() / (squares.iter().sum::<f64>() + (last - mean).powi(2))
 }
 
 /// Covariances of differences between clusters from those of the phase.

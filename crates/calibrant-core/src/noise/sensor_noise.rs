@@ -1,6 +1,7 @@
 //! The noise of a sensor of three axes.
 
-use super::outliers::{Outliers, Tails};
+use super::outliers::Outliers;
+use super::series::Series;
 use super::{AllanDeviation, Moments, NoiseFit, Segment, outliers};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::noise::{
@@ -117,8 +118,9 @@ impl SensorNoise {
         let axis = |&axis: &Axis| {
             interruption.check()?;
             let recorded: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
-            let fit = |values: &[f64]| NoiseFit::of(values, segment.interval_s, moments);
-            let (values, outliers) = match outliers::find(&recorded) {
+            let recorded = Series::of(recorded);
+            let fit = |series: &Series| NoiseFit::of_series(series, segment.interval_s, moments);
+            let (series, outliers) = match outliers::find(&recorded.values, &recorded.steps) {
                 None => (recorded, None),
                 Some(found) => {
                     let white = |fit: NoiseFit| fit.model.white_noise_per_sample(segment.rate_hz());
@@ -126,29 +128,23 @@ impl SensorNoise {
                         left_out: found.without.is_some(),
                         samples: found.samples,
                         time_s: recording.times_s[segment.first + found.farthest],
-                        largest: recorded[found.farthest],
+                        largest: recorded.values[found.farthest],
                         deviations: found.deviations,
                         white_with_them: fit(&recorded).ok().and_then(white),
                     };
-                    (found.without.unwrap_or(recorded), Some(outliers))
+                    (found.without.map_or(recorded, Series::of), Some(outliers))
                 }
             };
             interruption.check()?;
-            let n = values.len() as f64;
-            let mean = values.iter().sum::<f64>() / n;
-            let squares: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();
             let (allan, fit) = rayon::join(
-                || AllanDeviation::with_confidence(&values, segment.interval_s, moments.confidence()),
-                || fit(&values).map_err(|error| about(error, axis)),
+                || {
+                    let Series { values, phase, .. } = &series;
+                    AllanDeviation::with_confidence(values, phase, segment.interval_s, moments.confidence())
+                },
+                || fit(&series).map_err(|error| about(error, axis)),
             );
-            let noise = AxisNoise {
-                axis,
-                allan: allan?,
-                fit: fit?,
-                sample_sd: (squares / (n - 1.0)).sqrt(),
-                outliers,
-            };
-            let caveat = noise.caveat(sensor_kind, &values);
+            let noise = AxisNoise { axis, allan: allan?, fit: fit?, sample_sd: series.sd(), outliers };
+            let caveat = noise.caveat(sensor_kind, series.steps.reach_far());
             Ok((noise, caveat))
         };
         let axes: Vec<Result<_>> = recording.active_axes().par_iter().map(axis).collect();
@@ -318,11 +314,11 @@ impl SensorNoise {
 }
 
 impl AxisNoise {
-    /// Why its white noise is not that of a sensor at rest, where it is not.
-    fn caveat(&self, sensor_kind: SensorKind, values: &[f64]) -> Option<Diagnostic> {
+    /// Why its white noise is not that of a sensor at rest, where it is not. `reach_far`: do a few samples far off make most of it?
+    fn caveat(&self, sensor_kind: SensorKind, reach_far: bool) -> Option<Diagnostic> {
         let (axis, fit) = (self.axis, &self.fit);
         let are_many = self.outliers.as_ref().is_some_and(|outliers| !outliers.left_out);
-        if are_many || Tails::of(values).reach_far() {
+        if are_many || reach_far {
             return Some(NoiseOfSpikes { sensor_kind, axis, are_many }.into());
         }
         let line = fit.vibration.as_ref().filter(|line| !line.left_out);

@@ -22,6 +22,7 @@
 
 use super::allan_regression::Regression;
 use super::periodogram::Periodogram;
+use super::series::Series;
 use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -72,15 +73,13 @@ pub(super) struct Lines {
 
 impl Lines {
     /// The lines that are beyond chance; `None` without any.
-    pub(super) fn of(values: &[f64], scales: &[usize], periodogram: &Periodogram) -> Option<Self> {
-        if values.len() < 8 * ABOUT {
+    pub(super) fn of(series: &Series, scales: &[usize], periodogram: &Periodogram) -> Option<Self> {
+        if series.values.len() < 8 * ABOUT {
             return None;
         }
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let square: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let (count, mean, square) = (series.values.len() as f64, series.mean, series.square);
         let size = periodogram.size();
-        let powers = periodogram.power(values.iter().map(|value| value - mean));
+        let powers = periodogram.power(series.values.iter().map(|value| value - mean));
         let last = powers.len() - 1;
         let near = |k: usize, by: usize| k - by..=(k + by).min(last);
         let beyond = (size as f64).ln() + BEYOND_CHANCE;
@@ -91,19 +90,17 @@ impl Lines {
             if powers[near(k, ABOUT)].iter().any(|other| *other > powers[k]) {
                 continue;
             }
-            let about = || {
-                let others = near(k, WIDELY.min(k / 2)).filter(|other| other.abs_diff(k) > LINE);
-                others.map(|other| powers[other])
-            };
-            let middle = about().count() / 2;
+            let (first, end) = near(k, WIDELY.min(k / 2)).into_inner();
+            let about = [&powers[first..k - LINE], &powers[(k + LINE).min(end) + 1..=end]];
+            let middle = about.iter().map(|side| side.len()).sum::<usize>() / 2;
             // most peaks are noise: counting the bins below the bound of a line is cheaper than taking the
             // median
             let least = powers[k] / beyond * LN_2;
-            if about().filter(|power| *power <= least).count() <= middle {
+            let below = |side: &&[f64]| side.iter().filter(|power| **power <= least).count();
+            if about.iter().map(below).sum::<usize>() <= middle {
                 continue;
             }
-            let mut about: Vec<f64> = about().collect();
-            let noise = *about.select_nth_unstable_by(middle, f64::total_cmp).1 / LN_2;
+            let noise = *about.concat().select_nth_unstable_by(middle, f64::total_cmp).1 / LN_2;
             if noise <= 0.0 || powers[k] < beyond * noise {
                 continue;
             }
@@ -174,7 +171,9 @@ mod tests {
     #[test]
     fn a_hum_is_seen_and_noise_is_none() {
         let scales = [1, 2, 4, 8, 16];
-        let lines = |values: &[f64]| Lines::of(values, &scales, &Periodogram::of_length(values.len()));
+        let lines = |values: &[f64]| {
+            Lines::of(&Series::of(values.to_vec()), &scales, &Periodogram::of_length(values.len()))
+        };
         for seed in 0..40 {
             let noise = |process, coefficient| {
                 simulate_noise(process, coefficient, 0.01, 10_000, &mut stream(seed, Purpose::Sensor, 0))

@@ -67,10 +67,13 @@ pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAt
             (holds, interval)
         }
     };
-    let of_sensor = |&(sensor_kind, recording): &(SensorKind, &Recording)| -> Result<SensorNoise> {
+    let mut of_one_length: Option<Moments> = None;
+    let mut of_sensor = |&(sensor_kind, recording): &(SensorKind, &Recording)| -> Result<SensorNoise> {
         let segment = Segment::between(recording, interval.0, interval.1)?;
-        let moments = Moments::of(segment.samples());
-        let mut found = SensorNoise::until(&options.interruption, sensor_kind, recording, segment, &moments)?;
+        let samples = segment.samples();
+        let moments = of_one_length.take().filter(|moments| moments.samples() == samples);
+        let moments = &*of_one_length.insert(moments.unwrap_or_else(|| Moments::of(samples)));
+        let mut found = SensorNoise::until(&options.interruption, sensor_kind, recording, segment, moments)?;
         if let Some((_, gain)) = options.gains.iter().find(|(of, _)| *of == sensor_kind) {
             found = found.with_gain(recording, gain)?;
         }
