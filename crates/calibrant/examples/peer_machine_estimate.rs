@@ -9,8 +9,8 @@ use calibrant::machine::estimate::{
 };
 use calibrant::machine::log::{JointLog, ReferenceLog};
 use calibrant::sensor::{
-    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, Quantity, ReadingUnit, Recording,
-    SensorKind, SensorModel,
+    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, SensorKind,
+    SensorModel,
 };
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -74,14 +74,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn place(quantity: MachineQuantity, joints: usize) -> usize {
     let of_sensor = |kind: SensorKind| if kind == SensorKind::Accelerometer { 0 } else { 12 };
     match quantity {
-        MachineQuantity::Imu(ImuQuantity::Of(kind, of)) => {
-            let (row, column) = match of {
-                Quantity::Bias(axis) => return of_sensor(kind) + axis.index(),
-                Quantity::Scale(axis) => (axis, axis),
-                Quantity::CrossAxis(row, column) | Quantity::Symmetric(row, column) => (row, column),
-            };
-            of_sensor(kind) + 3 + 3 * row.index() + column.index()
-        }
+        MachineQuantity::Imu(ImuQuantity::Of(kind, of)) => match of.entry() {
+            Some((row, column)) => of_sensor(kind) + 3 + 3 * row.index() + column.index(),
+            None => of_sensor(kind) + of.axis().index(),
+        },
         MachineQuantity::Imu(_) | MachineQuantity::Gravity => unreachable!("it is not estimated"),
         MachineQuantity::Lever(axis) => 24 + axis.index(),
         MachineQuantity::Mounting(axis) => 27 + axis.index(),

@@ -173,8 +173,10 @@ mod tests {
         has_last_step: false,
     };
 
+    type Linearised<const P: usize> = (SVector<f64, P>, SMatrix<f64, P, P>);
+
     /// Residuals with their derivatives, without nodes.
-    struct Residuals<const P: usize>(fn(&SVector<f64, P>) -> (SVector<f64, P>, SMatrix<f64, P, P>));
+    struct Residuals<const P: usize>(fn(&SVector<f64, P>) -> Linearised<P>);
 
     impl<const P: usize> LeastSquares<1, P> for Residuals<P> {
         type Point = SVector<f64, P>;

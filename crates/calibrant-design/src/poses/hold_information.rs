@@ -22,6 +22,7 @@ use std::ops::AddAssign;
 type Entries = SMatrix<f64, 12, 12>;
 
 /// Summed information of holds.
+#[expect(clippy::large_enum_variant, reason = "few are made, and the large one is the usual one")]
 #[derive(Clone)]
 pub(super) enum Sum {
     /// On the entries of a linear response.
