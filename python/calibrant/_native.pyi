@@ -144,7 +144,6 @@ def noise(
     source: Source,
     reading: str,
     *,
-    read: Recording | None = None,
     sensor: str | None = None,
     hold_s: tuple[float, float] | None = None,
     gain: list[float] | None = None,
