@@ -179,7 +179,7 @@ pub(super) fn transformed(
 }
 
 impl ImuQuantity {
-    /// Every quantity that the model knows of these sensors: one for each entry, though in another order.
+    /// Every quantity of the model of these sensors, one for each entry of the vector. Their order is not that of the entries.
     #[must_use]
     pub fn all(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
         let mut all = Self::full_list(accelerometer, gyroscope, gyroscope);

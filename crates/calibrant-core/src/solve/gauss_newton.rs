@@ -46,7 +46,7 @@ pub(crate) struct LoopSettings<'a> {
     pub(crate) most: usize,
     /// The loop ends with a step below this length, in standard deviations of the parameters.
     pub(crate) tolerance: f64,
-    /// A step below a length is rounding if the length has not halved for so many steps.
+    /// Pairs of a length and a number n: a step shorter than the length counts as rounding once n steps in a row have not halved the shortest one.
     pub(crate) rounding: &'a [(f64, usize)],
     /// A step below this length is not tested by χ².
     pub(crate) untested_below: f64,

@@ -1,4 +1,4 @@
-//! How well parameters are told apart: the information scaled to unit diagonal, in which their units do not matter.
+//! The information scaled to unit diagonal, which does not depend on the units of the parameters, and its condition number.
 
 use nalgebra::{DMatrix, DVectorView, Dyn, SymmetricEigen};
 

@@ -10,7 +10,8 @@ pub(crate) struct Judged {
     pub(crate) may_leave_out: bool,
 }
 
-/// Changes what is used until the fit of it asks for no change, at most so many times. `weigh` fits those that are used, given the fit before.
+/// Leaves out the worst residual beyond the limit, or takes back the best one within it, one at a time, until neither is there or `most` changes are made.
+/// `weigh` fits those that are used, given the fit before.
 pub(crate) fn leave_out<W, E>(
     is_usable: &[bool],
     mut used: Vec<bool>,

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-/// So many degrees of freedom are as good as infinitely many.
+/// From this number of degrees of freedom on, F is taken for χ² over its degrees.
 const MANY_DEGREES: f64 = 1e5;
 
 /// Probability of a χ² at least this large. `None` without degrees of freedom.

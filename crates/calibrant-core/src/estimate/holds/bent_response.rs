@@ -21,7 +21,7 @@ const CHANCE: f64 = 1e-3;
 const MATTERS: f64 = 2.0;
 /// Fewest degrees of freedom that tell a variance.
 const FEWEST: usize = 5;
-/// Two choices of as many terms are told apart where one is so many times as likely as the other, the scatter being unknown.
+/// Likelihood ratio beyond which the holds tell one term from another. The variance of the holds is estimated in each fit.
 const TOLD_APART: f64 = 1000.0;
 
 /// The finding, in a fit to the magnitude of gravity.

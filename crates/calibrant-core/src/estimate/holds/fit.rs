@@ -22,7 +22,7 @@ pub(super) struct Directions<'a> {
 /// Mean and inverse variance of each parameter, 0 where nothing is known of it.
 pub(super) type Prior = (DVector<f64>, DVector<f64>);
 
-/// Number of parameters of a linear response, and of one with all terms: fits have room for so many.
+/// Sizes of the border: the most parameters of a linear response, and of one with all terms.
 const LINEAR: usize = 9;
 const BENT: usize = LINEAR + 3 * NonlinearTerm::ALL.len();
 
