@@ -29,7 +29,7 @@ impl Uncalibrated {
     /// ```
     #[must_use]
     pub fn accelerometer(datasheet: &Sensor, found: &SensorParameters) -> Self {
-        let own = Vector3::from_fn(|axis, _| found.matrix.row(axis).norm());
+        let own = found.gains();
         let source = match (datasheet.unit, datasheet.gain, datasheet.offset) {
             (ReadingUnit::Counts, Some(_), Some(_)) => "the datasheet's gain and offset",
             (ReadingUnit::Counts, Some(_), None) => {

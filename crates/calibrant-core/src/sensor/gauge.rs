@@ -4,7 +4,6 @@
 //! same sensor for every rotation `R`. A gauge picks one. The correction is `s = S⁻¹ (y − b)`. `S` and `S⁻¹`
 //! are triangular (or symmetric) together, so one gauge names both directions.
 
-use super::nonlinearity::row_norms;
 use super::{Axis, Nonlinearity, Quantity, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -116,7 +115,7 @@ impl Correction {
     /// The correction of a sensor; `None` where its matrix has no inverse.
     #[must_use]
     pub fn of(sensor: &SensorParameters) -> Option<Self> {
-        let (matrix, gains) = (sensor.matrix.try_inverse()?, row_norms(&sensor.matrix));
+        let (matrix, gains) = (sensor.matrix.try_inverse()?, sensor.gains());
         Some(Self { matrix, bias: sensor.bias, nonlinearity: sensor.nonlinearity, gains })
     }
 

@@ -4,7 +4,7 @@
 //! `y = b + ρ ∘ h(u)` with `h(u) = u + Σ_k c_k e_k(u)` for each axis. A turn of the true frame, `S → S R`, leaves the coefficients as they are.
 //! One more shape is one more [`NonlinearTerm`].
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// The shape of a term, a function of the stimulus along the axis (`ieee1293`).
@@ -174,15 +174,11 @@ impl Nonlinearity {
     }
 }
 
-/// Norms of the rows of a matrix: the gain of each axis, whatever the true frame.
-pub(crate) fn row_norms(matrix: &Matrix3<f64>) -> Vector3<f64> {
-    Vector3::from_fn(|axis, _| matrix.row(axis).norm())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::sensor::{Axis, Correction, Quantity, SensorParameters};
+    use nalgebra::Matrix3;
 
     fn sensor() -> SensorParameters {
         let mut sensor = SensorParameters {

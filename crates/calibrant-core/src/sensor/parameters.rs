@@ -1,6 +1,5 @@
 //! The parameters of a sensor: the one list that drives tables, results, errors and plots.
 
-use super::nonlinearity::row_norms;
 use super::{Axis, NonlinearTerm, Nonlinearity, ReadingUnit};
 use nalgebra::{DVector, Matrix3, Vector3};
 use schemars::JsonSchema;
@@ -47,7 +46,7 @@ impl SensorParameters {
         if self.nonlinearity.is_none() {
             return straight + self.bias;
         }
-        let gains = row_norms(&self.matrix);
+        let gains = self.gains();
         Vector3::from_fn(|axis, _| {
             straight[axis]
                 + gains[axis] * self.nonlinearity.bend(axis, straight[axis] / gains[axis])
@@ -81,10 +80,16 @@ impl SensorParameters {
         Vector3::from_fn(|axis, _| self.nonlinearity.slope(axis, along[axis]))
     }
 
+    /// `ρ`: the gain of each axis, the norm of its row of `S`, whatever the true frame.
+    #[must_use]
+    pub fn gains(&self) -> Vector3<f64> {
+        Vector3::from_fn(|axis, _| self.matrix.row(axis).norm())
+    }
+
     /// `u = S s/ρ`: the stimulus along the sensitive direction of each axis.
     #[must_use]
     pub fn along_axes(&self, stimulus: &Vector3<f64>) -> Vector3<f64> {
-        (self.matrix * stimulus).component_div(&row_norms(&self.matrix))
+        (self.matrix * stimulus).component_div(&self.gains())
     }
 }
 

@@ -28,7 +28,7 @@ pub(crate) use gauss_newton::{Equations, LeastSquares, LoopSettings, Minimum, mi
 pub(crate) use hardly_determined::hardly_determined;
 pub(crate) use identify::ScaledInformation;
 pub(crate) use leave_out::{Judged, leave_out};
-pub(crate) use statistics::chi2_of_p_value;
+pub(crate) use statistics::{MANY_DEGREES, chi2_of_p_value};
 pub use statistics::{chi2_p_value, f_p_value};
 pub use status::CalibrationStatus;
 pub(crate) use studentised::{Scatter, studentised, studentised_length};

@@ -3,7 +3,7 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// From this number of degrees of freedom on, F is taken for χ² over its degrees.
-const MANY_DEGREES: f64 = 1e5;
+pub(crate) const MANY_DEGREES: f64 = 1e5;
 
 /// Probability of a χ² at least this large. `None` without degrees of freedom.
 #[must_use]

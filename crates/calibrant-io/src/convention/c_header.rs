@@ -79,7 +79,8 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
                     sensor,
                     &function(&in_unit(ACCELEROMETER, &unit)),
                 ));
-                out.push_str(&c_nonlinearity::forward(sensor, &unit));
+                let at = if terms.is_none() { "" } else { " at the reference temperature" };
+                out.push_str(&c_nonlinearity::forward(sensor, &unit, at));
             }
             SensorKind::Gyroscope => {
                 let _ = writeln!(out, "\n/* What it shows of specific force, ({unit}) per (m/s^2). */");

@@ -4,7 +4,6 @@ use super::arrays::vector3;
 use super::c_constants::{matrix, numbers, vector};
 use crate::text::decoding::Checked;
 use calibrant_core::sensor::{NonlinearTerm, Nonlinearity, SensorParameters};
-use nalgebra::Vector3;
 use std::fmt::Write;
 
 /// Steps of Newton's method in C: each squares an error of a few per cent.
@@ -26,11 +25,13 @@ pub(super) fn coefficients(sensor: &SensorParameters) -> String {
     if sensor.nonlinearity.is_none() {
         return out;
     }
-    let gains = Vector3::from_fn(|axis, _| sensor.matrix.row(axis).norm());
     let _ =
         writeln!(out, "\n/* Gain of each axis: the norm of its row of the inverse of the matrix above. */");
-    let _ =
-        writeln!(out, "static const CALIBRANT_REAL calibrant_accelerometer_gain[3] = {};", vector(&gains));
+    let _ = writeln!(
+        out,
+        "static const CALIBRANT_REAL calibrant_accelerometer_gain[3] = {};",
+        vector(&sensor.gains())
+    );
     for term in NonlinearTerm::ALL {
         let (unit, values) = (term.unit().replace('²', "^2"), vector(sensor.nonlinearity.of(term)));
         let _ = writeln!(
@@ -57,14 +58,14 @@ pub(super) fn straightened(sensor: &SensorParameters, function: &str) -> String 
     function.replacen(result, &format!("{straighten}{result}"), 1)
 }
 
-/// The function that gives the reading of a force, at the reference temperature; empty where the response is linear.
-pub(super) fn forward(sensor: &SensorParameters, unit: &str) -> String {
+/// The function that gives the reading of a force; empty where the response is linear. `at`: ` at …`, where it is of one temperature only.
+pub(super) fn forward(sensor: &SensorParameters, unit: &str, at: &str) -> String {
     if sensor.nonlinearity.is_none() {
         return String::new();
     }
     format!(
         "\n/* Its response before it is bent, ({unit}) per (m/s^2). */\nstatic const CALIBRANT_REAL calibrant_accelerometer_response[3][3] = {};\n
-/* Reading ({unit}) of the accelerometer of a specific force (m/s^2): the inverse of its correction. */
+/* Reading ({unit}) of the accelerometer of a specific force (m/s^2): the inverse of its correction{at}. */
 static inline void calibrant_read_accelerometer(const CALIBRANT_REAL force[3], CALIBRANT_REAL raw[3])
 {{
     int i;

@@ -265,7 +265,9 @@ impl SensorCore {
         for term in NonlinearTerm::ALL {
             let Some(values) = self.nonlinearity.as_ref().and_then(|of| of.get(term.key())) else { continue };
             let name = field(&format!("nonlinearity.{}", term.key()));
-            let values: Vec<f64> = serde_json::from_value(values.clone()).map_err(|_| missing(&name))?;
+            let no_list =
+                |_| invalid(format!("`{name}` is no list of numbers"), "write one number for each axis");
+            let values: Vec<f64> = serde_json::from_value(values.clone()).map_err(no_list)?;
             *sensor.nonlinearity.of_mut(term) = vector3(&values, &name)?;
         }
         // a gyroscope without a g-sensitivity has the matrix zero

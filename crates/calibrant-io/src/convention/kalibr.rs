@@ -233,11 +233,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         stated.as_ref().map_or(Ok(Vector3::zeros()), |(bias, field)| vector3(bias, field))
     };
     let mut parameters = ImuParameters::identity();
-    parameters.accelerometer = SensorParameters {
-        bias: bias(&stated_biases[0])?,
-        matrix: m_a * c_i_b,
-        ..SensorParameters::identity()
-    };
+    parameters.accelerometer = SensorParameters::linear(bias(&stated_biases[0])?, m_a * c_i_b);
     let accelerometer_unit =
         Some(unit(SensorKind::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
     let gyroscope_unit = match &imu.gyroscopes {
@@ -324,9 +320,7 @@ fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, 
     if Gauge::Lower.is_form_of(s) && s.diagonal().min() > 0.0 {
         return Ok((*s, Matrix3::identity()));
     }
-    let l = Gauge::Lower
-        .apply(&SensorParameters { bias: Vector3::zeros(), matrix: *s, ..SensorParameters::identity() })
-        .matrix;
+    let l = Gauge::Lower.apply(&SensorParameters::linear(Vector3::zeros(), *s)).matrix;
     let l = Matrix3::from_fn(|row, column| if column > row { 0.0 } else { l[(row, column)] });
     let q = l.try_inverse().map(|inverse| inverse * s);
     q.map(|q| (l, q)).ok_or_else(|| singular(sensor_kind))

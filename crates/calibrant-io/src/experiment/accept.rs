@@ -7,7 +7,7 @@ use super::remedies::remedy;
 use super::similar_word::nearest;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{Gauge, ImuQuantity, ParameterList, SensorKind, SensorModel};
+use calibrant_core::sensor::ImuQuantity;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -81,16 +81,10 @@ fn limits(range: &[Within<Value>], key: &str) -> Result<(f64, f64)> {
 /// The names of all figures, and those of their groups.
 fn names() -> Vec<String> {
     let mut names: Vec<String> = DERIVED.map(String::from).to_vec();
-    let mut add = |quantity: ImuQuantity| {
+    for quantity in ImuQuantity::all(true, true) {
         let name = quantity.name();
         let group = name.rsplit_once('.').map(|(group, _)| group.to_owned());
         names.extend(group.into_iter().chain([name]));
-    };
-    for kind in SensorKind::ALL {
-        let lists =
-            [ParameterList::new(3, SensorModel::Full), Gauge::Symmetric.parameter_list(SensorModel::Full)];
-        lists.iter().flat_map(|list| list.quantities()).for_each(|of| add(ImuQuantity::Of(kind, *of)));
     }
-    ImuQuantity::all(true, true).into_iter().for_each(add);
     names
 }

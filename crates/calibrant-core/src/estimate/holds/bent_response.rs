@@ -122,7 +122,7 @@ struct Magnitudes {
 impl Magnitudes {
     fn of(calibration: &Calibration, used: &[&HoldResult], known: &[NonlinearTerm]) -> Option<Self> {
         let (of_holds, sensor) = (calibration.holds()?, &calibration.imu.accelerometer);
-        let gains = Vector3::from_fn(|axis, _| sensor.matrix.row(axis).norm());
+        let gains = sensor.gains();
         let weigh = |hold: &&HoldResult| {
             let u = hold.force_mps2.normalize();
             let within = hold.hold.sd.component_div(&gains).component_mul(&u).norm()

@@ -68,7 +68,7 @@ impl Directions<'_> {
     }
 
     /// Derivative of the reading with respect to the parameters; columns beyond them are zero.
-    pub(super) fn sensitivity<const P: usize>(
+    fn sensitivity<const P: usize>(
         &self,
         sensor: &SensorParameters,
         force: &Vector3<f64>,

@@ -31,6 +31,12 @@ impl HoldsSetup {
     pub fn parameter_list(&self, model: SensorModel) -> ParameterList {
         self.gauge.parameter_list(model).with_terms(&self.nonlinearity)
     }
+
+    /// The same where the directions of the holds are known: they fix the frame in place of the gauge.
+    #[must_use]
+    pub fn parameter_list_on_faces(&self, model: SensorModel) -> ParameterList {
+        ParameterList::new(3, model).with_terms(&self.nonlinearity)
+    }
 }
 
 /// As in the preset `static-poses`.

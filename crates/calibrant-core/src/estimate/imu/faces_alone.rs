@@ -14,7 +14,7 @@ use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
 use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
 use crate::information;
-use crate::sensor::{Correction, ImuParameters, Parameter, ParameterList, SensorKind, SensorParameters};
+use crate::sensor::{Correction, ImuParameters, Parameter, SensorKind, SensorParameters};
 use crate::solve::{CalibrationStatus, shares_of_prior};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -52,7 +52,7 @@ fn solved(
     first: InitialAccelerometer,
     settings: &CalibrationSettings,
 ) -> Result<Calibration> {
-    let list = ParameterList::new(3, problem.sensor.model).with_terms(&problem.holds.nonlinearity);
+    let list = problem.holds.parameter_list_on_faces(problem.sensor.model);
     let gains = Matrix3::from_diagonal(&first.sensor.matrix.diagonal());
     let nominal = problem.sensor.nominal().unwrap_or(SensorParameters::linear(first.sensor.bias, gains));
     let parameters = list.describe_accelerometer(problem.sensor, &nominal);

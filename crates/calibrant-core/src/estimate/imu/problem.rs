@@ -141,7 +141,7 @@ impl ImuSetup {
     pub fn quantities(&self, accelerometer: SensorModel, gyroscope: &Gyroscope) -> Vec<ImuQuantity> {
         // known directions are the true frame, otherwise the gauge fixes it
         let of_accelerometer = match self.directions {
-            Some(_) => ParameterList::new(3, accelerometer).with_terms(&self.holds.nonlinearity),
+            Some(_) => self.holds.parameter_list_on_faces(accelerometer),
             None => self.holds.parameter_list(accelerometer),
         };
         let of_gyroscope = ParameterList::new(3, gyroscope.model);

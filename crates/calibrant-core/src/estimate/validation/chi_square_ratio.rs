@@ -17,13 +17,12 @@
 //! 0.5 % point. Calling only that scatter uncertain, w² of the variance, made it 7.6 %.
 
 use crate::root::root;
+use crate::solve::MANY_DEGREES;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use std::convert::Infallible;
 
 /// Two-sided probability that an honest covariance is doubted.
 const SIGNIFICANCE: f64 = 0.01;
-/// So many degrees of freedom are as good as infinitely many.
-const MANY_DEGREES: f64 = 1e5;
 /// With so few degrees of freedom F has no variance.
 const FEW_DEGREES: f64 = 4.0;
 

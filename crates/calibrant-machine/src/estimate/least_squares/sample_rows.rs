@@ -4,7 +4,7 @@ use super::huber;
 use crate::estimate::problem::{Layout, TiltedGravity};
 use crate::estimate::{MachineParameters, MachineQuantity};
 use crate::reference::{Felt, MotionColumns};
-use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
 use nalgebra::{Vector3, Vector6};
 
 /// How an unknown enters the readings.
@@ -152,12 +152,9 @@ fn gains(sensor: SensorKind, axis: usize, at: &MachineParameters) -> Vector6<f64
 fn sensor_entry(quantity: ImuQuantity) -> Entry {
     let index = |axis: Axis| axis.index();
     match quantity {
-        ImuQuantity::Of(sensor, of) => match (of.entry(), of) {
-            (Some((row, column)), _) => Entry::Sensor(sensor, index(row), index(column)),
-            (None, Quantity::Bias(axis) | Quantity::Nonlinear(_, axis)) => {
-                Entry::Sensor(sensor, index(axis), 3)
-            }
-            (None, _) => Entry::Sensor(sensor, 0, 3),
+        ImuQuantity::Of(sensor, of) => match of.entry() {
+            Some((row, column)) => Entry::Sensor(sensor, index(row), index(column)),
+            None => Entry::Sensor(sensor, index(of.axis()), 3),
         },
         ImuQuantity::GSensitivity(row, column) => Entry::GSensitivity(index(row), index(column)),
         // a machine's recording is calibrated at one temperature

@@ -61,7 +61,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
     let holds = holds_between(recording, intervals)?;
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
-    let list = ParameterList::new(3, problem.sensor.model).with_terms(&setup.nonlinearity);
+    let list = setup.parameter_list_on_faces(problem.sensor.model);
     let as_read = problem.recording;
     let clipped = clipped_holds(as_read, &holds);
     let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
