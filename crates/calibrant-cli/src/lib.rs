@@ -20,7 +20,7 @@ mod noise;
 mod recording_options;
 #[cfg(feature = "records")]
 mod records;
-#[cfg(not(feature = "records"))]
+#[cfg(any(test, not(feature = "records")))]
 mod records_missing;
 mod run;
 mod schema;

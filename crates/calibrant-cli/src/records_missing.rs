@@ -27,12 +27,18 @@ impl crate::run::Run for Arguments {
 mod tests {
     use clap::Parser;
 
+    #[derive(Parser)]
+    struct Records {
+        #[command(flatten)]
+        arguments: super::Arguments,
+    }
+
     #[test]
     fn every_command_of_the_records_says_how_to_install_them() {
         for command in ["list r.db", "drift r.db A17 --json", "fleet --help"] {
-            let words = ["calibrant", "records"].into_iter().chain(command.split(' '));
-            let parsed = crate::Cli::try_parse_from(words).unwrap_or_else(|error| panic!("{error}"));
-            let crate::Command::Records(arguments) = parsed.command else { panic!("another command") };
+            let words = ["records"].into_iter().chain(command.split(' '));
+            let Records { arguments } =
+                Records::try_parse_from(words).unwrap_or_else(|error| panic!("{error}"));
             let refused = crate::run::Run::run(&arguments).err().expect("no records").to_string();
             let remedy = "cargo install --locked --path crates/calibrant-cli --features records";
             assert!(refused.contains(remedy), "{refused}");

@@ -16,7 +16,7 @@ pub(crate) fn refuse<T>(code: Refusal, message: impl Into<String>, help: impl In
 }
 
 /// The error where this build lacks a reader.
-#[cfg(not(all(feature = "mcap", feature = "parquet")))]
+#[cfg(any(test, not(all(feature = "mcap", feature = "parquet"))))]
 pub(crate) fn without<T>(feature: &str) -> Checked<T> {
     let message = format!("this build of calibrant does not read {feature} files");
     refuse(Refusal::FormatUnsupported, message, install_with(feature))
@@ -199,4 +199,13 @@ pub(crate) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&st
         .at_line(line)
         .into()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_build_without_a_reader_names_the_feature_that_has_it() {
+        let refused = super::without::<()>("mcap").expect_err("no reader").to_string();
+        assert!(refused.contains("with the feature `mcap`"), "{refused}");
+    }
 }

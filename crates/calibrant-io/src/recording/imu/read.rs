@@ -243,22 +243,3 @@ fn not_binary(format: FileFormat) -> InputError {
         LEAVE_AWAY,
     )
 }
-
-#[cfg(test)]
-mod tests {
-    #[cfg(not(feature = "mcap"))]
-    #[test]
-    fn a_build_without_the_reader_of_bags_names_the_feature() {
-        let refused =
-            super::parse_imu_recording(b"\x89MCAP0\r\n\x00", &Default::default()).expect_err("no reader");
-        assert!(refused.to_string().contains("with the feature `mcap`"), "{refused}");
-    }
-
-    #[cfg(not(feature = "parquet"))]
-    #[test]
-    fn a_build_without_the_reader_of_parquet_names_the_feature() {
-        let refused =
-            super::parse_imu_recording(b"PAR1\x00PAR1", &Default::default()).expect_err("no reader");
-        assert!(refused.to_string().contains("with the feature `parquet`"), "{refused}");
-    }
-}
