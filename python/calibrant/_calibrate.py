@@ -66,7 +66,7 @@ def calibrate(
     sections : path, optional
         The list of faces and turns of a session of imucal.
     together : list of recordings
-        Further recordings of the same accelerometer, calibrated together with the first.
+        Further recordings of the same sensors, calibrated together with the first.
     allow : list of str
         Codes of diagnostics that do not count for the verdict.
     accept : path, optional

@@ -52,7 +52,7 @@ class Source:
         self,
         recording: Readings,
         gyroscope: Readings | None = None,
-        further: list[Readings] = ...,
+        further: list[Source] = ...,
         sections: str | None = None,
     ) -> None: ...
 
@@ -144,6 +144,7 @@ def noise(
     source: Source,
     reading: str,
     *,
+    read: Recording | None = None,
     sensor: str | None = None,
     hold_s: tuple[float, float] | None = None,
     gain: list[float] | None = None,

@@ -87,6 +87,8 @@ def test_options_are_those_of_the_command_line(
         folder / "recording.csv", folder / "experiment.toml", folds=4, validate=second, sensor="A17", station="3"
     )
     assert found.to_json() == text and found.sensor == "A17"
+    text, _ = of_command_line(cli, folder, tmp_path / "joined", second, "--together")
+    assert cb.calibrate(folder / "recording.csv", folder / "experiment.toml", together=[second]).to_json() == text
 
 
 def test_simulation_design_noise_and_comparison_are_the_same(

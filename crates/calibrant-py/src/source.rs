@@ -84,14 +84,14 @@ impl Source {
     fn new(
         recording: &Readings,
         gyroscope: Option<&Readings>,
-        further: Vec<PyRef<'_, Readings>>,
+        further: Vec<PyRef<'_, Self>>,
         sections: Option<PathBuf>,
     ) -> Self {
         Self(GivenSource {
             recording: recording.0.clone(),
             gyroscope: gyroscope.map(|readings| readings.0.clone()),
             sections: sections.map(SectionList::File),
-            further: further.iter().map(|readings| readings.0.clone()).collect(),
+            further: further.iter().map(|source| source.0.clone()).collect(),
         })
     }
 }

@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     /// The log of the machine's motion in that recording, if it is not in the same file.
     #[arg(long, value_name = "FILE", requires = "validate")]
     pub(super) validate_motion: Option<PathBuf>,
-    /// The recordings are of one accelerometer: fit their holds together. The result is one calibration.
+    /// The recordings are of one sensor: fit them together. The result is one calibration.
     #[arg(long)]
     pub(super) together: bool,
     /// Validate without another recording: each of K blocks of holds is predicted from the others. On a machine, each of K blocks of time is left out.

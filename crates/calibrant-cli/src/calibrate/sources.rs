@@ -9,14 +9,14 @@ use calibrant::session::{Readings, SectionList, Source};
 
 /// The recordings, with the gyroscope's file where there is one.
 pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
-    let sources = match experiment.imu {
+    let mut sources = match experiment.imu {
         Some(_) => with_gyroscopes(arguments)?,
         None => arguments.recordings.iter().map(Source::from_file).collect(),
     };
     match arguments.recordings.as_slice() {
-        [first, further @ ..] if arguments.together && !further.is_empty() => {
-            let further = further.iter().map(Readings::file).collect();
-            Ok(vec![Source { further, ..Source::from_file(first) }])
+        [_, _, ..] if arguments.together => {
+            let first = sources.remove(0);
+            Ok(vec![Source { further: sources, ..first }])
         }
         [_, _, ..] if arguments.residuals.is_some() => refuse(
             "--residuals is the table of one calibration, and several recordings are given",

@@ -1,4 +1,4 @@
-//! Several recordings of one accelerometer, calibrated together.
+//! Several recordings of one sensor, calibrated together.
 
 use crate::bench::Bench;
 
@@ -52,10 +52,78 @@ fn what_cannot_be_calibrated_together_is_refused() {
         3,
         &["a.csv", "they would count twice"],
     );
-    bench.preset("imu", "imu.toml", &[]);
+    bench.preset("robot-arm-6s", "motion.toml", &[]);
+    bench.run("design motion.toml -o design").done();
     bench.refuses(
-        "calibrate imu.toml a.csv b.csv --together -o joined",
+        "calibrate motion.toml a.csv b.csv --motion design/motion.csv --together -o joined",
         2,
-        &["--together is for an accelerometer"],
+        &["--together is for [holds]"],
     );
+}
+
+/// The rows of a recording of an IMU from this time on, or up to it, with this change of the readings of both sensors' first axes.
+fn part(bench: &Bench, from: &str, keep: impl Fn(f64) -> bool, change: [f64; 2]) -> String {
+    let text = bench.read(from);
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let mut out = format!("{}\n", lines.next().expect("a header"));
+    for line in lines {
+        let mut values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+        if keep(values[0]) {
+            (values[1], values[4]) = (values[1] + change[0], values[4] + change[1]);
+            let values: Vec<String> = values.iter().map(f64::to_string).collect();
+            out.push_str(&format!("{}\n", values.join(",")));
+        }
+    }
+    out
+}
+
+/// The estimates and their standard deviations.
+fn estimates(bench: &Bench, result: &str) -> Vec<(String, f64, f64)> {
+    let result = bench.json(result);
+    let number = |of: &serde_json::Value, key: &str| of[key].as_f64().expect("a number");
+    let parameters = result["parameters"].as_array().expect("parameters");
+    parameters.iter().map(|of| (of["name"].to_string(), number(of, "value"), number(of, "sd"))).collect()
+}
+
+/// A sensor that was off between two recordings has another bias in each. The result's is that of the last, and its standard deviation is that of the last recording's holds.
+#[test]
+fn an_imu_of_two_recordings_has_the_bias_of_the_last_and_one_matrix() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o whole").done();
+    bench.run("calibrate imu.toml whole/recording.csv --no-report -o result").done();
+    let end_s: f64 = bench
+        .read("whole/recording.csv")
+        .lines()
+        .last()
+        .and_then(|line| line.split(',').next())
+        .and_then(|t| t.parse().ok())
+        .expect("a time");
+    let middle_s = 0.5 * end_s;
+    let changes = [("same", [0.0, 0.0]), ("other", [0.03, -0.004])];
+    for (name, change) in changes {
+        bench.write("a.csv", part(&bench, "whole/recording.csv", |t| t < middle_s, change));
+        bench.write("b.csv", part(&bench, "whole/recording.csv", |t| t >= middle_s, [0.0, 0.0]));
+        bench
+            .run(&format!("calibrate imu.toml a.csv b.csv --together --no-report -o {name}"))
+            .done()
+            .says("verdict: ok");
+    }
+    let whole = estimates(&bench, "result/calibration.json");
+    for (name, change) in changes {
+        let joined = estimates(&bench, &format!("{name}/calibration.json"));
+        for ((parameter, value, _), (_, again, sd)) in whole.iter().zip(&joined) {
+            assert!((value - again).abs() < 1.5 * sd, "{name}: {parameter} {value} {again} ± {sd}");
+        }
+        let result = bench.json(&format!("{name}/calibration.json"));
+        let first = |of: &str, key: &str| result[of][key][0][0].as_f64();
+        let [accelerometer, gyroscope] =
+            [first("holds", "earlier_biases_mps2"), first("gyroscope", "earlier_biases_radps")];
+        if name == "other" {
+            assert!((accelerometer.expect("differs") - change[0]).abs() < 0.004, "{accelerometer:?}");
+            assert!((gyroscope.expect("differs") - change[1]).abs() < 0.0002, "{gyroscope:?}");
+        }
+        let sd = |of: &[(String, f64, f64)]| of[0].2;
+        assert!(name != "other" || sd(&joined) > 1.2 * sd(&whole), "{} {}", sd(&joined), sd(&whole));
+    }
 }

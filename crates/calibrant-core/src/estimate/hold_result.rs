@@ -2,6 +2,7 @@
 
 use super::bias_drift::BiasDrift;
 use super::imu::ThermometerLag;
+use super::recording_biases::RecordingBiases;
 use super::uncalibrated::Uncalibrated;
 use crate::diagnostic::{Change, HoldReason};
 use crate::motion::{Gravity, Hold};
@@ -40,6 +41,8 @@ pub struct HoldCalibration {
     pub thermometer: Option<ThermometerLag>,
     /// The estimated drift of the accelerometer's bias, which was subtracted from the holds. `None` if no drift was allowed for.
     pub drift: Option<Box<BiasDrift>>,
+    /// The accelerometer's biases in earlier recordings, which were taken out of the holds. `None`: there is one recording, or one bias.
+    pub recording_biases: Option<Box<RecordingBiases>>,
     /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
     pub change: Option<Box<Change>>,
 }

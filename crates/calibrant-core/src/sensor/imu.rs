@@ -34,6 +34,32 @@ impl ImuRecording {
         }
     }
 
+    /// The sensors that it has.
+    pub fn sensors(&self) -> impl Iterator<Item = (SensorKind, &Recording)> {
+        SensorKind::ALL.into_iter().filter_map(|sensor_kind| Some((sensor_kind, self.sensor(sensor_kind)?)))
+    }
+
+    /// Adds another recording of the same sensors, which begins `pause_s` after the end of this one: in the pause nothing is known of the motion. Returns when it begins, s.
+    pub fn append(&mut self, other: &Self, pause_s: f64) -> f64 {
+        let ends = |of: &Self, end: fn(&[f64]) -> Option<&f64>, far: fn(f64, f64) -> f64| {
+            of.sensors().filter_map(|(_, recording)| end(&recording.times_s).copied()).reduce(far)
+        };
+        let end_s = ends(self, <[f64]>::last, f64::max).unwrap_or_default();
+        let start_s = ends(other, <[f64]>::first, f64::min).unwrap_or_default();
+        let later_s = end_s + pause_s - start_s;
+        let sensors =
+            [(&mut self.accelerometer, &other.accelerometer), (&mut self.gyroscope, &other.gyroscope)];
+        for (recording, added) in sensors {
+            if let (Some(recording), Some(added)) = (recording, added) {
+                recording.append(added, later_s);
+            }
+        }
+        if let (Some(temperature_c), Some(added)) = (&mut self.temperature_c, &other.temperature_c) {
+            temperature_c.extend_from_slice(added);
+        }
+        start_s + later_s
+    }
+
     /// The recording at one temperature, °C, whatever temperature was recorded.
     #[must_use]
     pub fn at_temperature(self, celsius: f64) -> Self {

@@ -155,10 +155,8 @@ impl Recording {
         Ok(())
     }
 
-    /// Adds another recording of the sensor, which begins `pause_s` after the end of this one.
-    pub fn append(&mut self, other: &Self, pause_s: f64) {
-        let end_s = self.times_s.last().copied().unwrap_or_default();
-        let later_s = end_s + pause_s - other.times_s.first().copied().unwrap_or_default();
+    /// Adds the samples of another recording of the sensor, later by `later_s`.
+    pub(super) fn append(&mut self, other: &Self, later_s: f64) {
         self.times_s.extend(other.times_s.iter().map(|t| t + later_s));
         self.readings.extend_from_slice(&other.readings);
     }

@@ -122,7 +122,7 @@ impl HoldsPlan {
             intervals_s: self.intervals_s.clone(),
             bias_drift_sd_mps2: self.bias_drift_sd_mps2,
             minimum_hold_s: self.minimum_hold_s,
-            found: None,
+            ..HoldsSetup::default()
         })
     }
 

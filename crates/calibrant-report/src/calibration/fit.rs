@@ -1,10 +1,11 @@
 //! The table of the fit: each statistic with its meaning.
 
+use super::quality::earlier_biases;
 use crate::figure::DisplayUnit;
 use crate::number_format::{count, probability, significant};
 use crate::sheet::{Shown, Table, explained};
 use calibrant_core::estimate::{Calibration, FitStatistics};
-use calibrant_core::sensor::Axis;
+use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
 /// The rows on χ². Where the noise was estimated, `from_data` says so, and what χ² then means. The p-value is shown there.
@@ -95,6 +96,8 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
             per_axis(&still.between_holds_sd, 1.0, symbol),
             "Standard deviation of the gyroscope's mean from hold to hold, beyond this noise. Causes: a wandering bias, the Earth's rate.",
         );
+        let of = (SensorKind::Gyroscope, gyroscope.unit);
+        earlier_biases(&mut table, of, gyroscope.recording_biases.as_ref());
     }
     table
 }

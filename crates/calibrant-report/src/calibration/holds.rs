@@ -1,10 +1,10 @@
 //! Tables of the holds of a static calibration.
 
-use super::quality::bias_drift;
+use super::quality::{bias_drift, earlier_biases};
 use crate::number_format::{significant, with_sd_or_exact};
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::estimate::{Calibration, HoldCalibration, HoldResult};
-use calibrant_core::sensor::{Axis, ReadingUnit};
+use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind};
 
 /// Fewest degrees of freedom that show a scatter along gravity.
 const FEWEST: usize = 3;
@@ -74,6 +74,8 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
             },
         );
     }
+    let of = (SensorKind::Accelerometer, calibration.accelerometer_unit);
+    earlier_biases(&mut table, of, holds.recording_biases.as_deref());
     if let Some((drift, unit)) = bias_drift(calibration) {
         table.explain(
             "bias drift (x, y, z)",

@@ -4,10 +4,11 @@ use crate::gravity::{advice, known_to};
 use crate::number_format::{
     count, counted, missed_angle, probability, significant, with_sd, with_sd_or_exact,
 };
+use crate::sheet::Table;
 use calibrant_core::estimate::{
-    Calibration, FaceTilt, Recovered, RecoveredMotion, TimeOffset, UncertainGravity,
+    Calibration, FaceTilt, RecordingBiases, Recovered, RecoveredMotion, TimeOffset, UncertainGravity,
 };
-use calibrant_core::sensor::SensorKind;
+use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
@@ -158,6 +159,24 @@ fn tilt(calibration: &Calibration) -> Option<String> {
     };
     let all: Vec<String> = tilts.iter().map(degrees).collect();
     Some(format!("{given}; the sensor's tilt against it is {}, which the biases carry", all.join(", ")))
+}
+
+/// The biases of a sensor in earlier recordings less that in the last, with their standard deviations.
+pub(super) fn earlier_biases(
+    table: &mut Table,
+    (sensor_kind, unit): (SensorKind, ReadingUnit),
+    biases: Option<&RecordingBiases>,
+) {
+    let Some(biases) = biases else { return };
+    for (r, (value, sd)) in biases.values.iter().zip(biases.sds()).enumerate() {
+        let axes = [0, 1, 2].map(|axis| with_sd(value[axis], sd[axis]));
+        table.explain(
+            &format!("{sensor_kind} bias {} − {} (x, y, z)", r + 1, biases.values.len() + 1),
+            format!("{} {}", axes.join(", "), unit.symbol()),
+            "The bias in this recording less that in the last. The data are freed from it: the biases are those of the last recording. Its \
+             uncertainty is part of the standard deviations.",
+        );
+    }
 }
 
 /// The drift of the accelerometer's bias about each axis with its standard deviation, and its unit.

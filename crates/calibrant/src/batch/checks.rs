@@ -1,7 +1,7 @@
 //! What is refused before the work begins: options that are for a single recording, and recordings that are none.
 
 use super::names::{check_for_records, check_several, check_together, refuse};
-use crate::session::{MotionSource, Readings, Session, Source};
+use crate::session::{MotionSource, Session, Source};
 use calibrant_core::error::{Result, TaskOption};
 use calibrant_io::{Experiment, Plan};
 use std::path::Path;
@@ -11,11 +11,8 @@ pub(super) fn check(session: &Session, sources: &[Source], recorded: bool) -> Re
     let (experiment, naming) = (session.experiment(), &session.options().naming);
     not_the_motion(session, sources)?;
     for source in sources.iter().filter(|source| !source.further.is_empty()) {
-        together(experiment)?;
-        check_together(
-            naming,
-            std::iter::once(source.path()).chain(source.further.iter().map(Readings::path)),
-        )?;
+        together(experiment, source)?;
+        check_together(naming, source.each().map(Source::path))?;
     }
     if sources.len() > 1 {
         several(session, sources)?;
@@ -47,11 +44,18 @@ fn is_same(one: &Path, other: &Path) -> bool {
 }
 
 /// Refuses recordings that are calibrated together where this makes no sense.
-fn together(experiment: &Experiment) -> Result<()> {
-    let what = match (&experiment.imu, &experiment.plan) {
-        (None, Plan::Holds(holds)) if holds.intervals_s.is_none() => return Ok(()),
-        (None, Plan::Holds(_)) => "needs holds that are found, and holds.intervals_s gives them",
-        _ => "is for an accelerometer and [holds]",
+fn together(experiment: &Experiment, source: &Source) -> Result<()> {
+    let has_turns = experiment.imu.as_ref().is_some_and(|imu| !imu.turns.is_empty());
+    let what = match &experiment.plan {
+        Plan::Holds(holds) if holds.intervals_s.is_some() => {
+            "needs holds that are found, and holds.intervals_s gives them"
+        }
+        Plan::Holds(_) if has_turns => "needs movements that are found, and gyroscope.turns gives some",
+        Plan::Holds(_) if source.each().any(|each| each.sections.is_some()) => {
+            "needs holds that are found, and a list of sections gives them"
+        }
+        Plan::Holds(_) => return Ok(()),
+        _ => "is for [holds]",
     };
     let option = TaskOption::Together;
     refuse(format!("{option} {what}"), format!("calibrate the recordings one by one, or leave out {option}"))

@@ -6,9 +6,9 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, UtcTime};
-use std::path::Path;
 
 /// The samples of one sensor or of both, and where they come from.
+#[derive(Default)]
 pub(crate) struct Recorded {
     pub(crate) recording: ImuRecording,
     /// The format of an IMU's file.
@@ -21,7 +21,9 @@ pub(crate) struct Recorded {
     pub(crate) counted_from_ns: Option<i128>,
     /// SHA-256 of each file.
     pub(crate) sha256: Vec<String>,
-    /// The files, where there are further recordings of the sensor.
+    /// When each further recording of the same sensors begins, s.
+    pub(crate) further_from_s: Vec<f64>,
+    /// The files, where there are further recordings.
     joined: Vec<Input>,
 }
 
@@ -30,7 +32,7 @@ fn findings_of(file: &ImuFile, source: &Source) -> Vec<Diagnostic> {
     file.findings_in(&source.name(false), Some(&source.name(true)))
 }
 
-/// Pause between two recordings of a sensor that are calibrated together, s.
+/// Pause between two recordings that are calibrated together, s. Any that is a gap does: nothing crosses it.
 const PAUSE_S: f64 = 60.0;
 
 impl Recorded {
@@ -39,8 +41,7 @@ impl Recorded {
         let file = source.recording.read(options)?;
         let findings = findings_of(&file, source);
         let ImuFile { recording, sha256, counted_from_ns, .. } = file;
-        let (format, rate_sd, joined) = (None, 0.0, Vec::new());
-        Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
+        Ok(Self { recording, findings, counted_from_ns, sha256, ..Self::default() })
     }
 
     /// Reads an IMU from its file or its two files.
@@ -49,8 +50,8 @@ impl Recorded {
         let findings = findings_of(&file, source);
         let ImuFile { recording, format, sha256, counted_from_ns, rate_sd_ppm, .. } = file;
         let rate_sd = 1e-6 * rate_sd_ppm.unwrap_or(0.0);
-        let (format, joined) = (Some(format), Vec::new());
-        Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
+        let format = Some(format);
+        Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, ..Self::default() })
     }
 
     /// The accelerometer's samples.
@@ -61,29 +62,55 @@ impl Recorded {
         })
     }
 
-    /// Adds a further recording of the accelerometer.
-    pub(crate) fn join(&mut self, other: Self, source: &Source, path: &Path) -> Result<()> {
-        let kind = SensorKind::Accelerometer;
-        let refused = |refusal, message, help| {
+    /// Adds a further recording of the same sensors.
+    pub(crate) fn join(&mut self, other: Self, source: &Source, further: &Source) -> Result<()> {
+        let refused = |sensor_kind, refusal, message: String, help| {
+            let path = further.path_of(sensor_kind);
             Err(Error::recording(InputError::new(refusal, message, help).in_file(path)))
         };
-        if are_the_same(&self.readings(kind), &other.readings(kind)) {
-            let message = "its samples are in a recording before it: they would count twice";
-            return refused(Refusal::RecordingRepeated, message, "give each recording once");
+        let is_there =
+            |recording: &ImuRecording| SensorKind::ALL.map(|kind| recording.sensor(kind).is_some());
+        let (one, added) = (&self.recording, &other.recording);
+        let are_alike = is_there(one) == is_there(added);
+        let differ = |sensor_kind: SensorKind| {
+            let of =
+                |recording: &ImuRecording| recording.sensor(sensor_kind).map(|of| (of.unit(), of.axes()));
+            of(one) != of(added)
+        };
+        if let Some(sensor_kind) = SensorKind::ALL.into_iter().find(|sensor_kind| differ(*sensor_kind)) {
+            let (message, help) = if are_alike {
+                (
+                    format!(
+                        "the unit or number of axes of its {sensor_kind} is not that of the first recording"
+                    ),
+                    "record one sensor in one unit, or calibrate the recordings one by one",
+                )
+            } else {
+                (
+                    format!("only one of it and the first recording has a {sensor_kind}"),
+                    "record the same sensors each time, or calibrate the recordings one by one",
+                )
+            };
+            return refused(sensor_kind, Refusal::RecordingsUnlike, message, help);
+        }
+        if one.temperature_c.is_some() != added.temperature_c.is_some() {
+            let message = "only one of it and the first recording has a temperature".to_owned();
+            let help = "record the temperature each time, or leave its column out of all recordings";
+            return refused(SensorKind::Accelerometer, Refusal::RecordingsUnlike, message, help);
+        }
+        for (sensor_kind, _) in added.sensors() {
+            if are_the_same(&self.readings(sensor_kind), &other.readings(sensor_kind)) {
+                let message = "its samples are in a recording before it: they would count twice".to_owned();
+                let help = "give each recording once";
+                return refused(sensor_kind, Refusal::RecordingRepeated, message, help);
+            }
         }
         if self.joined.is_empty() {
             self.joined = self.inputs(source);
         }
-        let added = other.accelerometer().map_err(|error| error.in_recording(path))?;
-        self.joined.push(Input::of(path, &other.sha256.concat(), Some(added)));
-        if let Some(recording) = &mut self.recording.accelerometer {
-            if (recording.unit(), recording.axes()) != (added.unit(), added.axes()) {
-                let message = "its unit or number of axes is not that of the first recording";
-                let help = "record one sensor in one unit, or calibrate the recordings one by one";
-                return refused(Refusal::RecordingsUnlike, message, help);
-            }
-            recording.append(added, PAUSE_S);
-        }
+        self.joined.extend(other.inputs(further));
+        self.further_from_s.push(self.recording.append(&other.recording, PAUSE_S));
+        self.rate_sd = self.rate_sd.max(other.rate_sd);
         self.sha256.extend(other.sha256);
         Ok(())
     }

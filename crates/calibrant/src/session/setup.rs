@@ -54,10 +54,13 @@ impl<'e> Setup<'e> {
         outliers
     }
 
-    /// The uncertainty of the sample rate of this recording.
-    pub(crate) fn set_rate_sd(&mut self, rate_sd: f64) {
+    /// The uncertainty of the sample rate of these recordings, and where each further one begins.
+    pub(crate) fn set_recordings(&mut self, recorded: &Recorded) {
+        if let Some(holds) = self.holds_mut() {
+            holds.further_from_s.clone_from(&recorded.further_from_s);
+        }
         if let Self::Imu(_, setup) = self {
-            setup.rate_sd = rate_sd;
+            setup.rate_sd = recorded.rate_sd;
         }
     }
 
@@ -110,7 +113,7 @@ impl<'e> Setup<'e> {
     }
 }
 
-/// Given intervals and found holds belong to the first recording, and are dropped.
+/// Given intervals, found holds and further recordings belong to the first recording, and are dropped.
 fn of_other(holds: &HoldsSetup) -> HoldsSetup {
-    HoldsSetup { intervals_s: None, found: None, ..holds.clone() }
+    HoldsSetup { intervals_s: None, found: None, further_from_s: Vec::new(), ..holds.clone() }
 }

@@ -140,8 +140,8 @@ pub struct Source {
     pub gyroscope: Option<Readings>,
     /// The sections of a Ferraris session: faces and turns.
     pub sections: Option<SectionList>,
-    /// Further recordings of the same accelerometer, which are calibrated together with the first.
-    pub further: Vec<Readings>,
+    /// Further recordings of the same sensors, which are calibrated together with this one. Between one and the next nothing is known of the motion.
+    pub further: Vec<Source>,
 }
 
 impl Source {
@@ -197,14 +197,20 @@ impl Source {
         }
     }
 
+    /// Itself, and the further recordings.
+    pub(crate) fn each(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.further)
+    }
+
     /// The paths of all its readings, its own first.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
-        self.paths().chain(self.further.iter().map(Readings::path))
+        self.each().flat_map(Self::paths)
     }
 
     /// Its [files](Self::files) by their content; `None` where one cannot be read.
     pub fn hashed(&self) -> Option<Vec<HashedFile>> {
-        let readings = std::iter::once(&self.recording).chain(&self.gyroscope).chain(&self.further);
+        let readings =
+            self.each().flat_map(|source| std::iter::once(&source.recording).chain(&source.gyroscope));
         readings.map(Readings::hashed).collect()
     }
 

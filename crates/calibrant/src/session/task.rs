@@ -52,14 +52,13 @@ impl<'e> Task<'e> {
     ) -> Result<Outcome> {
         let mut recorded = self.reader.read(source)?;
         notes.extend(recorded.findings.iter().cloned());
-        for readings in &source.further {
-            let further = Source::new(readings.clone());
-            let read = self.reader.read(&further)?;
+        for further in &source.further {
+            let read = self.reader.read(further)?;
             notes.extend(read.findings.iter().cloned());
-            recorded.join(read, source, readings.path())?;
+            recorded.join(read, source, further)?;
         }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
-        setup.set_rate_sd(recorded.rate_sd);
+        setup.set_recordings(&recorded);
         let mut before = self.kind.missing(&recorded.recording);
         before.extend(take_out_repeats(&mut recorded.recording));
         let knocks = match self.kind {

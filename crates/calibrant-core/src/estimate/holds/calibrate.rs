@@ -4,6 +4,7 @@ use super::coarse_steps::coarse_steps;
 use super::drift_fit::{self, Fitted};
 use super::hold_detection::{beyond, find_clean_holds, holds_between};
 use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
+use super::recording_biases::{covariance_by, recording_biases};
 use super::residuals::magnitude_rms;
 use super::saturated_holds::{clipped_holds, reason as clipped_reason, with_clipped};
 use super::setup::HoldsSetup;
@@ -12,10 +13,12 @@ use crate::diagnostic::{Diagnostic, HoldReason};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
+use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
     Recovered, Uncalibrated, coarse_axes_in,
 };
+use crate::motion::Hold;
 use crate::sensor::{ImuParameters, Recording, SensorParameters};
 use crate::solve::{chi2_p_value, shares_of_prior};
 use nalgebra::{Matrix3, Vector3};
@@ -48,18 +51,37 @@ pub(in crate::estimate) fn calibrate(
         .and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s))
         .map(Diagnostic::from);
     let detected = holds.clone();
-    let fitted = drift_fit::fit(problem, setup, settings, holds, (sound, of_mean))
+    let fitted = fitted(problem, setup, settings, holds, (sound, of_mean))
         .map_err(|error| with_clipped(error, &clipped, as_read))
         .map_err(|error| match found {
             Some((recording, minimum_s)) => with_filter(error, recording, &detected, minimum_s),
             None => error,
         })?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
-    let mut calibration = assemble(problem, setup, reasons, fitted);
+    let (biases, fitted) = fitted;
+    let mut calibration = assemble(problem, setup, reasons, biases, fitted);
     calibration.warnings.extend(lost);
     calibration.warnings.extend(coarse_steps(&coarse, as_read));
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
+}
+
+/// The fit of the holds as if they were of one recording, with the biases of the recordings.
+fn fitted(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    settings: &CalibrationSettings,
+    holds: Vec<Hold>,
+    (sound, of_mean): (Vec<usize>, Vector3<f64>),
+) -> Result<(Option<RecordingBiases>, Fitted)> {
+    let biases = recording_biases(problem, setup, settings, &holds, (&sound, of_mean))?;
+    let holds = biases.as_ref().map_or(holds.clone(), |biases| biases.taken_out(&holds));
+    let mut fitted = drift_fit::fit(problem, setup, settings, (holds, biases.as_ref()), (sound, of_mean))?;
+    if let Some(biases) = &biases {
+        let without_drift = fitted.without.as_ref().unwrap_or(&fitted.robust);
+        fitted.robust.covariance += covariance_by(biases, without_drift, &fitted.holds, setup);
+    }
+    Ok((biases, fitted))
 }
 
 /// Assembles the result.
@@ -67,6 +89,7 @@ fn assemble(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     reasons: Vec<Option<HoldReason>>,
+    recording_biases: Option<RecordingBiases>,
     Fitted { holds, robust, drift, without }: Fitted,
 ) -> Calibration {
     let list = setup.parameter_list(problem.sensor.model);
@@ -149,6 +172,7 @@ fn assemble(
             temperatures_c: None,
             thermometer: None,
             drift: drift.map(Box::new),
+            recording_biases: recording_biases.map(Box::new),
             change: change.map(Box::new),
         }),
         gyroscope: None,

@@ -6,10 +6,12 @@
 //! In random order the magnitudes determine `d`, and it costs little.
 
 use super::HoldsSetup;
+use super::recording_biases::taken;
 use super::robust::{Conditions, Robust};
 use super::robust_weights;
 use crate::error::Result;
-use crate::estimate::bias_drift::{BiasDrift, span};
+use crate::estimate::bias_drift::{BiasDrift, spans};
+use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::motion::Hold;
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -33,18 +35,19 @@ pub(super) struct Fitted {
     pub(super) without: Option<Robust>,
 }
 
-/// Fits the holds with a drift.
+/// Fits the holds with a drift; `biases` of recordings were taken out of them, and each recording drifts by itself.
 pub(super) fn fit(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
-    holds: Vec<Hold>,
+    (holds, biases): (Vec<Hold>, Option<&RecordingBiases>),
     (sound, of_mean): (Vec<usize>, Vector3<f64>),
 ) -> Result<Fitted> {
+    let taken = taken(biases);
     let fit = |holds: &[Hold], conditions: Conditions| {
         robust_weights::fit(problem, setup, settings, holds, (sound.clone(), of_mean, conditions))
     };
-    let without = fit(&holds, Conditions::default())?;
+    let without = fit(&holds, Conditions { taken, ..Conditions::default() })?;
     if setup.bias_drift_sd_mps2 <= 0.0 || holds.len() < 3 {
         return Ok(Fitted { holds, robust: without, drift: None, without: None });
     }
@@ -52,7 +55,7 @@ pub(super) fn fit(
         value: Vector3::zeros(),
         covariance: Matrix3::zeros(),
         degrees_of_freedom: 0.0,
-        span_s: span(&holds),
+        spans_s: spans(&holds, biases.map_or(&[], |biases| &biases.further_from_s)),
         expected_sd: Vector3::zeros(),
     };
     let parts: Vec<f64> = holds.iter().map(|hold| none.part_of(hold)).collect();
@@ -60,20 +63,22 @@ pub(super) fn fit(
         Posterior::of(robust, (used, &parts), setup.bias_drift_sd_mps2, drift)
     };
     let found = |start: &[bool]| -> Result<(Vec<Hold>, Robust, Posterior)> {
-        let (mut before, mut posterior, mut round) = (none, of(&without, start, &none), 0);
+        let (mut before, mut posterior, mut round) = (none.clone(), of(&without, start, &none), 0);
         loop {
-            let drift = posterior.drift;
+            let drift = posterior.drift.clone();
             let step = drift.value - before.value;
             let corrected = drift.taken_out(&holds);
-            let is_left =
-                count(start) as f64 - without.covariance.nrows() as f64 - posterior.drift.degrees_of_freedom
-                    >= FEWEST_DEGREES;
+            let is_left = count(start) as f64
+                - without.covariance.nrows() as f64
+                - taken
+                - posterior.drift.degrees_of_freedom
+                >= FEWEST_DEGREES;
             let least_between = if is_left { 0.0 } else { without.between_holds_sd };
             let is_rough = round < ROUGH_ROUNDS;
             let used = is_rough.then(|| start.to_vec());
             let robust = fit(
                 &corrected,
-                Conditions { taken: posterior.drift.degrees_of_freedom, least_between, used },
+                Conditions { taken: taken + posterior.drift.degrees_of_freedom, least_between, used },
             )?;
             posterior = of(&robust, &robust.used, &drift);
             round += 1;
@@ -138,7 +143,7 @@ impl Posterior {
                 covariance,
                 degrees_of_freedom,
                 expected_sd,
-                ..*drift
+                ..drift.clone()
             },
             slope,
         }

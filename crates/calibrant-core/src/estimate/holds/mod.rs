@@ -30,6 +30,7 @@ mod fit;
 mod hold_detection;
 mod low_pass_filtered;
 mod orientation_coverage;
+mod recording_biases;
 mod residuals;
 mod robust;
 mod robust_weights;

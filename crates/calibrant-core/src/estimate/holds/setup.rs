@@ -18,6 +18,8 @@ pub struct HoldsSetup {
     pub bias_drift_sd_mps2: f64,
     /// Duration of the shortest hold, s.
     pub minimum_hold_s: f64,
+    /// Times at which further recordings of the sensor begin, s. Between one and the next nothing is known of the motion, and the sensor may have been off.
+    pub further_from_s: Vec<f64>,
     /// The holds of this recording, if they were found before, after its outliers were removed. Neither step is repeated.
     pub found: Option<Vec<Hold>>,
 }
@@ -49,6 +51,7 @@ impl Default for HoldsSetup {
             intervals_s: None,
             bias_drift_sd_mps2: Self::USUAL_DRIFT_SD_MPS2,
             minimum_hold_s: 1.0,
+            further_from_s: Vec::new(),
             found: None,
         }
     }

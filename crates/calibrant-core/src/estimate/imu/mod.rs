@@ -32,6 +32,7 @@ mod least_squares;
 mod model;
 mod problem;
 mod propagated_gravity;
+mod recording_biases;
 mod recordings;
 mod result;
 mod rotations;

@@ -186,6 +186,7 @@ pub(crate) struct IntegratedRotation {
 }
 
 /// The residual of a rotation at a state, and its derivatives.
+#[derive(Clone)]
 pub(crate) struct GravityResidual {
     /// The arc from `f_k` to propagated gravity, rad.
     pub(crate) error: Vector2<f64>,

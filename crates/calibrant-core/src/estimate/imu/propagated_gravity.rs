@@ -162,7 +162,7 @@ impl GravityPropagation<'_> {
                 interpolated_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer)
             })
             .flatten();
-        let spans = rotation_spans(self.gyroscope, holds);
+        let spans = rotation_spans(self.gyroscope, holds, &[]);
         let integrable = Integrable::of(self.gyroscope, with_forces.then_some(self.accelerometer));
         let sensor = &self.imu.at(mean_c).accelerometer;
         let (at_ends, _) = gravity_at_ends(self.accelerometer, sensor, holds, Some(self.turns_in_holds));

@@ -4,6 +4,7 @@ use crate::diagnostic::RotationReason;
 use crate::estimate::imu::clock_rate::{ClockRate, TimeOffset};
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
+use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::form::As;
 use crate::sensor::ReadingUnit;
@@ -20,6 +21,8 @@ pub struct GyroscopeCalibration {
     pub before: Uncalibrated,
     /// Its readings in the holds.
     pub still: GyroscopeInHolds,
+    /// Its biases in earlier recordings, which were taken out of the readings. `None`: there is one recording, or one bias.
+    pub recording_biases: Option<RecordingBiases>,
     /// The rotations between holds, in order of time.
     pub rotations: Vec<RotationResult>,
     /// Excess standard deviation of the rotation errors, beyond the gyroscope's noise, per axis, rad.

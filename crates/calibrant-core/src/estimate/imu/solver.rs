@@ -24,6 +24,7 @@ use crate::estimate::imu::initial::accelerometer_alone::initial_accelerometer;
 use crate::estimate::imu::initial::gyroscope::{explained_means, initial_values};
 use crate::estimate::imu::model::{ImuModel, RotationScatter, State};
 use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::imu::recording_biases::{gyroscope_biases, recording_bias_errors};
 use crate::estimate::imu::recordings::recordings;
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::shared_face_errors::shared_face_errors;
@@ -34,6 +35,7 @@ use crate::estimate::imu::variance_components::solution::solve;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
+use crate::sensor::SensorKind;
 
 /// Calibrates an IMU. The search `white_noise` runs while the accelerometer is fitted.
 pub(crate) fn solve_imu(
@@ -57,11 +59,16 @@ fn stages(
     let (first, temperature) = first?;
     let recording = first.adjusted.as_ref().unwrap_or(as_read);
     let used = first.used_holds();
-    let gyroscope = StationaryGyroscope::measure(problem, gyroscope_recording, &used.holds, white_noise)?;
     let quantities = estimated_quantities(problem);
     let prior = prior_of(problem, &quantities);
-    let means =
-        explained_means(problem, (&first, &temperature), &used, &gyroscope, (&quantities, prior.as_ref()));
+    let unknowns = (quantities.as_slice(), prior.as_ref());
+    let as_recorded = (gyroscope_recording, white_noise);
+    let biases = gyroscope_biases(problem, (&first, &temperature), &used, as_recorded, unknowns)?;
+    let steady = biases.as_ref().map(|biases| biases.taken_out_of(gyroscope_recording));
+    let gyroscope_recording = steady.as_ref().unwrap_or(gyroscope_recording);
+    let gyroscope = StationaryGyroscope::measure(problem, gyroscope_recording, &used.holds, white_noise)?;
+    let mut means = explained_means(problem, (&first, &temperature), &used, &gyroscope, unknowns);
+    means.by.recordings = biases.as_ref().map_or_else(Vec::new, |biases| biases.of_holds(&used.holds));
     let initial = initial_values(problem, (&first, &temperature), &used.numbers, &means);
     // rotations and turns between them
     let movement = Movement::of(problem, (recording, &first.sensor), gyroscope_recording, &used.holds);
@@ -93,6 +100,13 @@ fn stages(
     if let Some(tilt) = first.holds.tilt {
         systematic.extend(shared_face_errors(&model, &solution.fit, tilt.shared_sd_rad)?);
     }
+    let of_accelerometer = first.holds.recording_biases.as_deref();
+    for (sensor_kind, biases) in SensorKind::ALL.into_iter().zip([of_accelerometer, biases.as_ref()]) {
+        if let Some(biases) = biases {
+            let biases = (sensor_kind, biases);
+            systematic.extend(recording_bias_errors(&model, &solution.fit, &used.holds, biases)?);
+        }
+    }
     let where_from = (&temperature, used.holds.as_slice(), setup.turns.as_slice());
     let lag = LagEffect::of(&model, &solution.fit, where_from, &setup.thermometer, settings)?;
     systematic.extend(lag.as_ref().map(|lag| lag.error.clone()));
@@ -117,6 +131,7 @@ fn stages(
         gyroscope: &gyroscope,
         movement: &movement,
         start: &start,
+        biases: biases.as_ref(),
         model: &model,
         solution: &solution,
         uncertainty,

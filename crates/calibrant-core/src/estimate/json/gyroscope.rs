@@ -1,8 +1,8 @@
 //! The gyroscope of a calibration as JSON: at rest, in rotations, in turns.
 
 use crate::estimate::{Calibration, GyroscopeCalibration, RotationResult};
-use crate::form::per_axis;
-use crate::json::with_ending;
+use crate::form::{per_axis, vector_rows};
+use crate::json::{if_some, with_ending};
 use crate::json_object;
 
 /// The gyroscope in the holds.
@@ -16,6 +16,9 @@ json_object! {
         noise_source: of.0.still.noise_source.to_string(),
         /// Standard deviation of the mean beyond this noise.
         between_holds_sd: with_ending(of.0.unit.suffix(), per_axis(&of.0.still.between_holds_sd, 3)),
+        /// The biases in the recordings before the last less those in it, which were subtracted, where several recordings were calibrated together.
+        earlier_biases: if_some(of.0.recording_biases.as_ref().map(|biases| with_ending(of.0.unit.suffix(), vector_rows(&biases.values, 3)))),
+        earlier_biases_sd: if_some(of.0.recording_biases.as_ref().map(|biases| with_ending(of.0.unit.suffix(), vector_rows(&biases.sds().collect::<Vec<_>>(), 3)))),
         /// Root mean square of the calibrated mean rates.
         rate_rms_radps: of.0.still.rate_rms_radps,
         rate_rms_before_radps: of.0.still.rate_rms_before_radps,

@@ -1,7 +1,7 @@
 //! The holds of a calibration as JSON.
 
 use crate::estimate::{FaceTilt, HoldCalibration, HoldResult};
-use crate::form::per_axis;
+use crate::form::{per_axis, vector_rows};
 use crate::json::{if_some, with_ending};
 use crate::json_object;
 use crate::sensor::ReadingUnit;
@@ -32,6 +32,9 @@ json_object! {
         /// Drift of the bias from the first hold to the last, which was subtracted.
         bias_drift: if_some(of.holds.drift.as_ref().map(|drift| with_ending(of.unit.suffix(), per_axis(&drift.value, 3)))),
         bias_drift_sd: if_some(of.holds.drift.as_ref().map(|drift| with_ending(of.unit.suffix(), per_axis(&drift.sd(), 3)))),
+        /// The biases in the recordings before the last less those in it, which were subtracted, where several recordings were calibrated together.
+        earlier_biases: if_some(of.holds.recording_biases.as_deref().map(|biases| with_ending(of.unit.suffix(), vector_rows(&biases.values, 3)))),
+        earlier_biases_sd: if_some(of.holds.recording_biases.as_deref().map(|biases| with_ending(of.unit.suffix(), vector_rows(&biases.sds().collect::<Vec<_>>(), 3)))),
         /// The time of which the biases are, where a drift was subtracted.
         biases_at_s: if_some(of.holds.drift.as_ref().map(|drift| drift.biases_at_s())),
         faces: if_some(of.holds.tilt),

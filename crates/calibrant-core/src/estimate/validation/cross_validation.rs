@@ -50,7 +50,13 @@ fn cross_validated_imu(
     }
     let accelerometer = problem.recording.accelerometer.as_ref();
     let accelerometer = accelerometer.map(|recording| steady(calibration, recording).into_owned());
-    let recording = ImuRecording { accelerometer, ..problem.recording.clone() };
+    let gyroscope = problem.recording.gyroscope.clone();
+    let biases = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.recording_biases.as_ref());
+    let gyroscope = match (gyroscope, biases) {
+        (Some(recording), Some(biases)) => Some(biases.taken_out_of(&recording)),
+        (gyroscope, _) => gyroscope,
+    };
+    let recording = ImuRecording { accelerometer, gyroscope, ..problem.recording.clone() };
     let problem = &ImuProblem { recording: &recording, ..*problem };
     let (accelerometer, gyroscope) = recordings(problem)?;
     let all: Vec<Hold> = calibration.hold_results().iter().map(|result| result.hold.clone()).collect();
@@ -87,7 +93,7 @@ pub fn cross_validate(
     folds: usize,
 ) -> Result<Validation> {
     let (setup, _) = of_holds(calibration, problem)?;
-    let setup = HoldsSetup { bias_drift_sd_mps2: 0.0, ..setup.clone() };
+    let setup = HoldsSetup { bias_drift_sd_mps2: 0.0, further_from_s: Vec::new(), ..setup.clone() };
     let steady = steady(calibration, problem.recording);
     let problem = &CalibrationProblem { recording: &steady, ..*problem };
     let train = |block: &Block| {
@@ -135,10 +141,17 @@ fn crossed(
     Ok(judged(source, errors, prediction, drift_degrees, &Caveats::of(calibration)))
 }
 
-/// The recording without the drift of the accelerometer's bias: the blocks have it in common.
+/// The recording without the drift of the accelerometer's bias, and with one bias: the blocks have them in common.
 fn steady<'a>(calibration: &Calibration, accelerometer: &'a Recording) -> Cow<'a, Recording> {
-    let drift = calibration.holds().and_then(|holds| holds.drift.as_deref());
-    drift.map_or(Cow::Borrowed(accelerometer), |drift| Cow::Owned(drift.taken_out_of(accelerometer)))
+    let mut steady = Cow::Borrowed(accelerometer);
+    let Some(holds) = calibration.holds() else { return steady };
+    if let Some(biases) = &holds.recording_biases {
+        steady = Cow::Owned(biases.taken_out_of(&steady));
+    }
+    if let Some(drift) = &holds.drift {
+        steady = Cow::Owned(drift.taken_out_of(&steady));
+    }
+    steady
 }
 
 /// What is known of the recording, without a block of its holds.
@@ -146,6 +159,7 @@ fn without(block: &Block, setup: &ImuSetup) -> ImuSetup {
     let mut setup = setup.clone();
     setup.holds.intervals_s = Some(block.others.clone());
     setup.holds.bias_drift_sd_mps2 = 0.0;
+    setup.holds.further_from_s.clear();
     setup.turns.retain(|turn| !block.touches(turn.start_s, turn.end_s));
     setup
 }

@@ -230,6 +230,7 @@ pub(super) fn holds_in_counts() -> Calibration {
         gauge: Gauge::Upper,
         between_holds_sd_mps2: 0.002,
         drift: None,
+        recording_biases: None,
         between_holds_dominates: true,
         tilt: None,
         magnitude_residual_rms_mps2: 0.001,

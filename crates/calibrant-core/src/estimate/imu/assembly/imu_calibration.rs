@@ -18,6 +18,7 @@ use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::imu::variance_components::solution::Solution;
+use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};
 
@@ -32,6 +33,8 @@ pub(crate) struct Finished<'a> {
     pub(crate) movement: &'a Movement<'a>,
     /// The IMU before the least squares.
     pub(crate) start: &'a ImuParameters,
+    /// The gyroscope's biases in earlier recordings.
+    pub(crate) biases: Option<&'a RecordingBiases>,
     pub(crate) model: &'a ImuModel<'a>,
     pub(crate) solution: &'a Solution,
     pub(crate) uncertainty: Uncertainty,
@@ -81,6 +84,7 @@ impl Finished<'_> {
                     problem.setup.vertical_rate(),
                 )?,
                 before,
+                recording_biases: self.biases.cloned(),
                 rotations,
                 between_rotations_sd_rad: model.rotation_scatter.between_sd_rad,
                 knock_rms: model.rotation_scatter.knock_rms,

@@ -25,6 +25,7 @@ pub(crate) fn rotation_results(
         .par_iter()
         .zip(&movement.spans)
         .enumerate()
+        .filter(|(_, (_, span))| !span.is_between_recordings)
         .map(|(i, (data, span))| {
             let (from_hold, to_hold) = (numbers[i], numbers[i + 1]);
             let after = fit.residuals[i].as_ref();

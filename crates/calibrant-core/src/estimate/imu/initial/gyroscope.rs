@@ -36,6 +36,7 @@ pub(crate) fn explained_means<'a>(
 ) -> Means<'a> {
     let thermal = Thermal { accelerometer: first.thermal, ..temperature.start };
     let by = Explanation {
+        recordings: Vec::new(),
         forces: problem.gyroscope.g_sensitivity.then_some(used.forces.as_slice()),
         of_earth: earth_in_holds(problem, &used.forces),
         by_earth: Vec::new(),

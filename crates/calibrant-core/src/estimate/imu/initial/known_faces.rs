@@ -126,6 +126,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         gauge: setup.gauge,
         between_holds_sd_mps2: alignment.scatter.along_mps2,
         drift: None,
+        recording_biases: None,
         between_holds_dominates: alignment.scatter.along_mps2 > 0.0,
         tilt: Some(alignment.tilt),
         condition_number: condition,

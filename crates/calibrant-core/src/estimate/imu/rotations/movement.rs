@@ -41,7 +41,7 @@ impl<'a> Movement<'a> {
         let spans = match setup.directions {
             // the sensor was put on each face anew: the movements in between determine less than the turns
             Some(_) if !setup.turns.is_empty() => Vec::new(),
-            _ => rotation_spans(gyroscope, holds),
+            _ => rotation_spans(gyroscope, holds, &setup.holds.further_from_s),
         };
         let (at_ends, turns_in_holds) = gravity_at_ends(accelerometer, sensor, holds, None);
         let as_read = problem.recording.accelerometer.as_ref().filter(|_| feels);
@@ -66,6 +66,7 @@ impl<'a> Movement<'a> {
 
     /// The rotations that cannot be integrated, with the reason.
     pub(crate) fn obstacles(&self) -> Vec<RotationReason> {
-        self.spans.iter().filter_map(|span| self.integrable.obstacle(span)).collect()
+        let rotations = self.spans.iter().filter(|span| !span.is_between_recordings);
+        rotations.filter_map(|span| self.integrable.obstacle(span)).collect()
     }
 }

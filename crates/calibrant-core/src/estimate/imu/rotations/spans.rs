@@ -24,10 +24,12 @@ pub(crate) struct Span {
     samples: Range<usize>,
     /// Does the gyroscope's recording begin before and end after it?
     covered: bool,
+    /// Are the holds of different recordings? Then there is no rotation.
+    pub(crate) is_between_recordings: bool,
 }
 
-/// The times between these holds, with the gyroscope's samples.
-pub(crate) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span> {
+/// The times between these holds, with the gyroscope's samples. `further_from_s`: when further recordings begin.
+pub(crate) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold], further_from_s: &[f64]) -> Vec<Span> {
     let slack_s = ROUNDED_TIME_STEPS / gyroscope.rate_hz();
     holds
         .windows(2)
@@ -38,11 +40,10 @@ pub(crate) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span
             let first = times.partition_point(|&t| t <= start_s + slack_s).saturating_sub(1);
             let end = (times.partition_point(|&t| t < end_s - slack_s) + 1).min(gyroscope.len());
             let covered = times[first] <= from.end_s && times[end - 1] >= to.start_s;
-            if covered {
-                Span { start_s: times[first], end_s: times[end - 1], samples: first..end, covered }
-            } else {
-                Span { start_s, end_s, samples: first..first + 1, covered }
-            }
+            let is_between_recordings = further_from_s.iter().any(|t| (from.end_s..=to.start_s).contains(t));
+            let samples = if covered { first..end } else { first..first + 1 };
+            let (start_s, end_s) = if covered { (times[first], times[end - 1]) } else { (start_s, end_s) };
+            Span { start_s, end_s, samples, covered, is_between_recordings }
         })
         .collect()
 }
@@ -87,7 +88,7 @@ impl<'a> Integrable<'a> {
                 &self.gyroscope.readings[span.samples.clone()],
             ),
             beside_means: [at_ends[from][1], at_ends[from + 1][0]],
-            used: self.obstacle(span).is_none(),
+            used: !span.is_between_recordings && self.obstacle(span).is_none(),
             counts: true,
         };
         spans.iter().enumerate().map(rotation).collect()

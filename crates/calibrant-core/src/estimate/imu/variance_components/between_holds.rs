@@ -19,6 +19,8 @@ pub(crate) struct Means<'a> {
 /// What the means in the holds are explained by, beside a constant.
 #[derive(Clone)]
 pub(crate) struct Explanation<'a> {
+    /// The number of each hold's recording, where each has a bias of its own; empty where all have one.
+    pub(crate) recordings: Vec<usize>,
     /// The specific forces, where the gyroscope feels them.
     pub(crate) forces: Option<&'a [Vector3<f64>]>,
     /// What the gyroscope reads of the Earth's turn about the vertical in each hold, where that is known and no force takes it up.
@@ -33,6 +35,13 @@ pub(crate) struct Explanation<'a> {
     pub(crate) terms: [Vec<(ThermalTerm, f64, f64)>; 3],
 }
 
+impl Explanation<'_> {
+    /// Number of the recordings before the last.
+    fn earlier(&self) -> usize {
+        self.recordings.iter().copied().max().unwrap_or_default()
+    }
+}
+
 /// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant, by the
 /// specific force where asked for, by powers of the temperature, which are returned as well, and by the Earth's rate.
 pub(crate) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, SensorThermal) {
@@ -45,7 +54,7 @@ pub(crate) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, SensorThermal) {
             between[axis] = sd;
             solution
         });
-        let first = 1 + by.forces.map_or(0, |_| 3);
+        let first = 1 + by.earlier() + by.forces.map_or(0, |_| 3);
         for (k, (term, expected, _)) in by.terms[axis].iter().enumerate() {
             term.add_to(&mut thermal, expected + solution.as_ref().map_or(0.0, |found| found[first + k]));
         }
@@ -73,6 +82,7 @@ impl Regression {
             .filter_map(|(j, still)| {
                 let still = still.as_ref()?;
                 let mut row = vec![1.0];
+                row.extend((0..by.earlier()).map(|r| f64::from(u8::from(by.recordings[j] == r))));
                 if let Some(forces) = by.forces {
                     row.extend(forces[j].iter());
                 }
@@ -99,14 +109,21 @@ impl Regression {
         Self { rows, prior, of_earth, degrees }
     }
 
+    /// The information, its lower triangle, and the right side.
+    fn normal_equations(&self, between: f64) -> (DMatrix<f64>, DVector<f64>) {
+        let (mut f, mut g) = (DMatrix::from_diagonal(&self.prior), DVector::zeros(self.prior.len()));
+        for (row, mean, variance) in &self.rows {
+            let weight = 1.0 / (variance + between * between).max(f64::MIN_POSITIVE);
+            f.syger(weight, row, row, 1.0);
+            g.axpy(weight * mean, row, 1.0);
+        }
+        (f, g)
+    }
+
     /// χ² and the unknowns. Those of the Earth's rate are the same for all axes and count with what is expected of their squares, `1 − c` with their variance `c`: at this latitude they may be another.
     fn solve(&self, between: f64) -> Option<Trial<DVector<f64>>> {
         let weight = |variance: f64| 1.0 / (variance + between * between).max(f64::MIN_POSITIVE);
-        let (mut f, mut g) = (DMatrix::from_diagonal(&self.prior), DVector::zeros(self.prior.len()));
-        for (row, mean, variance) in &self.rows {
-            f.syger(weight(*variance), row, row, 1.0);
-            g.axpy(weight(*variance) * mean, row, 1.0);
-        }
+        let (f, g) = self.normal_equations(between);
         let factor = f.cholesky()?;
         let solution = factor.solve(&g);
         let others = self.prior.len() - self.of_earth;
@@ -123,12 +140,45 @@ impl Regression {
         Some(Trial { chi2: chi2 + known + of_earth, degrees_of_freedom: self.degrees, fitted: solution })
     }
 
+    /// What the means tell of the biases in the recordings, the other unknowns marginalised.
+    fn of_recordings(&self, earlier: usize) -> Option<(DMatrix<f64>, DVector<f64>)> {
+        let (between, _) = self.fit()?;
+        let (mut f, g) = self.normal_equations(between);
+        f.fill_upper_triangle_with_lower_triangle();
+        let others: Vec<usize> = std::iter::once(0).chain(1 + earlier..f.nrows()).collect();
+        let ours: Vec<usize> = (1..=earlier).collect();
+        let part = |rows: &[usize], columns: &[usize]| f.select_rows(rows).select_columns(columns);
+        let common = part(&others, &ours);
+        let explained = part(&others, &others).cholesky()?.solve(&common).transpose();
+        Some((
+            part(&ours, &ours) - &explained * common,
+            g.select_rows(&ours) - explained * g.select_rows(&others),
+        ))
+    }
+
     /// The scatter between holds with the unknowns; `None` where these are not determined.
     fn fit(&self) -> Option<(f64, DVector<f64>)> {
         let means = || self.rows.iter().map(|(_, mean, _)| *mean);
         let spread = means().fold(f64::MIN, f64::max) - means().fold(f64::MAX, f64::min);
         excess(|_| 0.25 * spread, |between| self.solve(between))
     }
+}
+
+/// What the means tell of the biases in the recordings before the last: the information, three rows for each, and the same times the biases.
+pub(crate) fn of_recordings(means: &Means<'_>) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let earlier = means.by.earlier();
+    let (mut information, mut weighted) =
+        (DMatrix::zeros(3 * earlier, 3 * earlier), DVector::zeros(3 * earlier));
+    for axis in 0..3 {
+        let (of_axis, weighted_of_axis) = Regression::new(means, axis).of_recordings(earlier)?;
+        for r in 0..earlier {
+            weighted[3 * r + axis] = weighted_of_axis[r];
+            for s in 0..earlier {
+                information[(3 * r + axis, 3 * s + axis)] = of_axis[(r, s)];
+            }
+        }
+    }
+    Some((information, weighted))
 }
 
 /// Gives the holds their gyroscope means with inverse variances.
