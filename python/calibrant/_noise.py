@@ -11,7 +11,7 @@ from ._arrays import Array, Path, as_json, as_list, number, thread_count
 from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._page import Page, write
-from ._recording import as_source
+from ._recording import Recording, as_source
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -184,6 +184,7 @@ def noise(
         _native.noise(
             source,
             as_json(reading),
+            read=recording._read if isinstance(recording, Recording) else None,
             sensor=sensor,
             hold_s=None if hold is None else (hold[0], hold[1]),
             gain=_gain("gain", gain),

@@ -3,7 +3,7 @@
 use crate::failure::{invalid, raised};
 use crate::options::{Reading, parsed};
 use crate::page::{Page, page};
-use crate::recording::sensor_kind;
+use crate::recording::{Recording, sensor_kind};
 use crate::source::Source;
 use crate::work::{How, run_as};
 use calibrant::diagnostic::noise::NoiseImpossible;
@@ -15,18 +15,20 @@ use calibrant::sensor::SensorKind;
 use calibrant::{NoiseAtRest, NoiseOptions, Result, read_for_noise};
 use nalgebra::Vector3;
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Gain of each axis, or one of all.
 type Gain = Vec<f64>;
 
 /// Examines a recording at rest.
 #[pyfunction]
-#[pyo3(signature = (source, reading, *, sensor=None, hold_s=None, gain=None, gyroscope_gain=None, threads=None))]
+#[pyo3(signature = (source, reading, *, read=None, sensor=None, hold_s=None, gain=None, gyroscope_gain=None, threads=None))]
 #[expect(clippy::too_many_arguments, reason = "each is an argument of the Python function")]
 pub(crate) fn noise(
     py: Python<'_>,
     source: &Source,
     reading: &str,
+    read: Option<&Recording>,
     sensor: Option<&str>,
     hold_s: Option<(f64, f64)>,
     gain: Option<Gain>,
@@ -34,19 +36,24 @@ pub(crate) fn noise(
     threads: Option<usize>,
 ) -> PyResult<Page> {
     let sensor = sensor.map(sensor_kind);
-    let read = || -> Result<_> {
+    let given = || -> Result<_> {
         let of_first = gains("gain", sensor.unwrap_or(SensorKind::Accelerometer), gain)?;
         let gains =
             of_first.into_iter().chain(gains("gyroscope_gain", SensorKind::Gyroscope, gyroscope_gain)?);
         let options = NoiseOptions { sensor, hold_s, gains: gains.collect(), ..NoiseOptions::default() };
         Ok((parsed::<Reading>(reading)?.options()?, options))
     };
-    let (reading, options) = read().map_err(|error| raised(py, &error))?;
+    let (reading, options) = given().map_err(|error| raised(py, &error))?;
     let source = source.0.clone();
+    // what is in memory would be read again with the same options
+    let read = read.filter(|_| !source.recording.is_file() && options.gains.is_empty()).map(Recording::file);
     let how = How { threads, ..How::default() };
     run_as(py, how, move |given| {
         let options = NoiseOptions { interruption: given.interruption, ..options };
-        let file = read_for_noise(&source, &reading, &options)?;
+        let file = match read {
+            Some(file) => file,
+            None => Arc::new(read_for_noise(&source, &reading, &options)?),
+        };
         let found = calibrant::noise(&file.recording, &options);
         let NoiseAtRest { sensors, examined, failed } =
             found.map_err(|error| error.in_recording(source.path()))?;

@@ -110,6 +110,10 @@ impl Recording {
 }
 
 impl Recording {
+    pub(crate) fn file(&self) -> Arc<ImuFile> {
+        Arc::clone(&self.file)
+    }
+
     fn findings(&self) -> Vec<Diagnostic> {
         let gyroscope = self.source.gyroscope.as_ref().map(|of| file_name(of.path()));
         self.file.findings_in(&file_name(self.source.path()), gyroscope.as_deref())
