@@ -40,6 +40,7 @@ mod solver;
 mod stationary;
 mod temperature;
 mod temperature_rate;
+mod terms;
 mod thermometer;
 mod thermometer_lag;
 mod variance_components;

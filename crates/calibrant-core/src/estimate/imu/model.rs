@@ -287,25 +287,6 @@ impl ImuModel<'_> {
             .filter(|&k| self.quantities[k].sensor_kind() == SensorKind::Gyroscope)
             .collect()
     }
-
-    /// The gyroscope's reading in a hold, at the temperature of the IMU.
-    pub(crate) fn at_rest(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
-        imu.gyroscope.reading(&self.earth.rate(hold, force)) + imu.g_sensitivity * force
-    }
-
-    /// The residual of a turn.
-    pub(crate) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
-        let imu = imu.at(turn.temperature_c);
-        turn.integral
-            - imu.gyroscope.bias * turn.duration_s
-            - imu.g_sensitivity * turn.force
-            - imu.gyroscope.matrix * self.turned(turn)
-    }
-
-    /// The rotation of a turn, with the Earth's about the vertical, rad.
-    pub(crate) fn turned(&self, turn: &TurnData) -> Vector3<f64> {
-        turn.angle + turn.force * self.earth.vertical_rate()
-    }
 }
 
 /// The end of the iteration.

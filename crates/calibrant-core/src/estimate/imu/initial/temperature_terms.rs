@@ -19,6 +19,8 @@ use crate::estimate::imu::model::{
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
+use crate::estimate::imu::terms::sums::degrees_of_freedom;
+use crate::estimate::imu::terms::term::At;
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, SensorKind};
@@ -177,9 +179,7 @@ impl<'a> AccelerometerOnly<'a> {
 
     /// Residuals and priors less unknowns.
     fn degrees(&self) -> usize {
-        let of_hold = |hold: &HoldData| if hold.known.is_some() { 3 } else { 1 };
-        let equations = self.model.holds.iter().map(of_hold).sum::<usize>() + self.model.priors();
-        equations.saturating_sub(self.model.quantities.len())
+        degrees_of_freedom(&At { model: &self.model, state: &self.start, rotations: &[] })
     }
 
     /// Degrees of freedom of the scatter of known faces.
