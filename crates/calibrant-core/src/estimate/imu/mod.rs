@@ -50,7 +50,7 @@ pub use calibrate::{calibrate_imu, calibrate_imu_with};
 pub use checks::swapped_sensors::swapped_sensors;
 pub use clock_rate::{ClockRate, TimeOffset};
 pub use faces_alone::calibrate_faces;
-pub(super) use model::KNOCK_DEGREES;
+pub(super) use model::{HoldData, ImuModel, KNOCK_DEGREES, Prior, State};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, ThermalModel, Turn, WhiteNoise};
 pub(super) use propagated_gravity::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 pub(super) use recordings::recordings;

@@ -129,6 +129,19 @@ pub(crate) struct HoldData {
     pub(crate) temperature_c: f64,
 }
 
+impl HoldData {
+    /// Without a gyroscope, in an unknown direction.
+    pub(in crate::estimate) fn of_accelerometer(mean: Vector3<f64>, weight: Matrix3<f64>) -> Self {
+        Self {
+            accelerometer: mean,
+            accelerometer_weight: weight,
+            gyroscope: None,
+            known: None,
+            temperature_c: 0.0,
+        }
+    }
+}
+
 /// A rotation from one hold to the next one used.
 #[derive(Clone)]
 pub(crate) struct RotationData<'a> {
@@ -273,6 +286,29 @@ pub(crate) struct ImuModel<'a> {
     /// Turns within the holds, as the accelerometer shows them.
     pub(crate) turns_in_holds: TurnsInHolds,
     pub(crate) prior: Option<Prior>,
+}
+
+impl ImuModel<'static> {
+    /// An IMU without a gyroscope.
+    pub(in crate::estimate) fn of_accelerometer(
+        quantities: Vec<ImuQuantity>,
+        gravity: f64,
+        holds: Vec<HoldData>,
+        prior: Option<Prior>,
+    ) -> Self {
+        Self {
+            quantities,
+            gravity,
+            earth: EarthRate::at_place(0.0, 0.0, gravity),
+            holds,
+            rotations: Vec::new(),
+            turns: Vec::new(),
+            gyroscope_noise: GyroscopeNoise::none(),
+            rotation_scatter: RotationScatter::none(),
+            turns_in_holds: TurnsInHolds::default(),
+            prior,
+        }
+    }
 }
 
 impl ImuModel<'_> {

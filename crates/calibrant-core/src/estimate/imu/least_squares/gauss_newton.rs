@@ -7,6 +7,7 @@ use crate::estimate::imu::terms::sums::{chi2, normal_equations};
 use crate::estimate::imu::terms::term::At;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::tangent_plane::tangents;
+use crate::sensor::NonlinearTerm;
 use crate::sensor::entry_vector::{AT_REFERENCE, ENTRIES};
 use crate::solve::{Equations, LeastSquares, LoopSettings, minimise};
 use nalgebra::{DVector, SVector};
@@ -14,6 +15,10 @@ use nalgebra::{DVector, SVector};
 /// A step below this length, in standard deviations, needs no test. The derivatives of a rotation are only exact to second order in the sample step,
 /// so the last steps may not lower χ².
 const CLOSE: f64 = 0.1;
+
+/// The most quantities of an accelerometer in a gauge, and with all terms that bend its response.
+const LINEAR_ACCELEROMETER: usize = 9;
+const BENT_ACCELEROMETER: usize = LINEAR_ACCELEROMETER + 3 * NonlinearTerm::ALL.len();
 
 impl ImuModel<'_> {
     /// Iterates from a state with its residuals. `None` if a matrix is or becomes singular.
@@ -23,9 +28,29 @@ impl ImuModel<'_> {
         residuals: GravityResiduals,
         settings: &CalibrationSettings,
     ) -> Option<Fit> {
+        let settings = LoopSettings {
+            most: settings.max_iterations,
+            tolerance: settings.tolerance,
+            rounding: &[(1e-6, 1)],
+            untested_below: CLOSE,
+            least_chi2: 0.0,
+            damping: [1e-4, 1e14],
+            has_last_step: false,
+        };
+        self.minimise((start, residuals), &settings)
+    }
+
+    /// Iterates from a state with its residuals, until these settings say that it is enough. `None` if a matrix is or becomes singular.
+    pub(in crate::estimate) fn minimise(
+        &self,
+        start: (State, GravityResiduals),
+        settings: &LoopSettings<'_>,
+    ) -> Option<Fit> {
         match self.quantities.len() {
-            ..=AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, residuals, settings),
-            _ => self.iterate::<ENTRIES>(start, residuals, settings),
+            ..=LINEAR_ACCELEROMETER => self.iterate::<LINEAR_ACCELEROMETER>(start, settings),
+            ..=BENT_ACCELEROMETER => self.iterate::<BENT_ACCELEROMETER>(start, settings),
+            ..=AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, settings),
+            _ => self.iterate::<ENTRIES>(start, settings),
         }
     }
 
@@ -49,22 +74,11 @@ impl ImuModel<'_> {
 
     fn iterate<const P: usize>(
         &self,
-        start: State,
-        residuals: GravityResiduals,
-        settings: &CalibrationSettings,
+        start: (State, GravityResiduals),
+        settings: &LoopSettings<'_>,
     ) -> Option<Fit> {
-        let point = (start, residuals);
-        let equations = LeastSquares::<2, P>::equations(self, &point)?;
-        let settings = LoopSettings {
-            most: settings.max_iterations,
-            tolerance: settings.tolerance,
-            rounding: &[(1e-6, 1)],
-            untested_below: CLOSE,
-            least_chi2: 0.0,
-            damping: [1e-4, 1e14],
-            has_last_step: false,
-        };
-        let end = minimise(self, point, equations, &settings);
+        let equations = LeastSquares::<2, P>::equations(self, &start)?;
+        let end = minimise(self, start, equations, settings);
         let size = self.quantities.len();
         let (information, unreduced) = (end.information(size), end.unreduced(size));
         let (state, residuals) = end.point;

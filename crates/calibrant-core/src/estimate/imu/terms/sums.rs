@@ -3,6 +3,8 @@
 //! The unknown directions `f_j` of the holds are a chain, and what stands between them is its links. With the quantities as its border, this is an arrowhead.
 
 use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::estimate::imu::model::{ImuModel, State};
+use crate::estimate::imu::terms::known::Known;
 use crate::estimate::imu::terms::list::{TERMS, terms};
 use crate::estimate::imu::terms::term::{At, Derivatives, Place, Residual, Term};
 use crate::solve::Equations;
@@ -10,13 +12,25 @@ use nalgebra::{SMatrix, SVector};
 
 /// `χ²` at a point.
 pub(crate) fn chi2(at: &At<'_>) -> f64 {
-    let of = |term: &dyn Term, k: usize| term.residual(at, k).map_or(0.0, |residual| residual.chi2());
-    let of_hold = |k: usize| terms(Place::Hold).map(|term| of(term, k)).sum::<f64>();
+    let of_hold = |k: usize| terms(Place::Hold).map(|term| chi2_of(term, at, k)).sum::<f64>();
     let of_holds: f64 = (0..at.model.holds.len()).map(of_hold).sum();
     let others = TERMS.into_iter().filter(|term| term.place() != Place::Hold);
-    others
-        .map(|term| (0..term.count(at.model)).map(|k| of(term, k)).sum::<f64>())
-        .fold(of_holds, |sum, of_term| sum + of_term)
+    others.map(|term| chi2_of_all(term, at)).fold(of_holds, |sum, of_term| sum + of_term)
+}
+
+fn chi2_of(term: &dyn Term, at: &At<'_>, k: usize) -> f64 {
+    term.residual(at, k).map_or(0.0, |residual| residual.chi2())
+}
+
+fn chi2_of_all(term: &dyn Term, at: &At<'_>) -> f64 {
+    (0..term.count(at.model)).map(|k| chi2_of(term, at, k)).sum()
+}
+
+impl ImuModel<'_> {
+    /// The part of `χ²` that what is known beforehand has.
+    pub(in crate::estimate) fn prior_chi2(&self, state: &State) -> f64 {
+        chi2_of_all(&Known, &At { model: self, state, rotations: &[] })
+    }
 }
 
 /// Its degrees of freedom: observations less unknowns.
