@@ -25,6 +25,7 @@ mod effective_degrees;
 mod gravity_error;
 mod gravity_off_earth;
 mod hold_result;
+mod hold_variance;
 mod holds;
 mod imu;
 mod json;

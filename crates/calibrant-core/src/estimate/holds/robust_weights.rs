@@ -4,12 +4,14 @@
 //! do they come from the fit with the prior. There `n − tr(Σ F)` degrees of freedom are left to n holds of information F, with Σ the covariance.
 
 use super::HoldsSetup;
-use super::fit::{Directions, Fit, Prior};
+use super::fit::{self, Fit};
 use super::robust::{Conditions, Magnitude, Robust};
 use super::sphere::sphere;
 use super::verdict::explain;
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::estimate::change::longest_run;
+use crate::estimate::hold_variance::{between_variance, noise_variance};
+use crate::estimate::imu::{HoldData, ImuModel, Prior};
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::information;
 use crate::motion::Hold;
@@ -116,8 +118,8 @@ pub(super) fn expect(
 fn prior(problem: &CalibrationProblem<'_>, list: &ParameterList) -> Option<Prior> {
     let parameters = list.describe(problem.sensor, &problem.sensor.nominal()?);
     Some((
-        DVector::from_fn(list.len(), |k, _| parameters[k].nominal.unwrap_or(0.0)),
-        DVector::from_fn(list.len(), |k, _| parameters[k].spread.map_or(0.0, |spread| spread.powi(-2))),
+        parameters.iter().map(|of| of.nominal.unwrap_or(0.0)).collect(),
+        parameters.iter().map(|of| of.spread.map_or(0.0, |spread| spread.powi(-2))).collect(),
     ))
 }
 
@@ -142,47 +144,42 @@ impl Problem<'_> {
         self.prior.as_ref().map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count())
     }
 
-    /// Variance of a hold's mean, per axis.
-    fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
-        Vector3::from_fn(|axis, _| {
-            // the gain of a reading is the norm of its row of S, whatever the gauge
-            self.within[axis].powi(2) / hold.samples() as f64
-                + self.of_mean[axis]
-                + between.powi(2) * sensor.matrix.row(axis).norm_squared()
-        })
+    /// Inverse variances of the prior, where there is one.
+    fn prior_weight(&self) -> Option<DVector<f64>> {
+        self.prior.as_ref().map(|(_, weight)| DVector::from_column_slice(weight))
     }
 
-    fn directions(
+    /// Variance of a hold's mean, per axis.
+    fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
+        noise_variance(hold, &self.within, &self.of_mean) + between_variance(between, &sensor.matrix)
+    }
+
+    /// The least squares of these holds for a scatter between holds. `at`: the sensor whose gains count.
+    fn model(
         &self,
         chosen: &[usize],
         weight: &dyn Fn(usize) -> f64,
         between: f64,
         at: &SensorParameters,
-    ) -> Directions<'_> {
-        Directions {
-            list: &self.list,
-            holds: chosen.iter().map(|&j| &self.holds[j]).collect(),
-            weights: chosen
-                .iter()
-                .map(|&j| self.variance(&self.holds[j], between, at).map(|v| weight(j) / v))
-                .collect(),
-            gravity: self.gravity,
-            prior: self.prior.clone(),
-        }
+    ) -> ImuModel<'static> {
+        let hold = |&j: &usize| {
+            let weights = self.variance(&self.holds[j], between, at).map(|v| weight(j) / v);
+            HoldData::of_accelerometer(self.holds[j].mean, Matrix3::from_diagonal(&weights))
+        };
+        let holds = chosen.iter().map(hold).collect();
+        ImuModel::of_accelerometer(self.list.of_accelerometer(), self.gravity, holds, self.prior.clone())
     }
 
     /// The information that the holds give on a sensor's parameters; an error where it does not determine them all.
     fn information(&self, start: &SensorParameters) -> Result<DMatrix<f64>> {
         let holds: Vec<Hold> = self.sound.iter().map(|&j| self.holds[j].clone()).collect();
         let none = CalibrationSettings { max_iterations: 0, ..self.settings.clone() };
-        let fit = self
-            .directions(&self.sound, &|_| 1.0, 0.0, start)
-            .fit(start, &none)
+        let fit = fit::iterate(&self.model(&self.sound, &|_| 1.0, 0.0, start), start, &none)
             .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&holds, &self.list))))?;
         let information = fit.information;
         let groups = information::undetermined(&information, &fit.unreduced, holds.len());
         if groups.is_empty() {
-            let prior = self.prior.as_ref().map_or(DVector::zeros(self.size()), |(_, weight)| weight.clone());
+            let prior = self.prior_weight().unwrap_or_else(|| DVector::zeros(self.size()));
             return match hardly_determined(&information, &prior) {
                 tangled if tangled.is_empty() => Ok(information),
                 tangled => {
@@ -261,11 +258,11 @@ impl Problem<'_> {
         }
         let mut scale = 0.0;
         for round in 0..ROUNDS {
-            let directions = self.directions(all, &|j| weights[j], 0.0, &sensor);
+            let model = self.model(all, &|j| weights[j], 0.0, &sensor);
             // the weights move on: after the first round a step or two are enough
             let max_iterations = if round == 0 { self.settings.max_iterations } else { 2 };
             let settings = CalibrationSettings { max_iterations, ..self.settings.clone() };
-            let Some(fit) = directions.fit(&sensor, &settings) else { return every() };
+            let Some(fit) = fit::iterate(&model, &sensor, &settings) else { return every() };
             sensor = fit.sensor;
             let residuals = self.magnitude_residuals(&sensor);
             let mut sizes: Vec<f64> = all.iter().map(|&j| residuals[j].abs()).collect();
@@ -306,8 +303,8 @@ impl Problem<'_> {
         // the gains are those of the fit without a scatter between holds, in which they are of no account
         let (mut gains_of, mut from) = (None, *start);
         let mut trial = |between: f64| {
-            let directions = self.directions(&chosen, &|_| 1.0, between, gains_of.as_ref().unwrap_or(start));
-            let fit = directions.fit(&from, self.settings)?;
+            let model = self.model(&chosen, &|_| 1.0, between, gains_of.as_ref().unwrap_or(start));
+            let fit = fit::iterate(&model, &from, self.settings)?;
             gains_of.get_or_insert(fit.sensor);
             from = fit.sensor;
             Some(Trial {
@@ -327,8 +324,8 @@ impl Problem<'_> {
     /// The fit of the used holds, with weights that were found without the prior.
     fn with_weights_of(&self, used: &[bool], without: &Weighted) -> Result<Weighted> {
         let chosen = chosen(used);
-        let directions = self.directions(&chosen, &|_| 1.0, without.between, &without.gains_of);
-        let fit = directions.fit(&without.fit.sensor, self.settings).ok_or_else(singular)?;
+        let model = self.model(&chosen, &|_| 1.0, without.between, &without.gains_of);
+        let fit = fit::iterate(&model, &without.fit.sensor, self.settings).ok_or_else(singular)?;
         self.weighted(chosen.len(), fit, without.between, without.gains_of)
     }
 
@@ -342,7 +339,7 @@ impl Problem<'_> {
     fn degrees_left(&self, count: usize, fit: &Fit) -> Option<f64> {
         let left = count as f64 - self.conditions.taken;
         let Some((_, weight)) = &self.prior else { return Some(degrees_left(left, self.size(), None)) };
-        let of_prior = shares_of_prior(weight.as_slice(), &covariance_of(fit)?);
+        let of_prior = shares_of_prior(weight, &covariance_of(fit)?);
         Some(degrees_left(left, self.size(), Some(&of_prior)))
     }
 
@@ -395,10 +392,9 @@ impl Problem<'_> {
         let quantities = self.list.of_accelerometer();
         let shares: Vec<String> =
             (0..linear).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
-        let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
         // the directions of the fit for the holds that were used, those of the correction for the others
-        let mut forces =
-            every.forces(&fit.sensor).unwrap_or_else(|| vec![Vector3::zeros(); self.holds.len()]);
+        let mut forces = fit::forces(self.holds.iter().map(|hold| hold.mean), &fit.sensor, self.gravity)
+            .unwrap_or_else(|| vec![Vector3::zeros(); self.holds.len()]);
         for (j, force) in (0..used.len()).filter(|&j| used[j]).zip(&fit.forces) {
             forces[j] = *force;
         }
@@ -411,7 +407,7 @@ impl Problem<'_> {
             condition_number: scaled.condition_number(),
             weakest: shares,
             covariance: covariance.clone(),
-            prior_weight: self.prior.as_ref().map(|(_, weight)| weight.clone()),
+            prior_weight: self.prior_weight(),
             chi2: fit.chi2,
             degrees_of_freedom: (chosen(&used).len() + self.priors()).saturating_sub(size),
             within_sd: self.within,

@@ -129,6 +129,19 @@ pub(crate) struct HoldData {
     pub(crate) temperature_c: f64,
 }
 
+impl HoldData {
+    /// Without a gyroscope, in an unknown direction.
+    pub(in crate::estimate) fn of_accelerometer(mean: Vector3<f64>, weight: Matrix3<f64>) -> Self {
+        Self {
+            accelerometer: mean,
+            accelerometer_weight: weight,
+            gyroscope: None,
+            known: None,
+            temperature_c: 0.0,
+        }
+    }
+}
+
 /// A rotation from one hold to the next one used.
 #[derive(Clone)]
 pub(crate) struct RotationData<'a> {
@@ -276,6 +289,29 @@ pub(crate) struct ImuModel<'a> {
     pub(crate) prior: Option<Prior>,
 }
 
+impl ImuModel<'static> {
+    /// An IMU without a gyroscope.
+    pub(in crate::estimate) fn of_accelerometer(
+        quantities: Vec<ImuQuantity>,
+        gravity: f64,
+        holds: Vec<HoldData>,
+        prior: Option<Prior>,
+    ) -> Self {
+        Self {
+            quantities,
+            gravity,
+            earth: EarthRate::at_place(0.0, 0.0, gravity),
+            holds,
+            rotations: Vec::new(),
+            turns: Vec::new(),
+            gyroscope_noise: GyroscopeNoise::none(),
+            rotation_scatter: RotationScatter::none(),
+            turns_in_holds: TurnsInHolds::default(),
+            prior,
+        }
+    }
+}
+
 impl ImuModel<'_> {
     /// Number of quantities with a prior.
     pub(crate) fn priors(&self) -> usize {
@@ -287,25 +323,6 @@ impl ImuModel<'_> {
         (0..self.quantities.len())
             .filter(|&k| self.quantities[k].sensor_kind() == SensorKind::Gyroscope)
             .collect()
-    }
-
-    /// The gyroscope's reading in a hold, at the temperature of the IMU.
-    pub(crate) fn at_rest(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
-        imu.gyroscope.reading(&self.earth.rate(hold, force)) + imu.g_sensitivity * force
-    }
-
-    /// The residual of a turn.
-    pub(crate) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
-        let imu = imu.at(turn.temperature_c);
-        turn.integral
-            - imu.gyroscope.bias * turn.duration_s
-            - imu.g_sensitivity * turn.force
-            - imu.gyroscope.matrix * self.turned(turn)
-    }
-
-    /// The rotation of a turn, with the Earth's about the vertical, rad.
-    pub(crate) fn turned(&self, turn: &TurnData) -> Vector3<f64> {
-        turn.angle + turn.force * self.earth.vertical_rate()
     }
 }
 

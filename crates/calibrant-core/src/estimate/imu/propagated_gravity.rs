@@ -145,11 +145,8 @@ impl GravityPropagation<'_> {
             .iter()
             .zip(temperatures_c)
             .map(|(hold, &temperature_c)| HoldData {
-                accelerometer: hold.mean,
-                accelerometer_weight: Matrix3::zeros(),
-                gyroscope: None,
-                known: None,
                 temperature_c,
+                ..HoldData::of_accelerometer(hold.mean, Matrix3::zeros())
             })
             .collect();
         set_gyroscope_means(&mut data, readings, noise, &self.between);

@@ -6,6 +6,7 @@
 use super::noise_comparison::NoiseRatio;
 use super::predicted_error::{Item, Place, Scattered};
 use super::prediction::Prediction;
+use crate::estimate::hold_variance::{between_variance, noise_variance};
 use crate::estimate::imu::StationaryMean;
 use crate::motion::Hold;
 use crate::sensor::{Condition, Correction, SensorKind};
@@ -70,11 +71,10 @@ impl HoldPrediction {
         let spread = |variance: Vector3<f64>, by: &Matrix3<f64>| {
             by * Matrix3::from_diagonal(&variance) * by.transpose()
         };
-        let of_noise = within.component_mul(within) / hold.samples() as f64 + of_mean;
-        // the gain of a reading is the norm of its row of S, as in the fit
-        let gain = Vector3::from_fn(|axis, _| imu.accelerometer.matrix.row(axis).norm_squared());
+        let of_noise = noise_variance(hold, &within, &of_mean);
+        let of_scatter = between_variance(prediction.between_holds_sd_mps2, &imu.accelerometer.matrix);
         let by_noise = spread(of_noise, &correction);
-        let own = by_noise + spread(gain * prediction.between_holds_sd_mps2.powi(2), &correction);
+        let own = by_noise + spread(of_scatter, &correction);
         // the variance of a mean goes with the duration of the hold
         let shorter = hold.duration_s() * prediction.inverse_hold_s;
         let rate = match (still, noise.get(1)) {

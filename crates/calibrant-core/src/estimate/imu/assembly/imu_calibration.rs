@@ -12,10 +12,12 @@ use crate::estimate::imu::covariance::Uncertainty;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, TurnData, singular};
 use crate::estimate::imu::problem::{ImuProblem, Turn};
-use crate::estimate::imu::result::{GyroscopeCalibration, RotationResult, TurnResult};
+use crate::estimate::imu::result::{GyroscopeCalibration, TurnResult};
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::estimate::imu::terms::sums::degrees_of_freedom;
+use crate::estimate::imu::terms::term::At;
 use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::recording_biases::RecordingBiases;
@@ -73,7 +75,10 @@ impl Finished<'_> {
             datasheet_prior: false,
             imu,
             accelerometer_unit: problem.accelerometer.unit,
-            fit: FitStatistics::of_chi2(fit.chi2, degrees_of_freedom(model, &rotations)),
+            fit: FitStatistics::of_chi2(
+                fit.chi2,
+                degrees_of_freedom(&At { model, state: &fit.state, rotations: &fit.residuals }),
+            ),
             gyroscope: Some(Box::new(GyroscopeCalibration {
                 unit: problem.gyroscope.unit,
                 still: stationary_result(
@@ -105,17 +110,6 @@ impl Finished<'_> {
             warnings: Vec::new(),
         })
     }
-}
-
-/// Residuals less unknowns.
-fn degrees_of_freedom(model: &ImuModel<'_>, rotations: &[RotationResult]) -> usize {
-    let counted = rotations.iter().filter(|rotation| rotation.used).count();
-    let readings = model.holds.iter().filter(|hold| hold.gyroscope.is_some()).count();
-    let equations =
-        3 * model.holds.len() + 3 * readings + 2 * counted + 3 * model.turns.len() + model.priors();
-    let unknowns =
-        model.quantities.len() + 2 * model.holds.iter().filter(|hold| hold.known.is_none()).count();
-    equations.saturating_sub(unknowns)
 }
 
 /// The turns of known angle, measured with the calibrated gyroscope.

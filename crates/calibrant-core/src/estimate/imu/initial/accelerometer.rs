@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::estimate::hold_result::HoldCalibration;
+use crate::estimate::hold_variance::{between_variance, noise_variance};
 use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorParameters, SensorThermal};
@@ -29,8 +30,8 @@ pub(crate) struct InitialAccelerometer {
 impl InitialAccelerometer {
     /// Inverse covariance of a hold's mean, for a scatter between holds in m/s².
     pub(crate) fn weight(&self, hold: &Hold, between: f64) -> Matrix3<f64> {
-        let gain = Vector3::from_fn(|axis, _| self.sensor.matrix.row(axis).norm_squared());
-        let variance = noise_variance(hold, &self.within, &self.of_mean) + gain * between.powi(2);
+        let variance = noise_variance(hold, &self.within, &self.of_mean)
+            + between_variance(between, &self.sensor.matrix);
         Matrix3::from_diagonal(&variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)))
     }
 
@@ -47,11 +48,6 @@ impl InitialAccelerometer {
             &scatter.covariance(force),
         )
     }
-}
-
-/// Variance of a hold's mean by the noise in it.
-pub(crate) fn noise_variance(hold: &Hold, within: &Vector3<f64>, of_mean: &Vector3<f64>) -> Vector3<f64> {
-    within.component_mul(within) / hold.samples() as f64 + of_mean
 }
 
 /// The inverse of `diag(variance) + S C Sᵀ`.

@@ -9,15 +9,14 @@ use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::hold_result::{HoldCalibration, HoldResult};
+use crate::estimate::hold_variance::noise_variance;
 use crate::estimate::holds::{
     TermsFit, clipped_holds, clipped_reason, coarse_steps, finding_of_terms, holds_between, left_out,
     magnitude_rms, with_clipped,
 };
 use crate::estimate::imu::checks::accelerometer_gains;
 use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
-use crate::estimate::imu::initial::accelerometer::{
-    InitialAccelerometer, inverse_covariance, noise_variance,
-};
+use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, inverse_covariance};
 use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceScatter, align_faces};
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
 use crate::estimate::problem::FacesProblem;

@@ -8,17 +8,15 @@ use crate::error::Result;
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::imu::checks::identifiability;
-use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::estimated::{estimated_quantities, prior_of, set_fixed};
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::initial::face_alignment::{Chi2, Degrees, FaceAlignment, FaceScatter, align_faces};
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
-use crate::estimate::imu::model::{
-    Fit, GyroscopeNoise, HoldData, ImuModel, RotationScatter, State, singular,
-};
+use crate::estimate::imu::model::{Fit, HoldData, ImuModel, State, singular};
 use crate::estimate::imu::problem::ImuProblem;
-use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
+use crate::estimate::imu::terms::sums::degrees_of_freedom;
+use crate::estimate::imu::terms::term::At;
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, SensorKind};
@@ -135,13 +133,12 @@ impl<'a> AccelerometerOnly<'a> {
             .iter()
             .zip(&forces)
             .map(|(&j, force)| HoldData {
-                accelerometer: raw[j].mean,
-                accelerometer_weight: Matrix3::zeros(),
-                gyroscope: None,
                 known: known.then_some(*force),
                 temperature_c: temperature.of_hold(&raw[j]),
+                ..HoldData::of_accelerometer(raw[j].mean, Matrix3::zeros())
             })
             .collect();
+        let prior = prior_of(problem, &quantities);
         let mut imu = ImuParameters {
             accelerometer: first.sensor,
             thermal: temperature.start,
@@ -154,18 +151,12 @@ impl<'a> AccelerometerOnly<'a> {
             first,
             face_sd_rad: problem.setup.face_sd_rad,
             raw: chosen.iter().map(|&j| &raw[j]).collect(),
-            model: ImuModel {
-                gravity: problem.setup.holds.gravity.magnitude_mps2,
-                earth: EarthRate::of(problem.setup, &quantities),
-                holds,
-                rotations: Vec::new(),
-                turns: Vec::new(),
-                gyroscope_noise: GyroscopeNoise::none(),
-                rotation_scatter: RotationScatter::none(),
-                turns_in_holds: TurnsInHolds::default(),
-                prior: prior_of(problem, &quantities),
+            model: ImuModel::of_accelerometer(
                 quantities,
-            },
+                problem.setup.holds.gravity.magnitude_mps2,
+                holds,
+                prior,
+            ),
             start: State { imu, forces },
         }
     }
@@ -177,9 +168,7 @@ impl<'a> AccelerometerOnly<'a> {
 
     /// Residuals and priors less unknowns.
     fn degrees(&self) -> usize {
-        let of_hold = |hold: &HoldData| if hold.known.is_some() { 3 } else { 1 };
-        let equations = self.model.holds.iter().map(of_hold).sum::<usize>() + self.model.priors();
-        equations.saturating_sub(self.model.quantities.len())
+        degrees_of_freedom(&At { model: &self.model, state: &self.start, rotations: &[] })
     }
 
     /// Degrees of freedom of the scatter of known faces.

@@ -1,8 +1,7 @@
-//! The least squares of all: rotations integrated, residuals with their derivatives, and Gauss–Newton on the bordered chain.
+//! The least squares of all: rotations integrated, and Gauss–Newton on the bordered chain.
 
 pub(crate) mod angular_rate;
 pub(crate) mod earth_rate;
 pub(crate) mod gauss_newton;
 pub(crate) mod integration;
-pub(crate) mod residuals;
 pub(crate) mod sphere_logarithm;

@@ -1,11 +1,56 @@
-//! The residuals of the model at a state, and their χ². `gauss_newton` lists them.
+//! A rotation between two holds: the arc from `f_k` to `Rᵀ (f_i + T ω_i × f_i)`, two numbers.
+//!
+//! `R` is the rotation by the gyroscope (`integration`) and `T` its duration, during which the Earth turns by `T ω_i`.
 
 use crate::estimate::imu::least_squares::sphere_logarithm::Arc;
 use crate::estimate::imu::model::{GravityResidual, GravityResiduals, ImuModel, RotationData, State};
+use crate::estimate::imu::terms::term::{At, ByQuantities, Derivatives, Place, Residual, Term, Weight};
 use crate::estimate::tangent_plane::tangents;
 use crate::sensor::SensorKind;
-use nalgebra::{Matrix2, Matrix2xX, Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix2xX, Matrix3, Matrix3xX};
 use rayon::prelude::*;
+
+#[derive(Debug)]
+pub(crate) struct Rotation;
+
+impl Term for Rotation {
+    fn rows(&self) -> usize {
+        2
+    }
+
+    fn place(&self) -> Place {
+        Place::BetweenHolds
+    }
+
+    fn count(&self, model: &ImuModel<'_>) -> usize {
+        model.rotations.len()
+    }
+
+    fn residual(&self, at: &At<'_>, k: usize) -> Option<Residual> {
+        let residual = at.rotations[k].as_ref().filter(|_| at.model.rotations[k].counts)?;
+        let weight = at.model.rotation_weight(k, residual).fixed_resize(0.0);
+        Some(Residual { r: -residual.error.push(0.0), weight: Weight::Full(weight) })
+    }
+
+    fn derivatives(&self, at: &At<'_>, k: usize) -> Derivatives {
+        let mut by_quantities = ByQuantities::zeros();
+        let Some(of) = &at.rotations[k] else {
+            return Derivatives { by_directions: [None; 2], by_quantities };
+        };
+        by_quantities.view_mut((0, 0), of.by_parameters.shape()).copy_from(&of.by_parameters);
+        let by_directions = [of.by_from, of.by_to].map(|by| Some(by.fixed_resize(0.0)));
+        Derivatives { by_directions, by_quantities }
+    }
+
+    fn by_earth(&self, at: &At<'_>, k: usize) -> Matrix3xX<f64> {
+        let (model, state) = (at.model, at.state);
+        let of = |residual: &GravityResidual| {
+            model.earth.of_rotation(&model.rotations[k], residual, &state.imu, &state.forces)
+        };
+        let none = || Matrix2xX::zeros(model.earth.unknowns().len());
+        at.rotations[k].as_ref().map_or_else(none, of).insert_row(2, 0.0)
+    }
+}
 
 impl ImuModel<'_> {
     /// The residual of a rotation at a state. `None` if the gyroscope's matrix is singular.
@@ -53,40 +98,5 @@ impl ImuModel<'_> {
             .par_iter()
             .map(|data| if data.used { self.gravity_residual(data, state).map(Some) } else { Some(None) })
             .collect()
-    }
-
-    pub(crate) fn chi2(&self, state: &State, residuals: &[Option<GravityResidual>]) -> f64 {
-        let weighted = |r: Vector3<f64>, w: &Vector3<f64>| r.component_mul(&r).dot(w);
-        let imu = &state.imu;
-        let holds: f64 = self
-            .holds
-            .iter()
-            .zip(&state.forces)
-            .enumerate()
-            .map(|(j, (hold, force))| {
-                let imu = imu.at(hold.temperature_c);
-                let r = hold.accelerometer - imu.accelerometer.reading(force);
-                let own = r.dot(&(hold.accelerometer_weight * r));
-                own + hold
-                    .gyroscope
-                    .as_ref()
-                    .map_or(0.0, |(mean, weight)| weighted(mean - self.at_rest(j, &imu, force), weight))
-            })
-            .sum();
-        let rotations: f64 = residuals
-            .iter()
-            .zip(&self.rotations)
-            .enumerate()
-            .filter(|(_, (_, data))| data.counts)
-            .filter_map(|(i, (residual, _))| Some((i, residual.as_ref()?)))
-            .map(|(i, residual)| residual.error.dot(&(self.rotation_weight(i, residual) * residual.error)))
-            .sum();
-        let turns: f64 =
-            self.turns.iter().map(|turn| weighted(self.turn_residual(turn, imu), &turn.weight)).sum();
-        let prior = self.prior.as_ref().map_or(0.0, |(mean, weight)| {
-            let off = self.quantities.iter().zip(mean.iter().zip(weight));
-            off.map(|(quantity, (mean, weight))| (mean - quantity.value(imu)).powi(2) * weight).sum()
-        });
-        holds + rotations + turns + prior
     }
 }
