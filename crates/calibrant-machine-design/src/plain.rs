@@ -243,10 +243,10 @@ impl<'a> Planner<'a> {
 
     /// Direction of the specific force on the sensor at rest.
     fn up(&self, posture: &[f64]) -> Vector3<f64> {
-        let joints: Vec<JointAt<f64>> = posture.iter().map(|q| JointAt::new(*q, 0.0, 0.0)).collect();
+        let joints: Vec<JointAt> = posture.iter().map(|q| JointAt::new(*q, 0.0, 0.0)).collect();
         let mut sweep = Sweep::new(joints.len());
         sweep.forward(&self.sensing.links, &joints);
-        Vector3::from(sweep.sensor().a.0).normalize()
+        Vector3::from(sweep.readings()[0].0).normalize()
     }
 
     fn may_rest(&mut self, posture: &[f64]) -> bool {

@@ -19,9 +19,9 @@ struct Proof<'p, 'a> {
     controls: &'p DMatrix<f64>,
     bodies: [SensorBody; 2],
     limits: [f64; VALUES],
-    sweep: Sweep<f64>,
+    sweep: Sweep,
     posture: Posture,
-    joints: Vec<JointAt<f64>>,
+    joints: Vec<JointAt>,
     running: [Running; VALUES],
     /// Parts of the interval that may still be looked at.
     parts: usize,
@@ -44,7 +44,7 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
         limits: [f.x, f.y, f.z, w.x, w.y, w.z, speed, of_body],
         sweep: Sweep::new(n),
         posture: Posture::new(problem.chain),
-        joints: vec![JointAt::new(0.0, 0.0, 0.0); n],
+        joints: vec![JointAt::REST; n],
         running: [Running::new(); VALUES],
         parts: 0,
     };
@@ -88,10 +88,10 @@ impl Proof<'_, '_> {
             *joint = JointAt::new(q, qd, qdd);
         }
         self.sweep.forward(&self.sensing.links, &self.joints);
-        let sensor = *self.sweep.sensor();
+        let [f, w] = self.sweep.readings();
         let mut values = [0.0; VALUES];
         for k in 0..3 {
-            (values[k], values[3 + k]) = (sensor.a.0[k].abs(), sensor.w.0[k].abs());
+            (values[k], values[3 + k]) = (f.0[k].abs(), w.0[k].abs());
         }
         if self.problem.tip_speed_mps.is_some() {
             let (posture, joints) = (&mut self.posture, &self.joints);

@@ -17,7 +17,7 @@ use super::kinematics::Posture;
 use super::{SensorBody, Surroundings};
 use crate::TrajectoryProblem;
 use crate::motion::{Grid, derivative};
-use crate::recursion::{JointAt, JointBars, Links, Moving, Sweep};
+use crate::recursion::{JointAt, Links, Sweep};
 use crate::world::Proximity;
 use nalgebra::{DMatrix, Vector3};
 
@@ -28,7 +28,7 @@ const NEAR_M: f64 = 0.2;
 #[derive(Clone)]
 pub(crate) struct Pointwise<'a> {
     pub(crate) problem: &'a TrajectoryProblem<'a>,
-    links: Links<f64>,
+    links: Links,
     /// Distance that is kept, m.
     pub(crate) clearance_m: f64,
     /// Part of ranges and speeds that is used.
@@ -54,16 +54,15 @@ pub(crate) struct PointRows<'r> {
 #[derive(Clone)]
 pub(crate) struct PointWork {
     posture: Posture,
-    sweep: Sweep<f64>,
-    joints: Vec<JointAt<f64>>,
+    sweep: Sweep,
+    joints: Vec<JointAt>,
     proximities: Vec<Proximity>,
-    bars: Vec<JointBars<f64>>,
 }
 
 impl<'a> Pointwise<'a> {
     pub(crate) fn new(
         problem: &'a TrajectoryProblem<'a>,
-        links: Links<f64>,
+        links: Links,
         clearance_m: f64,
         share: f64,
     ) -> Self {
@@ -97,9 +96,8 @@ impl<'a> Pointwise<'a> {
         PointWork {
             posture: Posture::new(self.problem.chain),
             sweep: Sweep::new(n),
-            joints: vec![JointAt::new(0.0, 0.0, 0.0); n],
+            joints: vec![JointAt::REST; n],
             proximities: vec![Proximity::far(); self.distances],
-            bars: vec![JointBars { q: 0.0, qd: 0.0, qdd: 0.0 }; n],
         }
     }
 
@@ -173,28 +171,34 @@ impl<'a> Pointwise<'a> {
         if self.ranges.is_empty() {
             return;
         }
-        let PointWork { sweep, joints, bars, .. } = work;
+        let PointWork { sweep, joints, .. } = work;
         sweep.forward(&self.links, joints);
-        let sensor = *sweep.sensor();
-        for (row, (value, &(reading, range))) in values.iter_mut().zip(&self.ranges).enumerate() {
+        let readings = sweep.readings();
+        let mut factors = [0.0; 6];
+        for (value, &(reading, range)) in values.iter_mut().zip(&self.ranges) {
             let range = range * self.share;
-            let at = if reading < 3 { sensor.a.0[reading] } else { sensor.w.0[reading - 3] };
+            let at = readings[reading / 3].0[reading % 3];
             *value = 1.0 - (at / range).powi(2);
-            if with_slopes {
-                let mut bar = Moving::zero();
-                let of = if reading < 3 { &mut bar.a.0[reading] } else { &mut bar.w.0[reading - 3] };
-                *of = -2.0 * at / (range * range);
-                sweep.reverse(&self.links, joints, bar, bars);
-                self.write_bars(bars, row, slopes);
-            }
+            factors[reading] = -2.0 * at / (range * range);
         }
-    }
-
-    fn write_bars(&self, bars: &[JointBars<f64>], row: usize, slopes: &mut [f64]) {
-        let n = self.links.len();
-        let of = &mut slopes[row * 3 * n..(row + 1) * 3 * n];
-        for (j, bar) in bars.iter().enumerate() {
-            (of[j], of[n + j], of[2 * n + j]) = (bar.q, bar.qd, bar.qdd);
+        if !with_slopes {
+            return;
+        }
+        let (n, axes) = (joints.len(), &sweep.sensor().turn);
+        for k in 0..n {
+            let [force_q, force_qd, force_qdd, rate_q, rate_qd] =
+                sweep.of_joint(&self.links, k).map(|of| axes.transposed_times(&of).0);
+            for (slopes, &(reading, _)) in slopes.chunks_exact_mut(3 * n).zip(&self.ranges) {
+                let (factor, i) = (factors[reading], reading % 3);
+                if reading < 3 {
+                    slopes[k] = factor * force_q[i];
+                    slopes[n + k] = factor * force_qd[i];
+                    slopes[2 * n + k] = factor * force_qdd[i];
+                } else {
+                    slopes[k] = factor * rate_q[i];
+                    slopes[n + k] = factor * rate_qd[i];
+                }
+            }
         }
     }
 

@@ -19,7 +19,6 @@ use super::rows::Rows;
 use crate::limits::Linear;
 use crate::motion::Ties;
 use calibrant_design::{DesignStatus, Interruption};
-use nalgebra::DMatrix;
 
 /// How one run goes.
 #[derive(Debug, Clone)]
@@ -204,15 +203,14 @@ impl InteriorPoint<'_, '_> {
         for i in 0..at.x.len() {
             band.add(i, i, sigma);
         }
-        self.rows.add_squares(&ratio(&multipliers[0], &at.g), self.ties, band);
+        self.rows.add_squares(&ratio(&multipliers[0], &at.g), band);
         self.linear.add_squares(&ratio(&multipliers[1], &at.l), |i, j, value| band.add(i, j, value));
     }
 
     /// `Jᵀλ`.
     fn transposed(&self, of_rows: &[f64], of_linear: &[f64]) -> Vec<f64> {
-        let mut by_controls = DMatrix::zeros(self.ties.controls(), self.ties.joints());
-        self.rows.add_transposed(of_rows, &mut by_controls);
-        let mut sum = self.ties.gradient(&by_controls);
+        let mut sum = vec![0.0; self.ties.len()];
+        self.rows.add_transposed(of_rows, &mut sum);
         self.linear.add_transposed(of_linear, &mut sum);
         sum
     }
@@ -232,7 +230,7 @@ impl InteriorPoint<'_, '_> {
     /// `J d`.
     fn changes(&self, d: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (mut of_rows, mut of_linear) = (vec![0.0; self.rows.values.len()], vec![0.0; self.linear.len()]);
-        self.rows.changes(&self.ties.direction_of(d), &mut of_rows);
+        self.rows.changes(d, &mut of_rows);
         self.linear.changes(d, &mut of_linear);
         (of_rows, of_linear)
     }
