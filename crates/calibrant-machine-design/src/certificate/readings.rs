@@ -4,10 +4,10 @@ use super::derivative_bounds::{DerivativeBounds, on_interval};
 use super::limit_proof::{LimitProof, MOST_PARTS, ROUNDING, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::information::Sensing;
-use crate::limits::{Posture, SensorBody};
+use crate::limits::{PointVelocity, SensorBody, poses};
 use crate::motion::{Knots, derivative, rows_at};
-use crate::recursion::{JointAt, Sweep};
-use nalgebra::{DMatrix, Point3, Vector3};
+use crate::recursion::{JointAt, Sweep, V};
+use nalgebra::{DMatrix, IsometryMatrix3, Point3, Vector3};
 
 /// Six readings and two speeds.
 const VALUES: usize = 8;
@@ -20,7 +20,8 @@ struct Proof<'p, 'a> {
     bodies: [SensorBody; 2],
     limits: [f64; VALUES],
     sweep: Sweep,
-    posture: Posture,
+    frames: Vec<IsometryMatrix3<f64>>,
+    tip: IsometryMatrix3<f64>,
     joints: Vec<JointAt>,
     running: [Running; VALUES],
     /// Parts of the interval that may still be looked at.
@@ -43,7 +44,8 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
         bodies: [tip, problem.sensor_body.unwrap_or(tip)],
         limits: [f.x, f.y, f.z, w.x, w.y, w.z, speed, of_body],
         sweep: Sweep::new(n),
-        posture: Posture::new(problem.chain),
+        frames: vec![IsometryMatrix3::identity(); n + 1],
+        tip: nalgebra::convert(problem.chain.tip_transform),
         joints: vec![JointAt::REST; n],
         running: [Running::new(); VALUES],
         parts: 0,
@@ -94,13 +96,13 @@ impl Proof<'_, '_> {
             (values[k], values[3 + k]) = (f.0[k].abs(), w.0[k].abs());
         }
         if self.problem.tip_speed_mps.is_some() {
-            let (posture, joints) = (&mut self.posture, &self.joints);
-            posture.take(&self.problem.chain.joints, |k| joints[k].q);
-            let tip = posture.frames[joints.len()] * self.problem.chain.tip_transform;
+            let Self { sweep, joints, frames, .. } = self;
+            poses(sweep, &self.sensing.links, joints, frames);
+            let tip = frames[joints.len()] * self.tip;
             for (k, body) in self.bodies.iter().enumerate() {
-                let point = (tip * Point3::from(body.center_m)).coords;
-                let of = posture.point_velocity(&point, |k| joints[k].qd);
-                values[6 + k] = body.fastest_mps(&of.v, &of.w);
+                let point = V::of(&(tip * Point3::from(body.center_m)).coords);
+                let of = PointVelocity::new(sweep, &self.sensing.links, joints, &point);
+                values[6 + k] = body.fastest_mps(&Vector3::from(of.v.0), &Vector3::from(of.w.0));
             }
         }
         let time_s = (i as f64 + u) * self.knots.step_s;

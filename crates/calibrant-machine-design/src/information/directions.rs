@@ -84,7 +84,8 @@ impl Directions {
                 Direction::Delay(_) => [V::ZERO, change[1]],
                 Direction::Clock => change.map(|change| change * after_middle_s),
             };
-            write(place, column.map(|column| sensor.turn.transposed_times(&column)));
+            let [force, rate] = column;
+            write(place, [sensor.turn.transposed_times(&force), sensor.turn.transposed_times(&rate)]);
         }
     }
 

@@ -99,21 +99,21 @@ impl<'a> FullInformation<'a> {
     /// `F_ηη` and `F_ηθ`.
     fn summed(&self) -> (DMatrix<f64>, DMatrix<f64>) {
         let p = self.directions.len();
-        let mut weighted = self.columns.clone();
+        let mut weighted = self.columns.transpose();
         let mut cross = DMatrix::zeros(p, ENTRIES);
         for k in 0..self.sampled.len() {
             let weights = self.sensing.weights(&self.quadrature, &self.sampled, k);
             let phi = self.sampled.regressors(k);
             for row in 0..6 {
                 let s = row / 3;
-                let mut column = weighted.column_mut(6 * k + row);
-                column *= weights[s];
+                let column = self.columns.column(6 * k + row);
                 for (m, phi) in phi[s].iter().enumerate() {
-                    cross.column_mut(entry(s, row % 3, m)).axpy(*phi, &column, 1.0);
+                    cross.column_mut(entry(s, row % 3, m)).axpy(weights[s] * phi, &column, 1.0);
                 }
+                weighted.row_mut(6 * k + row).scale_mut(weights[s]);
             }
         }
-        (weighted * self.columns.transpose(), cross)
+        (&self.columns * weighted, cross)
     }
 
     /// The derivative by the control points, at the motion of the last value.
@@ -122,7 +122,7 @@ impl<'a> FullInformation<'a> {
         let (n, gain) = (sensing.links.len(), &marginalised.gain);
         let omega = sensing.columns.of_entries(&marginalised.valued.omega);
         // Eᵀ Jᵀ = (I, −Kᵀ) Jᵀ, then Ω of it, then G_η = −K of that
-        let mut own = -gain.tr_mul(columns);
+        let mut own = -gain.transpose() * &*columns;
         for k in 0..sampled.len() {
             for (row, phi) in sampled.regressors(k).iter().flat_map(|phi| [phi; 3]).enumerate() {
                 let mut column = own.column_mut(6 * k + row);
@@ -160,9 +160,9 @@ impl<'a> FullInformation<'a> {
                 let out = (&mut bars[..], &mut of_jerks[..]);
                 contraction.differentiate(sweep, &sensing.links, joints, &readings, out);
             }
+            let growth = sensing.growth.at(joints);
             for (j, bar) in bars.iter().enumerate() {
-                let of_growth = told * sensing.growth.slope(joints, j);
-                let all = [bar.q, bar.qd + of_growth, bar.qdd, of_jerks[j]];
+                let all = [bar.q, bar.qd + told * growth.slope(joints, j), bar.qdd, of_jerks[j]];
                 scatter(&mut gradient, &quadrature.grid, k, j, all);
             }
         }

@@ -58,8 +58,9 @@ impl<'a> PlainInformation<'a> {
             let joints = sampled.joints(k);
             bars.fill(JointBars::ZERO);
             sampled.sweep(k).reverse(&sensing.links, joints, &readings, |_| Moving::ZERO, &mut bars);
+            let growth = sensing.growth.at(joints);
             for (j, bar) in bars.iter().enumerate() {
-                let of_growth = told * sensing.growth.slope(joints, j);
+                let of_growth = told * growth.slope(joints, j);
                 scatter(&mut gradient, grid, k, j, [bar.q, bar.qd + of_growth, bar.qdd, 0.0]);
             }
         }

@@ -1,6 +1,6 @@
 //! The motion at the times of a grid: joints and what the sensor feels.
 
-use crate::motion::{Grid, derivative};
+use crate::motion::{Grid, derivatives};
 use crate::recursion::{JointAt, Links, Sweep, V};
 use nalgebra::DMatrix;
 
@@ -32,7 +32,7 @@ impl Sampled {
             let (i, rows) = grid.rows(k);
             let joints = &mut self.joints[k * self.n..(k + 1) * self.n];
             for (j, joint) in joints.iter_mut().enumerate() {
-                let [q, qd, qdd, qddd] = rows.each_ref().map(|row| derivative(controls, i, row, j));
+                let [q, qd, qdd, qddd] = derivatives(controls, i, rows, j);
                 *joint = JointAt::new(q, qd, qdd);
                 self.jerks[k * self.n + j] = qddd;
             }
@@ -66,7 +66,8 @@ impl Sampled {
 
     /// `(1, f)` and `(1, w)` at time `k`.
     pub(crate) fn regressors(&self, k: usize) -> [[f64; 4]; 2] {
-        self.readings[k].map(|V([x, y, z])| [1.0, x, y, z])
+        let [V([fx, fy, fz]), V([wx, wy, wz])] = self.readings[k];
+        [[1.0, fx, fy, fz], [1.0, wx, wy, wz]]
     }
 }
 
@@ -75,6 +76,7 @@ pub(crate) fn scatter(gradient: &mut DMatrix<f64>, grid: &Grid, k: usize, j: usi
     let (i, rows) = grid.rows(k);
     let mut column = gradient.column_mut(j);
     for r in 0..4 {
-        column[i + r] += (0..4).map(|d| rows[d][r] * bars[d]).sum::<f64>();
+        column[i + r] +=
+            rows[0][r] * bars[0] + rows[1][r] * bars[1] + rows[2][r] * bars[2] + rows[3][r] * bars[3];
     }
 }

@@ -21,22 +21,31 @@ pub(crate) struct NoiseGrowth {
 }
 
 impl NoiseGrowth {
-    /// The squared speed of the joints in units of these speeds.
-    fn square(&self, joints: &[JointAt]) -> f64 {
-        joints.iter().zip(&self.speeds).map(|(joint, speed)| (joint.qd / speed).powi(2)).sum()
+    /// At one time.
+    pub(crate) fn at(&self, joints: &[JointAt]) -> GrowthAt<'_> {
+        if self.kappa == 0.0 {
+            return GrowthAt { factor: 1.0, of_square: 0.0, speeds: &self.speeds };
+        }
+        let s: f64 = joints.iter().zip(&self.speeds).map(|(joint, speed)| (joint.qd / speed).powi(2)).sum();
+        let factor = 1.0 + self.kappa * s / (s + 1.0);
+        GrowthAt { factor, of_square: self.kappa / (s + 1.0).powi(2) / factor, speeds: &self.speeds }
     }
+}
 
+/// The growth of noise at one time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GrowthAt<'a> {
     /// `g`.
-    pub(crate) fn factor(&self, joints: &[JointAt]) -> f64 {
-        let s = self.square(joints);
-        1.0 + self.kappa * s / (s + 1.0)
-    }
+    factor: f64,
+    /// `∂ ln g/∂s`.
+    of_square: f64,
+    speeds: &'a [f64],
+}
 
-    /// `∂ ln g/∂q̇_j`, as a factor of `q̇_j` for each joint.
+impl GrowthAt<'_> {
+    /// `∂ ln g/∂q̇_j`.
     pub(crate) fn slope(&self, joints: &[JointAt], j: usize) -> f64 {
-        let s = self.square(joints);
-        let of_square = self.kappa / (s + 1.0).powi(2) / self.factor(joints);
-        of_square * 2.0 * joints[j].qd / self.speeds[j].powi(2)
+        self.of_square * 2.0 * joints[j].qd / self.speeds[j].powi(2)
     }
 }
 
@@ -131,8 +140,9 @@ impl Sensing {
 
     /// The information of a second of readings at time `k` times its weight, for each sensor.
     pub(crate) fn weights(&self, quadrature: &Quadrature, sampled: &Sampled, k: usize) -> [f64; 2] {
-        let weight = quadrature.weight_s(k) / self.growth.factor(sampled.joints(k));
-        self.rates.map(|rate| rate * weight)
+        let weight = quadrature.weight_s(k) / self.growth.at(sampled.joints(k)).factor;
+        let [force, rate] = self.rates;
+        [force * weight, rate * weight]
     }
 
     /// The sensor's parameters.

@@ -78,10 +78,8 @@ impl Contraction {
             rd: V::ZERO,
             axes: M::of_columns(self.base).product_transposed(axes).axial() * -1.0,
         };
-        let [t, s] = [0, 3].map(|row| {
-            let [a, b, c] = [0, 1, 2].map(|i| self.times_s[row + i]);
-            axes.times(&V([a, b, c]))
-        });
+        let [a, b, c, d, e, f] = self.times_s;
+        let (t, s) = (axes.times(&V([a, b, c])), axes.times(&V([d, e, f])));
         for k in 0..self.turns.len() {
             let (own, behind) = self.frame(sweep, k);
             self.bars[k] = own;

@@ -48,6 +48,19 @@ impl Links {
         }
     }
 
+    /// Specific force on the sensor at rest in a posture, in the sensor's axes.
+    pub(crate) fn felt_at_rest(&self, posture: &[f64]) -> V {
+        let mut felt = self.base;
+        for (k, fixed) in self.fixed.iter().enumerate() {
+            felt = fixed.c.transposed_times(&felt);
+            if let (Some(JointAxis { u, turns: true }), Some(q)) = (self.joints.get(k), posture.get(k)) {
+                let (sin, cos) = q.sin_cos();
+                felt = felt * cos - u.cross(&felt) * sin + *u * (u.dot(&felt) * (1.0 - cos));
+            }
+        }
+        felt
+    }
+
     /// Number of joints.
     pub(crate) fn len(&self) -> usize {
         self.joints.len()

@@ -10,4 +10,4 @@ mod vector;
 pub(crate) use contraction::Contraction;
 pub(crate) use links::Links;
 pub(crate) use sweep::{JointAt, JointBars, Moving, Sweep, carried};
-pub(crate) use vector::V;
+pub(crate) use vector::{M, V};

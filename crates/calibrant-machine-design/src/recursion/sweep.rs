@@ -146,30 +146,30 @@ impl Sweep {
 
     /// From the base to the sensor.
     pub(crate) fn forward(&mut self, links: &Links, joints: &[JointAt]) {
-        let mut at = Frame { moving: Moving { a: links.base, ..Moving::ZERO }, ..AT_REST };
-        for (k, frame) in self.frames.iter_mut().enumerate() {
-            let d = at.turn.times(&links.fixed[k].rho);
-            let [once, twice] = carried(&d, &at.moving);
-            at.origin += d;
-            at.velocity += once;
-            at.moving.a += twice;
-            at.turn = at.turn.product(&links.fixed[k].c);
-            if let (Some(JointAxis { u, turns }), Some(joint)) = (links.joints.get(k), joints.get(k)) {
-                let z = at.turn.times(u);
-                let [zd, zdd] = carried(&z, &at.moving);
-                at.z = [z, zd, zdd];
-                *frame = at;
-                if *turns {
-                    at.moving.wd += zd * joint.qd + z * joint.qdd;
-                    at.moving.w += z * joint.qd;
-                    at.turn = at.turn.product(&turned(u, joint.cos, joint.sin));
-                } else {
-                    at.origin += z * joint.q;
-                    at.velocity += zd * joint.q + z * joint.qd;
-                    at.moving.a += zdd * joint.q + zd * (2.0 * joint.qd) + z * joint.qdd;
-                }
+        let mut moving = Moving { a: links.base, ..Moving::ZERO };
+        let (mut turn, mut origin, mut velocity) = (M::IDENTITY, V::ZERO, V::ZERO);
+        for (k, (frame, fixed)) in self.frames.iter_mut().zip(&links.fixed).enumerate() {
+            let d = turn.times(&fixed.rho);
+            let [once, twice] = carried(&d, &moving);
+            origin += d;
+            velocity += once;
+            moving.a += twice;
+            turn = turn.product(&fixed.c);
+            (frame.turn, frame.origin, frame.velocity, frame.moving) = (turn, origin, velocity, moving);
+            let (Some(JointAxis { u, turns }), Some(joint)) = (links.joints.get(k), joints.get(k)) else {
+                break;
+            };
+            let z = turn.times(u);
+            let [zd, zdd] = carried(&z, &moving);
+            frame.z = [z, zd, zdd];
+            if *turns {
+                moving.wd += zd * joint.qd + z * joint.qdd;
+                moving.w += z * joint.qd;
+                turn = turn.product(&turned(u, joint.cos, joint.sin));
             } else {
-                *frame = at;
+                origin += z * joint.q;
+                velocity += zd * joint.q + z * joint.qd;
+                moving.a += zdd * joint.q + zd * (2.0 * joint.qd) + z * joint.qdd;
             }
         }
     }
@@ -231,7 +231,8 @@ impl Sweep {
         own: impl Fn(usize) -> Moving,
         bars: &mut [JointBars],
     ) {
-        let [a, w] = [0, 1].map(|s| self.sensor().turn.times(&readings[s]));
+        let turn = &self.sensor().turn;
+        let (a, w) = (turn.times(&readings[0]), turn.times(&readings[1]));
         let mut bar = Moving { a, w, wd: V::ZERO };
         for k in (0..joints.len()).rev() {
             let own = own(k + 1);
@@ -264,7 +265,8 @@ impl Sweep {
 #[inline(always)]
 fn turned(u: &V, cos: f64, sin: f64) -> M {
     let V([x, y, z]) = *u;
-    let [a, b, c] = [x, y, z].map(|of| of * (1.0 - cos));
+    let less = 1.0 - cos;
+    let (a, b, c) = (x * less, y * less, z * less);
     M([
         V([a * x + cos, a * y - sin * z, a * z + sin * y]),
         V([b * x + sin * z, b * y + cos, b * z - sin * x]),

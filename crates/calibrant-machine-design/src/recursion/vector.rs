@@ -20,6 +20,10 @@ impl V {
         a * x + b * y + c * z
     }
 
+    pub(crate) fn norm(&self) -> f64 {
+        self.dot(self).sqrt()
+    }
+
     #[inline(always)]
     pub(crate) fn cross(&self, other: &Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);

@@ -3,6 +3,7 @@
 //! A row depends on the unknowns of the four control points of its interval, which are neighbours. A row far from its limit is constant, and has no derivative.
 
 use super::band::{Band, dot};
+use super::gram::add_squares;
 use crate::limits::{PointRows, PointWork, Pointwise};
 use crate::motion::{Grid, Knots, Ties};
 use nalgebra::DMatrix;
@@ -177,39 +178,17 @@ impl<'a> Rows<'a> {
 
     /// Adds `Σ weight · ∂row ∂rowᵀ`.
     pub(crate) fn add_squares(&self, weights: &[f64], band: &mut Band) {
-        let most = 4 * self.n;
-        let (mut square, mut scaled) = (vec![0.0; most * most], vec![0.0; 4 * most]);
-        let nothing = vec![0.0; most];
+        let mut square = Vec::new();
         for Interval { unknowns, places, slopes, .. } in &self.intervals {
-            let width = unknowns.len();
+            let (width, places) = (unknowns.len(), &self.places[places.clone()]);
             if width == 0 {
                 continue;
             }
-            square.fill(0.0);
-            // four rows at a time
-            let fours =
-                self.places[places.clone()].chunks(4).zip(self.slopes[slopes.clone()].chunks(4 * width));
-            for (places, slopes) in fours {
-                let row = |k: usize| slopes.get(k * width..(k + 1) * width).unwrap_or(&nothing[..width]);
-                let [one, two, three, four] = [row(0), row(1), row(2), row(3)];
-                for (k, place) in places.iter().enumerate() {
-                    for (scaled, slope) in scaled[k * most..].iter_mut().zip(row(k)) {
-                        *scaled = weights[*place] * slope;
-                    }
-                }
-                scaled[places.len() * most..].fill(0.0);
-                for a in 0..width {
-                    let [f, g, h, i] = [0, 1, 2, 3].map(|k| scaled[k * most + a]);
-                    let sums = &mut square[a * most..=a * most + a];
-                    for ((((sum, one), two), three), four) in
-                        sums.iter_mut().zip(one).zip(two).zip(three).zip(four)
-                    {
-                        *sum += f * one + g * two + (h * three + i * four);
-                    }
-                }
-            }
+            square.clear();
+            square.resize(width * width, 0.0);
+            add_squares(&self.slopes[slopes.clone()], width, |row| weights[places[row]], &mut square);
             for a in 0..width {
-                band.add_row(unknowns.start + a, unknowns.start, &square[a * most..=a * most + a]);
+                band.add_row(unknowns.start + a, unknowns.start, &square[a * width..=a * width + a]);
             }
         }
     }
