@@ -4,7 +4,8 @@ use super::*;
 use crate::TrajectoryProblem;
 use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
 use crate::motion::Knots;
-use nalgebra::{DMatrix, Matrix4, Vector4};
+use calibrant_machine::chain::FrameMotion;
+use nalgebra::{DMatrix, Matrix4, Vector3, Vector4};
 
 fn controls(knots: Knots, joints: usize) -> DMatrix<f64> {
     let mut numbers = Numbers(17);
@@ -27,13 +28,14 @@ fn plain_information_is_the_sum_over_many_samples() {
 
         let (spline, samples) = (knots.spline(&controls), 60_000);
         let mut moments = [Matrix4::<f64>::zeros(); 2];
+        let base = FrameMotion::at_rest(&-Vector3::from(sensing.links.base.0));
         let step = knots.duration_s() / f64::from(samples);
         for k in 0..samples {
             let t = (f64::from(k) + 0.5) * step;
             let [q, qd, qdd] = [0, 1, 2].map(|d| spline.at(t, d));
             let state =
                 calibrant_machine::chain::JointState { positions: &q, velocities: &qd, accelerations: &qdd };
-            let tip = chain.nominal().tip_motion(state, &sensing.base);
+            let tip = chain.nominal().tip_motion(state, &base);
             let felt = sensing.mount.motion(&tip);
             let s: f64 = qd.iter().zip(&sensing.growth.speeds).map(|(qd, speed)| (qd / speed).powi(2)).sum();
             let growth = 1.0 + (moving * moving - 1.0) * s / (1.0 + s);
