@@ -7,8 +7,8 @@
 
 use super::entry_vector::EntryMatrix;
 use super::{
-    Axis, CalibratedImu, Gauge, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind, Thermal,
-    ThermalPart, ThermalTerm, entry_vector,
+    Axis, CalibratedImu, Gauge, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind,
+    SensorParameters, Thermal, ThermalPart, ThermalTerm, entry_vector,
 };
 use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::{Matrix3, Vector3};
@@ -205,14 +205,20 @@ impl ImuParameters {
         if self.thermal.is_none() {
             return *self;
         }
-        let tau_k = self.thermal.tau_k(temperature_c);
-        let mut imu = Self { thermal: Thermal::none(), ..*self };
-        for sensor_kind in SensorKind::ALL {
-            let (thermal, sensor) = (self.thermal.sensor(sensor_kind), imu.sensor_mut(sensor_kind));
+        let [accelerometer, gyroscope] = [SensorKind::Accelerometer, SensorKind::Gyroscope]
+            .map(|sensor_kind| self.sensor_at(sensor_kind, temperature_c));
+        Self { accelerometer, gyroscope, thermal: Thermal::none(), ..*self }
+    }
+
+    /// One of its sensors at a temperature.
+    pub(crate) fn sensor_at(&self, sensor_kind: SensorKind, temperature_c: f64) -> SensorParameters {
+        let mut sensor = *self.sensor(sensor_kind);
+        if !self.thermal.is_none() {
+            let (thermal, tau_k) = (self.thermal.sensor(sensor_kind), self.thermal.tau_k(temperature_c));
             sensor.bias += thermal.bias_change(tau_k);
             sensor.matrix = Matrix3::from_diagonal(&thermal.gain_factor(tau_k)) * sensor.matrix;
         }
-        imu
+        sensor
     }
 }
 

@@ -23,7 +23,7 @@ impl Term for HoldForce {
 
     fn residual(&self, at: &At<'_>, k: usize) -> Option<Residual> {
         let (hold, force) = (&at.model.holds[k], &at.state.forces[k]);
-        let accelerometer = at.state.imu.at(hold.temperature_c).accelerometer;
+        let accelerometer = at.state.imu.sensor_at(SensorKind::Accelerometer, hold.temperature_c);
         Some(Residual {
             r: hold.accelerometer - accelerometer.reading(force),
             weight: Weight::Full(hold.accelerometer_weight),
@@ -32,7 +32,8 @@ impl Term for HoldForce {
 
     fn derivatives(&self, at: &At<'_>, k: usize) -> Derivatives {
         let (force, temperature_c) = (at.state.forces[k], at.model.holds[k].temperature_c);
-        let by_force = at.state.imu.at(temperature_c).accelerometer.by_stimulus(&force);
+        let accelerometer = at.state.imu.sensor_at(SensorKind::Accelerometer, temperature_c);
+        let by_force = accelerometer.by_stimulus(&force);
         let felt = Condition { imu: &at.state.imu, stimulus: force, force, temperature_c };
         Derivatives {
             by_directions: [None, Some(by_force * (tangents(&force) * at.model.gravity))],

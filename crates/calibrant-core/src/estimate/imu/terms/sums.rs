@@ -99,14 +99,15 @@ fn add<const P: usize>(
     let (before, here) = (before.filter(|_| is_free[0]), here.filter(|_| is_free[1]));
     let (w, g) = (weight.matrix(), by_quantities.fixed_columns::<P>(0));
     let wr = w * r;
-    for (j, by_quantity) in g.column_iter().enumerate() {
-        // most terms see the quantities of one sensor
-        if by_quantity.iter().all(|entry| *entry == 0.0) {
-            continue;
+    // most terms see the quantities of one sensor: the other columns are zero
+    let is_seen = |k: &usize| g.column(*k).iter().any(|entry| *entry != 0.0);
+    let seen = (0..P).find(is_seen).unwrap_or(P)..(0..P).rfind(is_seen).map_or(P, |last| last + 1);
+    for j in seen.clone() {
+        let weighted = w * g.column(j);
+        for i in seen.clone() {
+            link.c[(i, j)] += g.column(i).dot(&weighted);
         }
-        let weighted = w * by_quantity;
-        link.c.set_column(j, &(link.c.column(j) + g.tr_mul(&weighted)));
-        link.gp[j] += by_quantity.dot(&wr);
+        link.gp[j] += g.column(j).dot(&wr);
         for (b, by_direction) in [(&mut link.b0, &before), (&mut link.b1, &here)] {
             if let Some(by_direction) = by_direction {
                 b.set_column(j, &(b.column(j) + by_direction.tr_mul(&weighted)));

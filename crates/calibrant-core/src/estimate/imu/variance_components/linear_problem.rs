@@ -26,6 +26,9 @@ fn rest(at: &At<'_>) -> Rest {
             places.iter().enumerate().for_each(|(i, &k)| columns.set_column(i, &by_quantities.column(k)));
             columns.columns_mut(places.len(), unknowns.len()).copy_from(&term.by_earth(at, k));
             for (i, column) in columns.column_iter().enumerate() {
+                if column.iter().all(|entry| *entry == 0.0) {
+                    continue;
+                }
                 let weighted = weight * column;
                 g[i] += weighted.dot(&r);
                 for (j, other) in columns.column_iter().enumerate() {
