@@ -9,7 +9,7 @@ use calibrant_machine_design::{
     Dwells, JointLimit, Surroundings, TrajectoryCriterion, TrajectoryNoise, TrajectoryProblem,
     TrajectorySettings, design_trajectory,
 };
-use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, IsometryMatrix3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -279,8 +279,13 @@ impl Surroundings for Capsules {
         }
     }
 
-    fn proximities(&self, frames: &[Isometry3<f64>], out: &mut [Proximity]) {
-        let ends = |k: usize| self.all[k].ends.map(|end| (frames[self.all[k].frame] * end).coords);
+    fn proximities(&self, frames: &[IsometryMatrix3<f64>], out: &mut [Proximity]) {
+        let place = |of: &Capsule| {
+            let [one, other] = &of.ends;
+            [(frames[of.frame] * one).coords, (frames[of.frame] * other).coords]
+        };
+        let placed: Vec<[Vector3<f64>; 2]> = self.all.iter().map(place).collect();
+        let ends = |k: usize| placed[k];
         let (pairs, floors) = out.split_at_mut(self.pairs.len());
         for (near, &[i, j]) in pairs.iter_mut().zip(&self.pairs) {
             let (one, other) = (&self.all[i], &self.all[j]);

@@ -17,7 +17,6 @@ use crate::evaluate::evaluated;
 use crate::information::Sensing;
 use crate::limits::Pointwise;
 use crate::motion::{Knots, REST};
-use crate::recursion::{JointAt, Sweep};
 use crate::search::{HELD_BACK, Probe, levels};
 use crate::{TrajectoryEvaluation, TrajectoryProblem};
 use calibrant_core::interruption::Interruption;
@@ -243,10 +242,7 @@ impl<'a> Planner<'a> {
 
     /// Direction of the specific force on the sensor at rest.
     fn up(&self, posture: &[f64]) -> Vector3<f64> {
-        let joints: Vec<JointAt<f64>> = posture.iter().map(|q| JointAt::new(*q, 0.0, 0.0)).collect();
-        let mut sweep = Sweep::new(joints.len());
-        sweep.forward(&self.sensing.links, &joints);
-        Vector3::from(sweep.sensor().a.0).normalize()
+        Vector3::from(self.sensing.links.felt_at_rest(posture).0).normalize()
     }
 
     fn may_rest(&mut self, posture: &[f64]) -> bool {

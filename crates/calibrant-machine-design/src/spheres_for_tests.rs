@@ -2,7 +2,7 @@
 
 use crate::Surroundings;
 use crate::world::{BodyPair, Proximity};
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{IsometryMatrix3, Point3, Vector3};
 
 /// A ball: frame, centre in it, radius.
 pub(crate) type Ball = (usize, Vector3<f64>, f64);
@@ -31,7 +31,7 @@ impl Surroundings for Spheres {
         }
     }
 
-    fn proximities(&self, frames: &[Isometry3<f64>], out: &mut [Proximity]) {
+    fn proximities(&self, frames: &[IsometryMatrix3<f64>], out: &mut [Proximity]) {
         for (near, (a, b)) in out.iter_mut().zip(self.pairs()) {
             let at = |ball: &Ball| (frames[ball.0] * Point3::from(ball.1)).coords;
             let way = at(b) - at(a);

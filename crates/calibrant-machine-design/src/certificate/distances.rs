@@ -2,10 +2,12 @@
 
 use super::limit_proof::{LimitProof, MOST_PARTS, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
-use crate::limits::{Posture, Surroundings};
+use crate::limits::{Surroundings, poses};
 use crate::motion::{Knots, derivative, rows_at};
+use crate::recursion::{JointAt, Links, Sweep};
 use crate::world::{BodyPair, Proximity};
-use nalgebra::DMatrix;
+use calibrant_machine::chain::SensorMount;
+use nalgebra::{DMatrix, IsometryMatrix3, UnitQuaternion, Vector3};
 
 /// A distance may be smaller by this, m: rounding.
 const SLACK_M: f64 = 1e-9;
@@ -15,7 +17,10 @@ struct Proof<'p, 'a> {
     surroundings: &'a dyn Surroundings,
     knots: Knots,
     controls: &'p DMatrix<f64>,
-    posture: Posture,
+    links: Links,
+    joints: Vec<JointAt>,
+    sweep: Sweep,
+    frames: Vec<IsometryMatrix3<f64>>,
     near: Vec<Proximity>,
     running: Vec<Running>,
     /// Parts of the interval that may still be looked at.
@@ -27,12 +32,18 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
     let Some(surroundings) = problem.surroundings else { return Vec::new() };
     let rows = surroundings.rows();
     let pairs: Vec<BodyPair> = (0..rows).map(|row| surroundings.pair(row)).collect();
+    // postures need no sensor
+    let mount = SensorMount { lever_m: Vector3::zeros(), tip_from_sensor: UnitQuaternion::identity() };
+    let n = problem.chain.joints.len();
     let mut proof = Proof {
         problem,
         surroundings,
         knots,
         controls,
-        posture: Posture::new(problem.chain),
+        links: Links::new(problem.chain, &mount, &Vector3::zeros()),
+        joints: vec![JointAt::REST; n],
+        sweep: Sweep::new(n),
+        frames: vec![IsometryMatrix3::identity(); n + 1],
         near: vec![Proximity::far(); rows],
         running: vec![Running::new(); rows],
         parts: 0,
@@ -57,9 +68,12 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
 impl Proof<'_, '_> {
     fn distances(&mut self, i: usize, u: f64) -> Vec<f64> {
         let rows = rows_at(u, self.knots.step_s);
-        let controls = self.controls;
-        self.posture.take(&self.problem.chain.joints, |j| derivative(controls, i, &rows[0], j));
-        self.surroundings.proximities(&self.posture.frames, &mut self.near);
+        for (j, joint) in self.joints.iter_mut().enumerate() {
+            *joint = JointAt::new(derivative(self.controls, i, &rows[0], j), 0.0, 0.0);
+        }
+        self.sweep.forward(&self.links, &self.joints);
+        poses(&self.sweep, &self.links, &self.joints, &mut self.frames);
+        self.surroundings.proximities(&self.frames, &mut self.near);
         let time_s = (i as f64 + u) * self.knots.step_s;
         let distances: Vec<f64> = self.near.iter().map(|near| near.distance_m).collect();
         for (running, distance) in self.running.iter_mut().zip(&distances) {

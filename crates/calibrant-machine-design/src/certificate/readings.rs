@@ -4,10 +4,10 @@ use super::derivative_bounds::{DerivativeBounds, on_interval};
 use super::limit_proof::{LimitProof, MOST_PARTS, ROUNDING, Running, SHORTEST, TrajectoryLimit};
 use crate::TrajectoryProblem;
 use crate::information::Sensing;
-use crate::limits::{Posture, SensorBody};
+use crate::limits::{PointVelocity, SensorBody, poses};
 use crate::motion::{Knots, derivative, rows_at};
-use crate::recursion::{JointAt, Sweep};
-use nalgebra::{DMatrix, Point3, Vector3};
+use crate::recursion::{JointAt, Sweep, V};
+use nalgebra::{DMatrix, IsometryMatrix3, Point3, Vector3};
 
 /// Six readings and two speeds.
 const VALUES: usize = 8;
@@ -19,9 +19,10 @@ struct Proof<'p, 'a> {
     controls: &'p DMatrix<f64>,
     bodies: [SensorBody; 2],
     limits: [f64; VALUES],
-    sweep: Sweep<f64>,
-    posture: Posture,
-    joints: Vec<JointAt<f64>>,
+    sweep: Sweep,
+    frames: Vec<IsometryMatrix3<f64>>,
+    tip: IsometryMatrix3<f64>,
+    joints: Vec<JointAt>,
     running: [Running; VALUES],
     /// Parts of the interval that may still be looked at.
     parts: usize,
@@ -43,8 +44,9 @@ pub(super) fn all(problem: &TrajectoryProblem<'_>, knots: Knots, controls: &DMat
         bodies: [tip, problem.sensor_body.unwrap_or(tip)],
         limits: [f.x, f.y, f.z, w.x, w.y, w.z, speed, of_body],
         sweep: Sweep::new(n),
-        posture: Posture::new(problem.chain),
-        joints: vec![JointAt::new(0.0, 0.0, 0.0); n],
+        frames: vec![IsometryMatrix3::identity(); n + 1],
+        tip: nalgebra::convert(problem.chain.tip_transform),
+        joints: vec![JointAt::REST; n],
         running: [Running::new(); VALUES],
         parts: 0,
     };
@@ -88,19 +90,19 @@ impl Proof<'_, '_> {
             *joint = JointAt::new(q, qd, qdd);
         }
         self.sweep.forward(&self.sensing.links, &self.joints);
-        let sensor = *self.sweep.sensor();
+        let [f, w] = self.sweep.readings();
         let mut values = [0.0; VALUES];
         for k in 0..3 {
-            (values[k], values[3 + k]) = (sensor.a.0[k].abs(), sensor.w.0[k].abs());
+            (values[k], values[3 + k]) = (f.0[k].abs(), w.0[k].abs());
         }
         if self.problem.tip_speed_mps.is_some() {
-            let (posture, joints) = (&mut self.posture, &self.joints);
-            posture.take(&self.problem.chain.joints, |k| joints[k].q);
-            let tip = posture.frames[joints.len()] * self.problem.chain.tip_transform;
+            let Self { sweep, joints, frames, .. } = self;
+            poses(sweep, &self.sensing.links, joints, frames);
+            let tip = frames[joints.len()] * self.tip;
             for (k, body) in self.bodies.iter().enumerate() {
-                let point = (tip * Point3::from(body.center_m)).coords;
-                let of = posture.point_velocity(&point, |k| joints[k].qd);
-                values[6 + k] = body.fastest_mps(&of.v, &of.w);
+                let point = V::of(&(tip * Point3::from(body.center_m)).coords);
+                let of = PointVelocity::new(sweep, &self.sensing.links, joints, &point);
+                values[6 + k] = body.fastest_mps(&Vector3::from(of.v.0), &Vector3::from(of.w.0));
             }
         }
         let time_s = (i as f64 + u) * self.knots.step_s;

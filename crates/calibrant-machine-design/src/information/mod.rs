@@ -13,9 +13,9 @@
 //! *Plain* information takes them as known. It needs two 4×4 moment matrices alone, `Σ w φ φᵀ`, and is some 20 times cheaper.
 //!
 //! # Gradient
-//! A criterion changes by `dΦ = −tr(Ω dF)`. With `E = (I, −K)`, `K = (F_ηη + P)⁻¹ F_ηθ`, a change of the full matrix counts as `Ω̂ = E Ω Eᵀ`. With `G = Ω̂ Jᵀ`
-//! for each sample and row this is `−2 w Gᵀ dJᵀ`, and `Gᵀ dJᵀ` is the change of a directional derivative of the reading: along `G_η` for the nuisances. So one sweep
-//! with dual numbers along `G_η`, and its reverse, give it for all joints (`griewank2008`).
+//! A criterion changes by `dΦ = −tr(Ω dF)`. With `E = (I, −K)`, `K = (F_ηη + P)⁻¹ F_ηθ`, a change of the full matrix counts as `E Ω Eᵀ`. With `G = E Ω Eᵀ Jᵀ`
+//! for each sample and row this is `−2 w Gᵀ dJᵀ`, and `Gᵀ dJᵀ` is the change of a directional derivative of the reading: along `G_η` for the nuisances. Its sum over the rows is
+//! differentiated in closed form, for all joints at once (`recursion/contraction`).
 
 mod criterion;
 mod directions;

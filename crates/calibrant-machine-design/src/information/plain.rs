@@ -9,7 +9,7 @@ use super::sensing::{Quadrature, of_entries};
 use super::sensor_columns::entry;
 use super::{Sampled, Sensing, moments};
 use crate::motion::Knots;
-use crate::recursion::{JointBars, Moving};
+use crate::recursion::{JointBars, Moving, V};
 use nalgebra::{DMatrix, Matrix4, Vector4};
 
 /// Its working memory.
@@ -43,23 +43,24 @@ impl<'a> PlainInformation<'a> {
             (0..3).map(|row| omega.fixed_view::<4, 4>(entry(s, row, 0), entry(s, row, 0)).into_owned()).sum()
         });
         let mut gradient = DMatrix::zeros(grid.knots.controls(), n);
-        let mut bars = vec![JointBars { q: 0.0, qd: 0.0, qdd: 0.0 }; n];
+        let mut bars = vec![JointBars::ZERO; n];
         for k in 0..sampled.len() {
             let weights = sensing.weights(&self.quadrature, sampled, k);
-            let (mut bar, mut told) = (Moving::zero(), 0.0);
+            let (mut readings, mut told) = ([V::ZERO; 2], 0.0);
             for (s, phi) in sampled.regressors(k).into_iter().enumerate() {
                 let phi = Vector4::from(phi);
                 let column = omegas[s] * phi;
                 told += weights[s] * phi.dot(&column);
-                let reading = if s == 0 { &mut bar.a } else { &mut bar.w };
                 for i in 0..3 {
-                    reading.0[i] = -2.0 * weights[s] * column[1 + i];
+                    readings[s].0[i] = -2.0 * weights[s] * column[1 + i];
                 }
             }
             let joints = sampled.joints(k);
-            sampled.sweep(k).reverse(&sensing.links, joints, bar, &mut bars);
+            bars.fill(JointBars::ZERO);
+            sampled.sweep(k).reverse(&sensing.links, joints, &readings, |_| Moving::ZERO, &mut bars);
+            let growth = sensing.growth.at(joints);
             for (j, bar) in bars.iter().enumerate() {
-                let of_growth = told * sensing.growth.slope(joints, j);
+                let of_growth = told * growth.slope(joints, j);
                 scatter(&mut gradient, grid, k, j, [bar.q, bar.qd + of_growth, bar.qdd, 0.0]);
             }
         }

@@ -7,7 +7,7 @@ use crate::motion::{Grid, Knots, gauss_legendre};
 use crate::recursion::{JointAt, Links};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind};
-use calibrant_machine::chain::{CorrectedChain, FrameMotion, Joint, SensorMount};
+use calibrant_machine::chain::{Joint, SensorMount};
 use calibrant_machine::estimate::{Layout, MachineParameters, MachineQuantity, MountingPrior, TiltedGravity};
 use nalgebra::{DMatrix, Matrix4, Vector3};
 
@@ -21,31 +21,38 @@ pub(crate) struct NoiseGrowth {
 }
 
 impl NoiseGrowth {
-    /// The squared speed of the joints in units of these speeds.
-    fn square(&self, joints: &[JointAt<f64>]) -> f64 {
-        joints.iter().zip(&self.speeds).map(|(joint, speed)| (joint.qd / speed).powi(2)).sum()
+    /// At one time.
+    pub(crate) fn at(&self, joints: &[JointAt]) -> GrowthAt<'_> {
+        if self.kappa == 0.0 {
+            return GrowthAt { factor: 1.0, of_square: 0.0, speeds: &self.speeds };
+        }
+        let s: f64 = joints.iter().zip(&self.speeds).map(|(joint, speed)| (joint.qd / speed).powi(2)).sum();
+        let factor = 1.0 + self.kappa * s / (s + 1.0);
+        GrowthAt { factor, of_square: self.kappa / (s + 1.0).powi(2) / factor, speeds: &self.speeds }
     }
+}
 
+/// The growth of noise at one time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GrowthAt<'a> {
     /// `g`.
-    pub(crate) fn factor(&self, joints: &[JointAt<f64>]) -> f64 {
-        let s = self.square(joints);
-        1.0 + self.kappa * s / (s + 1.0)
-    }
+    factor: f64,
+    /// `∂ ln g/∂s`.
+    of_square: f64,
+    speeds: &'a [f64],
+}
 
-    /// `∂ ln g/∂q̇_j`, as a factor of `q̇_j` for each joint.
-    pub(crate) fn slope(&self, joints: &[JointAt<f64>], j: usize) -> f64 {
-        let s = self.square(joints);
-        let of_square = self.kappa / (s + 1.0).powi(2) / self.factor(joints);
-        of_square * 2.0 * joints[j].qd / self.speeds[j].powi(2)
+impl GrowthAt<'_> {
+    /// `∂ ln g/∂q̇_j`.
+    pub(crate) fn slope(&self, joints: &[JointAt], j: usize) -> f64 {
+        self.of_square * 2.0 * joints[j].qd / self.speeds[j].powi(2)
     }
 }
 
 /// The sensor on the chain.
 #[derive(Debug, Clone)]
 pub(crate) struct Sensing {
-    pub(crate) chain: CorrectedChain,
-    pub(crate) links: Links<f64>,
-    pub(crate) base: FrameMotion,
+    pub(crate) links: Links,
     pub(crate) mount: SensorMount,
     /// Derivatives of gravity in the base by the two tilts and by its magnitude.
     pub(crate) by_gravity: [Vector3<f64>; 3],
@@ -65,7 +72,7 @@ pub(crate) struct Quadrature {
     /// Weight of each place of an interval, s.
     weights: Vec<f64>,
     /// Half of the duration, s: the clock's rate counts about it.
-    pub(crate) middle_s: f64,
+    middle_s: f64,
 }
 
 impl Quadrature {
@@ -75,6 +82,11 @@ impl Quadrature {
         let grid = Grid::at(knots, gauss.iter().map(|(place, _)| *place));
         let weights = gauss.iter().map(|(_, weight)| weight * knots.step_s).collect();
         Self { grid, weights, middle_s: knots.duration_s() / 2.0 }
+    }
+
+    /// Time `k` after the middle of the motion, s.
+    pub(crate) fn after_middle_s(&self, k: usize) -> f64 {
+        self.grid.time_s(k) - self.middle_s
     }
 
     /// Weight of time `k`, s.
@@ -112,9 +124,7 @@ impl Sensing {
         let grown_at = |joint: &Joint| if joint.kind.turns() { GROWN_AT[0] } else { GROWN_AT[1] };
         let there = |s: usize| kinds.iter().any(|kind| usize::from(*kind == SensorKind::Gyroscope) == s);
         Ok(Self {
-            chain: chain.nominal(),
             links: Links::new(chain, &mount, &vector),
-            base: FrameMotion::at_rest(&vector),
             mount,
             by_gravity,
             rates: [0, 1].map(|s| densities[s].filter(|_| there(s)).map_or(0.0, |density| density.powi(-2))),
@@ -130,8 +140,9 @@ impl Sensing {
 
     /// The information of a second of readings at time `k` times its weight, for each sensor.
     pub(crate) fn weights(&self, quadrature: &Quadrature, sampled: &Sampled, k: usize) -> [f64; 2] {
-        let weight = quadrature.weight_s(k) / self.growth.factor(sampled.joints(k));
-        self.rates.map(|rate| rate * weight)
+        let weight = quadrature.weight_s(k) / self.growth.at(sampled.joints(k)).factor;
+        let [force, rate] = self.rates;
+        [force * weight, rate * weight]
     }
 
     /// The sensor's parameters.

@@ -17,6 +17,8 @@ pub(crate) fn entry(sensor: usize, row: usize, column: usize) -> usize {
 pub(crate) struct SensorColumns {
     /// 24 × p.
     pub(crate) entries: DMatrix<f64>,
+    /// The entries of each parameter: one, or two that are equal.
+    places: Vec<Vec<usize>>,
 }
 
 impl SensorColumns {
@@ -46,7 +48,8 @@ impl SensorColumns {
                 Quantity::Nonlinear(..) => return refused(quantity),
             }
         }
-        Ok(Self { entries })
+        let of = |column: usize| (0..ENTRIES).filter(|row| entries[(*row, column)] != 0.0).collect();
+        Ok(Self { places: (0..entries.ncols()).map(of).collect(), entries })
     }
 
     /// Number of parameters.
@@ -56,11 +59,23 @@ impl SensorColumns {
 
     /// `Lᵀ F L`: the information on the parameters from that on the entries.
     pub(crate) fn of_parameters(&self, entries: &DMatrix<f64>) -> DMatrix<f64> {
-        self.entries.tr_mul(&(entries * &self.entries))
+        let p = self.len();
+        let of = |a: usize, b: usize| {
+            self.places[a].iter().flat_map(move |i| self.places[b].iter().map(move |j| (*i, *j)))
+        };
+        DMatrix::from_fn(p, p, |a, b| of(a, b).map(|place| entries[place]).sum())
     }
 
     /// `L Ω Lᵀ`.
     pub(crate) fn of_entries(&self, parameters: &DMatrix<f64>) -> DMatrix<f64> {
-        &self.entries * parameters * self.entries.transpose()
+        let mut entries = DMatrix::zeros(ENTRIES, ENTRIES);
+        for (a, rows) in self.places.iter().enumerate() {
+            for (b, columns) in self.places.iter().enumerate() {
+                for (i, j) in rows.iter().flat_map(|i| columns.iter().map(move |j| (*i, *j))) {
+                    entries[(i, j)] += parameters[(a, b)];
+                }
+            }
+        }
+        entries
     }
 }

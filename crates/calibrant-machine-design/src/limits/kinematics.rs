@@ -1,56 +1,27 @@
-//! Poses along the chain, and how points of the links move with the joints.
+//! Poses along the chain, and how points of the links move with the joints. A sweep has the joints' axes and places.
 
-use calibrant_machine::chain::{Joint, KinematicChain};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use crate::recursion::{JointAt, Links, M, Sweep, V};
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
 
-/// The chain at one posture.
-#[derive(Debug, Clone)]
-pub(crate) struct Posture {
-    /// Poses of the base and of the frames behind each joint, in the base.
-    pub(crate) frames: Vec<Isometry3<f64>>,
-    /// Axis of each joint in the base.
-    axes: Vec<Vector3<f64>>,
-    turns: Vec<bool>,
+/// Poses of the base and of the frames behind each joint, in the base.
+pub(crate) fn poses(sweep: &Sweep, links: &Links, joints: &[JointAt], out: &mut [IsometryMatrix3<f64>]) {
+    for (k, out) in out.iter_mut().skip(1).enumerate() {
+        let frame = &sweep.frames[k];
+        let origin =
+            if links.joints[k].turns { frame.origin } else { frame.origin + frame.z[0] * joints[k].q };
+        // behind the joint is before the next fixed step
+        let M([V(x), V(y), V(z)]) = sweep.frames[k + 1].turn.product_transposed(&links.fixed[k + 1].c);
+        let turn = Matrix3::new(x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]);
+        out.translation.vector = Vector3::from(origin.0);
+        out.rotation = Rotation3::from_matrix_unchecked(turn);
+    }
 }
 
-impl Posture {
-    pub(crate) fn new(chain: &KinematicChain) -> Self {
-        let n = chain.joints.len();
-        Self {
-            frames: vec![Isometry3::identity(); n + 1],
-            axes: vec![Vector3::z(); n],
-            turns: chain.joints.iter().map(|joint| joint.kind.turns()).collect(),
-        }
-    }
-
-    /// Takes these positions; `turns` are the cosine and sine of each.
-    pub(crate) fn take(&mut self, joints: &[Joint], position: impl Fn(usize) -> f64) {
-        for (k, joint) in joints.iter().enumerate() {
-            let before = self.frames[k] * joint.origin;
-            let q = position(k);
-            self.axes[k] = before.rotation * joint.axis.into_inner();
-            self.frames[k + 1] = if self.turns[k] {
-                before * UnitQuaternion::from_axis_angle(&joint.axis, q)
-            } else {
-                before * Translation3::from(joint.axis.into_inner() * q)
-            };
-        }
-    }
-
-    /// Velocity of a point that a joint carries, for a unit speed of the joint.
-    #[inline(always)]
-    pub(crate) fn per_joint(&self, k: usize, point: &Vector3<f64>) -> Vector3<f64> {
-        if self.turns[k] {
-            self.axes[k].cross(&(point - self.frames[k + 1].translation.vector))
-        } else {
-            self.axes[k]
-        }
-    }
-
-    /// Axis of a joint that turns, in the base.
-    pub(crate) fn turn_axis(&self, k: usize) -> Option<&Vector3<f64>> {
-        self.turns[k].then(|| &self.axes[k])
-    }
+/// Velocity of a point that a joint carries, for a unit speed of the joint.
+#[inline(always)]
+pub(crate) fn per_joint(sweep: &Sweep, links: &Links, k: usize, point: &V) -> V {
+    let frame = &sweep.frames[k];
+    if links.joints[k].turns { frame.z[0].cross(&(*point - frame.origin)) } else { frame.z[0] }
 }
 
 /// The velocity `v` of a point behind all joints and the angular rate `ω` there, with derivatives.
@@ -59,44 +30,41 @@ impl Posture {
 /// `∂v/∂q_k = z_k × Σ_{i ≥ k} v_i q̇_i + ω_k × v_k` with the rate `ω_k` of the joints before `k`; a joint that slides has the second part alone.
 /// `∂ω/∂q_k = z_k × Σ_{i > k} ω_i`: it does not change `|ω|` for `k` the first.
 pub(crate) struct PointVelocity {
-    pub(crate) v: Vector3<f64>,
-    pub(crate) w: Vector3<f64>,
+    pub(crate) v: V,
+    pub(crate) w: V,
 }
 
-impl Posture {
-    /// Velocity of a point of the last frame, in the base.
-    pub(crate) fn point_velocity(&self, point: &Vector3<f64>, speed: impl Fn(usize) -> f64) -> PointVelocity {
-        let mut of = PointVelocity { v: Vector3::zeros(), w: Vector3::zeros() };
-        for k in 0..self.axes.len() {
-            of.v += self.per_joint(k, point) * speed(k);
-            if let Some(axis) = self.turn_axis(k) {
-                of.w += axis * speed(k);
-            }
+impl PointVelocity {
+    /// Of a point of the last frame, in the base.
+    pub(crate) fn new(sweep: &Sweep, links: &Links, joints: &[JointAt], point: &V) -> Self {
+        let mut v = V::ZERO;
+        for (k, joint) in joints.iter().enumerate() {
+            v += per_joint(sweep, links, k, point) * joint.qd;
         }
-        of
+        Self { v, w: sweep.sensor().moving.w }
     }
 
     /// Derivatives of `v·a + ω·b` by position and speed of each joint.
-    pub(crate) fn velocity_slopes(
+    pub(crate) fn slopes(
         &self,
-        point: &Vector3<f64>,
-        of: &PointVelocity,
-        speed: impl Fn(usize) -> f64,
-        [a, b]: [&Vector3<f64>; 2],
+        (sweep, links, joints): (&Sweep, &Links, &[JointAt]),
+        point: &V,
+        [a, b]: [&V; 2],
         mut write: impl FnMut(usize, f64, f64),
     ) {
-        let (mut before_v, mut before_w) = (Vector3::zeros(), Vector3::zeros());
-        for k in 0..self.axes.len() {
-            let own = self.per_joint(k, point);
+        let mut before_v = V::ZERO;
+        for (k, joint) in joints.iter().enumerate() {
+            let own = per_joint(sweep, links, k, point);
+            let (frame, speed) = (&sweep.frames[k], joint.qd);
             let mut by_speed = own.dot(a);
-            let mut by_position = before_w.cross(&own).dot(a);
-            if let Some(axis) = self.turn_axis(k) {
-                by_speed += axis.dot(b);
-                by_position += axis.cross(&(of.v - before_v)).dot(a);
-                before_w += axis * speed(k);
-                by_position += axis.cross(&(of.w - before_w)).dot(b);
+            let mut by_position = frame.moving.w.cross(&own).dot(a);
+            if links.joints[k].turns {
+                let z = &frame.z[0];
+                by_speed += z.dot(b);
+                by_position += z.cross(&(self.v - before_v)).dot(a);
+                by_position += z.cross(&(self.w - frame.moving.w - *z * speed)).dot(b);
             }
-            before_v += own * speed(k);
+            before_v += own * speed;
             write(k, by_position, by_speed);
         }
     }

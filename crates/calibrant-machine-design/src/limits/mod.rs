@@ -10,7 +10,7 @@ mod surroundings;
 mod tests;
 
 pub use joint_limit::JointLimit;
-pub(crate) use kinematics::Posture;
+pub(crate) use kinematics::{PointVelocity, poses};
 pub(crate) use linear::{Linear, least_slack};
 pub(crate) use pointwise::{PointRows, PointWork, Pointwise};
 pub use sensor_body::SensorBody;

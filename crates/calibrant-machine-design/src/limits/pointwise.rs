@@ -13,13 +13,13 @@
 //!
 //! A distance beyond `d_min + D` says nothing: its row is constant.
 
-use super::kinematics::Posture;
+use super::kinematics::{PointVelocity, per_joint, poses};
 use super::{SensorBody, Surroundings};
 use crate::TrajectoryProblem;
-use crate::motion::{Grid, derivative};
-use crate::recursion::{JointAt, JointBars, Links, Moving, Sweep};
+use crate::motion::{Grid, derivatives};
+use crate::recursion::{JointAt, Links, Sweep, V};
 use crate::world::Proximity;
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, IsometryMatrix3, Point3, Vector3};
 
 /// `D`: distances that matter, m. An arm at 2 m/s covers it in a tenth of a second, about the distance of two times at which limits are taken.
 const NEAR_M: f64 = 0.2;
@@ -28,7 +28,7 @@ const NEAR_M: f64 = 0.2;
 #[derive(Clone)]
 pub(crate) struct Pointwise<'a> {
     pub(crate) problem: &'a TrajectoryProblem<'a>,
-    links: Links<f64>,
+    links: Links,
     /// Distance that is kept, m.
     pub(crate) clearance_m: f64,
     /// Part of ranges and speeds that is used.
@@ -38,6 +38,7 @@ pub(crate) struct Pointwise<'a> {
     points: Vec<SensorBody>,
     near_ends: Vec<usize>,
     distances: usize,
+    tip: IsometryMatrix3<f64>,
 }
 
 /// Values of all rows at one time, and derivatives where they are wanted.
@@ -53,17 +54,17 @@ pub(crate) struct PointRows<'r> {
 /// Working memory.
 #[derive(Clone)]
 pub(crate) struct PointWork {
-    posture: Posture,
-    sweep: Sweep<f64>,
-    joints: Vec<JointAt<f64>>,
+    /// Poses of the base and of the frames behind each joint.
+    frames: Vec<IsometryMatrix3<f64>>,
+    sweep: Sweep,
+    joints: Vec<JointAt>,
     proximities: Vec<Proximity>,
-    bars: Vec<JointBars<f64>>,
 }
 
 impl<'a> Pointwise<'a> {
     pub(crate) fn new(
         problem: &'a TrajectoryProblem<'a>,
-        links: Links<f64>,
+        links: Links,
         clearance_m: f64,
         share: f64,
     ) -> Self {
@@ -75,6 +76,7 @@ impl<'a> Pointwise<'a> {
             points: points.into_iter().flatten().collect(),
             near_ends: (0..problem.joints.len()).filter(|j| problem.joints[*j].near_ends.is_some()).collect(),
             distances: problem.surroundings.map_or(0, Surroundings::rows),
+            tip: nalgebra::convert(problem.chain.tip_transform),
             problem,
             links,
             clearance_m,
@@ -95,11 +97,10 @@ impl<'a> Pointwise<'a> {
     pub(crate) fn work(&self) -> PointWork {
         let n = self.links.len();
         PointWork {
-            posture: Posture::new(self.problem.chain),
+            frames: vec![IsometryMatrix3::identity(); n + 1],
             sweep: Sweep::new(n),
-            joints: vec![JointAt::new(0.0, 0.0, 0.0); n],
+            joints: vec![JointAt::REST; n],
             proximities: vec![Proximity::far(); self.distances],
-            bars: vec![JointBars { q: 0.0, qd: 0.0, qdd: 0.0 }; n],
         }
     }
 
@@ -114,7 +115,7 @@ impl<'a> Pointwise<'a> {
     ) {
         let (i, weights) = grid.rows(k);
         for (j, joint) in work.joints.iter_mut().enumerate() {
-            let [q, qd, qdd] = [0, 1, 2].map(|d| derivative(controls, i, &weights[d], j));
+            let [q, qd, qdd, _] = derivatives(controls, i, weights, j);
             *joint = JointAt::new(q, qd, qdd);
         }
         self.at_state(work, rows);
@@ -127,9 +128,10 @@ impl<'a> Pointwise<'a> {
             by_position.fill(0.0);
             by_state.fill(0.0);
         }
+        let PointWork { sweep, joints, frames, .. } = work;
+        sweep.forward(&self.links, joints);
         if self.distances + self.points.len() > 0 {
-            let PointWork { posture, joints, .. } = work;
-            posture.take(&self.problem.chain.joints, |k| joints[k].q);
+            poses(sweep, &self.links, joints, frames);
         }
         let (distances, others) = values.split_at_mut(self.distances);
         self.distances(work, distances, by_position, with_slopes);
@@ -147,8 +149,8 @@ impl<'a> Pointwise<'a> {
     fn distances(&self, work: &mut PointWork, values: &mut [f64], slopes: &mut [f64], with_slopes: bool) {
         let Some(surroundings) = self.problem.surroundings else { return };
         let n = self.links.len();
-        let PointWork { posture, proximities, .. } = work;
-        surroundings.proximities(&posture.frames, proximities);
+        let PointWork { sweep, frames, proximities, .. } = work;
+        surroundings.proximities(frames, proximities);
         for (row, (value, near)) in values.iter_mut().zip(proximities.iter()).enumerate() {
             let s = (near.distance_m - self.clearance_m) / NEAR_M;
             if s >= 1.0 {
@@ -159,11 +161,12 @@ impl<'a> Pointwise<'a> {
             if with_slopes {
                 let slope = 2.0 * (1.0 - s) / NEAR_M;
                 let of = &mut slopes[row * n..(row + 1) * n];
-                // the normal is from a to b: what carries b away along it adds distance
-                for ((frame, point), sign) in [(&near.a, -slope), (&near.b, slope)] {
-                    for (k, of) in of.iter_mut().enumerate().take(*frame) {
-                        *of += sign * near.normal.dot(&posture.per_joint(k, point));
-                    }
+                // the normal is from a to b: what carries b away along it adds distance. Joints before both move them together
+                let ((a, of_a), (b, of_b)) = (near.a, near.b);
+                let (joints, point, slope) = if a < b { (a..b, of_b, slope) } else { (b..a, of_a, -slope) };
+                let (point, normal) = (V::of(&point), V::of(&near.normal) * slope);
+                for k in joints {
+                    of[k] = normal.dot(&per_joint(sweep, &self.links, k, &point));
                 }
             }
         }
@@ -173,57 +176,61 @@ impl<'a> Pointwise<'a> {
         if self.ranges.is_empty() {
             return;
         }
-        let PointWork { sweep, joints, bars, .. } = work;
-        sweep.forward(&self.links, joints);
-        let sensor = *sweep.sensor();
-        for (row, (value, &(reading, range))) in values.iter_mut().zip(&self.ranges).enumerate() {
+        let PointWork { sweep, joints, .. } = work;
+        let readings = sweep.readings();
+        let mut factors = [0.0; 6];
+        for (value, &(reading, range)) in values.iter_mut().zip(&self.ranges) {
             let range = range * self.share;
-            let at = if reading < 3 { sensor.a.0[reading] } else { sensor.w.0[reading - 3] };
+            let at = readings[reading / 3].0[reading % 3];
             *value = 1.0 - (at / range).powi(2);
-            if with_slopes {
-                let mut bar = Moving::zero();
-                let of = if reading < 3 { &mut bar.a.0[reading] } else { &mut bar.w.0[reading - 3] };
-                *of = -2.0 * at / (range * range);
-                sweep.reverse(&self.links, joints, bar, bars);
-                self.write_bars(bars, row, slopes);
-            }
+            factors[reading] = -2.0 * at / (range * range);
         }
-    }
-
-    fn write_bars(&self, bars: &[JointBars<f64>], row: usize, slopes: &mut [f64]) {
-        let n = self.links.len();
-        let of = &mut slopes[row * 3 * n..(row + 1) * 3 * n];
-        for (j, bar) in bars.iter().enumerate() {
-            (of[j], of[n + j], of[2 * n + j]) = (bar.q, bar.qd, bar.qdd);
+        if !with_slopes {
+            return;
+        }
+        let (n, axes) = (joints.len(), &sweep.sensor().turn);
+        for k in 0..n {
+            let [force_q, force_qd, force_qdd, rate_q, rate_qd] = sweep.of_joint(&self.links, k);
+            let [V(force_q), V(force_qd), V(force_qdd)] = [
+                axes.transposed_times(&force_q),
+                axes.transposed_times(&force_qd),
+                axes.transposed_times(&force_qdd),
+            ];
+            let [V(rate_q), V(rate_qd)] = [axes.transposed_times(&rate_q), axes.transposed_times(&rate_qd)];
+            for (slopes, &(reading, _)) in slopes.chunks_exact_mut(3 * n).zip(&self.ranges) {
+                let (factor, i) = (factors[reading], reading % 3);
+                if reading < 3 {
+                    slopes[k] = factor * force_q[i];
+                    slopes[n + k] = factor * force_qd[i];
+                    slopes[2 * n + k] = factor * force_qdd[i];
+                } else {
+                    slopes[k] = factor * rate_q[i];
+                    slopes[n + k] = factor * rate_qd[i];
+                }
+            }
         }
     }
 
     fn speeds(&self, work: &mut PointWork, values: &mut [f64], slopes: &mut [f64], with_slopes: bool) {
         let Some(limit) = self.problem.tip_speed_mps else { return };
         let (limit, n) = (limit * self.share, self.links.len());
-        let PointWork { posture, joints, .. } = work;
-        let tip = posture.frames[n] * self.problem.chain.tip_transform;
+        let PointWork { sweep, frames, joints, .. } = work;
+        let tip = frames[n] * self.tip;
         for (row, (value, body)) in values.iter_mut().zip(&self.points).enumerate() {
-            let point = (tip * nalgebra::Point3::from(body.center_m)).coords;
-            let of = posture.point_velocity(&point, |k| joints[k].qd);
+            let point = V::of(&(tip * Point3::from(body.center_m)).coords);
+            let of = PointVelocity::new(sweep, &self.links, joints, &point);
             let (v, w) = (of.v.norm(), of.w.norm());
             let speed = v + body.radius_m * w;
             *value = 1.0 - (speed / limit).powi(2);
             if with_slopes {
                 let factor = -2.0 * speed / (limit * limit);
                 // at rest the speed, which is a factor, is 0
-                let unit = |of: &Vector3<f64>, norm: f64| of * (factor / norm.max(1e-12));
-                let (a, b) = (unit(&of.v, v), unit(&of.w, w) * body.radius_m);
+                let unit = |of: V, norm: f64| of * (factor / norm.max(1e-12));
+                let (a, b) = (unit(of.v, v), unit(of.w, w) * body.radius_m);
                 let slopes = &mut slopes[row * 3 * n..(row + 1) * 3 * n];
-                posture.velocity_slopes(
-                    &point,
-                    &of,
-                    |k| joints[k].qd,
-                    [&a, &b],
-                    |k, q, qd| {
-                        (slopes[k], slopes[n + k]) = (q, qd);
-                    },
-                );
+                of.slopes((sweep, &self.links, joints), &point, [&a, &b], |k, q, qd| {
+                    (slopes[k], slopes[n + k]) = (q, qd);
+                });
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Distances that the machine keeps: of its bodies from each other and from what stands around.
 
 use crate::world::{BodyPair, Proximity, World};
-use nalgebra::Isometry3;
+use nalgebra::IsometryMatrix3;
 
 /// What a machine may collide with, itself included.
 pub trait Surroundings: Sync {
@@ -12,7 +12,7 @@ pub trait Surroundings: Sync {
     fn pair(&self, row: usize) -> BodyPair;
 
     /// All distances. `frames` are the poses of the base and of the frames behind each joint, in the base; m.
-    fn proximities(&self, frames: &[Isometry3<f64>], out: &mut [Proximity]);
+    fn proximities(&self, frames: &[IsometryMatrix3<f64>], out: &mut [Proximity]);
 }
 
 impl Surroundings for World {
@@ -24,7 +24,7 @@ impl Surroundings for World {
         World::pair(self, row).clone()
     }
 
-    fn proximities(&self, frames: &[Isometry3<f64>], out: &mut [Proximity]) {
+    fn proximities(&self, frames: &[IsometryMatrix3<f64>], out: &mut [Proximity]) {
         World::proximities(self, frames, out);
     }
 }

@@ -94,6 +94,24 @@ impl Grid {
 /// The `d`-th derivative of joint `j` with these weights, from interval `i` on.
 #[inline(always)]
 pub(crate) fn derivative(controls: &DMatrix<f64>, i: usize, row: &[f64; 4], j: usize) -> f64 {
-    let column = controls.column(j);
-    row[0] * column[i] + row[1] * column[i + 1] + row[2] * column[i + 2] + row[3] * column[i + 3]
+    weighted(row, four(controls, i, j))
+}
+
+/// Position, velocity, acceleration and jerk of joint `j` with these weights, from interval `i` on.
+#[inline(always)]
+pub(crate) fn derivatives(controls: &DMatrix<f64>, i: usize, rows: &KnotRows, j: usize) -> [f64; 4] {
+    let four = four(controls, i, j);
+    let [a, b, c, d] = rows;
+    [weighted(a, four), weighted(b, four), weighted(c, four), weighted(d, four)]
+}
+
+#[inline(always)]
+fn four(controls: &DMatrix<f64>, i: usize, j: usize) -> &[f64] {
+    let first = j * controls.nrows() + i;
+    &controls.as_slice()[first..first + 4]
+}
+
+#[inline(always)]
+fn weighted(row: &[f64; 4], four: &[f64]) -> f64 {
+    row[0] * four[0] + row[1] * four[1] + row[2] * four[2] + row[3] * four[3]
 }

@@ -17,6 +17,6 @@ mod quadrature;
 mod ties;
 
 pub(crate) use halving::halved;
-pub(crate) use knots::{Grid, Knots, derivative, rows_at};
+pub(crate) use knots::{Grid, Knots, derivative, derivatives, rows_at};
 pub(crate) use quadrature::gauss_legendre;
 pub(crate) use ties::{REST, Ties};

@@ -92,14 +92,6 @@ impl Ties {
         })
     }
 
-    /// `E d`.
-    pub(crate) fn direction_of(&self, d: &[f64]) -> DMatrix<f64> {
-        let n = self.joints();
-        DMatrix::from_fn(self.controls(), n, |i, j| {
-            self.unknown[i].map_or(0.0, |k| d[k * n + j] * self.sizes[j])
-        })
-    }
-
     /// The unknowns of a motion that keeps the ties.
     pub(crate) fn unknowns_of(&self, controls: &DMatrix<f64>) -> Vec<f64> {
         let n = self.joints();

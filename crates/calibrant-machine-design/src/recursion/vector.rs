@@ -1,26 +1,27 @@
-//! Vectors and matrices of the recursion's numbers. nalgebra's would ask more of a number than the recursion does.
+//! Vectors and matrices of the recursion: each product is a line that the compiler sees through.
 
-use super::number::Number;
 use nalgebra::{Matrix3, Vector3};
-use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// Three numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct V<T>(pub(crate) [T; 3]);
+pub(crate) struct V(pub(crate) [f64; 3]);
 
-impl<T: Number> V<T> {
-    #[inline(always)]
-    pub(crate) fn zero() -> Self {
-        Self([T::of(0.0); 3])
-    }
+impl V {
+    pub(crate) const ZERO: Self = Self([0.0; 3]);
 
     pub(crate) fn of(v: &Vector3<f64>) -> Self {
-        Self([T::of(v[0]), T::of(v[1]), T::of(v[2])])
+        Self([v[0], v[1], v[2]])
     }
 
     #[inline(always)]
-    pub(crate) fn dot(&self, other: &Self) -> T {
-        self.0[0] * other.0[0] + self.0[1] * other.0[1] + self.0[2] * other.0[2]
+    pub(crate) fn dot(&self, other: &Self) -> f64 {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        a * x + b * y + c * z
+    }
+
+    pub(crate) fn norm(&self) -> f64 {
+        self.dot(self).sqrt()
     }
 
     #[inline(always)]
@@ -30,70 +31,104 @@ impl<T: Number> V<T> {
     }
 }
 
-impl<T: Number> Add for V<T> {
+impl Add for V {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a + x, b + y, c + z])
     }
 }
 
-impl<T: Number> Sub for V<T> {
+impl Sub for V {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a - x, b - y, c - z])
     }
 }
 
-impl<T: Number> Neg for V<T> {
+impl Neg for V {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
+        let [a, b, c] = self.0;
+        Self([-a, -b, -c])
     }
 }
 
-impl<T: Number> Mul<T> for V<T> {
+impl Mul<f64> for V {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, factor: T) -> Self {
-        Self(self.0.map(|x| x * factor))
+    fn mul(self, factor: f64) -> Self {
+        let [a, b, c] = self.0;
+        Self([a * factor, b * factor, c * factor])
     }
 }
 
-impl<T: Number> AddAssign for V<T> {
+impl AddAssign for V {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<T: Number> SubAssign for V<T> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
 /// Three rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct M<T>(pub(crate) [V<T>; 3]);
+pub(crate) struct M(pub(crate) [V; 3]);
 
-impl<T: Number> M<T> {
+impl M {
+    pub(crate) const IDENTITY: Self = Self([V([1.0, 0.0, 0.0]), V([0.0, 1.0, 0.0]), V([0.0, 0.0, 1.0])]);
+
     pub(crate) fn of(m: &Matrix3<f64>) -> Self {
-        Self(std::array::from_fn(|i| V(std::array::from_fn(|j| T::of(m[(i, j)])))))
+        Self([0, 1, 2].map(|i| V([m[(i, 0)], m[(i, 1)], m[(i, 2)]])))
+    }
+
+    /// The matrix with these columns.
+    #[inline(always)]
+    pub(crate) fn of_columns([a, b, c]: [V; 3]) -> Self {
+        let row = |i: usize| V([a.0[i], b.0[i], c.0[i]]);
+        Self([row(0), row(1), row(2)])
     }
 
     /// The matrix times a vector.
     #[inline(always)]
-    pub(crate) fn times(&self, v: &V<T>) -> V<T> {
-        V(std::array::from_fn(|i| self.0[i].dot(v)))
+    pub(crate) fn times(&self, v: &V) -> V {
+        let Self([a, b, c]) = self;
+        V([a.dot(v), b.dot(v), c.dot(v)])
     }
 
     /// The transposed matrix times a vector.
     #[inline(always)]
-    pub(crate) fn transposed_times(&self, v: &V<T>) -> V<T> {
-        self.0[0] * v.0[0] + self.0[1] * v.0[1] + self.0[2] * v.0[2]
+    pub(crate) fn transposed_times(&self, v: &V) -> V {
+        let Self([a, b, c]) = self;
+        *a * v.0[0] + *b * v.0[1] + *c * v.0[2]
+    }
+
+    /// The product of two matrices.
+    #[inline(always)]
+    pub(crate) fn product(&self, other: &Self) -> Self {
+        let Self([a, b, c]) = self;
+        Self([other.transposed_times(a), other.transposed_times(b), other.transposed_times(c)])
+    }
+
+    /// The product with the transposed of another matrix.
+    #[inline(always)]
+    pub(crate) fn product_transposed(&self, other: &Self) -> Self {
+        let Self([a, b, c]) = self;
+        Self([other.times(a), other.times(b), other.times(c)])
+    }
+
+    #[inline(always)]
+    pub(crate) fn trace(&self) -> f64 {
+        self.0[0].0[0] + self.0[1].0[1] + self.0[2].0[2]
+    }
+
+    /// `Σ x × y` of a sum of products `Σ x yᵀ`.
+    #[inline(always)]
+    pub(crate) fn axial(&self) -> V {
+        let Self([V([_, xy, xz]), V([yx, _, yz]), V([zx, zy, _])]) = self;
+        V([yz - zy, zx - xz, xy - yx])
     }
 }

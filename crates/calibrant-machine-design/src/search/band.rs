@@ -72,15 +72,38 @@ impl Band {
         true
     }
 
-    /// Solves with the factor, in place.
-    pub(crate) fn solve(&self, b: &mut [f64]) {
+    /// `L⁻¹ X` in place, with the factor `L`; `x` has `columns` numbers in each row.
+    pub(crate) fn solve_lower(&self, x: &mut [f64], columns: usize) {
         let width = self.width;
         for i in 0..self.size {
             let first = (i + 1).saturating_sub(width);
-            let row = &self.entries[i * width..(i + 1) * width];
-            let sum = dot(&row[width - 1 + first - i..width - 1], &b[first..i]);
-            b[i] = (b[i] - sum) / row[width - 1];
+            let (before, rest) = x.split_at_mut(i * columns);
+            let (row, before) = (&mut rest[..columns], &before[first * columns..]);
+            let factors = &self.entries[(i + 1) * width - 1 - (i - first)..(i + 1) * width];
+            let (diagonal, factors) = (factors[i - first], &factors[..i - first]);
+            let (fours, others) = (factors.chunks_exact(4), before.chunks_exact(4 * columns));
+            for (factor, other) in fours.remainder().iter().zip(others.remainder().chunks_exact(columns)) {
+                for (x, other) in row.iter_mut().zip(other) {
+                    *x -= factor * other;
+                }
+            }
+            for (f, four) in fours.zip(others) {
+                let ((one, two), (three, four)) =
+                    (four[..2 * columns].split_at(columns), four[2 * columns..].split_at(columns));
+                for ((((x, one), two), three), four) in row.iter_mut().zip(one).zip(two).zip(three).zip(four)
+                {
+                    *x -= (f[0] * one + f[1] * two) + (f[2] * three + f[3] * four);
+                }
+            }
+            for x in row {
+                *x /= diagonal;
+            }
         }
+    }
+
+    /// `L⁻ᵀ b` in place.
+    pub(crate) fn solve_upper(&self, b: &mut [f64]) {
+        let width = self.width;
         for i in (0..self.size).rev() {
             let first = (i + 1).saturating_sub(width);
             let row = &self.entries[i * width..(i + 1) * width];
@@ -129,8 +152,20 @@ mod tests {
         let b = DVector::from_fn(size, |_, _| numbers.next(1.0));
         assert!(band.factor());
         let mut x: Vec<f64> = b.iter().copied().collect();
-        band.solve(&mut x);
-        let wanted = dense.lu().solve(&b).expect("regular");
+        band.solve_lower(&mut x, 1);
+        band.solve_upper(&mut x);
+        let wanted = dense.clone().lu().solve(&b).expect("regular");
         assert!((DVector::from_vec(x) - wanted).amax() < 1e-13);
+        // several columns at once
+        let columns = DMatrix::from_fn(size, 3, |_, _| numbers.next(1.0));
+        let mut x: Vec<f64> = columns.transpose().iter().copied().collect();
+        band.solve_lower(&mut x, 3);
+        let wanted = dense
+            .cholesky()
+            .expect("positive definite")
+            .l()
+            .solve_lower_triangular(&columns)
+            .expect("regular");
+        assert!((DMatrix::from_row_slice(size, 3, &x) - wanted).amax() < 1e-13);
     }
 }

@@ -19,7 +19,6 @@ use super::rows::Rows;
 use crate::limits::Linear;
 use crate::motion::Ties;
 use calibrant_design::{DesignStatus, Interruption};
-use nalgebra::DMatrix;
 
 /// How one run goes.
 #[derive(Debug, Clone)]
@@ -74,6 +73,15 @@ struct Iterate {
     /// Values of the pointwise rows (shifted), and slacks of the linear ones.
     g: Vec<f64>,
     l: Vec<f64>,
+    /// Their inverses.
+    inverse: [Vec<f64>; 2],
+}
+
+impl Iterate {
+    /// One division for each slack: they are used many times.
+    fn invert(&mut self) {
+        self.inverse = [&self.g, &self.l].map(|slacks| slacks.iter().map(|slack| 1.0 / slack).collect());
+    }
 }
 
 /// A step that is taken.
@@ -100,7 +108,7 @@ impl InteriorPoint<'_, '_> {
             relax,
         };
         let Some(mut at) = self.iterate(start, relax) else { return reached };
-        let mut multipliers = [inverse(mu, &at.g), inverse(mu, &at.l)];
+        let mut multipliers = at.inverse.each_ref().map(|inverse| scaled(mu, inverse));
         let mut hessian = QuasiNewton::new();
         let mut band = Band::zeros(self.ties.len(), 4 * self.ties.joints());
         let mut small = 0;
@@ -123,8 +131,8 @@ impl InteriorPoint<'_, '_> {
             };
             let (changes_g, changes_l) = self.changes(&d);
             let new_multipliers = [
-                proposed(mu, &at.g, &multipliers[0], &changes_g),
-                proposed(mu, &at.l, &multipliers[1], &changes_l),
+                proposed(mu, &at.inverse[0], &multipliers[0], &changes_g),
+                proposed(mu, &at.inverse[1], &multipliers[1], &changes_l),
             ];
             // multipliers
             let part = multiplier_step(&multipliers, &new_multipliers);
@@ -135,7 +143,7 @@ impl InteriorPoint<'_, '_> {
             }
             let old = self.lagrangian(&at.gradient, &multipliers);
             // step
-            let longest = longest(&at.g, &changes_g).min(longest(&at.l, &changes_l));
+            let longest = longest(&at.inverse[0], &changes_g).min(longest(&at.inverse[1], &changes_l));
             let before = barrier(&at, mu);
             let Some(Trial { mut iterate, with_slopes, fall }) =
                 self.line_search(&at, &d, longest, (before, dot(&d, &right)), mu, relax)
@@ -163,6 +171,7 @@ impl InteriorPoint<'_, '_> {
                 }
                 relax = left;
             }
+            iterate.invert();
             at = iterate;
             let new = self.lagrangian(&at.gradient, &multipliers);
             let change: Vec<f64> = new.iter().zip(&old).map(|(new, old)| new - old).collect();
@@ -195,7 +204,9 @@ impl InteriorPoint<'_, '_> {
         let g = self.rows.values.iter().map(|value| value + relax).collect();
         let mut l = vec![0.0; self.linear.len()];
         self.linear.slacks(&x, &mut l);
-        Some(Iterate { x, value, gradient, g, l })
+        let mut iterate = Iterate { x, value, gradient, g, l, inverse: [Vec::new(), Vec::new()] };
+        iterate.invert();
+        Some(iterate)
     }
 
     /// `σ I + Jᵀ (Λ/G) J`.
@@ -204,22 +215,22 @@ impl InteriorPoint<'_, '_> {
         for i in 0..at.x.len() {
             band.add(i, i, sigma);
         }
-        self.rows.add_squares(&ratio(&multipliers[0], &at.g), self.ties, band);
-        self.linear.add_squares(&ratio(&multipliers[1], &at.l), |i, j, value| band.add(i, j, value));
+        self.rows.add_squares(&products(&multipliers[0], &at.inverse[0]), band);
+        self.linear
+            .add_squares(&products(&multipliers[1], &at.inverse[1]), |i, j, value| band.add(i, j, value));
     }
 
     /// `Jᵀλ`.
     fn transposed(&self, of_rows: &[f64], of_linear: &[f64]) -> Vec<f64> {
-        let mut by_controls = DMatrix::zeros(self.ties.controls(), self.ties.joints());
-        self.rows.add_transposed(of_rows, &mut by_controls);
-        let mut sum = self.ties.gradient(&by_controls);
+        let mut sum = vec![0.0; self.ties.len()];
+        self.rows.add_transposed(of_rows, &mut sum);
         self.linear.add_transposed(of_linear, &mut sum);
         sum
     }
 
     /// `−(∇Φ − Jᵀ(μ/G))`.
     fn descent(&self, at: &Iterate, mu: f64) -> Vec<f64> {
-        let pushed = self.transposed(&inverse(mu, &at.g), &inverse(mu, &at.l));
+        let pushed = self.transposed(&scaled(mu, &at.inverse[0]), &scaled(mu, &at.inverse[1]));
         pushed.iter().zip(&at.gradient).map(|(pushed, gradient)| pushed - gradient).collect()
     }
 
@@ -232,7 +243,7 @@ impl InteriorPoint<'_, '_> {
     /// `J d`.
     fn changes(&self, d: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (mut of_rows, mut of_linear) = (vec![0.0; self.rows.values.len()], vec![0.0; self.linear.len()]);
-        self.rows.changes(&self.ties.direction_of(d), &mut of_rows);
+        self.rows.changes(d, &mut of_rows);
         self.linear.changes(d, &mut of_linear);
         (of_rows, of_linear)
     }
@@ -260,7 +271,14 @@ impl InteriorPoint<'_, '_> {
                 let g: Vec<f64> = self.rows.values.iter().map(|value| value + relax).collect();
                 if stays(&g, &at.g) {
                     let value = self.objective.value(&controls);
-                    let iterate = Iterate { x, value, gradient: Vec::new(), g, l: l.clone() };
+                    let iterate = Iterate {
+                        x,
+                        value,
+                        gradient: Vec::new(),
+                        g,
+                        l: l.clone(),
+                        inverse: Default::default(),
+                    };
                     let fall = before - barrier(&iterate, mu);
                     if fall >= DECREASE * length * slope {
                         return Some(Trial { iterate, with_slopes, fall });
@@ -284,23 +302,23 @@ fn logarithms(values: &[f64]) -> f64 {
     values.chunks(8).map(|eight| eight.iter().product::<f64>().ln()).sum()
 }
 
-fn inverse(mu: f64, slacks: &[f64]) -> Vec<f64> {
-    slacks.iter().map(|slack| mu / slack).collect()
+fn scaled(mu: f64, inverse: &[f64]) -> Vec<f64> {
+    inverse.iter().map(|inverse| mu * inverse).collect()
 }
 
-fn ratio(multipliers: &[f64], slacks: &[f64]) -> Vec<f64> {
-    multipliers.iter().zip(slacks).map(|(multiplier, slack)| multiplier / slack).collect()
+fn products(one: &[f64], other: &[f64]) -> Vec<f64> {
+    one.iter().zip(other).map(|(one, other)| one * other).collect()
 }
 
 /// `μ/G − (Λ/G) J d`.
-fn proposed(mu: f64, slacks: &[f64], multipliers: &[f64], changes: &[f64]) -> Vec<f64> {
-    let each = slacks.iter().zip(multipliers).zip(changes);
-    each.map(|((slack, multiplier), change)| (mu - multiplier * change) / slack).collect()
+fn proposed(mu: f64, inverse: &[f64], multipliers: &[f64], changes: &[f64]) -> Vec<f64> {
+    let each = inverse.iter().zip(multipliers).zip(changes);
+    each.map(|((inverse, multiplier), change)| (mu - multiplier * change) * inverse).collect()
 }
 
 /// The longest step, at most 1, that keeps a part of each slack to first order.
-fn longest(slacks: &[f64], changes: &[f64]) -> f64 {
-    let most = slacks.iter().zip(changes).map(|(slack, change)| -change / slack).fold(0.0, f64::max);
+fn longest(inverse: &[f64], changes: &[f64]) -> f64 {
+    let most = inverse.iter().zip(changes).map(|(inverse, change)| -change * inverse).fold(0.0, f64::max);
     if most > TO_LIMIT.0 { TO_LIMIT.0 / most } else { 1.0 }
 }
 
@@ -317,10 +335,10 @@ fn stays(new: &[f64], old: &[f64]) -> bool {
 }
 
 fn clamp(multipliers: &mut [Vec<f64>; 2], at: &Iterate, mu: f64) {
-    for (multipliers, slacks) in multipliers.iter_mut().zip([&at.g, &at.l]) {
-        for (multiplier, slack) in multipliers.iter_mut().zip(slacks) {
-            let middle = mu / slack;
-            *multiplier = multiplier.clamp(middle / MULTIPLIER, middle * MULTIPLIER);
+    for (multipliers, inverse) in multipliers.iter_mut().zip(&at.inverse) {
+        for (multiplier, inverse) in multipliers.iter_mut().zip(inverse) {
+            let middle = mu * inverse;
+            *multiplier = multiplier.clamp(middle * (1.0 / MULTIPLIER), middle * MULTIPLIER);
         }
     }
 }

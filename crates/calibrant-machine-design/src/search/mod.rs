@@ -1,6 +1,7 @@
 //! The search: starts, an interior point on nested knots, and what is kept of it.
 
 mod band;
+mod gram;
 mod interior_point;
 mod multistart;
 mod nested;

@@ -19,8 +19,10 @@ const COARSE: usize = 10;
 /// Quadrature points in an interval on each level, the coarsest first, and times at which limits are taken.
 const POINTS: [usize; 3] = [5, 4, 3];
 const TIMES: [usize; 3] = [5, 4, 3];
-/// First and last barrier parameter on each level, in nats.
-const BARRIERS: [(f64, f64); 3] = [(0.3, 0.02), (0.1, 0.01), (0.05, 5e-4)];
+/// Barrier parameter of random starts, and the last one on each level, in nats. A level begins with the last one of the level before: a larger one would drive the motion back
+/// from the limits that it has found.
+const FIRST_BARRIER: f64 = 0.075;
+const BARRIERS: [f64; 3] = [0.02, 0.01, 5e-4];
 /// A step that lowers the barrier function by less than this is small, on each level.
 const STALLS: [f64; 3] = [0.05, 0.02, 0.003];
 /// Iterations at most. The last stage goes on from the finest knots, so their optimum need not be exact.
@@ -88,7 +90,7 @@ pub(crate) fn search(
             left_behind.extend(candidates.split_off(kept).iter().map(|one| one.outcome(false)));
             candidates = candidates.into_iter().map(Candidate::halved).collect();
         }
-        let level = level(place + 3 - levels.len(), settings, interruption);
+        let level = level(place, levels.len(), settings, interruption);
         // an interruption leaves out starts that were not begun
         let begun = |one: &Candidate| place > 0 || one.start == first.start || !interruption.is_asked();
         candidates = candidates
@@ -207,14 +209,17 @@ fn no_start(shared: Shared<'_>, knots: Knots) -> Error {
     }
 }
 
-fn level(place: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {
+/// Level `number` of so many.
+fn level(number: usize, levels: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {
+    let place = number + 3 - levels;
+    let first = if number == 0 { FIRST_BARRIER } else { BARRIERS[place - 1] };
     Level {
         points: POINTS[place],
         times: TIMES[place],
         kind: Kind::Plain,
         held_back: HELD_BACK,
         steps: Steps {
-            barrier: BARRIERS[place],
+            barrier: (first, BARRIERS[place]),
             max_iterations: settings.max_iterations.min(ITERATIONS[place]),
             stall: STALLS[place],
             interruption: interruption.clone(),

@@ -96,7 +96,7 @@ impl<'a> Shared<'a> {
         let (problem, knots) = (self.problem, candidate.knots);
         let ties = self.ties(&candidate);
         let mut objective = Objective::new(problem, self.sensing, level.kind, knots, level.points);
-        let mut rows = Rows::new(self.pointwise(level.held_back), knots, level.times);
+        let mut rows = Rows::new(self.pointwise(level.held_back), knots, level.times, &ties);
         let linear = Linear::new(&problem.joints, &knots, &ties);
         let mut run =
             InteriorPoint { objective: &mut objective, rows: &mut rows, linear: &linear, ties: &ties };

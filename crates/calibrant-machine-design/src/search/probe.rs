@@ -4,8 +4,8 @@ use crate::limits::{PointRows, PointWork, Pointwise};
 use crate::motion::{Grid, Knots};
 use nalgebra::DMatrix;
 
-/// Places of an interval at which the limits are looked at.
-const PLACES: [f64; 4] = [0.2, 0.5, 0.8, 0.999];
+/// Places of an interval at which the limits are looked at: from its end on, where a new control point moves the machine most.
+const PLACES: [f64; 4] = [0.999, 0.8, 0.5, 0.2];
 /// Room of each row. Of a distance it is about 5 mm.
 const ROOM: f64 = 0.05;
 

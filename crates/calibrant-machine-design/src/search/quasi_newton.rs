@@ -7,13 +7,14 @@
 //! with the steps `S`, the changes of the gradient `Y`, `SᵀY = L + D + (upper part)`, `L` strictly lower. A pair with little curvature is damped (`nocedal2006`, section 18.3):
 //! `y ← θ y + (1 − θ) B s`, so that `sᵀy ≥ 0.2 sᵀB s` and `B` stays positive definite.
 //!
-//! Newton's system `(B + H) d = r` with the banded barrier Hessian `H` follows from solves with `A = σ I + H`:
+//! Newton's system `(B + H) d = r` with the banded barrier Hessian `H` follows from the factor of `σ I + H = L Lᵀ`:
 //!
 //! ```text
-//! d = A⁻¹r + A⁻¹U (M − Uᵀ A⁻¹ U)⁻¹ Uᵀ A⁻¹ r
+//! d = L⁻ᵀ (y + W (M − WᵀW)⁻¹ Wᵀy)        W = L⁻¹U, y = L⁻¹r
 //! ```
 
 use super::band::{Band, dot};
+use super::gram::add_squares;
 use nalgebra::{DMatrix, DVector};
 
 /// Most pairs that are kept.
@@ -71,23 +72,16 @@ impl QuasiNewton {
         DVector::from_iterator(2 * self.len(), steps.chain(changes))
     }
 
-    /// Column `k` of `U`.
-    fn column(&self, k: usize) -> Vec<f64> {
-        let m = self.len();
-        match k.checked_sub(m) {
-            None => self.pairs[k].0.iter().map(|s| self.sigma * s).collect(),
-            Some(k) => self.pairs[k].1.clone(),
-        }
-    }
-
     /// `B x`.
     fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut product: Vec<f64> = x.iter().map(|x| self.sigma * x).collect();
         let inner = if self.is_new() { None } else { self.middle().lu().solve(&self.transposed(x)) };
         if let Some(inner) = inner {
-            for (k, factor) in inner.iter().enumerate() {
-                for (product, u) in product.iter_mut().zip(self.column(k)) {
-                    *product -= factor * u;
+            let (of_steps, of_changes) = inner.as_slice().split_at(self.len());
+            for (((step, change), f), g) in self.pairs.iter().zip(of_steps).zip(of_changes) {
+                let f = f * self.sigma;
+                for ((product, s), y) in product.iter_mut().zip(step).zip(change) {
+                    *product -= f * s + g * y;
                 }
             }
         }
@@ -106,13 +100,17 @@ impl QuasiNewton {
         let (along, square) = (dot(&step, &change), dot(&step, &step));
         self.sigma = (dot(&change, &change) / along).clamp(SIGMA.0, SIGMA.1).min(3.0 * along / square);
         self.pairs.push((step, change));
-        if self.pairs.len() > PAIRS {
-            self.pairs.remove(0);
-        }
-        let m = self.len();
-        let pairs = &self.pairs;
-        self.steps = DMatrix::from_fn(m, m, |i, j| dot(&pairs[i].0, &pairs[j].0));
-        self.products = DMatrix::from_fn(m, m, |i, j| dot(&pairs[i].0, &pairs[j].1));
+        // what is known of the pairs that stay
+        let dropped = usize::from(self.pairs.len() > PAIRS);
+        self.pairs.drain(..dropped);
+        let (m, pairs) = (self.len(), &self.pairs);
+        let product = |known: &DMatrix<f64>, i: usize, j: usize, new: &dyn Fn() -> f64| {
+            if i + 1 < m && j + 1 < m { known[(i + dropped, j + dropped)] } else { new() }
+        };
+        self.steps =
+            DMatrix::from_fn(m, m, |i, j| product(&self.steps, i, j, &|| dot(&pairs[i].0, &pairs[j].0)));
+        self.products =
+            DMatrix::from_fn(m, m, |i, j| product(&self.products, i, j, &|| dot(&pairs[i].0, &pairs[j].1)));
     }
 
     /// Begins anew.
@@ -122,28 +120,31 @@ impl QuasiNewton {
 
     /// Solves `(B + H) d = r`; `factor` is that of `σ I + H`. `None` if it is not regular.
     pub(crate) fn solve(&self, factor: &Band, r: &[f64]) -> Option<Vec<f64>> {
-        let mut d = r.to_vec();
-        factor.solve(&mut d);
-        if self.len() > 0 {
-            let solved: Vec<Vec<f64>> = (0..2 * self.len())
-                .map(|k| {
-                    let mut column = self.column(k);
-                    factor.solve(&mut column);
-                    column
-                })
-                .collect();
-            let mut inner = self.middle();
-            for (k, column) in solved.iter().enumerate() {
-                let product = self.transposed(column);
-                inner.set_column(k, &(inner.column(k) - product));
+        let pairs = 2 * self.len();
+        // the rows of U and r side by side
+        let columns = pairs + 1;
+        let mut solved = vec![0.0; r.len() * columns];
+        for (i, (row, r)) in solved.chunks_exact_mut(columns).zip(r).enumerate() {
+            let (of_steps, of_changes) = row.split_at_mut(self.len());
+            for ((s, y), (step, change)) in of_steps.iter_mut().zip(of_changes).zip(&self.pairs) {
+                (*s, *y) = (self.sigma * step[i], change[i]);
             }
-            let factors = inner.lu().solve(&self.transposed(&d))?;
-            for (column, factor) in solved.iter().zip(factors.iter()) {
-                for (d, c) in d.iter_mut().zip(column) {
-                    *d += factor * c;
-                }
+            row[pairs] = *r;
+        }
+        factor.solve_lower(&mut solved, columns);
+        let mut d: Vec<f64> = solved.iter().skip(pairs).step_by(columns).copied().collect();
+        if pairs > 0 {
+            let mut squares = vec![0.0; columns * columns];
+            add_squares(&solved, columns, |_| 1.0, &mut squares);
+            let square = |i: usize, j: usize| squares[i.max(j) * columns + i.min(j)];
+            let middle = self.middle();
+            let inner = DMatrix::from_fn(pairs, pairs, |i, j| middle[(i, j)] - square(i, j));
+            let factors = inner.lu().solve(&DVector::from_fn(pairs, |i, _| square(pairs, i)))?;
+            for (d, row) in d.iter_mut().zip(solved.chunks_exact(columns)) {
+                *d += dot(&row[..pairs], factors.as_slice());
             }
         }
+        factor.solve_upper(&mut d);
         d.iter().all(|d| d.is_finite()).then_some(d)
     }
 }

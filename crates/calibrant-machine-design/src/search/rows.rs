@@ -1,9 +1,13 @@
 //! The pointwise limits at all times of a grid, as rows of an optimisation problem in the unknowns.
+//!
+//! A row depends on the unknowns of the four control points of its interval, which are neighbours. A row far from its limit is constant, and has no derivative.
 
-use super::band::Band;
+use super::band::{Band, dot};
+use super::gram::add_squares;
 use crate::limits::{PointRows, PointWork, Pointwise};
-use crate::motion::{Grid, Knots, Ties, derivative};
+use crate::motion::{Grid, Knots, Ties};
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// Rows, and their derivatives where they were asked for last.
 pub(crate) struct Rows<'a> {
@@ -16,25 +20,76 @@ pub(crate) struct Rows<'a> {
     states: usize,
     /// One value for each time and row.
     pub(crate) values: Vec<f64>,
+    /// Derivatives at one time, by the joints.
     by_position: Vec<f64>,
     by_state: Vec<f64>,
+    /// Size of each joint's unknowns.
+    sizes: Vec<f64>,
+    times: Vec<Time>,
+    intervals: Vec<Interval>,
+    /// Places of values that have derivatives, interval by interval, and these by the interval's unknowns.
+    places: Vec<usize>,
+    slopes: Vec<f64>,
+}
+
+/// How the state of the joints depends on the unknowns of the interval.
+#[derive(Debug, Clone)]
+struct Time {
+    /// Of position, velocity and acceleration, for each of the interval's unknowns of a joint.
+    weights: Vec<[f64; 3]>,
+}
+
+/// What belongs to an interval.
+#[derive(Debug, Clone)]
+struct Interval {
+    times: Range<usize>,
+    unknowns: Range<usize>,
+    /// Of the places with derivatives, and of their slopes.
+    places: Range<usize>,
+    slopes: Range<usize>,
 }
 
 impl<'a> Rows<'a> {
     /// At this number of times in each interval.
-    pub(crate) fn new(pointwise: Pointwise<'a>, knots: Knots, times: usize) -> Self {
+    pub(crate) fn new(pointwise: Pointwise<'a>, knots: Knots, times: usize, ties: &Ties) -> Self {
         let grid = Grid::even(knots, times);
         let n = pointwise.problem.chain.joints.len();
         let positions = pointwise.position_rows();
         let states = pointwise.rows() - positions;
         let work = pointwise.work();
+        let interval = |i: usize| {
+            let end = if i + 1 == knots.intervals { grid.len() } else { (i + 1) * times };
+            let of = || (i..i + 4).filter_map(|control| ties.of(control));
+            let unknowns =
+                of().next().map_or(0..0, |first| n * first..n * (of().next_back().unwrap_or(first) + 1));
+            Interval { times: i * times..end, unknowns, places: 0..0, slopes: 0..0 }
+        };
+        let intervals: Vec<Interval> = (0..knots.intervals).map(interval).collect();
+        let time = |k: usize| {
+            let (i, of) = grid.rows(k);
+            let unknowns = &intervals[i].unknowns;
+            let mut weights = vec![[0.0; 3]; unknowns.len() / n];
+            for r in 0..4 {
+                if let Some(unknown) = ties.of(i + r) {
+                    for (sum, of) in weights[unknown - unknowns.start / n].iter_mut().zip(of) {
+                        *sum += of[r];
+                    }
+                }
+            }
+            Time { weights }
+        };
         Self {
             n,
             positions,
             states,
             values: vec![1.0; grid.len() * (positions + states)],
-            by_position: vec![0.0; grid.len() * positions * n],
-            by_state: vec![0.0; grid.len() * states * 3 * n],
+            by_position: vec![0.0; positions * n],
+            by_state: vec![0.0; states * 3 * n],
+            sizes: (0..n).map(|j| ties.size(j)).collect(),
+            times: (0..grid.len()).map(time).collect(),
+            intervals,
+            places: Vec::new(),
+            slopes: Vec::new(),
             pointwise,
             grid,
             work,
@@ -43,125 +98,97 @@ impl<'a> Rows<'a> {
 
     /// Values, with derivatives where they are wanted. Gives the least value.
     pub(crate) fn evaluate(&mut self, controls: &DMatrix<f64>, with_slopes: bool) -> f64 {
-        let (rows, n) = (self.positions + self.states, self.n);
-        for k in 0..self.grid.len() {
-            let at = PointRows {
-                values: &mut self.values[k * rows..(k + 1) * rows],
-                by_position: &mut self.by_position[k * self.positions * n..(k + 1) * self.positions * n],
-                by_state: &mut self.by_state[k * self.states * 3 * n..(k + 1) * self.states * 3 * n],
-                with_slopes,
-            };
-            self.pointwise.at(&mut self.work, &self.grid, k, controls, at);
+        let rows = self.positions + self.states;
+        if with_slopes {
+            self.places.clear();
+            self.slopes.clear();
+        }
+        for i in 0..self.intervals.len() {
+            let (places, slopes) = (self.places.len(), self.slopes.len());
+            for k in self.intervals[i].times.clone() {
+                let at = PointRows {
+                    values: &mut self.values[k * rows..(k + 1) * rows],
+                    by_position: &mut self.by_position,
+                    by_state: &mut self.by_state,
+                    with_slopes,
+                };
+                self.pointwise.at(&mut self.work, &self.grid, k, controls, at);
+                if with_slopes {
+                    self.take_slopes(k);
+                }
+            }
+            if with_slopes {
+                self.intervals[i].places = places..self.places.len();
+                self.intervals[i].slopes = slopes..self.slopes.len();
+            }
         }
         self.values.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// The derivatives of row `row` at time `k`, by positions, velocities, accelerations as far as it has them.
-    fn slopes(&self, k: usize, row: usize) -> &[f64] {
-        let n = self.n;
-        match row.checked_sub(self.positions) {
-            None => &self.by_position[(k * self.positions + row) * n..][..n],
-            Some(row) => &self.by_state[(k * self.states + row) * 3 * n..][..3 * n],
-        }
-    }
-
-    /// Adds `Σ multiplier · ∂row/∂controls`.
-    pub(crate) fn add_transposed(&self, multipliers: &[f64], out: &mut DMatrix<f64>) {
-        let (rows, n) = (self.positions + self.states, self.n);
-        let mut sum = vec![0.0; 3 * n];
-        for (k, multipliers) in multipliers.chunks_exact(rows.max(1)).enumerate() {
-            sum.fill(0.0);
-            for (row, multiplier) in multipliers.iter().enumerate() {
-                for (sum, slope) in sum.iter_mut().zip(self.slopes(k, row)) {
-                    *sum += multiplier * slope;
+    /// The derivatives at time `k`, by the unknowns of its interval.
+    fn take_slopes(&mut self, k: usize) {
+        let (n, first) = (self.n, k * (self.positions + self.states));
+        let weights = &self.times[k].weights;
+        for (row, of) in self.by_position.chunks_exact(n).enumerate() {
+            // a distance beyond what matters is 1
+            if self.values[first + row] < 1.0 {
+                self.places.push(first + row);
+                for [by_position, ..] in weights {
+                    self.slopes
+                        .extend(of.iter().zip(&self.sizes).map(|(slope, size)| by_position * slope * size));
                 }
             }
-            let (i, weights) = self.grid.rows(k);
-            for j in 0..n {
-                let mut column = out.column_mut(j);
-                for r in 0..4 {
-                    column[i + r] +=
-                        weights[0][r] * sum[j] + weights[1][r] * sum[n + j] + weights[2][r] * sum[2 * n + j];
-                }
+        }
+        for (row, of) in self.by_state.chunks_exact(3 * n).enumerate() {
+            self.places.push(first + self.positions + row);
+            let ((q, rest), sizes) = (of.split_at(n), &self.sizes[..n]);
+            let (qd, qdd) = rest.split_at(n);
+            for [by_q, by_qd, by_qdd] in weights {
+                let slope = |j: usize| (by_q * q[j] + by_qd * qd[j] + by_qdd * qdd[j]) * sizes[j];
+                self.slopes.extend((0..n).map(slope));
             }
         }
     }
 
-    /// How the rows change along a direction of the control points.
-    pub(crate) fn changes(&self, direction: &DMatrix<f64>, changes: &mut [f64]) {
-        let (rows, n) = (self.positions + self.states, self.n);
-        let mut state = vec![0.0; 3 * n];
-        for (k, changes) in changes.chunks_exact_mut(rows.max(1)).enumerate() {
-            let (i, weights) = self.grid.rows(k);
-            for d in 0..3 {
-                for j in 0..n {
-                    state[d * n + j] = derivative(direction, i, &weights[d], j);
+    /// Adds `Σ multiplier · ∂row/∂x`.
+    pub(crate) fn add_transposed(&self, multipliers: &[f64], out: &mut [f64]) {
+        for Interval { unknowns, places, slopes, .. } in &self.intervals {
+            let out = &mut out[unknowns.clone()];
+            let rows = self.slopes[slopes.clone()].chunks_exact(unknowns.len().max(1));
+            for (place, slopes) in self.places[places.clone()].iter().zip(rows) {
+                let multiplier = multipliers[*place];
+                for (out, slope) in out.iter_mut().zip(slopes) {
+                    *out += multiplier * slope;
                 }
-            }
-            for (row, change) in changes.iter_mut().enumerate() {
-                *change = self.slopes(k, row).iter().zip(&state).map(|(slope, state)| slope * state).sum();
             }
         }
     }
 
-    /// Adds `Σ weight · ∂row ∂rowᵀ` in the unknowns.
-    pub(crate) fn add_squares(&self, weights: &[f64], ties: &Ties, band: &mut Band) {
-        let (rows, n) = (self.positions + self.states, self.n);
-        let size = 3 * n;
-        // by positions, velocities, accelerations: the lower triangle
-        let mut square = vec![0.0; size * size];
-        let mut mixed = vec![0.0; size * n];
-        let mut line = vec![0.0; n];
-        for (k, weights) in weights.chunks_exact(rows.max(1)).enumerate() {
-            square.fill(0.0);
-            for (row, weight) in weights.iter().enumerate() {
-                let slopes = self.slopes(k, row);
-                for (a, slope) in slopes.iter().enumerate() {
-                    let factor = weight * slope;
-                    if factor != 0.0 {
-                        for (sum, slope) in square[a * size..=a * size + a].iter_mut().zip(slopes) {
-                            *sum += factor * slope;
-                        }
-                    }
-                }
+    /// How the rows change along a direction.
+    pub(crate) fn changes(&self, direction: &[f64], changes: &mut [f64]) {
+        changes.fill(0.0);
+        for Interval { unknowns, places, slopes, .. } in &self.intervals {
+            let direction = &direction[unknowns.clone()];
+            let rows = self.slopes[slopes.clone()].chunks_exact(unknowns.len().max(1));
+            for (place, slopes) in self.places[places.clone()].iter().zip(rows) {
+                changes[*place] = dot(slopes, direction);
             }
-            for a in 0..size {
-                for b in 0..a {
-                    square[b * size + a] = square[a * size + b];
-                }
+        }
+    }
+
+    /// Adds `Σ weight · ∂row ∂rowᵀ`.
+    pub(crate) fn add_squares(&self, weights: &[f64], band: &mut Band) {
+        let mut square = Vec::new();
+        for Interval { unknowns, places, slopes, .. } in &self.intervals {
+            let (width, places) = (unknowns.len(), &self.places[places.clone()]);
+            if width == 0 {
+                continue;
             }
-            // the unknowns of the interval, and how the state depends on them
-            let (i, of) = self.grid.rows(k);
-            let mut unknowns: [(usize, [f64; 3]); 4] = [(usize::MAX, [0.0; 3]); 4];
-            let mut count = 0;
-            for r in 0..4 {
-                let Some(unknown) = ties.of(i + r) else { continue };
-                if count == 0 || unknowns[count - 1].0 != unknown {
-                    unknowns[count] = (unknown, [0.0; 3]);
-                    count += 1;
-                }
-                for (sum, of) in unknowns[count - 1].1.iter_mut().zip(of) {
-                    *sum += of[r];
-                }
-            }
-            for (place, (one, by_one)) in unknowns[..count].iter().enumerate() {
-                for (row, mixed) in mixed.chunks_exact_mut(n).enumerate() {
-                    for (j, mixed) in mixed.iter_mut().enumerate() {
-                        let of = |d: usize| by_one[d] * square[row * size + d * n + j];
-                        *mixed = of(0) + of(1) + of(2);
-                    }
-                }
-                // rows are those of the later unknown
-                for (other, by_other) in &unknowns[place..count] {
-                    for a in 0..n {
-                        let length = if other == one { a + 1 } else { n };
-                        for (b, line) in line.iter_mut().enumerate().take(length) {
-                            let of = |d: usize| by_other[d] * mixed[(d * n + a) * n + b];
-                            *line = ties.size(a) * ties.size(b) * (of(0) + of(1) + of(2));
-                        }
-                        band.add_row(other * n + a, one * n, &line[..length]);
-                    }
-                }
+            square.clear();
+            square.resize(width * width, 0.0);
+            add_squares(&self.slopes[slopes.clone()], width, |row| weights[places[row]], &mut square);
+            for a in 0..width {
+                band.add_row(unknowns.start + a, unknowns.start, &square[a * width..=a * width + a]);
             }
         }
     }

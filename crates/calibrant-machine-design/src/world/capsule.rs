@@ -2,7 +2,7 @@
 
 use super::cuboid::{Cuboid, segment_box};
 use super::segment::segment_segment;
-use nalgebra::{Isometry3, Point3, Unit, Vector3};
+use nalgebra::{AbstractRotation, Isometry, Point3, Unit, Vector3};
 use std::f64::consts::PI;
 
 /// All points within a radius of a segment. A ball is one whose ends are equal.
@@ -34,9 +34,10 @@ impl Capsule {
 
     /// The same capsule, given in other axes.
     #[must_use]
-    pub fn placed(&self, frame: &Isometry3<f64>) -> Self {
+    pub fn placed<R: AbstractRotation<f64, 3>>(&self, frame: &Isometry<f64, R, 3>) -> Self {
         let place = |end: Vector3<f64>| (frame * Point3::from(end)).coords;
-        Self { ends_m: self.ends_m.map(place), radius_m: self.radius_m }
+        let [one, other] = self.ends_m;
+        Self { ends_m: [place(one), place(other)], radius_m: self.radius_m }
     }
 
     /// Volume, m³.

@@ -4,7 +4,7 @@ use super::capsule::Nearest;
 use super::pairs::pairs;
 use super::{Capsule, Cuboid, LeftOutPair, Scene};
 use calibrant_machine::chain::{Joint, KinematicChain};
-use nalgebra::{Isometry3, Unit, Vector3};
+use nalgebra::{AbstractRotation, Isometry, Unit, Vector3};
 
 /// Distances beyond this are reported as this, m: a lower bound that no joint moves. What is so far decides nothing, and most pairs are.
 pub const FAR_M: f64 = 0.3;
@@ -44,8 +44,8 @@ pub struct BodyPair {
 
 #[derive(Debug, Clone)]
 enum Obstacle {
-    /// A capsule of another body.
-    Capsule(Capsule),
+    /// A capsule of another body, by its place.
+    Capsule(usize),
     Floor,
     Box(Cuboid),
 }
@@ -53,9 +53,17 @@ enum Obstacle {
 #[derive(Debug, Clone)]
 struct Row {
     pair: BodyPair,
-    /// Of the first body. Against the floor: one end of its capsule, as a ball.
-    capsule: Capsule,
+    /// Place of the capsule of the first body. Against the floor it is a ball: one end of a capsule.
+    capsule: usize,
     against: Obstacle,
+}
+
+/// A capsule that moves with a frame, in its axes.
+#[derive(Debug, Clone)]
+struct Carried {
+    frame: usize,
+    capsule: Capsule,
+    bounding_radius_m: f64,
 }
 
 /// A machine and where it stands.
@@ -97,6 +105,8 @@ struct Row {
 pub struct World {
     scene: Scene,
     left_out: Vec<LeftOutPair>,
+    /// What the rows are between, each once.
+    carried: Vec<Carried>,
     rows: Vec<Row>,
 }
 
@@ -110,7 +120,7 @@ impl World {
         assert_eq!(ranges.len(), chain.joints.len(), "one range for each joint");
         let bodies = &scene.bodies;
         let (kept, left_out) = pairs(chain, ranges, &scene);
-        let mut rows = Vec::new();
+        let (mut carried, mut rows) = (Vec::new(), Vec::new());
         for (near, far) in kept.into_iter().map(|(near, far)| (&bodies[near], &bodies[far])) {
             for (capsule, other) in
                 far.capsules.iter().flat_map(|of| near.capsules.iter().map(move |other| (of, other)))
@@ -120,28 +130,30 @@ impl World {
                     frames: [far.frame, near.frame],
                     extents_m: [capsule.extent_m(), other.extent_m()],
                 };
-                rows.push(Row { pair, capsule: *capsule, against: Obstacle::Capsule(*other) });
+                let capsule = place(&mut carried, far.frame, capsule);
+                let against = Obstacle::Capsule(place(&mut carried, near.frame, other));
+                rows.push(Row { pair, capsule, against });
             }
         }
         for body in bodies.iter().filter(|body| body.frame > 0) {
-            let row = |capsule: &Capsule, name: String, against: Obstacle| {
+            let mut row = |capsule: &Capsule, name: String, against: Obstacle| {
                 let pair = BodyPair {
                     names: [body.name.clone(), name],
                     frames: [body.frame, 0],
                     extents_m: [capsule.extent_m(), 0.0],
                 };
-                Row { pair, capsule: *capsule, against }
+                rows.push(Row { pair, capsule: place(&mut carried, body.frame, capsule), against });
             };
             if scene.floor_m.is_some() && changes_height(&chain.joints[..body.frame], &scene.up) {
                 let ends = body.capsules.iter().flat_map(ends);
-                rows.extend(ends.map(|end| row(&end, "floor".into(), Obstacle::Floor)));
+                ends.for_each(|end| row(&end, "floor".into(), Obstacle::Floor));
             }
             for (k, cuboid) in scene.boxes.iter().enumerate() {
-                let boxed = |of: &Capsule| row(of, format!("box {}", k + 1), Obstacle::Box(*cuboid));
-                rows.extend(body.capsules.iter().map(boxed));
+                let mut boxed = |of: &Capsule| row(of, format!("box {}", k + 1), Obstacle::Box(*cuboid));
+                body.capsules.iter().for_each(&mut boxed);
             }
         }
-        Self { scene, left_out, rows }
+        Self { scene, left_out, carried, rows }
     }
 
     /// Number of distances.
@@ -152,10 +164,16 @@ impl World {
 
     /// All distances in one posture.
     ///
-    /// `frames` are the poses, in the base, of the base itself and of the frame behind each joint. Nothing is allocated.
-    pub fn proximities(&self, frames: &[Isometry3<f64>], out: &mut [Proximity]) {
+    /// `frames` are the poses, in the base, of the base itself and of the frame behind each joint.
+    pub fn proximities<R: AbstractRotation<f64, 3>>(
+        &self,
+        frames: &[Isometry<f64, R, 3>],
+        out: &mut [Proximity],
+    ) {
+        let of = self.carried.iter().map(|carried| carried.capsule.placed(&frames[carried.frame]));
+        let placed: Vec<Capsule> = of.collect();
         for (row, out) in self.rows.iter().zip(out) {
-            *out = self.proximity(row, frames);
+            *out = self.proximity(row, &placed);
         }
     }
 
@@ -177,26 +195,26 @@ impl World {
         &self.left_out
     }
 
-    fn proximity(&self, row: &Row, frames: &[Isometry3<f64>]) -> Proximity {
-        let [frame, other_frame] = row.pair.frames.map(|of| &frames[of]);
-        let bounding = row.capsule.bounding_radius_m();
+    fn proximity(&self, row: &Row, placed: &[Capsule]) -> Proximity {
+        let (own, bounding) = (&placed[row.capsule], self.carried[row.capsule].bounding_radius_m);
+        let is_beyond = |to: &Vector3<f64>, radius: f64| {
+            let reach = FAR_M + bounding + radius;
+            (own.middle() - to).norm_squared() > reach * reach
+        };
         let nearest = match &row.against {
-            Obstacle::Capsule(capsule) => {
-                let [one, other] = [(frame, &row.capsule), (other_frame, capsule)]
-                    .map(|(frame, of)| frame.rotation * of.middle() + frame.translation.vector);
-                if (one - other).norm() - bounding - capsule.bounding_radius_m() > FAR_M {
+            Obstacle::Capsule(other) => {
+                let (other, of) = (&placed[*other], &self.carried[*other]);
+                if is_beyond(&other.middle(), of.bounding_radius_m) {
                     return Proximity::far();
                 }
-                row.capsule.placed(frame).to_capsule(&capsule.placed(other_frame))
+                own.to_capsule(other)
             }
-            Obstacle::Floor => self.to_floor(&row.capsule.placed(frame)),
+            Obstacle::Floor => self.to_floor(own),
             Obstacle::Box(cuboid) => {
-                let middle = frame.rotation * row.capsule.middle() + frame.translation.vector;
-                let apart = (middle - cuboid.pose.translation.vector).norm();
-                if apart - bounding - cuboid.half_m.norm() > FAR_M {
+                if is_beyond(&cuboid.pose.translation.vector, cuboid.half_m.norm()) {
                     return Proximity::far();
                 }
-                row.capsule.placed(frame).to_box(cuboid)
+                own.to_box(cuboid)
             }
         };
         if nearest.distance_m > FAR_M {
@@ -218,6 +236,16 @@ impl World {
         let lowest = ball.ends_m[0] - up * ball.radius_m;
         Nearest { distance_m, points: [lowest, lowest - up * distance_m], normal: -up }
     }
+}
+
+/// The place of a capsule among those that are carried, where it is put if it is new.
+fn place(carried: &mut Vec<Carried>, frame: usize, capsule: &Capsule) -> usize {
+    let known = carried.iter().position(|of| of.frame == frame && of.capsule == *capsule);
+    known.unwrap_or_else(|| {
+        let bounding_radius_m = capsule.bounding_radius_m();
+        carried.push(Carried { frame, capsule: *capsule, bounding_radius_m });
+        carried.len() - 1
+    })
 }
 
 /// The ends of a capsule as balls. The lower one is nearest to the floor, and which one that is may change: each has a smooth distance.
