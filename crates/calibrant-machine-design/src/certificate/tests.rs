@@ -5,9 +5,9 @@ use crate::SensorBody;
 use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
 use crate::information::Sensing;
 use crate::spheres_for_tests::Spheres;
-use calibrant_machine::chain::JointState;
 use calibrant_machine::chain::SpeedNearEnds;
-use nalgebra::Vector3;
+use calibrant_machine::chain::{FrameMotion, JointState};
+use nalgebra::{IsometryMatrix3, Vector3};
 
 /// Peaks of everything on dense samples of a motion, with the limits set a little beyond them and a little within.
 #[test]
@@ -40,13 +40,16 @@ fn limits_beyond_the_peaks_are_proved_and_limits_within_them_are_broken() {
         let t = 4.0 * f64::from(k) / 40_000.0;
         let [q, qd, qdd] = [0, 1, 2].map(|d| spline.at(t, d));
         let state = JointState { positions: &q, velocities: &qd, accelerations: &qdd };
-        let felt = sensing.mount.motion(&nominal.tip_motion(state, &sensing.base));
+        let felt = sensing
+            .mount
+            .motion(&nominal.tip_motion(state, &FrameMotion::at_rest(&-Vector3::from(sensing.links.base.0))));
         force = force.sup(&felt.specific_force.abs());
         rate = rate.sup(&felt.rate.abs());
         tip = tip.max(nominal.tip_velocity(&q, &qd).linear_mps.norm());
         let mut frames = vec![nalgebra::Isometry3::identity()];
         frames.extend(nominal.frames(&q));
         frames.pop();
+        let frames: Vec<IsometryMatrix3<f64>> = frames.into_iter().map(nalgebra::convert).collect();
         crate::Surroundings::proximities(&spheres, &frames, &mut near);
         for (least, near) in least.iter_mut().zip(&near) {
             *least = least.min(near.distance_m);

@@ -109,8 +109,8 @@ impl Directions {
                 Direction::Turn(k, axis) => add(&mut out.turns[k], axis),
                 Direction::Base(force) => add(&mut out.base, force),
                 Direction::Delay(s) => {
-                    for row in 3 * s..3 * s + 3 {
-                        out.times_s[row] += factors[row];
+                    for (time, factor) in out.times_s.iter_mut().zip(factors).skip(3 * s).take(3) {
+                        *time += factor;
                     }
                 }
                 Direction::Clock => {

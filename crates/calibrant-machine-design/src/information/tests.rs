@@ -1,11 +1,15 @@
 //! Information against straightforward sums over samples, and gradients against differences.
 
+use super::directions::Directions;
 use super::*;
 use crate::TrajectoryProblem;
 use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
-use crate::motion::Knots;
-use calibrant_machine::chain::FrameMotion;
-use nalgebra::{DMatrix, Matrix4, Vector3, Vector4};
+use crate::motion::{Grid, Knots};
+use crate::recursion::V;
+use calibrant_core::sensor::SensorKind;
+use calibrant_machine::chain::{ChainSensitivity, FrameMotion, JointState};
+use calibrant_machine::estimate::MachineQuantity;
+use nalgebra::{DMatrix, Matrix4, Vector3, Vector4, Vector6};
 
 fn controls(knots: Knots, joints: usize) -> DMatrix<f64> {
     let mut numbers = Numbers(17);
@@ -33,8 +37,7 @@ fn plain_information_is_the_sum_over_many_samples() {
         for k in 0..samples {
             let t = (f64::from(k) + 0.5) * step;
             let [q, qd, qdd] = [0, 1, 2].map(|d| spline.at(t, d));
-            let state =
-                calibrant_machine::chain::JointState { positions: &q, velocities: &qd, accelerations: &qdd };
+            let state = JointState { positions: &q, velocities: &qd, accelerations: &qdd };
             let tip = chain.nominal().tip_motion(state, &base);
             let felt = sensing.mount.motion(&tip);
             let s: f64 = qd.iter().zip(&sensing.growth.speeds).map(|(qd, speed)| (qd / speed).powi(2)).sum();
@@ -75,5 +78,55 @@ fn gradients_are_those_of_differences() {
         let valued = full.at(&controls).expect("determined");
         let found = full.gradient(&valued).dot(&direction);
         assert!((found - wanted).abs() < 1e-6 * (1.0 + wanted.abs()), "full {found} {wanted}");
+    }
+}
+
+/// Each column of the nuisances, against the derivatives that the estimate on a machine uses.
+#[test]
+fn nuisances_change_the_readings_as_in_the_estimate() {
+    let chain = arm_of_all_kinds(4, &mut Numbers(5));
+    let problem = problem_of(&chain);
+    let sensing = Sensing::new(&problem).expect("valid");
+    let knots = Knots { step_s: 0.5, intervals: 4 };
+    let (grid, controls) = (Grid::at(knots, [0.3]), controls(knots, 4));
+    let mut sampled = Sampled::new(4, grid.len());
+    sampled.fill(&sensing.links, &grid, &controls);
+    sampled.thirds(&sensing.links);
+    let tip = chain.tip_transform.rotation.to_rotation_matrix().into_inner();
+    let directions = Directions::new(&sensing, &tip);
+    let base = FrameMotion::at_rest(&-Vector3::from(sensing.links.base.0));
+    let (spline, after_middle_s) = (knots.spline(&controls), 0.7);
+    for k in 0..grid.len() {
+        let [q, qd, qdd, jerk] = [0, 1, 2, 3].map(|d| spline.at(grid.time_s(k), d));
+        let state = JointState { positions: &q, velocities: &qd, accelerations: &qdd };
+        let mut of = ChainSensitivity::new(4);
+        of.evaluate(&chain.nominal(), state, &base, &sensing.mount);
+        let mut change = Vector6::zeros();
+        for j in 0..4 {
+            change += of.positions.column(j) * qd[j]
+                + of.velocities.column(j) * qdd[j]
+                + of.accelerations.column(j) * jerk[j];
+        }
+        let of_sensor = |s: usize| Vector6::from_fn(|row, _| if row / 3 == s { change[row] } else { 0.0 });
+        let wanted = |quantity: &MachineQuantity| -> Option<Vector6<f64>> {
+            Some(match *quantity {
+                MachineQuantity::Imu(_) => return None,
+                MachineQuantity::Lever(axis) => of.mount.lever.column(axis.index()).into_owned(),
+                MachineQuantity::Mounting(axis) => of.mount.mounting.column(axis.index()).into_owned(),
+                MachineQuantity::Tilt(k) => of.gravity() * sensing.by_gravity[k],
+                MachineQuantity::Gravity => of.gravity() * sensing.by_gravity[2],
+                MachineQuantity::Delay(sensor) => of_sensor(usize::from(sensor == SensorKind::Gyroscope)),
+                MachineQuantity::ClockRate => change * after_middle_s,
+                MachineQuantity::Zero(j) => of.positions.column(j).into_owned(),
+                MachineQuantity::Geometry(j, k) => of.geometry.column(6 * j + k).into_owned(),
+            })
+        };
+        let wanted: Vec<Vector6<f64>> = sensing.layout.quantities.iter().filter_map(wanted).collect();
+        assert_eq!(wanted.len(), directions.len());
+        directions.columns(sampled.sweep(k), after_middle_s, |place, [V(force), V(rate)]| {
+            let found = Vector6::from_iterator(force.into_iter().chain(rate));
+            let error = (found - wanted[place]).norm();
+            assert!(error < 1e-11 * (1.0 + wanted[place].norm()), "{k} {place}: {found} {}", wanted[place]);
+        });
     }
 }

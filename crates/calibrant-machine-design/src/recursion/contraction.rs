@@ -88,7 +88,11 @@ impl Contraction {
                 rd: between.rd + behind.rd,
                 axes: between.axes + behind.axes,
             };
-            let (Some(bars), Some(joint)) = (bars.get_mut(k), links.joints.get(k)) else { continue };
+            let (Some(bars), Some(of_jerk), Some(joint)) =
+                (bars.get_mut(k), of_jerks.get_mut(k), links.joints.get(k))
+            else {
+                continue;
+            };
             let [z, zd, _] = &sweep.frames[k].z;
             let [r, rd, _] = sweep.to_sensor(k);
             let (once, twice) =
@@ -109,7 +113,7 @@ impl Contraction {
             bars.q += changed[0] + turned[0];
             bars.qd += changed[1] + turned[1] + own[0];
             bars.qdd += changed[2] + turned[2] + own[1];
-            of_jerks[k] += own[2];
+            *of_jerk += own[2];
         }
         sweep.reverse(links, joints, readings, |k| self.bars[k], bars);
     }

@@ -22,6 +22,8 @@ const TIMES: [usize; 3] = [5, 4, 3];
 /// Barrier parameter of random starts, and the last one on each level, in nats. A level begins with the last one of the level before: a larger one would drive the motion back
 /// from the limits that it has found.
 const FIRST_BARRIER: f64 = 0.075;
+/// Short motions have fewer levels, and one or two joints perhaps: they begin each level farther from the limits.
+const SHORT_BARRIERS: [f64; 3] = [FIRST_BARRIER, 0.1, 0.05];
 const BARRIERS: [f64; 3] = [0.02, 0.01, 5e-4];
 /// A step that lowers the barrier function by less than this is small, on each level.
 const STALLS: [f64; 3] = [0.05, 0.02, 0.003];
@@ -212,7 +214,7 @@ fn no_start(shared: Shared<'_>, knots: Knots) -> Error {
 /// Level `number` of so many.
 fn level(number: usize, levels: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {
     let place = number + 3 - levels;
-    let first = if number == 0 { FIRST_BARRIER } else { BARRIERS[place - 1] };
+    let first = if number > 0 && levels == 3 { BARRIERS[place - 1] } else { SHORT_BARRIERS[place] };
     Level {
         points: POINTS[place],
         times: TIMES[place],

@@ -61,7 +61,7 @@ impl<'a> Rows<'a> {
             let end = if i + 1 == knots.intervals { grid.len() } else { (i + 1) * times };
             let of = || (i..i + 4).filter_map(|control| ties.of(control));
             let unknowns =
-                of().next().map_or(0..0, |first| n * first..n * (of().last().unwrap_or(first) + 1));
+                of().next().map_or(0..0, |first| n * first..n * (of().next_back().unwrap_or(first) + 1));
             Interval { times: i * times..end, unknowns, places: 0..0, slopes: 0..0 }
         };
         let intervals: Vec<Interval> = (0..knots.intervals).map(interval).collect();

@@ -64,7 +64,7 @@ impl Capsule {
     }
 
     /// Against another capsule in the same axes.
-    pub(super) fn to_capsule(&self, other: &Self) -> Nearest {
+    pub(super) fn to_capsule(self, other: &Self) -> Nearest {
         let [p, q] = segment_segment(&self.ends_m, &other.ends_m);
         let apart = q - p;
         let normal = Unit::try_new(apart, TOUCHING_M)
@@ -77,7 +77,7 @@ impl Capsule {
     }
 
     /// Against a box in the same axes.
-    pub(super) fn to_box(&self, cuboid: &Cuboid) -> Nearest {
+    pub(super) fn to_box(self, cuboid: &Cuboid) -> Nearest {
         let found = segment_box(&self.ends_m, cuboid);
         let normal = -found.outward;
         Nearest {
