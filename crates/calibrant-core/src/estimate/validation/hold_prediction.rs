@@ -71,7 +71,7 @@ impl HoldPrediction {
         let spread = |variance: Vector3<f64>, by: &Matrix3<f64>| {
             by * Matrix3::from_diagonal(&variance) * by.transpose()
         };
-        let of_noise = noise_variance(hold, &within, &of_mean);
+        let of_noise = noise_variance(hold, within, of_mean);
         let of_scatter = between_variance(prediction.between_holds_sd_mps2, &imu.accelerometer.matrix);
         let by_noise = spread(of_noise, &correction);
         let own = by_noise + spread(of_scatter, &correction);

@@ -46,10 +46,11 @@ impl ImuModel<'_> {
         start: (State, GravityResiduals),
         settings: &LoopSettings<'_>,
     ) -> Option<Fit> {
+        // the smallest that is large enough
         match self.quantities.len() {
-            ..=LINEAR_ACCELEROMETER => self.iterate::<LINEAR_ACCELEROMETER>(start, settings),
-            ..=BENT_ACCELEROMETER => self.iterate::<BENT_ACCELEROMETER>(start, settings),
-            ..=AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, settings),
+            n if n <= LINEAR_ACCELEROMETER => self.iterate::<LINEAR_ACCELEROMETER>(start, settings),
+            n if n <= BENT_ACCELEROMETER => self.iterate::<BENT_ACCELEROMETER>(start, settings),
+            n if n <= AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, settings),
             _ => self.iterate::<ENTRIES>(start, settings),
         }
     }

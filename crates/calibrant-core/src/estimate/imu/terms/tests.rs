@@ -23,7 +23,8 @@ const TEMPERATURES_C: [f64; 3] = [18.0, 24.0, 31.0];
 struct Simulated {
     times_s: Vec<f64>,
     forces: Vec<Vector3<f64>>,
-    samples: Vec<(Vec<Vector3<f64>>, Vec<Vector3<f64>>)>,
+    /// Of each rotation: the rates, and the forces with them.
+    samples: Vec<[Vec<Vector3<f64>>; 2]>,
     imu: ImuParameters,
 }
 
@@ -86,7 +87,7 @@ impl Simulated {
                 let bias = biases[0].lerp(&biases[1], t / duration_s);
                 bias + matrix * turn * speed(*t) + imu.g_sensitivity * force
             });
-            samples.push((readings.collect(), felt));
+            samples.push([readings.collect(), felt]);
             // the two numbers of a residual turn with the direction after it, which derivatives leave out: it is small
             forces.push(Rotation3::new(-turn + Vector3::new(1e-5, -2e-5, 3e-5)) * start);
         }
@@ -137,8 +138,8 @@ impl Simulated {
             from,
             samples: Samples {
                 times_s: &self.times_s,
-                readings: &self.samples[from].0,
-                forces: Some(&self.samples[from].1),
+                readings: &self.samples[from][0],
+                forces: Some(&self.samples[from][1]),
                 drift: [drift(from), drift(from + 1)],
             },
             knocks: Knocks::default(),
@@ -150,7 +151,7 @@ impl Simulated {
             integral: Vector3::new(0.1, 6.4, -0.2),
             duration_s: 4.0,
             force: Vector3::new(2.0, 38.0, 1.0),
-            angle: Vector3::new(0.0, 6.28, 0.0),
+            angle: Vector3::new(0.0, std::f64::consts::TAU, 0.0),
             weight: Vector3::new(1e4, 2e4, 1e4),
             temperature_c: 27.0,
         };
