@@ -55,6 +55,24 @@ pub struct Link<const D: usize, const P: usize> {
     pub gp: SVector<f64, P>,
 }
 
+impl<const D: usize, const P: usize> Link<D, P> {
+    /// Without information.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self {
+            h00: SMatrix::zeros(),
+            h01: SMatrix::zeros(),
+            h11: SMatrix::zeros(),
+            b0: SMatrix::zeros(),
+            b1: SMatrix::zeros(),
+            c: SMatrix::zeros(),
+            g0: SVector::zeros(),
+            g1: SVector::zeros(),
+            gp: SVector::zeros(),
+        }
+    }
+}
+
 /// The prior on `a_{i+1} − a_i`, per coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Increment<const D: usize> {

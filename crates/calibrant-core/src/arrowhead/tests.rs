@@ -165,21 +165,7 @@ fn vanishing_variance_tends_to_the_exact_constraint_without_loss() {
 
 #[test]
 fn a_node_without_information_is_named() {
-    let empty = |i| if i == 3 || i == 4 { Link { ..zero() } } else { link(i) };
+    let empty = |i| if i == 3 || i == 4 { Link::zero() } else { link(i) };
     let result = Arrowhead::eliminate(N, empty, |_| Increment::unknown(), Matrix3::zeros(), SVector::zeros());
     assert_eq!(result.expect_err("node 4 has no data").node, 4);
-}
-
-fn zero() -> Link<2, 3> {
-    Link {
-        h00: SMatrix::zeros(),
-        h01: SMatrix::zeros(),
-        h11: SMatrix::zeros(),
-        b0: SMatrix::zeros(),
-        b1: SMatrix::zeros(),
-        c: SMatrix::zeros(),
-        g0: SVector::zeros(),
-        g1: SVector::zeros(),
-        gp: SVector::zeros(),
-    }
 }

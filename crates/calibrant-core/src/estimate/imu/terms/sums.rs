@@ -8,7 +8,6 @@ use crate::estimate::imu::terms::known::Known;
 use crate::estimate::imu::terms::list::{TERMS, terms};
 use crate::estimate::imu::terms::term::{At, Derivatives, Place, Residual, Term};
 use crate::solve::Equations;
-use nalgebra::{SMatrix, SVector};
 
 /// `χ²` at a point.
 pub(crate) fn chi2(at: &At<'_>) -> f64 {
@@ -45,7 +44,7 @@ pub(crate) fn degrees_of_freedom(at: &At<'_>) -> usize {
 /// The normal equations at a point. `None` where a direction is not determined.
 pub(crate) fn normal_equations<const P: usize>(at: &At<'_>) -> Option<Equations<2, P>> {
     let is_free = |hold: usize| at.model.holds[hold].known.is_none();
-    let mut alone = nothing::<P>();
+    let mut alone = Link::<2, P>::zero();
     for term in terms(Place::Alone).rev() {
         (0..term.count(at.model)).for_each(|k| add(&mut alone, term, (at, k), [false; 2]));
     }
@@ -56,7 +55,7 @@ pub(crate) fn normal_equations<const P: usize>(at: &At<'_>) -> Option<Equations<
         border[(k, k)] = 1.0;
     }
     let link = |hold: usize| {
-        let mut link = nothing::<P>();
+        let mut link = Link::<2, P>::zero();
         for term in terms(Place::Hold) {
             add(&mut link, term, (at, hold), [false, is_free(hold)]);
         }
@@ -71,20 +70,6 @@ pub(crate) fn normal_equations<const P: usize>(at: &At<'_>) -> Option<Equations<
     let increment = |hold: usize| Increment { fixed: [!is_free(hold); 2], ..Increment::unknown() };
     let system = Arrowhead::eliminate(at.model.holds.len(), link, increment, border, rhs).ok()?;
     Some((system, unreduced))
-}
-
-fn nothing<const P: usize>() -> Link<2, P> {
-    Link {
-        h00: SMatrix::zeros(),
-        h01: SMatrix::zeros(),
-        h11: SMatrix::zeros(),
-        b0: SMatrix::zeros(),
-        b1: SMatrix::zeros(),
-        c: SMatrix::zeros(),
-        g0: SVector::zeros(),
-        g1: SVector::zeros(),
-        gp: SVector::zeros(),
-    }
 }
 
 /// Adds one observation. A direction that is not free does not turn.
