@@ -68,28 +68,20 @@ impl Recorded {
             let path = further.path_of(sensor_kind);
             Err(Error::recording(InputError::new(refusal, message, help).in_file(path)))
         };
-        let is_there =
-            |recording: &ImuRecording| SensorKind::ALL.map(|kind| recording.sensor(kind).is_some());
         let (one, added) = (&self.recording, &other.recording);
-        let are_alike = is_there(one) == is_there(added);
-        let differ = |sensor_kind: SensorKind| {
-            let of =
-                |recording: &ImuRecording| recording.sensor(sensor_kind).map(|of| (of.unit(), of.axes()));
-            of(one) != of(added)
-        };
-        if let Some(sensor_kind) = SensorKind::ALL.into_iter().find(|sensor_kind| differ(*sensor_kind)) {
-            let (message, help) = if are_alike {
-                (
+        for sensor_kind in SensorKind::ALL {
+            let (message, help) = match (one.sensor(sensor_kind), added.sensor(sensor_kind)) {
+                (Some(one), Some(added)) if (one.unit(), one.axes()) != (added.unit(), added.axes()) => (
                     format!(
                         "the unit or number of axes of its {sensor_kind} is not that of the first recording"
                     ),
                     "record one sensor in one unit, or calibrate the recordings one by one",
-                )
-            } else {
-                (
+                ),
+                (Some(_), None) | (None, Some(_)) => (
                     format!("only one of it and the first recording has a {sensor_kind}"),
                     "record the same sensors each time, or calibrate the recordings one by one",
-                )
+                ),
+                _ => continue,
             };
             return refused(sensor_kind, Refusal::RecordingsUnlike, message, help);
         }
