@@ -107,6 +107,12 @@ fn an_imu_of_two_recordings_has_the_bias_of_the_last_and_one_matrix() {
         let printed = bench.run(&joined).done().printed();
         assert!(printed.contains("verdict: ok"), "{printed}");
     }
+    // a last recording without a hold tells nothing of its bias: all have one
+    bench.write("a.csv", part(&bench, "whole/recording.csv", |t| t < middle_s, [0.0, 0.0]));
+    bench.write("b.csv", part(&bench, "whole/recording.csv", |t| t > end_s - 0.5, [0.0, 0.0]));
+    let printed =
+        bench.run("calibrate imu.toml a.csv b.csv --together --no-report -o short").done().printed();
+    assert!(!printed.contains("bias 1"), "{printed}");
     let whole = estimates(&bench, "result/calibration.json");
     for (name, change) in changes {
         let joined = estimates(&bench, &format!("{name}/calibration.json"));

@@ -8,7 +8,7 @@ use crate::motion::Hold;
 use crate::sensor::Recording;
 use nalgebra::{DMatrix, DVector, Vector3};
 
-/// Combinations of biases whose information is below this share of the best one are not determined.
+/// Combinations of biases whose information is below this share of what it was before the parameters were marginalised are not determined: they may be rounding.
 const DETERMINED: f64 = 1e-9;
 
 /// The bias of each earlier recording, less that of the last, in the unit of the readings.
@@ -23,14 +23,10 @@ pub struct RecordingBiases {
 }
 
 impl RecordingBiases {
-    /// From what the data tell: the information about `δ`, and that times `δ` of least squares. `unit`: by which the values are multiplied in the readings' unit, per axis.
-    /// `None` where the data explain `δ` by chance.
-    pub(super) fn of(
-        further_from_s: &[f64],
-        (information, weighted): (&DMatrix<f64>, &DVector<f64>),
-        unit: &Vector3<f64>,
-    ) -> Option<Self> {
-        let variance = variance(information, weighted)?;
+    /// From what the data tell. `unit`: by which the values are multiplied in the readings' unit, per axis. `None` where the data explain `δ` by chance.
+    pub(super) fn of(further_from_s: &[f64], told: &Told, unit: &Vector3<f64>) -> Option<Self> {
+        let variance = told.variance()?;
+        let Told { information, weighted, .. } = told;
         let known = DMatrix::identity(weighted.len(), weighted.len()) / variance;
         let factor = (information + known).cholesky()?;
         let (values, covariance) = (factor.solve(weighted), factor.inverse());
@@ -56,9 +52,12 @@ impl RecordingBiases {
         self.values.get(recording_at(&self.further_from_s, time_s)).copied().unwrap_or_default()
     }
 
-    /// The number of the recording of each hold.
-    pub(super) fn of_holds(&self, holds: &[&Hold]) -> Vec<usize> {
-        holds.iter().map(|hold| recording_at(&self.further_from_s, hold.start_s)).collect()
+    /// The recordings of these holds.
+    pub(super) fn recordings(&self, holds: &[&Hold]) -> Recordings {
+        Recordings {
+            of_holds: holds.iter().map(|hold| recording_at(&self.further_from_s, hold.start_s)).collect(),
+            earlier: self.values.len(),
+        }
     }
 
     /// The errors of the biases of the recordings, by one standard deviation of each independent combination: that of recording r in place r.
@@ -84,25 +83,46 @@ impl RecordingBiases {
     }
 }
 
+/// The recordings of some holds, each with a bias of its own. Empty where all have one.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Recordings {
+    /// The number of each hold's, from 0.
+    pub(super) of_holds: Vec<usize>,
+    /// Number of those before the last, with holds or without.
+    pub(super) earlier: usize,
+}
+
 /// The number of the recording at a time, from 0.
 pub(super) fn recording_at(further_from_s: &[f64], time_s: f64) -> usize {
     further_from_s.iter().filter(|from_s| **from_s <= time_s).count()
 }
 
-/// `σ²` by moments. In the eigenvectors of the information, each component z of `δ` has variance `1/λ` by noise and `σ²` beyond; the precise ones count most.
-/// `None` where noise explains them.
-fn variance(information: &DMatrix<f64>, weighted: &DVector<f64>) -> Option<f64> {
-    let eigen = information.clone().symmetric_eigen();
-    let along = eigen.eigenvectors.transpose() * weighted;
-    let least = DETERMINED * eigen.eigenvalues.max();
-    let determined = eigen.eigenvalues.iter().zip(along.iter()).filter(|(lambda, _)| **lambda > least);
-    let (mut sum, mut weights) = (0.0, 0.0);
-    for (lambda, along) in determined {
-        let weight = lambda * lambda;
-        sum += weight * ((along / lambda).powi(2) - 1.0 / lambda);
-        weights += weight;
+/// What the data tell of `δ`.
+pub(super) struct Told {
+    /// Information, with the parameters marginalised.
+    pub(super) information: DMatrix<f64>,
+    /// The same times `δ` of least squares.
+    pub(super) weighted: DVector<f64>,
+    /// The greatest entry of the information before that, on its diagonal.
+    pub(super) reference: f64,
+}
+
+impl Told {
+    /// `σ²` by moments. In the eigenvectors of the information, each component z of `δ` has variance `1/λ` by noise and `σ²` beyond; the precise ones count most.
+    /// `None` where noise explains them.
+    fn variance(&self) -> Option<f64> {
+        let eigen = self.information.clone().symmetric_eigen();
+        let along = eigen.eigenvectors.transpose() * &self.weighted;
+        let least = DETERMINED * self.reference;
+        let determined = eigen.eigenvalues.iter().zip(along.iter()).filter(|(lambda, _)| **lambda > least);
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (lambda, along) in determined {
+            let weight = lambda * lambda;
+            sum += weight * ((along / lambda).powi(2) - 1.0 / lambda);
+            weights += weight;
+        }
+        (sum > 0.0).then(|| sum / weights)
     }
-    (sum > 0.0).then(|| sum / weights)
 }
 
 #[cfg(test)]
@@ -114,7 +134,8 @@ mod tests {
         let information = DMatrix::identity(3, 3) * 100.0;
         let of = |delta: [f64; 3]| {
             let weighted = &information * DVector::from_row_slice(&delta);
-            RecordingBiases::of(&[60.0], (&information, &weighted), &Vector3::repeat(2.0))
+            let told = Told { information: information.clone(), weighted, reference: 100.0 };
+            RecordingBiases::of(&[60.0], &told, &Vector3::repeat(2.0))
         };
         // their sd is 0.1
         assert_eq!(of([0.1, -0.05, 0.08]), None);
@@ -134,8 +155,8 @@ mod tests {
         let mut information = DMatrix::identity(3, 3);
         information[(2, 2)] = 0.0;
         let weighted = DVector::from_row_slice(&[10.0, 10.0, 0.0]);
-        let found = RecordingBiases::of(&[1.0], (&information, &weighted), &Vector3::repeat(1.0))
-            .expect("they differ");
+        let told = Told { information, weighted, reference: 1.0 };
+        let found = RecordingBiases::of(&[1.0], &told, &Vector3::repeat(1.0)).expect("they differ");
         // as far off as the others
         let sd = found.sds().next().expect("one");
         assert!(found.values[0].z == 0.0 && (sd.z - 99.0_f64.sqrt()).abs() < 1e-9, "{found:?}");

@@ -75,7 +75,10 @@ fn fitted(
     (sound, of_mean): (Vec<usize>, Vector3<f64>),
 ) -> Result<(Option<RecordingBiases>, Fitted)> {
     let biases = recording_biases(problem, setup, settings, &holds, (&sound, of_mean))?;
-    let holds = biases.as_ref().map_or(holds.clone(), |biases| biases.taken_out(&holds));
+    let holds = match &biases {
+        Some(biases) => biases.taken_out(&holds),
+        None => holds,
+    };
     let mut fitted = drift_fit::fit(problem, setup, settings, (holds, biases.as_ref()), (sound, of_mean))?;
     if let Some(biases) = &biases {
         let without_drift = fitted.without.as_ref().unwrap_or(&fitted.robust);

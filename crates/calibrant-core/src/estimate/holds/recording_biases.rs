@@ -4,7 +4,7 @@ use super::HoldsSetup;
 use super::robust::{Conditions, Robust};
 use super::robust_weights;
 use crate::error::Result;
-use crate::estimate::recording_biases::{RecordingBiases, recording_at};
+use crate::estimate::recording_biases::{RecordingBiases, Told, recording_at};
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::motion::Hold;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -79,6 +79,8 @@ struct Magnitudes {
     weighted: DVector<f64>,
     /// Information that biases and parameters share.
     common: DMatrix<f64>,
+    /// Diagonal of the information with the parameters known.
+    unreduced: DVector<f64>,
     gains: Vector3<f64>,
 }
 
@@ -100,8 +102,9 @@ impl Magnitudes {
                 common += &magnitude.by_parameters * row.transpose() / magnitude.own;
             }
         }
+        let unreduced = information.diagonal();
         information -= common.transpose() * &robust.covariance * &common;
-        Self { information, weighted, common, gains: robust.sensor.gains() }
+        Self { information, weighted, common, unreduced, gains: robust.sensor.gains() }
     }
 
     /// All biases. `taken_out`: those that were.
@@ -116,6 +119,7 @@ impl Magnitudes {
         });
         let left = DVector::from_fn(unknowns, |k, _| self.weighted[k] * gain(k));
         let weighted = &information * taken_out + left;
-        RecordingBiases::of(&setup.further_from_s, (&information, &weighted), &self.gains)
+        let reference = DVector::from_fn(unknowns, |k, _| self.unreduced[k] * gain(k).powi(2)).max();
+        RecordingBiases::of(&setup.further_from_s, &Told { information, weighted, reference }, &self.gains)
     }
 }

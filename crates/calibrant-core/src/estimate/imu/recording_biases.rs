@@ -31,12 +31,11 @@ pub(crate) fn gyroscope_biases(
     let gyroscope =
         StationaryGyroscope::measure(problem, &roughly.taken_out_of(recording), &used.holds, white_noise)?;
     let mut means = explained_means(problem, first, used, &gyroscope, quantities);
-    means.by.recordings = used.holds.iter().map(|hold| recording_at(further_from_s, hold.start_s)).collect();
-    Ok(of_recordings(&means).and_then(|(information, left)| {
-        let taken_out =
-            DVector::from_iterator(left.len(), roughly.values.iter().flat_map(|value| value.iter().copied()));
-        let weighted = &information * taken_out + left;
-        RecordingBiases::of(further_from_s, (&information, &weighted), &Vector3::repeat(1.0))
+    means.by.recordings = roughly.recordings(&used.holds);
+    Ok(of_recordings(&means).and_then(|mut told| {
+        let taken_out = roughly.values.iter().flat_map(|value| value.iter().copied());
+        told.weighted += &told.information * DVector::from_iterator(told.weighted.len(), taken_out);
+        RecordingBiases::of(further_from_s, &told, &Vector3::repeat(1.0))
     }))
 }
 

@@ -33,6 +33,7 @@ use crate::estimate::imu::thermometer_lag::LagEffect;
 use crate::estimate::imu::variance_components::bias_drift::follow_drift;
 use crate::estimate::imu::variance_components::solution::solve;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
+use crate::estimate::recording_biases::Recordings;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
 use crate::sensor::SensorKind;
@@ -68,7 +69,8 @@ fn stages(
     let gyroscope_recording = steady.as_ref().unwrap_or(gyroscope_recording);
     let gyroscope = StationaryGyroscope::measure(problem, gyroscope_recording, &used.holds, white_noise)?;
     let mut means = explained_means(problem, (&first, &temperature), &used, &gyroscope, unknowns);
-    means.by.recordings = biases.as_ref().map_or_else(Vec::new, |biases| biases.of_holds(&used.holds));
+    means.by.recordings =
+        biases.as_ref().map_or_else(Recordings::default, |biases| biases.recordings(&used.holds));
     let initial = initial_values(problem, (&first, &temperature), &used.numbers, &means);
     // rotations and turns between them
     let movement = Movement::of(problem, (recording, &first.sensor), gyroscope_recording, &used.holds);

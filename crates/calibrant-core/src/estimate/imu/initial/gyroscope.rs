@@ -12,6 +12,7 @@ use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::imu::variance_components::between_holds::{
     Explanation, Means, between_sd, set_gyroscope_means,
 };
+use crate::estimate::recording_biases::Recordings;
 use crate::sensor::{
     ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal, ThermalTerm,
 };
@@ -36,7 +37,7 @@ pub(crate) fn explained_means<'a>(
 ) -> Means<'a> {
     let thermal = Thermal { accelerometer: first.thermal, ..temperature.start };
     let by = Explanation {
-        recordings: Vec::new(),
+        recordings: Recordings::default(),
         forces: problem.gyroscope.g_sensitivity.then_some(used.forces.as_slice()),
         of_earth: earth_in_holds(problem, &used.forces),
         by_earth: Vec::new(),

@@ -31,13 +31,12 @@ pub(crate) fn from_unknown_directions(
     };
     let intervals_s =
         intervals_s.unwrap_or_else(|| found.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
-    // temperature terms follow a drift by themselves
-    let bias_drift_sd_mps2 = match problem.setup.thermal.is_none() {
-        true => problem.setup.holds.bias_drift_sd_mps2,
-        false => 0.0,
-    };
-    let intervals_s = Some(intervals_s);
-    let setup = HoldsSetup { intervals_s, bias_drift_sd_mps2, ..problem.setup.holds.clone() };
+    let mut setup = HoldsSetup { intervals_s: Some(intervals_s), ..problem.setup.holds.clone() };
+    // temperature terms follow a drift, and a bias of each recording, by themselves
+    if !problem.setup.thermal.is_none() {
+        setup.bias_drift_sd_mps2 = 0.0;
+        setup.further_from_s.clear();
+    }
     let stimulus = Stimulus::Holds(&setup);
     let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };

@@ -3,6 +3,7 @@
 //! Each mean is explained by a constant, by the specific force where asked for, by powers of the temperature and by the Earth's rate.
 
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData};
+use crate::estimate::recording_biases::{Recordings, Told};
 use crate::sensor::{MeanReading, SensorThermal, ThermalTerm};
 use crate::solve::{Trial, excess};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
@@ -19,8 +20,8 @@ pub(crate) struct Means<'a> {
 /// What the means in the holds are explained by, beside a constant.
 #[derive(Clone)]
 pub(crate) struct Explanation<'a> {
-    /// The number of each hold's recording, where each has a bias of its own; empty where all have one.
-    pub(crate) recordings: Vec<usize>,
+    /// The recordings of the holds, where each has a bias of its own.
+    pub(crate) recordings: Recordings,
     /// The specific forces, where the gyroscope feels them.
     pub(crate) forces: Option<&'a [Vector3<f64>]>,
     /// What the gyroscope reads of the Earth's turn about the vertical in each hold, where that is known and no force takes it up.
@@ -35,13 +36,6 @@ pub(crate) struct Explanation<'a> {
     pub(crate) terms: [Vec<(ThermalTerm, f64, f64)>; 3],
 }
 
-impl Explanation<'_> {
-    /// Number of the recordings before the last.
-    fn earlier(&self) -> usize {
-        self.recordings.iter().copied().max().unwrap_or_default()
-    }
-}
-
 /// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant, by the
 /// specific force where asked for, by powers of the temperature, which are returned as well, and by the Earth's rate.
 pub(crate) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, SensorThermal) {
@@ -54,7 +48,7 @@ pub(crate) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, SensorThermal) {
             between[axis] = sd;
             solution
         });
-        let first = 1 + by.earlier() + by.forces.map_or(0, |_| 3);
+        let first = 1 + by.recordings.earlier + by.forces.map_or(0, |_| 3);
         for (k, (term, expected, _)) in by.terms[axis].iter().enumerate() {
             term.add_to(&mut thermal, expected + solution.as_ref().map_or(0.0, |found| found[first + k]));
         }
@@ -82,7 +76,9 @@ impl Regression {
             .filter_map(|(j, still)| {
                 let still = still.as_ref()?;
                 let mut row = vec![1.0];
-                row.extend((0..by.earlier()).map(|r| f64::from(u8::from(by.recordings[j] == r))));
+                row.extend(
+                    (0..by.recordings.earlier).map(|r| f64::from(u8::from(by.recordings.of_holds[j] == r))),
+                );
                 if let Some(forces) = by.forces {
                     row.extend(forces[j].iter());
                 }
@@ -141,7 +137,7 @@ impl Regression {
     }
 
     /// What the means tell of the biases in the recordings, the other unknowns marginalised.
-    fn of_recordings(&self, earlier: usize) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    fn of_recordings(&self, earlier: usize) -> Option<Told> {
         let (between, _) = self.fit()?;
         let (mut f, g) = self.normal_equations(between);
         f.fill_upper_triangle_with_lower_triangle();
@@ -150,10 +146,12 @@ impl Regression {
         let part = |rows: &[usize], columns: &[usize]| f.select_rows(rows).select_columns(columns);
         let common = part(&others, &ours);
         let explained = part(&others, &others).cholesky()?.solve(&common).transpose();
-        Some((
-            part(&ours, &ours) - &explained * common,
-            g.select_rows(&ours) - explained * g.select_rows(&others),
-        ))
+        let unreduced = part(&ours, &ours);
+        Some(Told {
+            reference: unreduced.diagonal().max(),
+            information: unreduced - &explained * common,
+            weighted: g.select_rows(&ours) - explained * g.select_rows(&others),
+        })
     }
 
     /// The scatter between holds with the unknowns; `None` where these are not determined.
@@ -164,21 +162,23 @@ impl Regression {
     }
 }
 
-/// What the means tell of the biases in the recordings before the last: the information, three rows for each, and the same times the biases.
-pub(crate) fn of_recordings(means: &Means<'_>) -> Option<(DMatrix<f64>, DVector<f64>)> {
-    let earlier = means.by.earlier();
-    let (mut information, mut weighted) =
-        (DMatrix::zeros(3 * earlier, 3 * earlier), DVector::zeros(3 * earlier));
+/// What the means tell of the biases in the recordings before the last: three rows for each.
+pub(crate) fn of_recordings(means: &Means<'_>) -> Option<Told> {
+    let earlier = means.by.recordings.earlier;
+    let size = 3 * earlier;
+    let mut told =
+        Told { information: DMatrix::zeros(size, size), weighted: DVector::zeros(size), reference: 0.0 };
     for axis in 0..3 {
-        let (of_axis, weighted_of_axis) = Regression::new(means, axis).of_recordings(earlier)?;
+        let of_axis = Regression::new(means, axis).of_recordings(earlier)?;
+        told.reference = told.reference.max(of_axis.reference);
         for r in 0..earlier {
-            weighted[3 * r + axis] = weighted_of_axis[r];
+            told.weighted[3 * r + axis] = of_axis.weighted[r];
             for s in 0..earlier {
-                information[(3 * r + axis, 3 * s + axis)] = of_axis[(r, s)];
+                told.information[(3 * r + axis, 3 * s + axis)] = of_axis.information[(r, s)];
             }
         }
     }
-    Some((information, weighted))
+    Some(told)
 }
 
 /// Gives the holds their gyroscope means with inverse variances.
