@@ -405,7 +405,7 @@ def as_source(
     else:
         readings, reading = [as_readings(source)], {}
     place = None if sections is None else os.fspath(sections)
-    added = [as_source(of)[0] for of in further]
+    added = [_native.Source(as_readings(of)) for of in further]
     return _native.Source(readings[0], readings[1] if len(readings) > 1 else None, added, place), reading
 
 
