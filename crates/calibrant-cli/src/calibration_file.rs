@@ -114,7 +114,9 @@ pub(crate) fn in_words(imu: &CalibratedImu) -> String {
         .into_iter()
         .filter_map(|sensor_kind| Some(format!("{sensor_kind} in {}", imu.unit(sensor_kind)?.symbol())))
         .collect();
-    if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0) {
+    if imu.unit(SensorKind::Gyroscope).is_some()
+        && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0)
+    {
         words.push("g-sensitivity".into());
     }
     if imu.follows_temperature() {

@@ -56,8 +56,11 @@ fn record(k: usize, with_gyroscope: bool) -> Record {
         status: "converged".into(),
         imu: CalibratedImu {
             parameters,
-            accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-            gyroscope_unit: with_gyroscope.then_some(ReadingUnit::RadianPerSecond),
+            units: [
+                Some(ReadingUnit::MetrePerSecondSquared),
+                with_gyroscope.then_some(ReadingUnit::RadianPerSecond),
+            ]
+            .into(),
             quantities,
             covariance: Some(&root * root.transpose()),
             degrees_of_freedom: None,

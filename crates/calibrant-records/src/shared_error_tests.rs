@@ -22,8 +22,7 @@ fn on_machine(gain: f64) -> CalibratedImu {
     parameters.accelerometer.matrix *= gain;
     CalibratedImu {
         parameters,
-        accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-        gyroscope_unit: None,
+        units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
         quantities,
         covariance: Some(DMatrix::identity(size, size) * 1e-10 + &shared * shared.transpose()),
         degrees_of_freedom: None,

@@ -22,8 +22,7 @@ pub(super) fn imu(k: usize) -> CalibratedImu {
     let root = DMatrix::from_fn(quantities.len(), quantities.len(), |i, j| 1e-4 / (1 + i + 2 * j + k) as f64);
     CalibratedImu {
         parameters,
-        accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-        gyroscope_unit: Some(ReadingUnit::Counts),
+        units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::Counts)].into(),
         quantities,
         covariance: Some(&root * root.transpose()),
         degrees_of_freedom: Some(CovarianceDegrees {
@@ -286,7 +285,7 @@ fn a_table_has_a_row_for_each_calibration_and_reads_back_to_the_last_bit() {
     let (directory, path) = place();
     let mut records = Records::open(&path).expect("made");
     let mut counts = record("=B", 2);
-    counts.imu.accelerometer_unit = Some(ReadingUnit::Counts);
+    counts.imu.units[SensorKind::Accelerometer] = Some(ReadingUnit::Counts);
     let bare = Record { recorded: None, imu: CalibratedImu { covariance: None, ..imu(1) }, ..record("A", 1) };
     records.insert_all([bare, counts]).expect("inserted");
     let table = directory.path().join("t.csv");

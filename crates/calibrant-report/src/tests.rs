@@ -79,7 +79,7 @@ fn excerpt<'a>(html: &'a str, needle: &str) -> &'a str {
 fn residuals_of(calibration: &mut Calibration) -> &mut Vec<Vector3<f64>> {
     match &mut calibration.recovered {
         Recovered::Motion(motion) => &mut motion.residuals,
-        Recovered::Holds(_) => panic!("no motion"),
+        _ => panic!("no motion"),
     }
 }
 

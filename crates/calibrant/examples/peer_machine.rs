@@ -96,7 +96,12 @@ fn calibrated(
         }
     }
     if std::env::var("SHOW").is_ok() {
-        println!("{:?} {} {:?}", calibration.status, calibration.iterations, calibration.motion.knots());
+        println!(
+            "{:?} {} {:?}",
+            calibration.sensors.status,
+            calibration.sensors.iterations,
+            calibration.motion.knots()
+        );
         for of in &calibration.noise {
             println!(
                 "{} {:?} white {:?} {:?}",
@@ -106,7 +111,7 @@ fn calibrated(
                 of.growth
             );
         }
-        for warning in &calibration.warnings {
+        for warning in &calibration.sensors.warnings {
             println!("{:?}", warning.code());
         }
         for of in &calibration.reference_noise {
@@ -159,8 +164,7 @@ fn true_sensor(parameters: &Value, in_gauge: bool) -> Result<ImuParameters, Box<
     };
     let imu = CalibratedImu {
         parameters,
-        accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-        gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
+        units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)].into(),
         quantities: ImuQuantity::full_list(true, true, false),
         covariance: None,
         degrees_of_freedom: None,
@@ -188,10 +192,10 @@ impl Tally {
     fn add(&mut self, calibration: &MachineCalibration, truth: &[f64], seconds: f64) {
         self.order = calibration.names();
         self.recordings += 1;
-        self.converged += usize::from(calibration.status == CalibrationStatus::Converged);
+        self.converged += usize::from(calibration.sensors.status == CalibrationStatus::Converged);
         self.seconds.push(seconds);
         self.inflated += usize::from(calibration.inflation.iter().any(|factor| *factor > 1.0));
-        self.warned += usize::from(!calibration.warnings.is_empty());
+        self.warned += usize::from(!calibration.sensors.warnings.is_empty());
         self.noise.extend(calibration.noise.iter().map(|of| of.noise.mean() / of.white_noise.mean()));
         for ((name, value), (sd, truth)) in
             self.order.iter().zip(&calibration.values).zip(calibration.sd().iter().zip(truth))

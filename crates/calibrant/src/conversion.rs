@@ -119,6 +119,6 @@ impl Conversion {
 /// How large the error is without the g-sensitivity, where there is one.
 fn g_sensitivity_omitted(imu: &CalibratedImu) -> Option<GSensitivityOmitted> {
     let largest = imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
-    let unit = imu.gyroscope_unit.map_or("", |unit| unit.symbol());
+    let unit = imu.unit(SensorKind::Gyroscope).map_or("", |unit| unit.symbol());
     (largest > 0.0).then_some(GSensitivityOmitted { error: 9.80665 * largest, unit })
 }

@@ -102,7 +102,7 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
 
 /// The sensor of a calibration of one sensor alone.
 fn alone(imu: &CalibratedImu) -> Option<SensorKind> {
-    match (imu.accelerometer_unit, imu.gyroscope_unit) {
+    match (imu.unit(SensorKind::Accelerometer), imu.unit(SensorKind::Gyroscope)) {
         (Some(_), None) => Some(SensorKind::Accelerometer),
         (None, Some(_)) => Some(SensorKind::Gyroscope),
         _ => None,

@@ -225,13 +225,13 @@ impl DesignPlan {
             );
         }
         let outcome = Session::with(self.experiment.clone(), options)?.calibrate(source)?;
-        let Some(calibration) = outcome.calibration() else {
+        if outcome.calibrated.machine().is_some() {
             return unsuited(
                 "the holds of a machine are not compared with the best",
                 "see `calibrant init static-poses`",
             );
-        };
-        let (problem, directions) = self.experiment.recorded_poses(calibration)?;
+        }
+        let (problem, directions) = self.experiment.recorded_poses(outcome.calibration())?;
         let evaluation = evaluate_poses(&problem, &directions, self.settings.seed)?;
         Ok(RecordedPoses { problem, directions, evaluation, notes: outcome.notes })
     }

@@ -53,7 +53,7 @@
 //! # let simulated = calibrant::simulate(&experiment, &calibrant::SimulationOptions::default())?;
 //! # write_recording(&path, simulated.recording.accelerometer.as_ref().expect("there"))?;
 //! let outcome = Session::new(experiment)?.calibrate(&Source::from_file(&path))?;
-//! let calibration = outcome.calibration().expect("not on a machine");
+//! let calibration = outcome.calibration();
 //! for (parameter, (value, sd)) in calibration.parameters.iter().zip(calibration.values.iter().zip(calibration.sd().iter())) {
 //!     println!("{} {value} ± {sd} {}", parameter.name, parameter.unit);
 //! }
@@ -79,7 +79,7 @@
 //!     ("t_s", &t), ("ax_mps2", &fx), ("ay_mps2", &fy), ("az_mps2", &fz), ("gx_radps", &wx), ("gy_radps", &wy), ("gz_radps", &wz),
 //! ];
 //! let outcome = Session::new(experiment)?.calibrate(&Source::from_columns("bench", &table))?;
-//! let imu = outcome.calibration().expect("not on a machine").calibrated();
+//! let imu = outcome.calibration().calibrated();
 //! println!("{} {}", imu.parameters.gyroscope.matrix, outcome.verdict());
 //! # assert_eq!(imu.covariance.map(|of| of.nrows()), Some(imu.quantities.len()));
 //! # Ok::<(), calibrant::Error>(())
@@ -127,7 +127,7 @@
 //! let options = SessionOptions { motion: Some(MotionSource::Logged(log)), ..SessionOptions::default() };
 //! let outcome = Session::with(experiment, options)?.calibrate(&Source::from_recording("gantry", recording))?;
 //! println!("{}", outcome.sheet().text(80));
-//! # assert!(outcome.calibration().is_none(), "it is a calibration on a machine");
+//! # assert!(outcome.calibrated.machine().is_some(), "it is a calibration on a machine");
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 //!
@@ -139,7 +139,7 @@
 //! # let mut parameters = calibrant::sensor::ImuParameters::identity();
 //! # parameters.accelerometer.bias.x = 0.1;
 //! # let imu = calibrant::sensor::CalibratedImu {
-//! #     parameters, accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared), gyroscope_unit: None, quantities: vec![],
+//! #     parameters, units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(), quantities: vec![],
 //! #     covariance: None, degrees_of_freedom: None, shared: None, frame: String::new(),
 //! # };
 //! # let (t, y) = (vec![0.0, 0.01], vec![Vector3::new(0.3, 0.0, 9.8); 2]);

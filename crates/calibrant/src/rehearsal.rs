@@ -1,6 +1,6 @@
 //! The rehearsal of a machine: what design, recording and calibration give for simulated sensors, before the machine is used.
 
-use crate::session::{Calibrated, MotionSource, Readings, Session, SessionOptions, Source};
+use crate::session::{MotionSource, Readings, Session, SessionOptions, Source};
 use crate::simulation::{SimulationOptions, simulate};
 use crate::trajectory_plan::TrajectoryPlan;
 use calibrant_core::budget::Budget;
@@ -163,7 +163,7 @@ impl RehearsalPlan<'_> {
         let session = Session::with(experiment.clone(), options)?;
         let readings = Readings::recording(format!("sensor {seed}"), simulated.recording);
         let outcome = session.calibrate(&Source::new(readings))?;
-        let Calibrated::OnMachine(machine) = &outcome.calibrated else { return Err(no_machine()) };
+        let machine = outcome.calibrated.machine().ok_or_else(no_machine)?;
         let estimate = |of: &ImuQuantity| machine.calibration.estimate(MachineQuantity::Imu(*of));
         let found = self.plan.quantities.iter().map(|of| estimate(of).unwrap_or((f64::NAN, f64::NAN)));
         let (values, sd) = found.unzip();

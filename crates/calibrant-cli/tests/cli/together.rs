@@ -45,6 +45,23 @@ fn parts_of_a_session_give_together_what_the_whole_gives() {
 }
 
 #[test]
+fn a_recording_of_which_nothing_is_used_is_named() {
+    let bench = parts();
+    let in_mg = |line: &str| {
+        let scaled = |value: &str| {
+            value.parse::<f64>().map_or_else(|_| value.to_owned(), |of| (of * 102.0).to_string())
+        };
+        let mut values = line.split(',');
+        let time = values.next().unwrap_or_default().to_owned();
+        std::iter::once(time).chain(values.map(scaled)).collect::<Vec<_>>().join(",")
+    };
+    let text = bench.read("c.csv");
+    bench.write("c.csv", text.lines().map(in_mg).collect::<Vec<_>>().join("\n"));
+    let outcome = bench.run("calibrate poses.toml a.csv b.csv c.csv --together -o joined").done();
+    assert!(outcome.printed().contains("no hold of recording 3 is used"), "{}", outcome.stdout);
+}
+
+#[test]
 fn what_cannot_be_calibrated_together_is_refused() {
     let bench = parts();
     bench.refuses(

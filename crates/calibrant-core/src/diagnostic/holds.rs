@@ -46,6 +46,17 @@ checks! {
          changed there, or it was not at rest. Calibrate these holds separately (holds.intervals_s), and compare."
     );
 
+    /// Of several recordings that are calibrated together, no hold of one is used.
+    RecordingUnused "recording-unused" Warning {
+        /// Its number, from 1.
+        recording: usize,
+    }
+    decided "No hold was found in it, or all were left out."
+    remedy "Look at it by itself: is its unit that of the others, and does the sensor rest in it? If nothing can be done, leave it out."
+    says format!(
+        "no hold of recording {recording} is used: it adds nothing. Is its unit that of the others, and does the sensor rest in it?"
+    );
+
     /// A given hold reaches beyond the recording.
     HoldBeyondRecording "hold-beyond-recording" Warning {
         /// Its number, from 1.

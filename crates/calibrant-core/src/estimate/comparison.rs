@@ -157,8 +157,7 @@ impl Comparison {
     /// let quantities = ImuQuantity::full_list(true, false, false)[..6].to_vec(); // bias and scale factors
     /// let a = CalibratedImu {
     ///     parameters: ImuParameters::identity(),
-    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-    ///     gyroscope_unit: None,
+    ///     units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
     ///     quantities,
     ///     covariance: Some(DMatrix::identity(6, 6) * 1e-6),
     ///     degrees_of_freedom: None,

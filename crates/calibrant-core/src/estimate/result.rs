@@ -8,7 +8,7 @@ use crate::diagnostic::{Change, Diagnostic};
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
     Axis, CalibratedImu, CovarianceDegrees, CovariancePart, Gauge, ImuParameters, ImuQuantity, Parameter,
-    Quantity, ReadingUnit, SensorKind, SensorModel, SharedErrors,
+    PerSensor, Quantity, ReadingUnit, SensorKind, SensorModel, SharedErrors,
 };
 use crate::solve::CalibrationStatus;
 use nalgebra::{DMatrix, Vector3};
@@ -44,8 +44,8 @@ pub struct Calibration {
     pub datasheet_prior: bool,
     /// The estimates as a model, fixed quantities included. A sensor that was not calibrated is a perfect one.
     pub imu: ImuParameters,
-    /// Unit of the accelerometer's readings.
-    pub accelerometer_unit: ReadingUnit,
+    /// Unit of each sensor's readings; `None` where it was not calibrated.
+    pub units: PerSensor<Option<ReadingUnit>>,
     /// How well the model fits the data.
     pub fit: FitStatistics,
     /// The motion or the holds, estimated with the parameters.
@@ -71,10 +71,13 @@ impl Calibration {
         let allowed =
             |axis: Axis| axis.index() >= self.axes() || datasheet::allows_gain(parameters, values, &sd, axis);
         let (kind, matrix) = (SensorKind::Accelerometer, &self.imu.accelerometer.matrix);
-        let gains = datasheet::implausible_gains(kind, self.accelerometer_unit, matrix, allowed);
+        let gains = datasheet::implausible_gains(kind, self.unit(SensorKind::Accelerometer), matrix, allowed);
         let allowed = |axis: Axis| datasheet::allows_bias(parameters, values, &sd, axis);
-        let bias =
-            datasheet::implausible_bias(self.accelerometer_unit, &self.imu.accelerometer.bias, allowed);
+        let bias = datasheet::implausible_bias(
+            self.unit(SensorKind::Accelerometer),
+            &self.imu.accelerometer.bias,
+            allowed,
+        );
         datasheet::beyond_datasheet(parameters, values, &sd).into_iter().chain(bias).chain(gains).collect()
     }
 
@@ -91,8 +94,8 @@ impl Calibration {
 
     /// The sensors that were calibrated.
     #[must_use]
-    pub fn sensor_kinds(&self) -> &'static [SensorKind] {
-        if self.gyroscope.is_some() { &SensorKind::ALL } else { &[SensorKind::Accelerometer] }
+    pub fn sensor_kinds(&self) -> Vec<SensorKind> {
+        self.units.present().map(|(sensor_kind, _)| sensor_kind).collect()
     }
 
     /// Number of axes that were calibrated: that of the accelerometer's biases.
@@ -103,18 +106,14 @@ impl Calibration {
             Recovered::Motion(_) => {
                 Axis::ALL.iter().filter(|axis| self.quantities.contains(&bias(axis))).count()
             }
-            Recovered::Holds(_) => 3,
+            Recovered::Holds(_) | Recovered::OnMachine(_) => 3,
         }
     }
 
-    /// Unit of the readings of a sensor.
+    /// Unit of the readings of a sensor; that of its stimulus where it was not calibrated.
     #[must_use]
     pub fn unit(&self, sensor_kind: SensorKind) -> ReadingUnit {
-        match (sensor_kind, &self.gyroscope) {
-            (SensorKind::Accelerometer, _) => self.accelerometer_unit,
-            (SensorKind::Gyroscope, Some(gyroscope)) => gyroscope.unit,
-            (SensorKind::Gyroscope, None) => sensor_kind.stimulus_unit(),
-        }
+        self.units[sensor_kind].unwrap_or(sensor_kind.stimulus_unit())
     }
 
     /// Unit of a quantity.
@@ -139,8 +138,8 @@ impl Calibration {
     #[must_use]
     pub fn holds(&self) -> Option<&HoldCalibration> {
         match &self.recovered {
-            Recovered::Motion(_) => None,
             Recovered::Holds(holds) => Some(holds),
+            Recovered::Motion(_) | Recovered::OnMachine(_) => None,
         }
     }
 
@@ -202,11 +201,10 @@ impl Calibration {
     pub fn calibrated(&self) -> CalibratedImu {
         CalibratedImu {
             parameters: self.imu,
-            accelerometer_unit: Some(self.accelerometer_unit),
-            gyroscope_unit: self.gyroscope.as_ref().map(|gyroscope| gyroscope.unit),
+            units: self.units,
             quantities: self.quantities.clone(),
             covariance: Some(self.covariance.clone()),
-            degrees_of_freedom: Some(self.degrees_behind()),
+            degrees_of_freedom: self.degrees_behind(),
             shared: self.shared_errors(),
             frame: self.frame(),
         }
@@ -221,6 +219,7 @@ impl Calibration {
                 return SharedErrors::of_source(gravity_source(&holds.gravity), &column);
             }
             Recovered::Motion(motion) => motion.gravity.as_ref()?,
+            Recovered::OnMachine(found) => return found.shared.clone(),
         };
         let gravity = recovered.gravity.magnitude();
         let along = self.imu.accelerometer.matrix
@@ -238,9 +237,16 @@ impl Calibration {
         SharedErrors::of_source(gravity_source(&gravity), &column)
     }
 
-    /// Degrees of freedom behind the covariance.
-    fn degrees_behind(&self) -> CovarianceDegrees {
-        let Recovered::Holds(holds) = &self.recovered else { return CovarianceDegrees::known() };
+    /// Degrees of freedom behind the covariance; `None` where they are not known.
+    fn degrees_behind(&self) -> Option<CovarianceDegrees> {
+        match &self.recovered {
+            Recovered::Holds(holds) => Some(self.degrees_behind_holds(holds)),
+            Recovered::Motion(_) => Some(CovarianceDegrees::known()),
+            Recovered::OnMachine(_) => None,
+        }
+    }
+
+    fn degrees_behind_holds(&self, holds: &HoldCalibration) -> CovarianceDegrees {
         // what numbers leave beside the unknowns of a part
         let left = |numbers: usize, part: CovariancePart, axes: f64| {
             let of_part = |k: &usize| self.quantities[*k].covariance_part() == part;
@@ -289,6 +295,7 @@ impl Calibration {
     fn frame(&self) -> String {
         let form = match &self.recovered {
             Recovered::Motion(_) => return "the axes of the commanded motion".to_owned(),
+            Recovered::OnMachine(found) => return found.frame.clone(),
             Recovered::Holds(_) if self.frame_is_known() => {
                 return "that of the known directions of the holds".to_owned();
             }
@@ -354,13 +361,24 @@ pub struct Whiteness {
     pub p_value: f64,
 }
 
-/// The motion or the holds, estimated with the parameters.
+/// What was estimated with the parameters: the motion or the holds.
 #[derive(Debug, Clone)]
 pub enum Recovered {
     /// The motion.
     Motion(RecoveredMotion),
     /// The holds.
     Holds(HoldCalibration),
+    /// The motion of a machine: it stands in the result of the machine.
+    OnMachine(FoundOnMachine),
+}
+
+/// What a calibration on a machine says of its parameters as a whole.
+#[derive(Debug, Clone)]
+pub struct FoundOnMachine {
+    /// Errors of the parameters that another calibration on this machine has, too: gravity, geometry and zeros.
+    pub shared: Option<SharedErrors>,
+    /// The true frame, in words.
+    pub frame: String,
 }
 
 /// The recovered motion.

@@ -222,7 +222,8 @@ impl CalibratedImu {
     #[must_use]
     pub fn invariants(&self) -> Vec<InvariantValue> {
         let covariance = entry_vector::covariance(self).map(Box::new);
-        let (accelerometer, gyroscope) = (self.accelerometer_unit.is_some(), self.gyroscope_unit.is_some());
+        let (accelerometer, gyroscope) =
+            (self.unit(SensorKind::Accelerometer).is_some(), self.unit(SensorKind::Gyroscope).is_some());
         let terms = ImuQuantity::all(accelerometer, gyroscope).into_iter().filter_map(|quantity| {
             let there = quantity.value(&self.parameters) != 0.0 || self.quantities.contains(&quantity);
             match quantity {

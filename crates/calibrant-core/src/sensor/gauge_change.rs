@@ -154,7 +154,11 @@ impl CalibratedImu {
     /// The sensor whose matrix fixes the true frame: the accelerometer where there is one.
     #[must_use]
     pub fn reference(&self) -> SensorKind {
-        if self.accelerometer_unit.is_some() { SensorKind::Accelerometer } else { SensorKind::Gyroscope }
+        if self.unit(SensorKind::Accelerometer).is_some() {
+            SensorKind::Accelerometer
+        } else {
+            SensorKind::Gyroscope
+        }
     }
 
     /// The same IMU in the true frame of a gauge of the [reference](Self::reference) sensor. Its covariance
@@ -283,8 +287,7 @@ pub(super) mod tests {
         });
         CalibratedImu {
             parameters,
-            accelerometer_unit: Some(ReadingUnit::Counts),
-            gyroscope_unit: Some(ReadingUnit::Counts),
+            units: [Some(ReadingUnit::Counts), Some(ReadingUnit::Counts)].into(),
             quantities,
             covariance: Some(&root * root.transpose()),
             degrees_of_freedom: None,

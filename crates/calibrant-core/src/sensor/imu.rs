@@ -7,8 +7,8 @@
 
 use super::spikes::{Spikes, without};
 use super::{
-    Axis, CovarianceDegrees, CovariancePart, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters,
-    SharedErrors, Thermal, ThermalPart, ThermalTerm,
+    Axis, CovarianceDegrees, CovariancePart, PerSensor, Quantity, ReadingUnit, Recording, SensorKind,
+    SensorParameters, SharedErrors, Thermal, ThermalPart, ThermalTerm,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -306,10 +306,8 @@ impl ImuQuantity {
 pub struct CalibratedImu {
     /// The values. Those of a sensor that was not calibrated have no meaning.
     pub parameters: ImuParameters,
-    /// Unit of the accelerometer's readings; `None` where there is no accelerometer.
-    pub accelerometer_unit: Option<ReadingUnit>,
-    /// Unit of the gyroscope's readings; `None` where there is no gyroscope.
-    pub gyroscope_unit: Option<ReadingUnit>,
+    /// Unit of each sensor's readings; `None` where it was not calibrated.
+    pub units: PerSensor<Option<ReadingUnit>>,
     /// The quantities of the covariance, in its order. Without a covariance, the quantities that are known.
     pub quantities: Vec<ImuQuantity>,
     /// Covariance of these quantities; `None` where it is not known.
@@ -323,23 +321,22 @@ pub struct CalibratedImu {
 }
 
 impl CalibratedImu {
-    /// An IMU without a covariance, from the units of accelerometer and gyroscope and its frame in words.
+    /// An IMU without a covariance, from the units of its sensors and its frame in words.
     #[must_use]
     pub fn new(
         parameters: ImuParameters,
-        [accelerometer_unit, gyroscope_unit]: [Option<ReadingUnit>; 2],
+        units: impl Into<PerSensor<Option<ReadingUnit>>>,
         quantities: Vec<ImuQuantity>,
         frame: impl Into<String>,
     ) -> Self {
-        let (covariance, degrees_of_freedom, shared, frame) = (None, None, None, frame.into());
+        let (units, frame) = (units.into(), frame.into());
         Self {
             parameters,
-            accelerometer_unit,
-            gyroscope_unit,
+            units,
             quantities,
-            covariance,
-            degrees_of_freedom,
-            shared,
+            covariance: None,
+            degrees_of_freedom: None,
+            shared: None,
             frame,
         }
     }
@@ -347,10 +344,7 @@ impl CalibratedImu {
     /// Unit of a sensor's readings; `None` where it was not calibrated.
     #[must_use]
     pub fn unit(&self, sensor_kind: SensorKind) -> Option<ReadingUnit> {
-        match sensor_kind {
-            SensorKind::Accelerometer => self.accelerometer_unit,
-            SensorKind::Gyroscope => self.gyroscope_unit,
-        }
+        self.units[sensor_kind]
     }
 
     /// Degrees of freedom behind a part of its covariance; infinite where the variances count as known.
@@ -386,19 +380,14 @@ impl CalibratedImu {
         let kept: Vec<usize> =
             (0..self.quantities.len()).filter(|&k| self.quantities[k].sensor_kind() == sensor_kind).collect();
         let mut imu = self.clone();
-        let without = match sensor_kind {
-            SensorKind::Accelerometer => {
-                imu.parameters.g_sensitivity = Matrix3::zeros();
-                imu.gyroscope_unit = None;
-                SensorKind::Gyroscope
-            }
-            SensorKind::Gyroscope => {
-                imu.accelerometer_unit = None;
-                SensorKind::Accelerometer
-            }
-        };
-        *imu.parameters.sensor_mut(without) = SensorParameters::identity();
-        *imu.parameters.thermal.sensor_mut(without) = Default::default();
+        for without in SensorKind::ALL.into_iter().filter(|of| *of != sensor_kind) {
+            imu.units[without] = None;
+            *imu.parameters.sensor_mut(without) = SensorParameters::identity();
+            *imu.parameters.thermal.sensor_mut(without) = Default::default();
+        }
+        if imu.units[SensorKind::Gyroscope].is_none() {
+            imu.parameters.g_sensitivity = Matrix3::zeros();
+        }
         imu.restrict(&kept);
         imu
     }

@@ -71,7 +71,7 @@ pub(super) fn sensor_kind_of_name(path: &Path) -> Option<SensorKind> {
 pub(super) fn joined(accelerometer: CalibratedImuFile, gyroscope: CalibratedImuFile) -> CalibratedImuFile {
     let mut file = accelerometer;
     file.imu.parameters.gyroscope = gyroscope.imu.parameters.gyroscope;
-    file.imu.gyroscope_unit = gyroscope.imu.gyroscope_unit;
+    file.imu.units[SensorKind::Gyroscope] = gyroscope.imu.unit(SensorKind::Gyroscope);
     file.imu.quantities = ImuQuantity::full_list(true, true, false);
     if gyroscope.imu.frame != file.imu.frame {
         let supposed = Phrase(file.imu.frame.clone());
@@ -190,7 +190,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(SensorKind, String)>> {
     let imu = &file.imu;
-    if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
+    if imu.unit(SensorKind::Gyroscope).is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
         return Err(input_error(
             Refusal::ConversionImpossible,
             "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",

@@ -180,9 +180,14 @@ fn factors(s: &Matrix3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
-    let (Some(acc_unit), Some(gyr_unit)) = (imu.accelerometer_unit, imu.gyroscope_unit) else {
-        let absent =
-            if imu.accelerometer_unit.is_some() { SensorKind::Gyroscope } else { SensorKind::Accelerometer };
+    let (Some(acc_unit), Some(gyr_unit)) =
+        (imu.unit(SensorKind::Accelerometer), imu.unit(SensorKind::Gyroscope))
+    else {
+        let absent = if imu.unit(SensorKind::Accelerometer).is_some() {
+            SensorKind::Gyroscope
+        } else {
+            SensorKind::Accelerometer
+        };
         return Err(input_error(
             Refusal::ConversionImpossible,
             format!("imucal's JSON wants both sensors, and there is no {absent}"),

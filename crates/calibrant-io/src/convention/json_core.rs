@@ -355,7 +355,8 @@ pub(super) fn quantity_of(
     imu: &CalibratedImu,
     symmetric: Option<&Vec<String>>,
 ) -> Option<ImuQuantity> {
-    let (accelerometer, gyroscope) = (imu.accelerometer_unit.is_some(), imu.gyroscope_unit.is_some());
+    let (accelerometer, gyroscope) =
+        (imu.unit(SensorKind::Accelerometer).is_some(), imu.unit(SensorKind::Gyroscope).is_some());
     let found =
         ImuQuantity::all(accelerometer, gyroscope).into_iter().find(|quantity| quantity.name() == name)?;
     imu.unit(found.sensor_kind())?;

@@ -328,7 +328,7 @@ fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, 
 
 pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) -> Checked<String> {
     let imu = &file.imu;
-    let Some(accelerometer_unit) = imu.accelerometer_unit else {
+    let Some(accelerometer_unit) = imu.unit(SensorKind::Accelerometer) else {
         return Err(input_error(
             Refusal::ConversionImpossible,
             "Kalibr's imu.yaml has no place for a gyroscope alone: its frame is the accelerometer's",
@@ -362,7 +362,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     }
     out.push_str("  accelerometers:\n");
     matrix(&mut out, "M", &m_a);
-    if let Some(gyroscope_unit) = imu.gyroscope_unit {
+    if let Some(gyroscope_unit) = imu.unit(SensorKind::Gyroscope) {
         let (m_g, c_gyro_b) = factors(&imu.parameters.gyroscope.matrix, SensorKind::Gyroscope)?;
         out.push_str("  gyroscopes:\n");
         matrix(&mut out, "A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
@@ -384,7 +384,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     {
         loses("the biases");
     }
-    if [Some(accelerometer_unit), imu.gyroscope_unit].contains(&Some(ReadingUnit::Counts)) {
+    if [Some(accelerometer_unit), imu.unit(SensorKind::Gyroscope)].contains(&Some(ReadingUnit::Counts)) {
         loses("readings in counts");
     }
     if !absent.is_empty() {
@@ -396,9 +396,10 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
 
 fn beside(out: &mut String, imu: &CalibratedImu, gyroscope_unit: Option<ReadingUnit>) {
     out.push_str("  calibrant: # not read by Kalibr\n");
-    for (sensor_kind, unit) in
-        [(SensorKind::Accelerometer, imu.accelerometer_unit), (SensorKind::Gyroscope, gyroscope_unit)]
-    {
+    for (sensor_kind, unit) in [
+        (SensorKind::Accelerometer, imu.unit(SensorKind::Accelerometer)),
+        (SensorKind::Gyroscope, gyroscope_unit),
+    ] {
         if let Some(unit) = unit {
             put(out, format_args!("    {sensor_kind}_unit: {}\n", unit.symbol()));
             if imu.has_bias(sensor_kind) {

@@ -56,8 +56,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     };
     let mut imu = CalibratedImu {
         parameters: ImuParameters::identity(),
-        accelerometer_unit: unit(SensorKind::Accelerometer),
-        gyroscope_unit: unit(SensorKind::Gyroscope),
+        units: [unit(SensorKind::Accelerometer), unit(SensorKind::Gyroscope)].into(),
         quantities: Vec::new(),
         covariance: None,
         degrees_of_freedom: None,
@@ -70,10 +69,10 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         },
     };
     // quantities that are not listed are zero
-    if imu.accelerometer_unit.is_some() {
+    if imu.unit(SensorKind::Accelerometer).is_some() {
         imu.parameters.accelerometer.matrix = Matrix3::zeros();
     }
-    if imu.gyroscope_unit.is_some() {
+    if imu.unit(SensorKind::Gyroscope).is_some() {
         imu.parameters.gyroscope.matrix = Matrix3::zeros();
     }
     let symmetric = (file.gauge.as_deref() == Some(Gauge::Symmetric.name())).then_some(&names);

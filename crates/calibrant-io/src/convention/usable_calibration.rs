@@ -12,7 +12,7 @@ const LARGEST: f64 = 1e12;
 /// Can the correction be computed? Everything is finite, the matrices are regular, and the covariance is
 /// valid.
 pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
-    if imu.accelerometer_unit.is_none() && imu.gyroscope_unit.is_none() {
+    if imu.unit(SensorKind::Accelerometer).is_none() && imu.unit(SensorKind::Gyroscope).is_none() {
         return Err(invalid("there is neither an accelerometer nor a gyroscope in it", "give a calibration"));
     }
     for sensor_kind in SensorKind::ALL {

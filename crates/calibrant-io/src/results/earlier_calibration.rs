@@ -157,7 +157,7 @@ fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     let (imu, has_datasheet_prior) = read_estimates(text)?;
     let WithHolds { holds } = serde_json::from_str(text).unwrap_or_default();
     let imu = imu.only(SensorKind::Accelerometer);
-    let Some(unit) = imu.accelerometer_unit.filter(|_| !imu.quantities.is_empty()) else {
+    let Some(unit) = imu.unit(SensorKind::Accelerometer).filter(|_| !imu.quantities.is_empty()) else {
         return reject("it has no parameters of an accelerometer");
     };
     let Some(matrix) = imu.covariance else { return reject("the field `covariance` is missing") };

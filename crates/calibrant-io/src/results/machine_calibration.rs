@@ -4,18 +4,15 @@ use super::heading::{Heading, JsonFile};
 use super::judgement::Judgement;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
-use calibrant_core::estimate::FitInUnit;
-use calibrant_core::form::{As, rows};
+use calibrant_core::form::As;
 use calibrant_core::json::{flat, if_any, if_some};
 use calibrant_core::json_object;
-use calibrant_core::sensor::{ImuFields, ReadingUnit, SensorKind};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, SensorResidual,
     Source,
 };
 use calibrant_machine::reference::Motion;
-use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -59,17 +56,13 @@ impl<'a> MachineResult<'a> {
     }
 
     /// The unit of each quantity that was estimated.
-    #[must_use]
-    pub fn units(&self) -> Vec<&'static str> {
+    fn units(&self) -> Vec<&'static str> {
         let joints: Vec<&'static str> = self
             .chain()
             .map_or(Vec::new(), |chain| chain.joints.iter().map(|joint| joint.kind.unit()).collect());
         let calibration = self.calibration;
         let unit = |quantity: &MachineQuantity| match quantity {
-            MachineQuantity::Imu(of) => {
-                let readings = calibration.units[usize::from(of.sensor_kind() != SensorKind::Accelerometer)];
-                of.unit(readings.unwrap_or(of.sensor_kind().stimulus_unit()))
-            }
+            MachineQuantity::Imu(of) => calibration.sensors.unit_of(*of),
             other => other.unit(&joints).unwrap_or_default(),
         };
         calibration.quantities.iter().map(unit).collect()
@@ -92,28 +85,15 @@ json_object! {
     MachineCalibrationFile<'_> as file {
         heading: flat(Heading::<Self>::of()),
         origin: flat(file.origin),
-        verdict: file.judgement.verdict(&file.result.calibration.warnings),
-        /// How the iteration ended.
-        status: file.result.calibration.status.name(),
-        /// Number of iterations.
-        iterations: file.result.calibration.iterations,
-        /// Length of the last step, in standard deviations.
-        gradient_norm: file.result.calibration.gradient_norm,
-        imu: flat(ImuFields::of(file.result.calibration.calibrated())),
-        /// The covariance with a diagonal of ones.
-        correlation: file.result.correlation(),
-        fit: FitInUnit {
-            fit: &file.result.calibration.fit,
-            unit: ReadingUnit::MetrePerSecondSquared,
-            axes: 3,
-        },
+        verdict: file.judgement.verdict(&file.result.calibration.sensors.warnings),
+        calibration: flat(&file.result.calibration.sensors),
         /// What was found of the machine.
         machine: file.result,
         /// How far the parameters move with other data, by its source: `recording`, `folds`.
         validation: if_any(file.validation()),
         /// The figures beside their limits.
         limits: if_any(file.judgement.limits),
-        warnings: file.judgement.stated(&file.result.calibration.warnings),
+        warnings: file.judgement.stated(&file.result.calibration.sensors.warnings),
     }
 }
 
@@ -216,15 +196,6 @@ impl MachineCalibrationFile<'_> {
 }
 
 impl MachineResult<'_> {
-    fn correlation(&self) -> Vec<Vec<f64>> {
-        let of = |sigma: &DMatrix<f64>| {
-            DMatrix::from_fn(sigma.nrows(), sigma.ncols(), |i, j| {
-                if i == j { 1.0 } else { sigma[(i, j)] / (sigma[(i, i)] * sigma[(j, j)]).sqrt() }
-            })
-        };
-        self.calibration.calibrated().covariance.as_ref().map_or(Vec::new(), |sigma| rows(&of(sigma)))
-    }
-
     fn knots(&self) -> Knots {
         let knots = self.calibration.motion.knots();
         Knots {
@@ -267,11 +238,9 @@ impl MachineResult<'_> {
     }
 
     fn noise_of(&self, residual: &SensorResidual) -> NoiseOfSensor {
-        let kind = residual.sensor;
-        let unit = self.calibration.units[usize::from(kind != SensorKind::Accelerometer)];
         NoiseOfSensor {
-            sensor: kind.name(),
-            unit: unit.unwrap_or(kind.stimulus_unit()).symbol(),
+            sensor: residual.sensor.name(),
+            unit: self.calibration.sensors.unit(residual.sensor).symbol(),
             noise: residual.noise.into(),
             white_noise: residual.white_noise.into(),
             residual_rms: residual.rms.into(),

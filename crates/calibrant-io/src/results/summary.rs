@@ -1,14 +1,12 @@
 //! Writes `summary.csv`: one row for each of several recordings.
 
 use super::exact_number;
-use super::machine_calibration::MachineResult;
 use crate::files::atomic_output::write_atomically;
 use calibrant_core::acceptance::{CheckedLimit, Decision};
 use calibrant_core::diagnostic::{Diagnostic, Verdict};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus, FitStatistics};
 use calibrant_core::sensor::Parameter;
-use calibrant_machine::estimate::MachineQuantity;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::io;
@@ -87,10 +85,11 @@ fn known_unit<'de, D: Deserializer<'de>>(deserializer: D) -> std::result::Result
 impl Summary {
     /// The summary of a calibration: verdict, the largest standard deviation, the number of warnings, of holds and rotations and how many of them were
     /// used, the root mean square of `|f| − g` in the holds and of the rotation errors, χ² with its degrees of
-    /// freedom and p-value, and the parameters. A motion has no holds, an accelerometer no rotations.
+    /// freedom and p-value, and the parameters. A motion has no holds, an accelerometer no rotations. `used_share`: of the samples, on a machine.
     #[must_use]
-    pub fn of(calibration: &Calibration) -> Self {
-        let mut quality = Vec::new();
+    pub fn of(calibration: &Calibration, used_share: Option<f64>) -> Self {
+        let mut quality = vec![("warnings", calibration.warnings.len().to_string())];
+        quality.extend(used_share.map(|share| ("used_share", number(Some(share)))));
         if let Some(holds) = calibration.holds() {
             // holds that only just determine the accelerometer leave no residual
             let magnitude = (holds.degrees_of_freedom > 0).then_some(holds.magnitude_residual_rms_mps2);
@@ -111,47 +110,15 @@ impl Summary {
             let Parameter { name, unit, nominal, spread } = parameter.clone();
             SummaryParameter { name, unit, value: *value, sd, nominal, spread }
         };
-        let parameters = calibration.parameters.iter().zip(estimates).map(estimate).collect();
-        Self::new(calibration.status, &calibration.warnings, quality, parameters)
-    }
-
-    /// Of a calibration with these figures of its quality, before which the worst parameter and the number of warnings stand.
-    fn new(
-        status: CalibrationStatus,
-        warnings: &[Diagnostic],
-        quality: Vec<(&str, String)>,
-        parameters: Vec<SummaryParameter>,
-    ) -> Self {
-        let first = worst_sd(&parameters).into_iter().chain([("warnings", warnings.len().to_string())]);
+        let parameters: Vec<_> = calibration.parameters.iter().zip(estimates).map(estimate).collect();
+        let quality = worst_sd(&parameters).into_iter().chain(quality);
         Self {
-            verdict: Verdict::on(warnings.iter().map(Diagnostic::code), &[]),
+            verdict: Verdict::on(calibration.warnings.iter().map(Diagnostic::code), &[]),
             limits_failed: Vec::new(),
-            status,
-            quality: first.chain(quality).map(|(name, text)| (name.to_owned(), text)).collect(),
+            status: calibration.status,
+            quality: quality.map(|(name, text)| (name.to_owned(), text)).collect(),
             parameters,
         }
-    }
-
-    /// The summary of a calibration on a machine: verdict, the largest standard deviation, the number of warnings, the share of the samples that was used, χ² with its degrees of freedom
-    /// and p-value, and the parameters of the sensors.
-    #[must_use]
-    pub fn of_machine(result: &MachineResult<'_>) -> Self {
-        let calibration = result.calibration;
-        let (names, units, sd) = (calibration.names(), result.units(), calibration.sd());
-        let estimate = |(k, quantity): (usize, &MachineQuantity)| {
-            matches!(quantity, MachineQuantity::Imu(_)).then(|| SummaryParameter {
-                name: names[k].clone(),
-                unit: units[k],
-                value: calibration.values[k],
-                sd: sd[k],
-                nominal: None,
-                spread: None,
-            })
-        };
-        let parameters = calibration.quantities.iter().enumerate().filter_map(estimate).collect();
-        let used = ("used_share", number(Some(calibration.used_share)));
-        let quality = [used].into_iter().chain(fit_figures(&calibration.fit)).collect();
-        Self::new(calibration.status, &calibration.warnings, quality, parameters)
     }
 
     /// The summary with this verdict, and with these limits.

@@ -45,7 +45,7 @@ pub fn calibrate_on_machine(
     match as_given(problem, settings) {
         Ok(mut calibration) => {
             if checks::contradict(&calibration) {
-                calibration.warnings.splice(0..0, suspect(problem));
+                calibration.sensors.warnings.splice(0..0, suspect(problem));
             }
             Ok(calibration)
         }

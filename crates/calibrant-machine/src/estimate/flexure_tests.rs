@@ -121,7 +121,7 @@ fn a_soft_mount_is_named_and_a_stiff_one_is_not() {
 #[test]
 fn bias_and_gain_of_an_axis_that_hardly_tilts_are_one_number() {
     let drone = calibrated(15_f64.to_radians(), None, false);
-    let said = drone.warnings.iter().find(|found| found.code().name() == "gain-not-separable");
+    let said = drone.sensors.warnings.iter().find(|found| found.code().name() == "gain-not-separable");
     let said = said.expect("said").message();
     assert!(said.contains("axis z are not separable"), "{said}");
 }
@@ -132,7 +132,7 @@ fn correlated_errors_of_a_tracker_leave_room_for_a_mount_and_the_room_is_stated(
     let found = calibrated(ALL_OVER, None, true);
     assert!(codes(&found).contains(&"mount-allowed-for"), "{:?}", codes(&found));
     assert!(
-        !found.warnings.iter().any(calibrant_core::diagnostic::Diagnostic::is_warning),
+        !found.sensors.warnings.iter().any(calibrant_core::diagnostic::Diagnostic::is_warning),
         "{:?}",
         codes(&found)
     );

@@ -168,7 +168,7 @@ fn of_delays_that_correlate_alike_the_one_that_fits_is_taken() {
     let errors = LogErrors { rate_hz: 120.0, noise: [[3e-4; 3], [5e-4; 3]].concat(), resolution: 0.0 };
     let simulated = Simulated::moved(&shaken(), None, setup, &errors, Some(-0.05));
     let calibration = simulated.calibrated().expect("determined");
-    assert_eq!(calibration.status, CalibrationStatus::Converged);
+    assert_eq!(calibration.sensors.status, CalibrationStatus::Converged);
     let delay = MachineQuantity::Delay(SensorKind::Gyroscope);
     let (delay_s, _) = calibration.estimate(delay).expect("estimated");
     assert!((delay_s + 0.05).abs() < 1e-3, "{delay_s}");
@@ -179,7 +179,7 @@ fn times_since_1970_change_nothing() {
     let errors = LogErrors { rate_hz: 100.0, noise: vec![2e-5; 3], resolution: 0.0 };
     let simulated = || Simulated::new(Some(wrist()), MachineSetup::default(), &errors);
     let [one, two] = [simulated(), simulated().since_1970()].map(|of| of.calibrated().expect("determined"));
-    assert_eq!(two.status, CalibrationStatus::Converged);
+    assert_eq!(two.sensors.status, CalibrationStatus::Converged);
     for ((one, two), sd) in one.values.iter().zip(&two.values).zip(one.sd()) {
         // the times themselves are rounded to 0.24 µs
         assert!((one - two).abs() < 0.02 * sd, "{one} {two} {sd}");
@@ -187,7 +187,7 @@ fn times_since_1970_change_nothing() {
 }
 
 pub(super) fn codes(calibration: &MachineCalibration) -> Vec<&'static str> {
-    calibration.warnings.iter().map(|found| found.code().name()).collect()
+    calibration.sensors.warnings.iter().map(|found| found.code().name()).collect()
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn the_sensors_bridge_short_gaps_of_a_slow_log() {
         }
     }
     let calibration = simulated.calibrated().expect("determined");
-    assert_eq!(calibration.status, CalibrationStatus::Converged);
+    assert_eq!(calibration.sensors.status, CalibrationStatus::Converged);
     assert!(calibration.used_share > 0.99, "{}", calibration.used_share);
     // nine numbers know their mean square to 47 %
     assert!(simulated.error(&calibration) < 1.7, "{}", simulated.error(&calibration));
@@ -223,7 +223,8 @@ fn the_usual_other_conventions_of_poses_are_named() {
         }
         let said = match simulated.calibrated() {
             Ok(calibration) => {
-                let named = calibration.warnings.iter().find(|of| of.code().name() == "poses-otherwise");
+                let named =
+                    calibration.sensors.warnings.iter().find(|of| of.code().name() == "poses-otherwise");
                 named.map(|found| found.message().to_owned())
             }
             Err(error) => Some(error.to_string()),
@@ -256,7 +257,9 @@ fn a_joint_that_counts_the_other_way_is_named() {
         log.positions.iter_mut().skip(1).step_by(3).for_each(|angle| *angle = -*angle);
     }
     let said = match simulated.calibrated() {
-        Ok(calibration) => calibration.warnings.iter().map(|found| found.message().to_owned()).collect(),
+        Ok(calibration) => {
+            calibration.sensors.warnings.iter().map(|found| found.message().to_owned()).collect()
+        }
         Err(error) => error.to_string(),
     };
     assert!(said.contains("if the joint wrist_1 turns or slides the other way"), "{said}");
@@ -268,7 +271,7 @@ fn an_encoder_without_noise_has_the_noise_of_its_steps() {
     let errors = LogErrors { rate_hz: 100.0, noise: vec![0.0; 3], resolution: step };
     let simulated = Simulated::new(Some(wrist()), MachineSetup::default(), &errors);
     let calibration = simulated.calibrated().expect("determined");
-    assert_eq!(calibration.status, CalibrationStatus::Converged);
+    assert_eq!(calibration.sensors.status, CalibrationStatus::Converged);
     for of in &calibration.reference_noise {
         // what the spline cannot follow is in it too
         assert!((0.99..3.0).contains(&(of.sd / (step / 12.0_f64.sqrt()))) && of.outliers == 0, "{of:?}");

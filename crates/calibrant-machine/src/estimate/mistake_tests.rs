@@ -44,7 +44,7 @@ fn on_a_table() -> Simulated {
 /// The sentence of this code.
 fn said(simulated: &Simulated, code: &str) -> Option<String> {
     let calibration = simulated.calibrated().expect("determined");
-    let found = calibration.warnings.into_iter().find(|found| found.code().name() == code);
+    let found = calibration.sensors.warnings.into_iter().find(|found| found.code().name() == code);
     found.map(|found| found.message().to_owned())
 }
 

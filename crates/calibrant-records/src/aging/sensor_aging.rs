@@ -112,8 +112,7 @@ mod tests {
             }
             CalibratedImu {
                 parameters,
-                accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-                gyroscope_unit: None,
+                units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
                 quantities,
                 covariance: Some(DMatrix::identity(size, size) * 1e-8),
                 degrees_of_freedom: None,
@@ -163,8 +162,7 @@ mod tests {
         let covariance = DMatrix::from_fn(size, size, |i, j| if i == j { variance(i) } else { 0.0 });
         CalibratedImu {
             parameters,
-            accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-            gyroscope_unit: None,
+            units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
             quantities,
             covariance: Some(covariance),
             degrees_of_freedom: None,

@@ -33,7 +33,7 @@ impl FleetFrame {
             None if frames.any(is_other) => Some(Gauge::Lower),
             None => None,
         };
-        let with_gyroscope = |imu: &&CalibratedImu| imu.gyroscope_unit.is_some();
+        let with_gyroscope = |imu: &&CalibratedImu| imu.unit(SensorKind::Gyroscope).is_some();
         Self {
             gauge,
             reference_c: imus
@@ -46,7 +46,7 @@ impl FleetFrame {
 
     /// An IMU in this frame.
     pub(super) fn bring(&self, imu: CalibratedImu) -> Result<CalibratedImu> {
-        if imu.gyroscope_unit.is_some() && Some(imu.reference()) != self.frame_of_gyroscopes {
+        if imu.unit(SensorKind::Gyroscope).is_some() && Some(imu.reference()) != self.frame_of_gyroscopes {
             let message = format!("the {} fixes its frame, and not that of the first", imu.reference());
             let help = "ask for the sensors of one kind";
             return Err(Error::experiment(InputError::new(Refusal::ConversionImpossible, message, help)));

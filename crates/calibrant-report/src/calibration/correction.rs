@@ -14,8 +14,8 @@ pub(super) fn correction(calibration: &Calibration) -> String {
     }
     let corrections: Option<Vec<_>> = calibration
         .sensor_kinds()
-        .iter()
-        .map(|&sensor_kind| Some((sensor_kind, Correction::of(imu.sensor(sensor_kind))?)))
+        .into_iter()
+        .map(|sensor_kind| Some((sensor_kind, Correction::of(imu.sensor(sensor_kind))?)))
         .collect();
     let Some(corrections) = corrections else {
         return "<p>A matrix has no inverse: there is no correction.</p>".to_string();
@@ -72,7 +72,7 @@ fn of_one_axis(calibration: &Calibration) -> String {
         "<p class=\"formula\">f = (y − {}) / {}</p><p>y in {}, f in m/s².</p>",
         significant(sensor.bias.x, 7),
         significant(sensor.matrix[(0, 0)], 7),
-        escape(calibration.accelerometer_unit.symbol())
+        escape(calibration.unit(SensorKind::Accelerometer).symbol())
     )
 }
 

@@ -45,8 +45,10 @@ pub(super) fn fit_table(calibration: &Calibration) -> Table {
     let from_data = "Sum of weighted squared residuals. The weights come from these data, so it is always near the degrees of freedom and tests nothing.";
     chi2_rows(&mut table, fit, [", weights from the data", from_data], Shown::OnPage);
     let rms = fit.residual_rms.unwrap_or_else(Vector3::zeros);
-    let unit =
-        DisplayUnit::suited_to(calibration.accelerometer_unit.symbol(), rms.iter().map(|rms| 3.0 * rms));
+    let unit = DisplayUnit::suited_to(
+        calibration.unit(SensorKind::Accelerometer).symbol(),
+        rms.iter().map(|rms| 3.0 * rms),
+    );
     let names = axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let per_axis = |values: &Vector3<f64>, factor: f64, symbol: &str| {
         let number = |axis: &Axis| significant(values[axis.index()] * factor, 3);

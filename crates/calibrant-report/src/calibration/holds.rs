@@ -74,7 +74,7 @@ pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -
             },
         );
     }
-    let of = (SensorKind::Accelerometer, calibration.accelerometer_unit);
+    let of = (SensorKind::Accelerometer, calibration.unit(SensorKind::Accelerometer));
     earlier_biases(&mut table, of, holds.recording_biases.as_deref());
     if let Some((drift, unit)) = bias_drift(calibration) {
         table.explain(

@@ -22,7 +22,7 @@ use crate::sheet::{Section, Sheet, Shown};
 use crate::validation::validation_section;
 use calibrant_core::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant_core::noise::SensorNoise;
-use calibrant_core::sensor::ImuRecording;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 /// A calibration as a sheet: verdict, parameters, limits and validations, corrections, the recovered motion or the holds, rotations and turns, noise,
 /// fit and correlations.
@@ -50,6 +50,8 @@ pub fn calibration_sheet<'a>(
             sections.push(before_and_after(calibration, holds, recording));
             sections.push(hold_section(calibration, holds, recording));
         }
+        // its own sheet has the motion
+        Recovered::OnMachine(_) => {}
     }
     sections.extend(rotations(calibration));
     sections.extend(noise_sections(noise).into_iter().map(Section::for_page));
@@ -59,7 +61,7 @@ pub fn calibration_sheet<'a>(
     sections.push(fit(calibration));
     let meaning = match calibration.recovered {
         Recovered::Motion(_) => READINGS,
-        Recovered::Holds(_) => {
+        Recovered::Holds(_) | Recovered::OnMachine(_) => {
             "Directions are true → raw unless stated otherwise. sd is the standard deviation."
         }
     };
@@ -72,7 +74,7 @@ fn parameters<'a>(calibration: &Calibration, about: &About) -> Section<'a> {
     let mut section = Section::new("Parameters");
     let kinds = calibration.sensor_kinds();
     let full = |&of| parameter_table(calibration, of, about.truth.as_ref());
-    match kinds {
+    match kinds.as_slice() {
         [one] => section.table(full(one)),
         both => {
             section.tables(both.iter().map(|&of| estimate_table(calibration, of).on_page()).collect());
@@ -101,7 +103,7 @@ fn correction_section<'a>(calibration: &'a Calibration) -> Section<'a> {
 /// The parameters of both sensors, and what they mean for the axes.
 fn details<'a>(calibration: &Calibration, about: &About) -> Section<'a> {
     let mut section = Section::on_page("Parameters in detail");
-    for &sensor_kind in calibration.sensor_kinds() {
+    for sensor_kind in calibration.sensor_kinds() {
         section.table(parameter_table(calibration, sensor_kind, about.truth.as_ref()));
     }
     axes(&mut section, calibration);
@@ -136,7 +138,8 @@ fn hold_section<'a>(
     section.figure(|| bias_over_temperature(calibration, holds, recording.gyroscope.as_ref()?));
     section.drawn(|| hold_directions(holds));
     section.figure(|| Some(recording_overview(holds, recording.accelerometer.as_ref()?)));
-    section.on_page_below("Table of the holds", hold_table(holds, calibration.accelerometer_unit));
+    section
+        .on_page_below("Table of the holds", hold_table(holds, calibration.unit(SensorKind::Accelerometer)));
     section
 }
 

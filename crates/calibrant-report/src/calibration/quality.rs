@@ -20,6 +20,7 @@ pub(super) fn used_in_words(calibration: &Calibration) -> String {
             let intervals = counted(motion.motion.intervals(), "interval");
             return format!("{} samples of a motion of {intervals}", count(motion.residuals.len()));
         }
+        Recovered::OnMachine(_) => return "the motion of a machine".to_owned(),
         Recovered::Holds(holds) => holds,
     };
     let used = |all: usize, what: &str, left_out: Vec<String>| {

@@ -7,7 +7,7 @@ use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::{Calibration, RecoveredMotion};
 use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{Axis, Correction, ReadingUnit, Recording};
+use calibrant_core::sensor::{Axis, Correction, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
 
 pub(super) const TIME: &str = "time (s)";
@@ -20,7 +20,7 @@ pub(crate) fn acceleration_figure(
     recording: &Recording,
     truth: Option<&JerkControlledMotion>,
 ) -> Figure {
-    let counts = calibration.accelerometer_unit == ReadingUnit::Counts;
+    let counts = calibration.unit(SensorKind::Accelerometer) == ReadingUnit::Counts;
     let correction = if counts { Correction::of(&calibration.imu.accelerometer) } else { None };
     let first = recovered.first_sample.min(recording.len());
     let end = match recovered.residuals.len() {

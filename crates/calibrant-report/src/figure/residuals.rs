@@ -7,7 +7,7 @@ use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::{Calibration, RecoveredMotion};
-use calibrant_core::sensor::{Axis, Recording};
+use calibrant_core::sensor::{Axis, Recording, SensorKind};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
@@ -127,7 +127,10 @@ fn panels(
 
 fn unit_of(calibration: &Calibration) -> DisplayUnit {
     let rms = calibration.fit.residual_rms.unwrap_or_else(Vector3::zeros);
-    DisplayUnit::suited_to(calibration.accelerometer_unit.symbol(), rms.iter().map(|rms| 3.0 * rms))
+    DisplayUnit::suited_to(
+        calibration.unit(SensorKind::Accelerometer).symbol(),
+        rms.iter().map(|rms| 3.0 * rms),
+    )
 }
 
 fn residuals(motion: &RecoveredMotion, axis: Axis, unit: DisplayUnit) -> impl Iterator<Item = f64> + '_ {

@@ -1,6 +1,5 @@
 //! Tables of the noise of the sensors and of the reference.
 
-use super::quantity::place;
 use crate::figure::DisplayUnit;
 use crate::sheet::{Cell, Column, Table};
 use calibrant_core::sensor::Axis;
@@ -25,7 +24,7 @@ pub(super) fn sensor_noise(calibration: &MachineCalibration) -> Table {
         Column::on_page("samples"),
     ]);
     for noise in &calibration.noise {
-        let symbol = calibration.units[place(noise.sensor)].map_or("1", |unit| unit.symbol());
+        let symbol = calibration.sensors.unit(noise.sensor).symbol();
         let unit = DisplayUnit::suited_to(symbol, noise.rms.iter().chain(&noise.noise).copied());
         let number = |value: f64| Cell::significant(unit.factor * value, 3);
         for axis in Axis::ALL {

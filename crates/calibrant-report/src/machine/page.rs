@@ -4,7 +4,6 @@ use super::geometry::corrections;
 use super::mounting::mounting_in_words;
 use super::noise::{reference_noise, sensor_noise};
 use super::parameters::{budget, is_widened, mount_table, sensor_table};
-use super::quantity::place;
 use super::validation::validation_section;
 use super::verdict::verdict;
 use crate::About;
@@ -159,7 +158,7 @@ fn of_sensor(
     recording: &ImuRecording,
     scene: Option<&Scene>,
 ) -> String {
-    let unit = calibration.units[place(noise.sensor)].map_or("1", |unit| unit.symbol());
+    let unit = calibration.sensors.unit(noise.sensor).symbol();
     let spectrum =
         recording.sensor(noise.sensor).and_then(|of| calibration.residual_spectrum(noise.sensor, of));
     drawn([
@@ -199,19 +198,24 @@ fn fit(calibration: &MachineCalibration) -> Section<'_> {
 
 fn fit_table(calibration: &MachineCalibration) -> Table {
     let mut table = Table::explained();
-    table.explain("status", calibration.status.name().into(), "How the iteration ended.");
+    table.explain("status", calibration.sensors.status.name().into(), "How the iteration ended.");
     table.explain(
         "iterations",
-        count(calibration.iterations),
+        count(calibration.sensors.iterations),
         "Gauss–Newton steps, once the noise was known.",
     );
     table.explain_on_page(
         "last step",
-        significant(calibration.gradient_norm, 2),
+        significant(calibration.sensors.gradient_norm, 2),
         "Length of the last step, in standard deviations of the parameters. Good: far below 1.",
     );
     let from_data = "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.";
-    chi2_rows(&mut table, &calibration.fit, [", noise from the residuals", from_data], Shown::Everywhere);
+    chi2_rows(
+        &mut table,
+        &calibration.sensors.fit,
+        [", noise from the residuals", from_data],
+        Shown::Everywhere,
+    );
     let knots = calibration.motion.knots();
     table.explain(
         "knots of the motion",

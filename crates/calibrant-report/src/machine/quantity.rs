@@ -1,6 +1,6 @@
 //! What was expected of each quantity, and the units that tables show.
 
-use calibrant_core::sensor::{Axis, SensorKind};
+use calibrant_core::sensor::Axis;
 use calibrant_machine::chain::JointKind;
 use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
 use calibrant_machine::reference::Motion;
@@ -11,10 +11,7 @@ pub(super) fn machine_unit(
     quantity: MachineQuantity,
 ) -> (f64, &'static str) {
     match quantity {
-        MachineQuantity::Imu(of) => {
-            let reading = calibration.units[place(of.sensor_kind())];
-            (1.0, reading.map_or("1", |reading| of.unit(reading)))
-        }
+        MachineQuantity::Imu(of) => (1.0, calibration.sensors.unit_of(of)),
         MachineQuantity::Lever(_) => (1e3, "mm"),
         MachineQuantity::Mounting(_) | MachineQuantity::Tilt(_) => (1e3, "mrad"),
         MachineQuantity::Gravity => (1.0, "m/s²"),
@@ -32,11 +29,6 @@ fn turns(calibration: &MachineCalibration, joint: usize) -> bool {
         }
         Motion::Poses(_) => true,
     }
-}
-
-/// Place of a sensor in pairs.
-pub(super) fn place(sensor: SensorKind) -> usize {
-    usize::from(sensor == SensorKind::Gyroscope)
 }
 
 /// What was expected of a quantity beside the sensor's.

@@ -17,7 +17,7 @@ pub(super) fn verdict(
 ) -> SheetVerdict {
     let validation = validation_in_short(validations);
     calibration_verdict(
-        &calibration.warnings,
+        &calibration.sensors.warnings,
         unexplained(calibration),
         validation,
         &sentence(calibration),
@@ -47,7 +47,7 @@ fn sentence(calibration: &MachineCalibration) -> String {
 
 /// The relative standard deviation of each sensor's gains, on the worst axis.
 fn gains(calibration: &MachineCalibration) -> String {
-    let invariants = calibration.calibrated().invariants();
+    let invariants = calibration.sensors.calibrated().invariants();
     let of_sensor = |sensor| {
         let worst = worst_gain(&invariants, sensor);
         (worst > 0.0).then(|| format!("{} ({sensor})", percent(worst)))
@@ -60,5 +60,5 @@ fn gains(calibration: &MachineCalibration) -> String {
 }
 
 fn unexplained(calibration: &MachineCalibration) -> Option<String> {
-    calibration.fit.p_value.filter(|p| *p < UNEXPLAINED).map(|p| noise_explains(p) + ".")
+    calibration.sensors.fit.p_value.filter(|p| *p < UNEXPLAINED).map(|p| noise_explains(p) + ".")
 }

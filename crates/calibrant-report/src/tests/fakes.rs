@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use sensor::{
-    Gauge, ImuParameters, ImuRecording, Quantity, ReadingUnit, Recording, Sensor, SensorModel,
-    SensorParameters,
+    Gauge, ImuParameters, ImuRecording, PerSensor, Quantity, ReadingUnit, Recording, Sensor, SensorKind,
+    SensorModel, SensorParameters,
 };
 use study::SingleCase;
 
@@ -123,7 +123,7 @@ fn calibrated(
         gravity_slope: Vec::new(),
         datasheet_prior: false,
         imu: ImuParameters { accelerometer: estimate, ..ImuParameters::identity() },
-        accelerometer_unit: recording.unit(),
+        units: PerSensor::only(SensorKind::Accelerometer, recording.unit()),
         fit: FitStatistics {
             chi2: degrees_of_freedom as f64 * 1.013,
             degrees_of_freedom,
@@ -216,7 +216,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         gravity_slope: list.quantities().iter().map(by_gravity).collect(),
         datasheet_prior: false,
         imu: ImuParameters { accelerometer: truth, ..ImuParameters::identity() },
-        accelerometer_unit: ReadingUnit::Counts,
+        units: PerSensor::only(SensorKind::Accelerometer, ReadingUnit::Counts),
         fit: FitStatistics {
             chi2: 28.0,
             degrees_of_freedom: count.saturating_sub(10),

@@ -101,9 +101,9 @@ fn degenerate_results_on_a_machine_are_reported_without_panic() {
     let mut case = machine_case(false, 6.0, 3);
     let hostile = "a<b>&\"c\"";
     case.calibration.joints[0] = hostile.into();
-    case.calibration.warnings = vec![Diagnostic::from(NotConverged { status: "stalled" })];
-    case.calibration.status = CalibrationStatus::Stalled;
-    case.calibration.fit.p_value = Some(1e-9);
+    case.calibration.sensors.warnings = vec![Diagnostic::from(NotConverged { status: "stalled" })];
+    case.calibration.sensors.status = CalibrationStatus::Stalled;
+    case.calibration.sensors.fit.p_value = Some(1e-9);
     case.calibration.used_share = 0.4;
     case.calibration.inflation.fill(3.0);
     let about = About { title: hostile.into(), findings: vec![hostile.into()], ..about() };

@@ -16,12 +16,11 @@ pub(super) fn columns(experiment: &Experiment) -> &'static [&'static str] {
 
 /// The cells of these columns. The recording of an IMU may lack a sensor, but its row has the columns of the experiment.
 pub(super) fn cells(experiment: &Experiment, calibrated: &Calibrated) -> Vec<String> {
-    match calibrated {
-        Calibrated::Sensors(calibration) if experiment.imu.is_some() => of_imu(calibration),
-        Calibrated::Sensors(calibration) => {
-            vec![calibration.fit.p_value.map_or_else(unknown, number_format::probability)]
-        }
-        Calibrated::OnMachine(machine) => vec![format!("{:.0} %", 100.0 * machine.calibration.used_share)],
+    let sensors = calibrated.sensors();
+    match calibrated.machine() {
+        Some(machine) => vec![format!("{:.0} %", 100.0 * machine.calibration.used_share)],
+        None if experiment.imu.is_some() => of_imu(sensors),
+        None => vec![sensors.fit.p_value.map_or_else(unknown, number_format::probability)],
     }
 }
 

@@ -1,6 +1,5 @@
 //! The last stage: limits are checked, and the verdict is made.
 
-use super::calibrated::Calibrated;
 use super::figures::figures;
 use super::outcome::Outcome;
 use calibrant_core::acceptance::{AcceptanceLimit, CheckedLimit, checked};
@@ -11,7 +10,7 @@ use calibrant_core::diagnostic::samples::Spikes;
 use calibrant_core::diagnostic::validation::{FoldsAgree, ResidualsConfirmed, ValidationDoubts};
 use calibrant_core::diagnostic::{Check, Code, Diagnostic, Phrase};
 use calibrant_core::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
-use calibrant_machine::estimate::MachineValidationSource;
+use calibrant_machine::estimate::{MachineValidationSource, ParameterShift};
 
 /// Adds the limits, and the diagnostics of validations and limits, to an outcome. `findings`: what the reader noticed in its recording.
 pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings: Vec<Code>) {
@@ -22,10 +21,7 @@ pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings:
         outcome.allowed.extend(codes);
     }
     found.extend(limits.iter().filter_map(CheckedLimit::diagnostic));
-    match &mut outcome.calibrated {
-        Calibrated::Sensors(calibration) => calibration.warnings.extend(found),
-        Calibrated::OnMachine(machine) => machine.calibration.warnings.extend(found),
-    }
+    outcome.calibrated.sensors_mut().warnings.extend(found);
     (outcome.limits, outcome.findings) = (limits, findings);
     let verdict = outcome.verdict();
     outcome.about.verdict = Some(verdict);
@@ -43,23 +39,14 @@ fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
         let is_large = errors.verdict == CovarianceVerdict::TooSmall;
         is_large.then(|| Diagnostic::from(ValidationDoubts { what: what.into(), factor: errors.factor }))
     };
-    match &outcome.calibrated {
-        Calibrated::Sensors(_) => {
-            outcome.validations.iter().flat_map(|of| &of.kinds).filter_map(of_errors).collect()
-        }
-        Calibrated::OnMachine(machine) => {
-            let shifts = machine.validations.iter().flat_map(|of| &of.shifts);
-            let large = shifts.filter(|shift| shift.verdict == CovarianceVerdict::TooSmall);
-            large
-                .map(|shift| {
-                    Diagnostic::from(ValidationDoubts {
-                        what: format!("the movements of the parameters of the {}", shift.sensor),
-                        factor: shift.factor,
-                    })
-                })
-                .collect()
-        }
-    }
+    let of_shift = |shift: &ParameterShift| {
+        let what = format!("the movements of the parameters of the {}", shift.sensor);
+        let is_large = shift.verdict == CovarianceVerdict::TooSmall;
+        is_large.then(|| Diagnostic::from(ValidationDoubts { what, factor: shift.factor }))
+    };
+    let on_machine = outcome.calibrated.machine().map_or(&[][..], |machine| &machine.validations);
+    let shifts = on_machine.iter().flat_map(|of| &of.shifts).filter_map(of_shift);
+    outcome.validations.iter().flat_map(|of| &of.kinds).filter_map(of_errors).chain(shifts).collect()
 }
 
 /// What is left in the residuals, or was taken out, says that the standard deviations may not hold; they are widened by it, and another recording that finds
@@ -71,7 +58,7 @@ const OTHER_SPEED: f64 = 4.0 / 3.0;
 
 /// The warnings that another recording of a sensor on a machine answers, and the note that says so. Folds answer none: what all blocks share, they do not see.
 fn confirmed(outcome: &Outcome) -> Option<(Diagnostic, Vec<Code>)> {
-    let Calibrated::OnMachine(machine) = &outcome.calibrated else { return None };
+    let machine = outcome.calibrated.machine()?;
     let validations = || machine.validations.iter().filter(|of| !of.shifts.is_empty());
     let shifts = || validations().flat_map(|of| &of.shifts);
     let is_large_enough = |of: CovarianceVerdict| {
@@ -82,7 +69,7 @@ fn confirmed(outcome: &Outcome) -> Option<(Diagnostic, Vec<Code>)> {
     }
     let factor = shifts().map(|shift| shift.factor).fold(0.0, f64::max);
     let found = |codes: &[Code]| -> Vec<Code> {
-        let is_found = |code: &&Code| machine.calibration.warnings.iter().any(|found| found.code() == **code);
+        let is_found = |code: &&Code| outcome.warnings().iter().any(|found| found.code() == **code);
         codes.iter().filter(is_found).copied().collect()
     };
     let names = |codes: &[Code]| codes.iter().map(ToString::to_string).collect();

@@ -13,6 +13,33 @@ pub enum Calibrated {
     OnMachine(Box<MachineOutcome>),
 }
 
+impl Calibrated {
+    /// The sensors' parameters, their covariance, and what judges them, whatever moved the sensors.
+    #[must_use]
+    pub fn sensors(&self) -> &Calibration {
+        match self {
+            Self::Sensors(calibration) => calibration,
+            Self::OnMachine(machine) => &machine.calibration.sensors,
+        }
+    }
+
+    pub(crate) fn sensors_mut(&mut self) -> &mut Calibration {
+        match self {
+            Self::Sensors(calibration) => calibration,
+            Self::OnMachine(machine) => &mut machine.calibration.sensors,
+        }
+    }
+
+    /// What was found of the machine, where the calibration is on one.
+    #[must_use]
+    pub fn machine(&self) -> Option<&MachineOutcome> {
+        match self {
+            Self::Sensors(_) => None,
+            Self::OnMachine(machine) => Some(machine),
+        }
+    }
+}
+
 /// A calibration on a machine, with what was known of the machine.
 #[derive(Debug, Clone)]
 pub struct MachineOutcome {

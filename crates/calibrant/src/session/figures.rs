@@ -9,26 +9,23 @@ use nalgebra::Vector3;
 
 /// All figures of a result.
 pub(crate) fn figures(calibrated: &Calibrated, validations: &[Validation]) -> Vec<Figure> {
-    match calibrated {
-        Calibrated::Sensors(calibration) => {
-            let names = calibration.parameters.iter().map(|parameter| parameter.name.clone());
-            let mut figures = parameters(names, &calibration.values, &calibration.sd());
-            figures.extend(axis_angles(&calibration.calibrated()));
-            figures.extend(errors(calibration));
-            figures.extend(validations.iter().flat_map(validated));
-            figures
+    let sensors = calibrated.sensors();
+    let mut figures = match calibrated.machine().map(|machine| &machine.calibration) {
+        Some(all) => parameters(all.names().into_iter(), &all.values, &all.sd()),
+        None => {
+            let names = sensors.parameters.iter().map(|parameter| parameter.name.clone());
+            parameters(names, &sensors.values, &sensors.sd())
         }
-        Calibrated::OnMachine(machine) => {
-            let calibration = &machine.calibration;
-            let names = calibration.names().into_iter();
-            let mut figures = parameters(names, &calibration.values, &calibration.sd());
-            figures.extend(axis_angles(&calibration.calibrated()));
-            figures.extend(residuals_on_machine(calibration));
-            let factors = machine.validations.iter().flat_map(|of| &of.shifts).map(|shift| shift.factor);
-            figures.extend(factors.map(|factor| exact("validation_ratio", factor)));
-            figures
-        }
+    };
+    figures.extend(axis_angles(&sensors.calibrated()));
+    figures.extend(errors(sensors));
+    figures.extend(validations.iter().flat_map(validated));
+    if let Some(machine) = calibrated.machine() {
+        figures.extend(residuals_on_machine(&machine.calibration));
+        let factors = machine.validations.iter().flat_map(|of| &of.shifts).map(|shift| shift.factor);
+        figures.extend(factors.map(|factor| exact("validation_ratio", factor)));
     }
+    figures
 }
 
 fn exact(name: impl Into<String>, value: f64) -> Figure {

@@ -95,14 +95,16 @@ impl<'e> MachineTask<'e> {
             .map(|other| self.other(other, options, &moved, notes).map(|second| (other, second)))
             .transpose()?;
         let mut calibration = calibrated(&problem, settings, source)?;
-        calibration.warnings.splice(0..0, moved.outliers.iter().cloned());
+        calibration.sensors.warnings.splice(0..0, moved.outliers.iter().cloned());
         let Experiment { sensor: accelerometer, imu, .. } = self.experiment;
         let beyond = beyond_datasheets(accelerometer, imu.as_ref(), &calibration);
-        calibration.warnings.extend(beyond);
-        calibration.warnings.extend(beyond_limits(&moved.log, self.chain));
+        calibration.sensors.warnings.extend(beyond);
+        calibration.sensors.warnings.extend(beyond_limits(&moved.log, self.chain));
         let mut allowed = options.allowed.clone();
-        if let Some((note, codes)) = negligible(&calibration.warnings, &moved.recorded.recording, None) {
-            calibration.warnings.push(note);
+        if let Some((note, codes)) =
+            negligible(&calibration.sensors.warnings, &moved.recorded.recording, None)
+        {
+            calibration.sensors.warnings.push(note);
             allowed.extend(codes);
         }
         let mut validations = Vec::new();

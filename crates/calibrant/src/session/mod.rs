@@ -35,7 +35,7 @@
 //! let outcome = session.calibrate(&Source::from_file(&file))?;
 //! outcome.write(directory.path())?;
 //!
-//! let calibration = outcome.calibration().expect("of holds");
+//! let calibration = outcome.calibration();
 //! assert!(calibration.imu.accelerometer.bias.norm() < 0.01);
 //! assert!(directory.path().join("report.html").exists());
 //! # Ok::<(), calibrant::Error>(())

@@ -41,31 +41,22 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The calibration by holds or a commanded motion; `None` on a machine.
+    /// The calibration, whatever moved the sensors.
     #[must_use]
-    pub fn calibration(&self) -> Option<&Calibration> {
-        match &self.calibrated {
-            Calibrated::Sensors(calibration) => Some(calibration),
-            Calibrated::OnMachine(_) => None,
-        }
+    pub fn calibration(&self) -> &Calibration {
+        self.calibrated.sensors()
     }
 
     /// How the estimation ended.
     #[must_use]
     pub fn status(&self) -> CalibrationStatus {
-        match &self.calibrated {
-            Calibrated::Sensors(calibration) => calibration.status,
-            Calibrated::OnMachine(machine) => machine.calibration.status,
-        }
+        self.calibration().status
     }
 
     /// The warnings of the calibration.
     #[must_use]
     pub fn warnings(&self) -> &[Diagnostic] {
-        match &self.calibrated {
-            Calibrated::Sensors(calibration) => &calibration.warnings,
-            Calibrated::OnMachine(machine) => &machine.calibration.warnings,
-        }
+        &self.calibration().warnings
     }
 
     /// May the result be used? The warnings and what the reader noticed decide.
@@ -78,11 +69,8 @@ impl Outcome {
     /// A line for a table of many calibrations.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        let summary = match &self.calibrated {
-            Calibrated::Sensors(calibration) => Summary::of(calibration),
-            Calibrated::OnMachine(machine) => Summary::of_machine(&machine.result()),
-        };
-        summary.judged(self.verdict(), &self.limits)
+        let used_share = self.calibrated.machine().map(|machine| machine.calibration.used_share);
+        Summary::of(self.calibration(), used_share).judged(self.verdict(), &self.limits)
     }
 
     /// The text of `calibration.json`.

@@ -3,7 +3,9 @@
 use super::duplicates::{Readings, are_the_same};
 use super::source::Source;
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::holds::RecordingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::HoldResult;
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, UtcTime};
 
@@ -105,6 +107,17 @@ impl Recorded {
         self.rate_sd = self.rate_sd.max(other.rate_sd);
         self.sha256.extend(other.sha256);
         Ok(())
+    }
+
+    /// The recordings without a hold that is used, where there are several.
+    pub(crate) fn unused(&self, holds: &[HoldResult]) -> Vec<Diagnostic> {
+        let of = |hold: &HoldResult| {
+            self.further_from_s.iter().filter(|from_s| **from_s <= hold.hold.start_s).count()
+        };
+        let is_used = |recording: &usize| holds.iter().any(|hold| hold.used && of(hold) == *recording);
+        let recordings = if self.further_from_s.is_empty() { 0 } else { self.further_from_s.len() + 1 };
+        let unused = (0..recordings).filter(|recording| !is_used(recording));
+        unused.map(|recording| RecordingUnused { recording: recording + 1 }.into()).collect()
     }
 
     /// The readings of a sensor, with the hash of all files.

@@ -1,6 +1,5 @@
 //! The residuals of a calibration, one by one, for tests and figures of one's own. They are those of the report's figures.
 
-use super::calibrated::Calibrated;
 use super::outcome::Outcome;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, HoldResult, Recovered, RecoveredMotion, RotationResult};
@@ -103,17 +102,18 @@ impl Outcome {
     /// The residuals.
     #[must_use]
     pub fn residuals(&self) -> Residuals {
-        let series = match &self.calibrated {
-            Calibrated::OnMachine(machine) => of_machine(&machine.calibration),
-            Calibrated::Sensors(calibration) => match &calibration.recovered {
-                Recovered::Holds(holds) => {
-                    let rotations = calibration.gyroscope.as_ref().map(|of| of_rotations(&of.rotations));
-                    std::iter::once(of_holds(&holds.holds)).chain(rotations).collect()
-                }
-                Recovered::Motion(motion) => (self.recording.accelerometer.iter())
-                    .flat_map(|recording| of_motion(calibration, motion, recording))
-                    .collect(),
-            },
+        let calibration = self.calibration();
+        let series = match &calibration.recovered {
+            Recovered::Holds(holds) => {
+                let rotations = calibration.gyroscope.as_ref().map(|of| of_rotations(&of.rotations));
+                std::iter::once(of_holds(&holds.holds)).chain(rotations).collect()
+            }
+            Recovered::Motion(motion) => (self.recording.accelerometer.iter())
+                .flat_map(|recording| of_motion(calibration, motion, recording))
+                .collect(),
+            Recovered::OnMachine(_) => {
+                self.calibrated.machine().map_or_else(Vec::new, |machine| of_machine(&machine.calibration))
+            }
         };
         Residuals { series }
     }
@@ -132,7 +132,7 @@ fn of_motion<'a>(
             let value = residual[axis.index()];
             [time_s, value, sd, value / sd, 1.0]
         };
-        let unit = calibration.accelerometer_unit.symbol();
+        let unit = calibration.unit(SensorKind::Accelerometer).symbol();
         let rows = times.iter().zip(&motion.residuals).map(row);
         ResidualSeries::of(("sample", SensorKind::Accelerometer, Some(axis), unit), rows)
     })
@@ -163,8 +163,7 @@ fn of_machine(calibration: &MachineCalibration) -> Vec<ResidualSeries> {
             let (whitened, weight) = (sample.whitened()[k], sample.weights()[k]);
             [sample.time_s, sample.value[k], sample.sd[k], whitened, weight]
         };
-        let unit = calibration.units[usize::from(of.sensor == SensorKind::Gyroscope)]
-            .map_or("", |unit| unit.symbol());
+        let unit = calibration.sensors.unit(of.sensor).symbol();
         ResidualSeries::of(("sample", of.sensor, Some(axis), unit), of.residuals.iter().map(row))
     };
     calibration.noise.iter().flat_map(|of| Axis::ALL.map(|axis| (of, axis))).map(of_axis).collect()

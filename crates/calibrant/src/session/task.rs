@@ -84,6 +84,7 @@ impl<'e> Task<'e> {
         }
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
         calibration.warnings.splice(0..0, before);
+        calibration.warnings.extend(recorded.unused(calibration.hold_results()));
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
         let mut allowed = options.allowed.clone();
         if let Some((note, codes)) =
@@ -166,13 +167,13 @@ impl<'e> Task<'e> {
     ) -> Result<Validation> {
         let path = source.path();
         let in_file = |found: Diagnostic| found.in_file(file_name(path));
-        let mut other = self.reader.read_other(source, calibration.sensor_kinds())?;
+        let mut other = self.reader.read_other(source, &calibration.sensor_kinds())?;
         notes.extend(other.findings.iter().cloned());
         let mut setup = setup.of_other();
         let mut outliers = take_out_repeats(&mut other.recording);
         outliers.extend(setup.prepare(self.accelerometer, &mut other.recording));
         notes.extend(outliers.into_iter().map(in_file));
-        for &sensor_kind in calibration.sensor_kinds() {
+        for sensor_kind in calibration.sensor_kinds() {
             let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
             refuse_duplicate(sensor_kind, &one, &two, source.path_of(sensor_kind))?;
         }

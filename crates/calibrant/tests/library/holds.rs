@@ -58,7 +58,7 @@ fn run(sensor: &Sensor, recording: &Recording, setup: &HoldsSetup) -> calibrant:
 fn holds(calibration: &Calibration) -> &HoldCalibration {
     match &calibration.recovered {
         Recovered::Holds(holds) => holds,
-        Recovered::Motion(_) => panic!("holds"),
+        _ => panic!("holds"),
     }
 }
 

@@ -62,7 +62,7 @@ fn an_accelerometer_is_calibrated_from_holds_and_validated() {
         ..SessionOptions::default()
     };
     let outcome = run(&experiment, options, &path("one.csv")).expect("calibrated");
-    let calibration = outcome.calibration().expect("of sensors");
+    let calibration = outcome.calibration();
 
     let setup = HoldsSetup {
         gravity: Gravity::SOMEWHERE,
@@ -117,7 +117,7 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     let session = Session::with(experiment.clone(), options).expect("prepared");
     assert!(matches!(session.notes(), [found] if found.message().contains("12 intervals")));
     let outcome = session.calibrate(&Source::from_file(path("recording.csv"))).expect("calibrated");
-    let calibration = outcome.calibration().expect("of sensors");
+    let calibration = outcome.calibration();
 
     let command = CommandedMotion {
         motion,
@@ -140,7 +140,7 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     };
     let in_memory = Session::with(experiment.clone(), options).expect("prepared");
     let in_memory = in_memory.calibrate(&Source::from_recording("recording", recording)).expect("calibrated");
-    assert_eq!(in_memory.calibration().expect("of sensors").values, expected.values);
+    assert_eq!(in_memory.calibration().values, expected.values);
     assert_eq!(in_memory.origin.motion.as_ref().map(|motion| motion.sha256.len()), Some(64));
 }
 
@@ -165,7 +165,7 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
         ..SessionOptions::default()
     };
     let outcome = run(&experiment, on("other.csv"), &path("one.csv")).expect("calibrated");
-    let calibration = outcome.calibration().expect("of sensors");
+    let calibration = outcome.calibration();
 
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let holds = HoldsSetup {
@@ -208,7 +208,7 @@ fn holds_that_turn_do_not_count_where_the_others_tell_the_bias() {
     }
     let session = Session::with(experiment("imu"), SessionOptions::default()).expect("prepared");
     let outcome = session.calibrate(&Source::from_recording("turning", recording)).expect("calibrated");
-    let warnings = &outcome.calibration().expect("of sensors").warnings;
+    let warnings = &outcome.calibration().warnings;
     assert!(warnings.iter().any(|found| found.code() == HoldMoved::CODE), "{warnings:?}");
     assert!(!outcome.verdict().codes.contains(&HoldMoved::CODE), "{:?}", outcome.verdict());
 }

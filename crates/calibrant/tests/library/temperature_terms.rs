@@ -165,8 +165,7 @@ fn the_correction_of_each_sample_is_that_at_its_temperature() {
     let recording = simulate_imu(&truth, &quiet, &mut rng);
     let imu = CalibratedImu {
         parameters: truth,
-        accelerometer_unit: Some(quiet.accelerometer_unit),
-        gyroscope_unit: Some(quiet.gyroscope_unit),
+        units: [Some(quiet.accelerometer_unit), Some(quiet.gyroscope_unit)].into(),
         quantities: Vec::new(),
         covariance: None,
         degrees_of_freedom: None,

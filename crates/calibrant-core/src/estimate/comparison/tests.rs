@@ -75,8 +75,7 @@ fn imu() -> CalibratedImu {
     let root = DMatrix::from_fn(n, n, |i, j| if i == j { 1e-3 } else { 1e-5 * ((i * 3 + j * 5) % 7) as f64 });
     CalibratedImu {
         parameters,
-        accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
-        gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
+        units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)].into(),
         quantities,
         covariance: Some(&root * root.transpose()),
         degrees_of_freedom: None,
@@ -145,12 +144,15 @@ fn what_cannot_be_compared_is_said() {
     assert!(stated(&imu(), &exact).contains("B has no covariance"));
     assert!(stated(&exact, &exact).contains("neither has a covariance"));
     assert_eq!(Comparison::of(&exact, &exact).overall, None);
-    let counts = CalibratedImu { gyroscope_unit: Some(ReadingUnit::Counts), ..imu() };
+    let counts = CalibratedImu {
+        units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::Counts)].into(),
+        ..imu()
+    };
     let comparison = Comparison::of(&imu(), &counts);
     let note = comparison.notes[0].message();
     assert!(note.contains("in rad/s in A and in counts in B"), "{note}");
     let gain = comparison.quantities.iter().find(|row| row.invariant.name() == "gyroscope.gain.x");
     assert_eq!(gain.expect("shown").difference, None);
-    let alone = CalibratedImu { gyroscope_unit: None, ..imu() };
+    let alone = CalibratedImu { units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(), ..imu() };
     assert!(stated(&imu(), &alone).contains("B has no gyroscope"));
 }

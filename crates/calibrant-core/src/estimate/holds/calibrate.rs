@@ -19,7 +19,7 @@ use crate::estimate::{
     Recovered, Uncalibrated, coarse_axes_in,
 };
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, Recording, SensorParameters};
+use crate::sensor::{ImuParameters, PerSensor, Recording, SensorKind, SensorParameters};
 use crate::solve::{chi2_p_value, shares_of_prior};
 use nalgebra::{Matrix3, Vector3};
 
@@ -158,7 +158,7 @@ fn assemble(
         gravity_slope: slope.iter().copied().collect(),
         datasheet_prior: false,
         imu,
-        accelerometer_unit: problem.sensor.unit,
+        units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
         fit,
         recovered: Recovered::Holds(HoldCalibration {
             holds: results,

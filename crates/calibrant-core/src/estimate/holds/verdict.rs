@@ -105,7 +105,8 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     }
     warnings.extend(gravity_off_earth(&holds.gravity));
     let drift = holds.drift.as_ref();
-    warnings.extend(drift.and_then(|drift| drift.beyond_expected(calibration.accelerometer_unit)));
+    warnings
+        .extend(drift.and_then(|drift| drift.beyond_expected(calibration.unit(SensorKind::Accelerometer))));
     warnings.extend(left_out(holds));
     warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.used().collect();

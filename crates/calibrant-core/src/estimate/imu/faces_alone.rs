@@ -14,7 +14,7 @@ use crate::estimate::problem::{CalibrationProblem, FacesProblem, Stimulus};
 use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
 use crate::information;
-use crate::sensor::{Correction, ImuParameters, Parameter, SensorKind, SensorParameters};
+use crate::sensor::{Correction, ImuParameters, Parameter, PerSensor, SensorKind, SensorParameters};
 use crate::solve::{CalibrationStatus, shares_of_prior};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -116,7 +116,7 @@ fn solved(
         gravity_slope: slope.iter().copied().collect(),
         datasheet_prior: settings.datasheet_prior,
         imu,
-        accelerometer_unit: problem.sensor.unit,
+        units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
         fit: FitStatistics {
             residual_rms: Some(squares.map(f64::sqrt)),
             assumed_noise: problem.sensor.noise(&sensor.matrix.diagonal()),

@@ -8,7 +8,7 @@ use crate::estimate::{Calibration, Recovered};
 use crate::form::Form;
 use crate::json::{flat, if_any, if_some};
 use crate::json_object;
-use crate::sensor::{ImuFields, ParameterKnowledge};
+use crate::sensor::{ImuFields, ParameterKnowledge, SensorKind};
 
 json_object! {
     /// A calibration of an accelerometer or of an IMU.
@@ -24,7 +24,7 @@ json_object! {
         imu: flat(ImuFields { imu: of.calibrated(), axes: of.axes(), knowledge: of.knowledge() }),
         /// The covariance with a diagonal of ones.
         correlation: Form::<Vec<Vec<f64>>>::form(&of.correlation()),
-        fit: FitInUnit { fit: &of.fit, unit: of.accelerometer_unit, axes: of.axes() },
+        fit: FitInUnit { fit: &of.fit, unit: of.unit(SensorKind::Accelerometer), axes: of.axes() },
         /// The motion, if the calibration is one of a commanded motion.
         motion: if_some(of.motion()),
         /// The holds, if it is one of holds.
@@ -49,12 +49,12 @@ impl Calibration {
     fn motion(&self) -> Option<MotionOf<'_>> {
         match &self.recovered {
             Recovered::Motion(recovered) => Some(MotionOf { recovered, axes: self.axes() }),
-            Recovered::Holds(_) => None,
+            Recovered::Holds(_) | Recovered::OnMachine(_) => None,
         }
     }
 
     fn holds_in_unit(&self) -> Option<HoldsOf<'_>> {
         let latitude_deg = self.gyroscope.as_deref().and_then(|gyroscope| gyroscope.latitude_deg);
-        self.holds().map(|holds| HoldsOf { holds, unit: self.accelerometer_unit, latitude_deg })
+        self.holds().map(|holds| HoldsOf { holds, unit: self.unit(SensorKind::Accelerometer), latitude_deg })
     }
 }

@@ -25,7 +25,7 @@ use super::{
 };
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
-use crate::sensor::{Axis, ImuParameters, SensorParameters};
+use crate::sensor::{Axis, ImuParameters, PerSensor, SensorKind, SensorParameters};
 use crate::solve::chi2_p_value;
 use chain::Solved;
 use context::Context;
@@ -133,7 +133,7 @@ fn assemble(
         gravity_slope: Vec::new(),
         datasheet_prior: context.settings.datasheet_prior,
         imu: ImuParameters { accelerometer: sensor, ..ImuParameters::identity() },
-        accelerometer_unit: problem.sensor.unit,
+        units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
         fit,
         recovered: Recovered::Motion(RecoveredMotion {
             motion,

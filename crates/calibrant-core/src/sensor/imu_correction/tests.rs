@@ -118,7 +118,10 @@ fn the_force_is_interpolated_at_the_gyroscopes_times() {
     recording.accelerometer = None;
     let error = correction.apply(&recording).expect_err("g-sensitivity").to_string();
     assert!(error.contains("has no accelerometer"), "{error}");
-    let of_si = CalibratedImu { gyroscope_unit: Some(ReadingUnit::RadianPerSecond), ..imu };
+    let of_si = CalibratedImu {
+        units: [imu.units[SensorKind::Accelerometer], Some(ReadingUnit::RadianPerSecond)].into(),
+        ..imu
+    };
     let of_si = ImuCorrection::of(&of_si).expect("regular");
     let error = of_si.apply(&recording).expect_err("another unit");
     assert!(error.is_invalid_recording() && error.to_string().contains("in counts, the calibration is of"));

@@ -1,18 +1,19 @@
 //! Puts the result together.
 
 use super::drift;
+use super::machine_calibration::{of_sensors, sensor_quantities};
 use super::shared_errors::shared_errors;
 use crate::chain::JointKind;
 use crate::estimate::covariance::{budget, inflation};
-use crate::estimate::least_squares::{Minimum, Model, Pass, white_noise};
+use crate::estimate::least_squares::{Minimum, Model, Pass, State, white_noise};
 use crate::estimate::noise::{Growths, Posterior};
 use crate::estimate::{
     MachineCalibration, MachineProblem, MachineTrust, MountVariance, ReferenceNoise, SampleResidual,
     SensorResidual, mount_variances,
 };
 use crate::log::ReferenceLog;
-use calibrant_core::estimate::FitStatistics;
-use calibrant_core::sensor::{Axis, SensorKind};
+use calibrant_core::estimate::{Calibration, FitStatistics, FoundOnMachine, Recovered};
+use calibrant_core::sensor::{Axis, Gauge, ImuQuantity, Parameter, PerSensor, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -59,29 +60,79 @@ pub(crate) fn assembled(
     let samples: usize = model.streams.iter().map(|stream| stream.recording.len()).sum();
     let used: usize = noise.iter().map(|of| of.residuals.len()).sum();
     MachineCalibration {
-        status: minimum.status,
-        iterations: minimum.iterations,
-        gradient_norm: minimum.last_step,
+        sensors: sensors(
+            problem,
+            model,
+            minimum,
+            &covariance,
+            FoundOnMachine {
+                shared: shared_errors(layout, &model.joint_names(), &posterior.covariance, &covariance),
+                frame: frame(model, state),
+            },
+            fit(problem, minimum, posterior, layout.len(), used),
+        ),
         trust: model.trust,
         joints: model.joint_names(),
         quantities: layout.quantities.clone(),
         values: layout.quantities.iter().map(|of| state.parameters.value(*of, &layout.nominal)).collect(),
         budget: budget(layout, posterior, &covariance, &beyond, model.trust),
-        shared: shared_errors(layout, &model.joint_names(), &posterior.covariance, &covariance),
         covariance,
         linear_covariance: posterior.covariance.clone(),
         inflation,
         unseen: DMatrix::zeros(n, n),
         parameters: state.parameters.clone(),
         nominal: layout.nominal.clone(),
-        units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit())),
-        fit: fit(problem, minimum, posterior, layout.len(), used),
         noise,
         reference_noise: reference_noise(problem, model, growths.log, &outliers),
         motion: state.motion.clone(),
         covered: model.covered.clone(),
         used_share: used as f64 / samples.max(1) as f64,
+    }
+}
+
+/// The sensors' part of the result.
+fn sensors(
+    problem: &MachineProblem<'_>,
+    model: &Model<'_>,
+    minimum: &Minimum,
+    covariance: &DMatrix<f64>,
+    found: FoundOnMachine,
+    fit: FitStatistics,
+) -> Calibration {
+    let units = PerSensor::from_fn(|kind| problem.recording.sensor(kind).map(|recording| recording.unit()));
+    let imu = minimum.state.parameters.imu;
+    let quantities: Vec<ImuQuantity> =
+        sensor_quantities(&model.layout.quantities).map(|(_, quantity)| quantity).collect();
+    let unit = |kind: SensorKind| units[kind].unwrap_or(kind.stimulus_unit());
+    Calibration {
+        status: minimum.status,
+        iterations: minimum.iterations,
+        gradient_norm: minimum.last_step,
+        parameters: quantities.iter().map(|of| Parameter::undescribed(*of, unit(of.sensor_kind()))).collect(),
+        values: quantities.iter().map(|of| of.value(&imu)).collect(),
+        covariance: of_sensors(&model.layout.quantities, covariance),
+        quantities,
+        prior_share: Vec::new(),
+        gravity_slope: Vec::new(),
+        datasheet_prior: false,
+        imu,
+        units,
+        fit,
+        recovered: Recovered::OnMachine(found),
+        gyroscope: None,
+        changes: Vec::new(),
         warnings: Vec::new(),
+    }
+}
+
+/// The true frame, in words: a matrix that has the form of a gauge defines it.
+fn frame(model: &Model<'_>, state: &State) -> String {
+    let reference = model.streams.first().map(|stream| state.parameters.imu.sensor(stream.sensor).matrix);
+    match reference.and_then(|matrix| Gauge::of(&matrix)) {
+        Some(gauge) => {
+            format!("that of the gauge `{}`: its orientation on the tip is in `machine.mount`", gauge.name())
+        }
+        None => "the axes of the machine's tip, turned by the mounting".to_owned(),
     }
 }
 

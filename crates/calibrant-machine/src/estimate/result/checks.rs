@@ -3,7 +3,7 @@
 use super::flexure::Flexure;
 use super::unseen_mount::allow_for;
 use super::{plausible, separability};
-use crate::estimate::problem::{Layout, place};
+use crate::estimate::problem::Layout;
 use crate::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, SensorDrift, SensorResidual,
 };
@@ -52,15 +52,15 @@ pub(crate) fn add(
     flexure: Flexure,
 ) {
     let mut found = Vec::new();
-    if calibration.status != CalibrationStatus::Converged {
-        found.push(NotConverged { status: calibration.status.name() }.into());
+    if calibration.sensors.status != CalibrationStatus::Converged {
+        found.push(NotConverged { status: calibration.sensors.status.name() }.into());
     }
     found.extend(residuals(calibration));
     found.extend(correlated(calibration));
     found.extend(flexure.found.clone().map(Diagnostic::from));
     found.extend(calibration.noise.iter().flat_map(|of| {
         let matrix = &calibration.parameters.imu.sensor(of.sensor).matrix;
-        let unit = calibration.units[place(of.sensor)].unwrap_or(of.sensor.stimulus_unit());
+        let unit = calibration.sensors.units[of.sensor].unwrap_or(of.sensor.stimulus_unit());
         let scale = |axis| ImuQuantity::Of(of.sensor, Quantity::Scale(axis));
         implausible_gains(of.sensor, unit, matrix, move |axis| plausible::is_known(setup, scale(axis)))
     }));
@@ -78,12 +78,12 @@ pub(crate) fn add(
     allow_for(&flexure, calibration, &mut found);
     let is_doubtful = found.iter().any(Diagnostic::is_warning);
     found.extend(calibration.noise.iter().filter_map(|of| drifts(of, calibration, is_doubtful)));
-    calibration.warnings = found;
+    calibration.sensors.warnings = found;
 }
 
 /// Axes of counts whose gain has the other sign than the nominal one.
 fn reversed_axes(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
-    let of_counts = |of: &&SensorResidual| calibration.units[place(of.sensor)] == Some(ReadingUnit::Counts);
+    let of_counts = |of: &&SensorResidual| calibration.sensors.units[of.sensor] == Some(ReadingUnit::Counts);
     calibration.noise.iter().filter(of_counts).flat_map(|of| {
         let [found, nominal] =
             [&calibration.parameters, &calibration.nominal].map(|of_all| of_all.imu.sensor(of.sensor).matrix);
@@ -100,7 +100,7 @@ pub(crate) fn contradict(calibration: &MachineCalibration) -> bool {
     let is_contradiction =
         |found: &Diagnostic| found.severity() == Severity::Error || found.code() == PriorContradicted::CODE;
     let is_large = |of: &SensorResidual| of.excess() > LARGE;
-    calibration.warnings.iter().any(is_contradiction) || calibration.noise.iter().any(is_large)
+    calibration.sensors.warnings.iter().any(is_contradiction) || calibration.noise.iter().any(is_large)
 }
 
 /// Residuals that are larger than the noise of neighbouring samples.
@@ -123,7 +123,7 @@ fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnosti
 /// The drift of a sensor: beyond what is usual, or the reason of other warnings.
 fn drifts(of: &SensorResidual, calibration: &MachineCalibration, is_doubtful: bool) -> Option<Diagnostic> {
     let (sensor_kind, drift) = (of.sensor, of.drift.filter(|drift| drift.p_value < NO_CHANCE)?);
-    let unit = calibration.units[place(sensor_kind)]?;
+    let unit = calibration.sensors.units[sensor_kind]?;
     let matrix = calibration.parameters.imu.sensor(sensor_kind).matrix;
     let gain = |axis: Axis| matrix[(axis.index(), axis.index())].abs();
     let usual = |axis: Axis| match (drift.of, sensor_kind) {

@@ -6,11 +6,8 @@ use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::huber;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
 use crate::reference::Motion;
-use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::estimate::{CalibrationStatus, FitStatistics};
-use calibrant_core::sensor::{
-    CalibratedImu, Gauge, ImuQuantity, ImuRecording, ReadingUnit, SensorKind, SharedErrors,
-};
+use calibrant_core::estimate::Calibration;
+use calibrant_core::sensor::{ImuQuantity, ImuRecording, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -18,12 +15,8 @@ use serde::Serialize;
 /// Parameters of a sensor on a machine, of the machine, and everything needed to judge them.
 #[derive(Debug, Clone)]
 pub struct MachineCalibration {
-    /// How the iteration ended.
-    pub status: CalibrationStatus,
-    /// Gauss–Newton steps, once the noise was known.
-    pub iterations: usize,
-    /// Length of the last step, in standard deviations.
-    pub gradient_norm: f64,
+    /// The sensors: their parameters, how the estimation ended, how it fits, the warnings.
+    pub sensors: Calibration,
     /// Trust in the log.
     pub trust: MachineTrust,
     /// Names of the joints; none for poses.
@@ -45,10 +38,6 @@ pub struct MachineCalibration {
     pub parameters: MachineParameters,
     /// What was expected beforehand: where delay and mounting begin.
     pub nominal: MachineParameters,
-    /// Unit of the accelerometer's and of the gyroscope's readings; `None` without that sensor.
-    pub units: [Option<ReadingUnit>; 2],
-    /// χ² and its degrees of freedom. The probability is stated where all noise was given.
-    pub fit: FitStatistics,
     /// Noise of each sensor.
     pub noise: Vec<SensorResidual>,
     /// Noise of the log: of each joint, or of position and orientation.
@@ -61,10 +50,6 @@ pub struct MachineCalibration {
     pub budget: Vec<BudgetRow>,
     /// Part of the sensor's samples that lie in the log's time and in none of its gaps, 0 to 1.
     pub used_share: f64,
-    /// Errors of the sensor's parameters that another calibration on this machine has, too: gravity, geometry and zeros.
-    pub shared: Option<SharedErrors>,
-    /// Warnings for the user.
-    pub warnings: Vec<Diagnostic>,
 }
 
 /// The residuals of a sensor.
@@ -145,12 +130,6 @@ impl BudgetRow {
 }
 
 impl MachineCalibration {
-    /// The sensors that were calibrated.
-    #[must_use]
-    pub fn sensors(&self) -> Vec<SensorKind> {
-        self.noise.iter().map(|of| of.sensor).collect()
-    }
-
     /// Standard deviation of each estimate.
     #[must_use]
     pub fn sd(&self) -> Vec<f64> {
@@ -186,7 +165,7 @@ impl MachineCalibration {
     #[must_use]
     pub fn delays_at_start_s(&self, recording: &ImuRecording) -> Vec<(SensorKind, f64)> {
         let times = |sensor: &SensorKind| recording.sensor(*sensor);
-        let sensors = self.sensors();
+        let sensors = self.sensors.sensor_kinds();
         let Some(middle_s) = sensors.last().and_then(times).map(middle_s) else { return Vec::new() };
         let first_s = |sensor: &SensorKind| times(sensor).and_then(|of| of.times_s().first().copied());
         let delay = |sensor: SensorKind| {
@@ -196,38 +175,25 @@ impl MachineCalibration {
         sensors.into_iter().filter_map(delay).collect()
     }
 
-    /// The true frame, in words: a matrix that has the form of a gauge defines it.
-    fn frame(&self) -> String {
-        let gauge =
-            self.noise.first().and_then(|of| Gauge::of(&self.parameters.imu.sensor(of.sensor).matrix));
-        match gauge {
-            Some(gauge) => format!(
-                "that of the gauge `{}`: its orientation on the tip is in `machine.mount`",
-                gauge.name()
-            ),
-            None => "the axes of the machine's tip, turned by the mounting".to_owned(),
-        }
+    /// Widens the covariance of all quantities.
+    pub(crate) fn widen(&mut self, by: &DMatrix<f64>) {
+        self.covariance += by;
+        self.sensors.covariance = of_sensors(&self.quantities, &self.covariance);
     }
+}
 
-    /// The sensor in the form that other programs exchange.
-    #[must_use]
-    pub fn calibrated(&self) -> CalibratedImu {
-        let imu: Vec<(usize, ImuQuantity)> = (self.quantities.iter().enumerate())
-            .filter_map(|(place, quantity)| match quantity {
-                MachineQuantity::Imu(of) => Some((place, *of)),
-                _ => None,
-            })
-            .collect();
-        let n = imu.len();
-        CalibratedImu {
-            parameters: self.parameters.imu,
-            accelerometer_unit: self.units[0],
-            gyroscope_unit: self.units[1],
-            quantities: imu.iter().map(|(_, quantity)| *quantity).collect(),
-            covariance: Some(DMatrix::from_fn(n, n, |i, j| self.covariance[(imu[i].0, imu[j].0)])),
-            degrees_of_freedom: None,
-            shared: self.shared.clone(),
-            frame: self.frame(),
-        }
-    }
+/// The places of the sensors' quantities, and these.
+pub(crate) fn sensor_quantities(
+    quantities: &[MachineQuantity],
+) -> impl Iterator<Item = (usize, ImuQuantity)> + '_ {
+    quantities.iter().enumerate().filter_map(|(place, quantity)| match quantity {
+        MachineQuantity::Imu(of) => Some((place, *of)),
+        _ => None,
+    })
+}
+
+/// The sensors' part of a covariance of all quantities.
+pub(crate) fn of_sensors(quantities: &[MachineQuantity], covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let places: Vec<usize> = sensor_quantities(quantities).map(|(place, _)| place).collect();
+    covariance.select_rows(&places).select_columns(&places)
 }

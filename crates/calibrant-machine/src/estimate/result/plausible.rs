@@ -5,7 +5,6 @@
 //! variance `τ²` give each of the six entries of `P` and of the vector of `R` the variance `τ²/2`, so that `P` tells how large a turn is the sensor's own. A
 //! turn that both sensors share has `τ²/4`, as has half their difference.
 
-use crate::estimate::problem::place;
 use crate::estimate::{MachineCalibration, MachineQuantity, MachineSetup, MountingPrior};
 use calibrant_core::diagnostic::machine::{GainsShareFactor, MountingOtherwise};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
@@ -23,7 +22,7 @@ const NO_CHANCE: f64 = 1e-3;
 /// What no sensor has.
 pub(super) fn check(setup: &MachineSetup, calibration: &MachineCalibration) -> Vec<Diagnostic> {
     let factors = calibration.noise.iter().filter_map(|of| factor(of.sensor, setup, calibration));
-    let unit = calibration.units[place(SensorKind::Accelerometer)];
+    let unit = calibration.sensors.units[SensorKind::Accelerometer];
     let bias = unit.and_then(|unit| bias(setup, &calibration.parameters.imu, unit));
     bias.into_iter().chain(factors).chain(turned(setup, calibration)).collect()
 }
@@ -44,7 +43,7 @@ fn factor(
     let scale = |axis| ImuQuantity::Of(sensor_kind, Quantity::Scale(axis));
     let [found, nominal] =
         [&calibration.parameters, &calibration.nominal].map(|of| of.imu.sensor(sensor_kind).matrix);
-    let gains = match calibration.units[place(sensor_kind)]? {
+    let gains = match calibration.sensors.units[sensor_kind]? {
         ReadingUnit::Counts => nominal.diagonal().abs(),
         _ => Vector3::repeat(1.0),
     };
@@ -90,7 +89,7 @@ fn turned(setup: &MachineSetup, calibration: &MachineCalibration) -> Option<Diag
     if setup.mounting == MountingPrior::Unknown {
         return None;
     }
-    let sensors = calibration.sensors();
+    let sensors = calibration.sensors.sensor_kinds();
     let is_full = |sensor: &SensorKind| entries(*sensor).all(|(of, _)| calibration.position(of).is_some());
     if !sensors.iter().all(is_full) {
         return None;

@@ -16,7 +16,9 @@ const LEAST_MEAN: f64 = 0.5;
 pub(super) fn check(setup: &MachineSetup, calibration: &MachineCalibration) -> Vec<Diagnostic> {
     let sensor = SensorKind::Accelerometer;
     // joints are logged so well that small differences tell
-    if calibration.units[0] != Some(ReadingUnit::MetrePerSecondSquared) || !calibration.joints.is_empty() {
+    if calibration.sensors.units[SensorKind::Accelerometer] != Some(ReadingUnit::MetrePerSecondSquared)
+        || !calibration.joints.is_empty()
+    {
         return Vec::new();
     }
     let (mean, variation) = force(setup, calibration);

@@ -36,7 +36,7 @@ pub(super) fn allow_for(
         return;
     }
     let before = calibration.sd();
-    calibration.covariance += unseen;
+    calibration.widen(unseen);
     for row in &mut calibration.budget {
         let place = calibration.quantities.iter().position(|of| *of == MachineQuantity::Imu(row.quantity));
         let Some(place) = place else { continue };

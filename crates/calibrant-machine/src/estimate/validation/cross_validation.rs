@@ -34,12 +34,12 @@ pub fn cross_validate_on_machine(
     settings: &MachineSettings,
     folds: usize,
 ) -> Result<MachineValidation> {
-    let sensors = calibration.sensors();
+    let sensors = calibration.sensors.sensor_kinds();
     let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
         return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
     };
     check_folds(problem, folds)?;
-    if calibration.status != CalibrationStatus::Converged {
+    if calibration.sensors.status != CalibrationStatus::Converged {
         let message = "the calibration did not converge: how far it moves without a block tells nothing";
         return Err(refused(message, "look at the warnings of the calibration"));
     }
@@ -135,7 +135,7 @@ fn model<'a>(
         let recording = recording.sensor(of.sensor)?;
         Some(Stream { sensor: of.sensor, recording, sd: of.noise, growth: Vec::new() })
     };
-    let sensors = calibration.sensors();
+    let sensors = calibration.sensors.sensor_kinds();
     let whole = sensors.last().and_then(|kind| problem.recording.sensor(*kind));
     let mut model = Model {
         streams: calibration.noise.iter().filter_map(stream).collect(),

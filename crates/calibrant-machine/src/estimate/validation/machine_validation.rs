@@ -194,7 +194,7 @@ pub fn compare_on_machine(
     if first.quantities != second.quantities {
         return MachineValidation { source, shifts: Vec::new(), speed_ratio: 1.0 };
     }
-    let sensors = first.sensors();
+    let sensors = first.sensors.sensor_kinds();
     let information = |quantity: &MachineQuantity| {
         let sd = setup.prior_sd(*quantity, sensors.len());
         let shared = matches!(

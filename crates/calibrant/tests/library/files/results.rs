@@ -15,7 +15,8 @@ use calibrant::io::{
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
 use calibrant::sensor::{
-    Gauge, ImuParameters, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+    Gauge, ImuParameters, PerSensor, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
+    SensorParameters,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use serde_json::{Value, json};
@@ -131,7 +132,7 @@ fn calibration(
         gravity_slope: Vec::new(),
         datasheet_prior: true,
         imu: ImuParameters { accelerometer: parameters, ..ImuParameters::identity() },
-        accelerometer_unit: sensor.unit,
+        units: PerSensor::only(SensorKind::Accelerometer, sensor.unit),
         fit: FitStatistics {
             chi2: 5.5,
             degrees_of_freedom: 4,
@@ -289,7 +290,11 @@ fn truth_and_summary() {
             recording: "a/bad,name.csv".into(),
             outcome: Err(Failure { code: Refusal::RecordingShort, message: "no \"rows\"".into() }),
         },
-        SummaryRow { file: "good".into(), recording: "a/good.csv".into(), outcome: Ok(Summary::of(&good)) },
+        SummaryRow {
+            file: "good".into(),
+            recording: "a/good.csv".into(),
+            outcome: Ok(Summary::of(&good, None)),
+        },
     ];
     write_summary(&path, &rows).expect("written");
     let expected = "file,recording,verdict,codes,status,error,code,limits_failed,worst_sd_parameter,worst_sd_ratio,worst_sd_relative_to,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,accelerometer.scale.x,accelerometer.scale.x_sd\n\

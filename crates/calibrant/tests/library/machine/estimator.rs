@@ -155,7 +155,7 @@ fn a_gantry_that_is_trusted_gives_the_estimate_of_the_report() {
             assert!((own - expected.covariance[(k, j)]).abs() < 1e-9 * size);
         }
     }
-    assert!((found.fit.chi2 - expected.fit.chi2).abs() < 1e-6 * expected.fit.chi2);
+    assert!((found.sensors.fit.chi2 - expected.fit.chi2).abs() < 1e-6 * expected.fit.chi2);
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn broad(of: &Published, knot_step_s: Option<f64>) {
         quantities: &quantities(&SensorKind::ALL),
     };
     let found = calibrate_on_machine(&problem, &MachineSettings::default()).expect("it is determined");
-    assert_eq!(found.status, CalibrationStatus::Converged);
+    assert_eq!(found.sensors.status, CalibrationStatus::Converged);
     let near = |quantity: MachineQuantity, expected: f64, sd: f64, deviations: f64| {
         let (value, own) = found.estimate(quantity).expect("it was estimated");
         let off = (value - expected) / own.hypot(sd);
@@ -246,7 +246,7 @@ fn broad(of: &Published, knot_step_s: Option<f64>) {
     // a tracker's error is correlated: the intervals are wider, and it is said
     assert!(found.inflation.iter().any(|factor| *factor > 1.2));
     let says_so = ["residuals-correlated", "reference-undermodelled"];
-    assert!(found.warnings.iter().any(|found| says_so.contains(&found.code().name())));
+    assert!(found.sensors.warnings.iter().any(|found| says_so.contains(&found.code().name())));
 }
 
 #[test]

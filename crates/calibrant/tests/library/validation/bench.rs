@@ -123,7 +123,7 @@ pub(crate) fn share(of: &[&ValidatedErrors], verdict: CovarianceVerdict) -> f64 
 pub(crate) fn holds_mut(calibration: &mut Calibration) -> &mut HoldCalibration {
     match &mut calibration.recovered {
         Recovered::Holds(holds) => holds,
-        Recovered::Motion(_) => panic!("held"),
+        _ => panic!("held"),
     }
 }
 

@@ -74,7 +74,7 @@ impl Finished<'_> {
             gravity_slope: uncertainty.gravity_slope.iter().copied().collect(),
             datasheet_prior: false,
             imu,
-            accelerometer_unit: problem.accelerometer.unit,
+            units: [Some(problem.accelerometer.unit), Some(problem.gyroscope.unit)].into(),
             fit: FitStatistics::of_chi2(
                 fit.chi2,
                 degrees_of_freedom(&At { model, state: &fit.state, rotations: &fit.residuals }),

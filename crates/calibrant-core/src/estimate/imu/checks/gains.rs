@@ -31,7 +31,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
                 || allows_bias(&parameters, &calibration.values, &sd, axis)
         },
     ));
-    for &sensor_kind in calibration.sensor_kinds() {
+    for sensor_kind in calibration.sensor_kinds() {
         let matrix = &calibration.imu.sensor(sensor_kind).matrix;
         let reordered = sensor_kind == SensorKind::Gyroscope && evidence.axes.is_some();
         // of a turned frame the faces and turns say it better

@@ -96,7 +96,7 @@ fn calibrated(recording: &ImuRecording) -> (calibrant::Result<Outcome>, Vec<Stri
 
 /// The parameter with the largest error, and the error in standard deviations.
 fn worst(outcome: &Outcome, truth: &ImuParameters) -> (String, f64) {
-    let found = outcome.calibration().expect("of sensors");
+    let found = outcome.calibration();
     let errors = found.quantities.iter().zip(found.values.iter().zip(found.sd()));
     let errors = errors.map(|(quantity, (value, sd))| (quantity, (value - quantity.value(truth)).abs() / sd));
     let (quantity, error) = errors.max_by(|a, b| a.1.total_cmp(&b.1)).expect("parameters");

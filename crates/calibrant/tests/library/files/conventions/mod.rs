@@ -52,8 +52,7 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
     });
     CalibratedImu {
         parameters,
-        accelerometer_unit: Some(unit[0]),
-        gyroscope_unit: Some(unit[1]),
+        units: [Some(unit[0]), Some(unit[1])].into(),
         quantities,
         covariance: Some(&root * root.transpose()),
         degrees_of_freedom: None,
@@ -130,8 +129,11 @@ pub(crate) fn largest_difference(
 /// The IMU with one of its sensors only.
 pub(crate) fn alone(imu: &CalibratedImu, sensor_kind: SensorKind) -> CalibratedImu {
     let mut alone = CalibratedImu {
-        accelerometer_unit: imu.accelerometer_unit.filter(|_| sensor_kind == SensorKind::Accelerometer),
-        gyroscope_unit: imu.gyroscope_unit.filter(|_| sensor_kind == SensorKind::Gyroscope),
+        units: [
+            imu.unit(SensorKind::Accelerometer).filter(|_| sensor_kind == SensorKind::Accelerometer),
+            imu.unit(SensorKind::Gyroscope).filter(|_| sensor_kind == SensorKind::Gyroscope),
+        ]
+        .into(),
         quantities: ImuQuantity::full_list(
             sensor_kind == SensorKind::Accelerometer,
             sensor_kind == SensorKind::Gyroscope,

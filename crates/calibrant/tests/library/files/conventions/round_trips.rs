@@ -123,8 +123,8 @@ fn the_calibration_of_an_accelerometer_is_read_as_an_imu() {
     assert_eq!(file.imu.parameters.accelerometer, calibration.imu.accelerometer);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));
     assert_eq!(
-        (file.imu.accelerometer_unit, file.imu.gyroscope_unit),
-        (Some(calibration.accelerometer_unit), None)
+        (file.imu.unit(SensorKind::Accelerometer), file.imu.unit(SensorKind::Gyroscope)),
+        (Some(calibration.unit(SensorKind::Accelerometer)), None)
     );
     assert_eq!(file.inputs, [crate::files::results::input()]);
     assert!(file.imu.frame.contains("the accelerometer's gauge"), "{}", file.imu.frame);
@@ -146,7 +146,10 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
         written.files.iter().map(|file| file.file_name().expect("a name").to_owned()).collect();
     assert_eq!(names, ["xsens_acc.calib", "xsens_gyro.calib"]);
     let after = read_calibrated_imu(&path, &ConventionOptions::default()).expect("the pair");
-    assert!(after.imu.accelerometer_unit.is_some() && after.imu.gyroscope_unit.is_some());
+    assert!(
+        after.imu.unit(SensorKind::Accelerometer).is_some()
+            && after.imu.unit(SensorKind::Gyroscope).is_some()
+    );
     assert!(largest_difference(&before, &after.imu, &readings(&before, 1000, 3)) < 1e-12);
     // one sensor keeps the name, and the name shows the sensor where the file does not
     let one = write_calibrated_imu(&path, &file(alone(&before, SensorKind::Gyroscope)), ImuFormat::ImuTk)
@@ -157,7 +160,7 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
     std::fs::write(&named, plain).expect("written");
     let options = ConventionOptions { units: Some(RawUnits::Counts), ..Default::default() };
     let found = read_calibrated_imu(&named, &options).expect("imu_tk's own");
-    assert_eq!(found.imu.gyroscope_unit, Some(ReadingUnit::Counts));
+    assert_eq!(found.imu.unit(SensorKind::Gyroscope), Some(ReadingUnit::Counts));
     assert!((found.imu.parameters.gyroscope.matrix[(1, 1)] - 5000.0).abs() < 1e-9);
 }
 
