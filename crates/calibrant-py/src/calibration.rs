@@ -251,12 +251,12 @@ impl Correction {
             both.map(|(readings, unit)| Recording::new(times.clone(), readings, 3, unit)).transpose()
         };
         let recording = ImuRecording {
-            accelerometer: of(SensorKind::Accelerometer, force)?,
-            gyroscope: of(SensorKind::Gyroscope, rate)?,
+            sensors: [of(SensorKind::Accelerometer, force)?, of(SensorKind::Gyroscope, rate)?].into(),
             temperature_c,
         };
         // the force that the gyroscope feels is there, or not needed
-        let feels = recording.accelerometer.is_some() || self.correction.g_sensitivity == Matrix3::zeros();
+        let feels = recording[SensorKind::Accelerometer].is_some()
+            || self.correction.g_sensitivity == Matrix3::zeros();
         if !with_sd && feels && !self.correction.follows_temperature() {
             return Ok(self.without_sd(&recording));
         }

@@ -73,7 +73,7 @@ impl Recording {
         let of = &self.file;
         json!({
             "findings": self.findings(), "format": of.format.name(), "rate_sd_ppm": of.rate_sd_ppm, "sha256": of.sha256,
-            "axes": of.recording.accelerometer.as_ref().map_or(3, |of| of.axes()),
+            "axes": of.recording[SensorKind::Accelerometer].as_ref().map_or(3, |of| of.axes()),
         })
         .to_string()
     }
@@ -100,11 +100,9 @@ impl Recording {
     /// Writes it as CSV.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let file = Arc::clone(&self.file);
-        run(py, move || match &file.recording {
-            ImuRecording { accelerometer: Some(alone), gyroscope: None, temperature_c: None } => {
-                write_recording(&path, alone)
-            }
-            both => write_imu_recording(&path, both),
+        run(py, move || match file.recording.accelerometer_alone() {
+            Some(alone) => write_recording(&path, alone),
+            None => write_imu_recording(&path, &file.recording),
         })
     }
 }

@@ -7,6 +7,7 @@ use crate::options::budget;
 use crate::recording::{Samples, samples, sensor_kind};
 use crate::work::run;
 use calibrant::io::to_json;
+use calibrant::sensor::SensorKind;
 use calibrant::{SimulationOptions, simulate as simulated};
 use pyo3::prelude::*;
 use serde_json::json;
@@ -73,7 +74,7 @@ impl Simulation {
     /// Its seed, what was noticed, the distance of the knots of a machine's motion, s, and the axes of the accelerometer.
     fn about(&self) -> String {
         let of = &self.0;
-        let axes = of.recording.accelerometer.as_ref().map_or(3, |of| of.axes());
+        let axes = of.recording[SensorKind::Accelerometer].as_ref().map_or(3, |of| of.axes());
         json!({ "seed": of.seed, "notes": of.notes, "knot_step_s": of.knot_step_s, "axes": axes }).to_string()
     }
 

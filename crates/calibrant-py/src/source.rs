@@ -5,7 +5,7 @@ use crate::work::at_once;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::ImuFile;
-use calibrant::sensor::{ImuRecording, ReadingUnit, Recording as Samples};
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording as Samples, SensorKind};
 use calibrant::session::{Readings as Given, SectionList, Source as GivenSource};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -62,8 +62,8 @@ impl Readings {
                     return Err(Error::recording(input_error));
                 }
                 match sensor.as_str() {
-                    "gyroscope" => recording.gyroscope = Some(samples),
-                    _ => recording.accelerometer = Some(samples),
+                    "gyroscope" => recording[SensorKind::Gyroscope] = Some(samples),
+                    _ => recording[SensorKind::Accelerometer] = Some(samples),
                 }
             }
             let file = ImuFile { rate_sd_ppm, ..ImuFile::of_recording(recording) };

@@ -2,7 +2,7 @@
 
 use super::tests::{imu, place, record};
 use super::*;
-use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity};
+use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, SensorKind};
 use nalgebra::DMatrix;
 
 /// An IMU that follows temperature, about 25 °C, in a frame that is no gauge.
@@ -53,7 +53,7 @@ fn one_sensor_in_every_gauge_and_at_every_temperature_is_the_same() {
 #[test]
 fn what_cannot_be_brought_into_the_frame_is_left_out_and_named() {
     let mut left_handed = imu(4);
-    left_handed.parameters.accelerometer.matrix.row_mut(1).neg_mut();
+    left_handed.parameters[SensorKind::Accelerometer].matrix.row_mut(1).neg_mut();
     let fleet = fleet_of([imu(1).in_gauge(Gauge::Lower).expect("right-handed"), imu(2), left_handed]);
     assert_eq!(fleet.gauge, Some(Gauge::Lower));
     assert_eq!(fleet.parameters[0].values.sensors, 2);

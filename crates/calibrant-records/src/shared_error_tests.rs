@@ -19,7 +19,7 @@ fn on_machine(gain: f64) -> CalibratedImu {
     let column: Vec<f64> = quantities.iter().map(|of| if is_scale(of) { OF_GEOMETRY } else { 0.0 }).collect();
     let (size, shared) = (quantities.len(), DVector::from_column_slice(&column));
     let mut parameters = ImuParameters::identity();
-    parameters.accelerometer.matrix *= gain;
+    parameters[SensorKind::Accelerometer].matrix *= gain;
     CalibratedImu {
         parameters,
         units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),

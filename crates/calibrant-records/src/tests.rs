@@ -90,7 +90,7 @@ fn a_record_comes_back_to_the_last_bit() {
     let mut warm = record("T", 4);
     warm.imu.quantities.extend(ImuQuantity::all_thermal(true, false));
     let size = warm.imu.quantities.len();
-    warm.imu.parameters.thermal.accelerometer.bias[0].x = 1.0 / 3.0;
+    warm.imu.parameters.thermal[SensorKind::Accelerometer].bias[0].x = 1.0 / 3.0;
     (warm.imu.parameters.thermal.reference_c, warm.imu.parameters.thermal.range_c) =
         (31.7, Some([-10.1, 60.3]));
     warm.imu.covariance = Some(DMatrix::identity(size, size) * 0.1);
@@ -308,7 +308,7 @@ fn a_table_has_a_row_for_each_calibration_and_reads_back_to_the_last_bit() {
     assert_eq!((field(a, "recorded"), field(b, "recorded")), (String::new(), "2026-05-03".into()));
     assert_eq!(field(a, "recording"), "a, 1.csv, g, 1.csv");
     // a quantity in two units has a column for each
-    let value = imu(1).parameters.accelerometer.bias.y;
+    let value = imu(1).parameters[SensorKind::Accelerometer].bias.y;
     assert_eq!(field(a, "accelerometer.bias.y_mps2").parse(), Ok(value));
     assert_eq!(field(b, "accelerometer.bias.y_mps2"), "");
     assert_ne!(field(b, "accelerometer.bias.y_counts"), "");

@@ -4,6 +4,7 @@ use super::{About, Batch, BatchParameter, BatchSensor, calibration_sheet};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::datasheet::WeakerThanDatasheet;
 use calibrant_core::estimate::{Calibration, Recovered};
+use calibrant_core::sensor::SensorKind;
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design as design;
 use calibrant_study as study;
@@ -184,7 +185,7 @@ fn degenerate_results_are_reported_without_panic() {
     calibration.covariance.fill(f64::NAN);
     calibration.values.fill(f64::INFINITY);
     residuals_of(&mut calibration).fill(Vector3::repeat(f64::NAN));
-    calibration.imu.accelerometer.matrix.fill(0.0);
+    calibration.imu[SensorKind::Accelerometer].matrix.fill(0.0);
     calibration.fit.chi2 = f64::NAN;
     calibration.gradient_norm = f64::INFINITY;
     if let Recovered::Motion(motion) = &mut calibration.recovered {

@@ -6,7 +6,7 @@ use super::{SensorOutcome, SingleCase, Study};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
 use calibrant_core::motion::CommandedMotion;
-use calibrant_core::sensor::Sensor;
+use calibrant_core::sensor::{Sensor, SensorKind};
 use calibrant_core::simulate::{Purpose, draw_sensor, stream};
 use calibrant_design::DesignSettings;
 use rayon::prelude::*;
@@ -84,7 +84,7 @@ pub fn run_study(
         .collect::<Result<Vec<_>>>()?;
     let triples: Vec<_> =
         outcomes.iter().map(|outcome| (&outcome.truth[..], &outcome.values[..], &outcome.sd[..])).collect();
-    let nominal = problem.sensor.nominal().unwrap_or(single.calibration.imu.accelerometer);
+    let nominal = problem.sensor.nominal().unwrap_or(single.calibration.imu[SensorKind::Accelerometer]);
     let parameters = list.describe(problem.sensor, &nominal);
     Ok(Study {
         sensor: problem.sensor.clone(),

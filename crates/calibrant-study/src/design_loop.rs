@@ -10,7 +10,7 @@ use calibrant_core::information::Criterion;
 use calibrant_core::motion::{
     CommandedMotion, JerkControlledMotion, KnownEnds, Limits, MotionClock, MotionGravity, Trust,
 };
-use calibrant_core::sensor::{Sensor, SensorParameters};
+use calibrant_core::sensor::{Sensor, SensorKind, SensorParameters};
 use calibrant_core::simulate::{Purpose, Rng, draw_sensor, initial_motion, stream};
 use calibrant_design::{Design, DesignProblem, DesignSettings, DesignStatus, design, evaluate};
 use nalgebra::{DMatrix, DVector};
@@ -173,8 +173,8 @@ fn go_round(
     let prior = settings
         .calibration
         .datasheet_prior
-        .then(|| datasheet_information(sensor, &before.imu.accelerometer));
-    let at_estimate = problem.design_at(before.imu.accelerometer, prior);
+        .then(|| datasheet_information(sensor, &before.imu[SensorKind::Accelerometer]));
+    let at_estimate = problem.design_at(before.imu[SensorKind::Accelerometer], prior);
     let how = DesignSettings {
         seed,
         certificate: settings.design.certificate && index == 0,

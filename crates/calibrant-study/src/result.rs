@@ -5,7 +5,7 @@ use calibrant_core::information::Criterion;
 use calibrant_core::json::if_some;
 use calibrant_core::json_object;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, MotionTable, Trust};
-use calibrant_core::sensor::{ImuParameters, Parameter, Recording, Sensor, SensorParameters};
+use calibrant_core::sensor::{ImuParameters, Parameter, Recording, Sensor, SensorKind, SensorParameters};
 use calibrant_design::{Design, DesignStatus};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -77,7 +77,7 @@ json_object! {
 impl SingleCase {
     /// True values of the parameters, in the order of the calibration.
     fn true_values(&self) -> Vec<f64> {
-        let imu = ImuParameters { accelerometer: self.truth, ..ImuParameters::identity() };
+        let imu = ImuParameters::identity().with(SensorKind::Accelerometer, self.truth);
         self.calibration.quantities.iter().map(|quantity| quantity.value(&imu)).collect()
     }
 }

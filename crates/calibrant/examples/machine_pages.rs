@@ -42,8 +42,11 @@ fn recording(rows: &[Vec<f64>], accelerometer: usize, gyroscope: usize) -> ImuRe
         Recording::new(times_s, rows.iter().map(reading).collect(), 3, unit).expect("samples in order")
     };
     ImuRecording {
-        accelerometer: Some(of(accelerometer, ReadingUnit::MetrePerSecondSquared)),
-        gyroscope: Some(of(gyroscope, ReadingUnit::RadianPerSecond)),
+        sensors: [
+            Some(of(accelerometer, ReadingUnit::MetrePerSecondSquared)),
+            Some(of(gyroscope, ReadingUnit::RadianPerSecond)),
+        ]
+        .into(),
         temperature_c: None,
     }
 }

@@ -158,8 +158,7 @@ fn true_sensor(parameters: &Value, in_gauge: bool) -> Result<ImuParameters, Box<
         Ok(of)
     };
     let parameters = ImuParameters {
-        accelerometer: sensor(SensorKind::Accelerometer)?,
-        gyroscope: sensor(SensorKind::Gyroscope)?,
+        sensors: [sensor(SensorKind::Accelerometer)?, sensor(SensorKind::Gyroscope)?].into(),
         ..ImuParameters::identity()
     };
     let imu = CalibratedImu {

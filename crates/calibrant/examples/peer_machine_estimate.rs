@@ -156,8 +156,11 @@ fn recording(of: &Value) -> Result<ImuRecording, Box<dyn Error>> {
         Ok(Some(Recording::new(numbers(&of["times"])?, readings, Axis::ALL.len(), unit)?))
     };
     Ok(ImuRecording {
-        accelerometer: sensor("accelerometer", ReadingUnit::MetrePerSecondSquared)?,
-        gyroscope: sensor("gyroscope", ReadingUnit::RadianPerSecond)?,
+        sensors: [
+            sensor("accelerometer", ReadingUnit::MetrePerSecondSquared)?,
+            sensor("gyroscope", ReadingUnit::RadianPerSecond)?,
+        ]
+        .into(),
         ..ImuRecording::default()
     })
 }

@@ -30,11 +30,11 @@ pub struct Applied<'a> {
 ///
 /// # Examples
 /// ```
-/// use calibrant::sensor::{CalibratedImu, ImuParameters, ReadingUnit, Recording};
+/// use calibrant::sensor::{CalibratedImu, ImuParameters, ReadingUnit, Recording, SensorKind};
 /// use calibrant::nalgebra::Vector3;
 ///
 /// let mut parameters = ImuParameters::identity();
-/// parameters.accelerometer.bias.x = 0.1;
+/// parameters[SensorKind::Accelerometer].bias.x = 0.1;
 /// let unit = ReadingUnit::MetrePerSecondSquared;
 /// let imu = CalibratedImu::new(parameters, [Some(unit), None], vec![], "");
 /// let readings = vec![Vector3::new(0.3, 0.0, 9.8); 2];
@@ -46,7 +46,7 @@ pub struct Applied<'a> {
 pub fn apply<'a>(imu: &CalibratedImu, recording: &'a ImuRecording) -> Result<Applied<'a>> {
     let correction = ImuCorrection::of(imu)?;
     let (clean, spikes) = recording.without_spikes();
-    let corrected = correction.apply_feeling(recording, clean.accelerometer.as_ref())?;
+    let corrected = correction.apply_feeling(recording, clean[SensorKind::Accelerometer].as_ref())?;
     let mut notes: Vec<Diagnostic> = Vec::new();
     for sensor_kind in SensorKind::ALL {
         match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {

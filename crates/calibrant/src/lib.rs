@@ -44,6 +44,7 @@
 //! # Five programs
 //! A CSV. The experiment says what is known of the sensor and of what was done with it; it is the text of a file, or one of the [presets](io::PRESETS):
 //! ```
+//! use calibrant::sensor::SensorKind;
 //! use calibrant::io::{Experiment, write_recording, preset};
 //! use calibrant::{Session, Source};
 //!
@@ -51,7 +52,7 @@
 //! # let (path, results) = (folder.path().join("recording.csv"), folder.path());
 //! let experiment = Experiment::parse(preset("static-poses").expect("built in"), None)?;
 //! # let simulated = calibrant::simulate(&experiment, &calibrant::SimulationOptions::default())?;
-//! # write_recording(&path, simulated.recording.accelerometer.as_ref().expect("there"))?;
+//! # write_recording(&path, simulated.recording[SensorKind::Accelerometer].as_ref().expect("there"))?;
 //! let outcome = Session::new(experiment)?.calibrate(&Source::from_file(&path))?;
 //! let calibration = outcome.calibration();
 //! for (parameter, (value, sd)) in calibration.parameters.iter().zip(calibration.values.iter().zip(calibration.sd().iter())) {
@@ -65,12 +66,13 @@
 //!
 //! Arrays: columns named as those of a CSV. The same units, findings and questions follow from them:
 //! ```
+//! use calibrant::sensor::SensorKind;
 //! use calibrant::io::{Experiment, preset};
 //! use calibrant::{Session, Source};
 //!
 //! let experiment = Experiment::parse(preset("imu").expect("built in"), None)?;
 //! # let recording = calibrant::simulate(&experiment, &calibrant::SimulationOptions::default())?.recording;
-//! # let (force, rate) = (recording.accelerometer.expect("there"), recording.gyroscope.expect("there"));
+//! # let (force, rate) = (recording.sensor(SensorKind::Accelerometer).expect("there"), recording.sensor(SensorKind::Gyroscope).expect("there"));
 //! # let t = force.times_s().to_vec();
 //! # let column = |of: &calibrant::sensor::Recording, axis: usize| -> Vec<f64> { of.readings().iter().map(|y| y[axis]).collect() };
 //! # let [fx, fy, fz] = [0, 1, 2].map(|axis| column(&force, axis));
@@ -80,7 +82,7 @@
 //! ];
 //! let outcome = Session::new(experiment)?.calibrate(&Source::from_columns("bench", &table))?;
 //! let imu = outcome.calibration().calibrated();
-//! println!("{} {}", imu.parameters.gyroscope.matrix, outcome.verdict());
+//! println!("{} {}", imu.parameters[SensorKind::Gyroscope].matrix, outcome.verdict());
 //! # assert_eq!(imu.covariance.map(|of| of.nrows()), Some(imu.quantities.len()));
 //! # Ok::<(), calibrant::Error>(())
 //! ```
@@ -134,10 +136,10 @@
 //! A calibration that is there, applied to arrays:
 //! ```
 //! use calibrant::nalgebra::Vector3;
-//! use calibrant::sensor::{ImuCorrection, ImuRecording, ReadingUnit, Recording};
+//! use calibrant::sensor::{ImuCorrection, ImuRecording, ReadingUnit, Recording, SensorKind};
 //!
 //! # let mut parameters = calibrant::sensor::ImuParameters::identity();
-//! # parameters.accelerometer.bias.x = 0.1;
+//! # parameters[SensorKind::Accelerometer].bias.x = 0.1;
 //! # let imu = calibrant::sensor::CalibratedImu {
 //! #     parameters, units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(), quantities: vec![],
 //! #     covariance: None, degrees_of_freedom: None, shared: None, frame: String::new(),

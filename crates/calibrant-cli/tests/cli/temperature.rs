@@ -1,7 +1,7 @@
 //! Tests of an IMU that follows temperature, from its recording to corrected readings and other formats.
 
 use crate::bench::Bench;
-use calibrant::sensor::{ImuParameters, ImuRecording};
+use calibrant::sensor::{ImuParameters, ImuRecording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use serde_json::Value;
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// A bench with `recording.csv`, whose gyroscope's bias moves by 0.2 mrad/s/K from 20 to 45 °C, and `imu.toml`.
 fn bench() -> (Bench, ImuRecording) {
     let mut truth = ImuParameters::identity();
-    truth.thermal.gyroscope.bias[0].x = 2e-4;
+    truth.thermal[SensorKind::Gyroscope].bias[0].x = 2e-4;
     let simulation = ImuSimulation { temperature_c: Some([20.0, 45.0]), ..ImuSimulation::default() };
     let recording = simulate_imu(&truth, &simulation, &mut stream(3, Purpose::Sensor, 8));
     let bench = Bench::new();
@@ -25,7 +25,7 @@ fn bench() -> (Bench, ImuRecording) {
 }
 
 fn csv(recording: &ImuRecording, with_temperature: bool) -> String {
-    let [a, g] = [&recording.accelerometer, &recording.gyroscope]
+    let [a, g] = [&recording[SensorKind::Accelerometer], &recording[SensorKind::Gyroscope]]
         .map(|sensor_kind| sensor_kind.as_ref().expect("there"));
     let temperature = recording.temperature_c.as_ref().expect("simulated");
     let mut text = String::from("t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps");
@@ -68,7 +68,7 @@ fn the_temperature_goes_from_the_recording_to_the_corrected_readings() {
 
     bench.run("apply out/calibration.json recording.csv -o corrected.csv").done();
     let warm = rows(&bench, "corrected.csv");
-    let times = recording.accelerometer.as_ref().expect("there").times_s();
+    let times = recording[SensorKind::Accelerometer].as_ref().expect("there").times_s();
     let celsius = recording.temperature_c.as_ref().expect("simulated");
     assert_eq!(warm.len(), times.len());
     // without the temperature, and with one for all samples
@@ -221,7 +221,7 @@ fn kelvin_are_asked_about_and_a_long_time_without_temperature_is_a_warning() {
 fn a_validation_beyond_the_calibrations_temperatures_is_said() {
     let (bench, _) = bench();
     let mut truth = ImuParameters::identity();
-    truth.thermal.gyroscope.bias[0].x = 2e-4;
+    truth.thermal[SensorKind::Gyroscope].bias[0].x = 2e-4;
     let simulation = ImuSimulation { temperature_c: Some([60.0, 65.0]), ..ImuSimulation::default() };
     let hot = simulate_imu(&truth, &simulation, &mut stream(4, Purpose::Sensor, 8));
     bench.write("hot.csv", csv(&hot, true));

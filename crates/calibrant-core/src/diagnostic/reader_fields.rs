@@ -72,6 +72,8 @@ pub struct FileTimes {
     pub shorter: SensorKind,
     /// Its recording.
     pub shorter_s: Span,
+    /// The other.
+    pub longer: SensorKind,
     /// The other's.
     pub longer_s: Span,
     /// What both cover, s; not above 0 where that is nothing.
@@ -151,11 +153,10 @@ impl fmt::Display for ClockSourceKind {
 
 impl fmt::Display for FileTimes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { shorter, shorter_s, longer_s, common_s } = self;
+        let Self { shorter_s, longer, longer_s, common_s, .. } = self;
         write!(
             f,
-            "it was recorded {shorter_s}, the {} {longer_s}: {}",
-            shorter.other(),
+            "it was recorded {shorter_s}, the {longer} {longer_s}: {}",
             match *common_s > 0.0 {
                 true => format!("{} s of both", plain(*common_s, 6)),
                 false => "no time of both; are they of one recording, and their times of one clock?".into(),

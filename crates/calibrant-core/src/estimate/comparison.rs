@@ -152,7 +152,7 @@ impl Comparison {
     /// # Examples
     /// ```
     /// use calibrant_core::estimate::Comparison;
-    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind};
     /// use nalgebra::DMatrix;
     /// let quantities = ImuQuantity::full_list(true, false, false)[..6].to_vec(); // bias and scale factors
     /// let a = CalibratedImu {
@@ -165,7 +165,7 @@ impl Comparison {
     ///     frame: String::new(),
     /// };
     /// let mut b = a.clone();
-    /// b.parameters.accelerometer.bias.x = 0.004;
+    /// b.parameters[SensorKind::Accelerometer].bias.x = 0.004;
     /// let comparison = Comparison::of(&a, &b);
     /// assert!((comparison.quantities[0].in_sd.unwrap() - 4.0 / 2f64.sqrt()).abs() < 1e-9);
     /// assert!((comparison.overall.unwrap().chi2 - 8.0).abs() < 1e-9);

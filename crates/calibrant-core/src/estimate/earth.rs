@@ -5,7 +5,7 @@
 //! from −1 to 1. The rate about the vertical then has the variance `Ω²/3`, a common error of all entries of Γ. `imu/earth_rate.rs` estimates the rest of the Earth's rate.
 
 use crate::motion::EARTH_RATE_RADPS;
-use crate::sensor::{ImuParameters, ImuQuantity};
+use crate::sensor::{ImuParameters, ImuQuantity, SensorKind};
 use nalgebra::DVector;
 
 /// Standard deviation of each component of the Earth's rate at an unknown latitude, `Ω/√3`, rad/s.
@@ -21,7 +21,7 @@ pub(super) fn vertical_slope(
 ) -> DVector<f64> {
     let slope = |(quantity, known): (&ImuQuantity, &f64)| match quantity {
         ImuQuantity::GSensitivity(row, column) => {
-            imu.gyroscope.matrix[(row.index(), column.index())] / gravity_mps2 * (1.0 - known)
+            imu[SensorKind::Gyroscope].matrix[(row.index(), column.index())] / gravity_mps2 * (1.0 - known)
         }
         _ => 0.0,
     };

@@ -105,7 +105,10 @@ mod tests {
         for temperature_c in [5.0, 60.0] {
             let read = |imu: &ImuParameters, force: Vector3<f64>| {
                 let imu = imu.at(temperature_c);
-                (imu.accelerometer.reading(&force), imu.gyroscope.reading(&rate) + imu.g_sensitivity * force)
+                (
+                    imu[SensorKind::Accelerometer].reading(&force),
+                    imu[SensorKind::Gyroscope].reading(&rate) + imu.g_sensitivity * force,
+                )
             };
             let (one, other) = (read(&imu, force), read(&moved, force * (1.0 + share)));
             assert!((one.0 - other.0).amax() < 1e-9 && (one.1 - other.1).amax() < 1e-9, "{one:?} {other:?}");

@@ -12,7 +12,7 @@ impl Calibration {
     /// # Examples
     /// ```
     /// use calibrant_core::estimate::{CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
-    /// use calibrant_core::sensor::{ImuParameters, Sensor, SensorModel};
+    /// use calibrant_core::sensor::{ImuParameters, Sensor, SensorKind, SensorModel};
     /// use calibrant_core::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
     ///
     /// let mut rng = stream(1, Purpose::Sensor, 0);
@@ -22,7 +22,7 @@ impl Calibration {
     /// let problem =
     ///     ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording: &recording, setup: &setup };
     /// let calibration = calibrate_imu(&problem, &CalibrationSettings::default())?;
-    /// let over_the_gain = |imu: &ImuParameters| imu.gyroscope.bias.x / imu.gyroscope.matrix.row(0).norm();
+    /// let over_the_gain = |imu: &ImuParameters| imu[SensorKind::Gyroscope].bias.x / imu[SensorKind::Gyroscope].matrix.row(0).norm();
     /// let (value_radps, sd_radps) = calibration.propagated(over_the_gain);
     /// assert!(sd_radps > 0.0 && value_radps.abs() < 5.0 * sd_radps);
     /// # Ok::<(), calibrant_core::Error>(())

@@ -70,12 +70,12 @@ impl Calibration {
         let (parameters, values, sd) = (&self.parameters, &self.values, self.sd());
         let allowed =
             |axis: Axis| axis.index() >= self.axes() || datasheet::allows_gain(parameters, values, &sd, axis);
-        let (kind, matrix) = (SensorKind::Accelerometer, &self.imu.accelerometer.matrix);
+        let (kind, matrix) = (SensorKind::Accelerometer, &self.imu[SensorKind::Accelerometer].matrix);
         let gains = datasheet::implausible_gains(kind, self.unit(SensorKind::Accelerometer), matrix, allowed);
         let allowed = |axis: Axis| datasheet::allows_bias(parameters, values, &sd, axis);
         let bias = datasheet::implausible_bias(
             self.unit(SensorKind::Accelerometer),
-            &self.imu.accelerometer.bias,
+            &self.imu[SensorKind::Accelerometer].bias,
             allowed,
         );
         datasheet::beyond_datasheet(parameters, values, &sd).into_iter().chain(bias).chain(gains).collect()
@@ -222,7 +222,7 @@ impl Calibration {
             Recovered::OnMachine(found) => return found.shared.clone(),
         };
         let gravity = recovered.gravity.magnitude();
-        let along = self.imu.accelerometer.matrix
+        let along = self.imu[SensorKind::Accelerometer].matrix
             * recovered.gravity.force_mps2
             * (gravity.sd_mps2 / gravity.magnitude_mps2);
         let column = |(k, quantity): (usize, &ImuQuantity)| match quantity {

@@ -26,7 +26,7 @@ pub struct CorrectedSensor<'a> {
 #[cfg(test)]
 mod tests {
     use crate::sensor::gauge_change::tests::imu;
-    use crate::sensor::{ImuCorrection, ImuRecording, ReadingUnit, Recording};
+    use crate::sensor::{ImuCorrection, ImuRecording, ReadingUnit, Recording, SensorKind};
     use nalgebra::Vector3;
 
     fn recording(times_s: &[f64], reading: Vector3<f64>) -> Recording {
@@ -44,24 +44,27 @@ mod tests {
         let correction = ImuCorrection::of(&imu).expect("regular");
         let times_s: Vec<f64> = (0..600).map(|k| f64::from(k) * 0.01).collect();
         let force = |t: &f64| Vector3::new(0.01 * (700.0 * t).sin(), -5.0, 8.0 + 0.01 * (900.0 * t).cos());
-        let reading = |t: &f64| imu.parameters.accelerometer.reading(&force(t));
+        let reading = |t: &f64| imu.parameters[SensorKind::Accelerometer].reading(&force(t));
         let whole = ImuRecording {
-            accelerometer: Some(Recording {
-                readings: times_s.iter().map(reading).collect(),
-                ..recording(&times_s, Vector3::zeros())
-            }),
-            gyroscope: Some(recording(&times_s, imu.parameters.gyroscope.bias)),
+            sensors: [
+                Some(Recording {
+                    readings: times_s.iter().map(reading).collect(),
+                    ..recording(&times_s, Vector3::zeros())
+                }),
+                Some(recording(&times_s, imu.parameters[SensorKind::Gyroscope].bias)),
+            ]
+            .into(),
             temperature_c: None,
         };
         let rates = |of: &ImuRecording| {
             let (clean, _) = of.without_spikes();
-            let found = correction.apply_feeling(of, clean.accelerometer.as_ref());
+            let found = correction.apply_feeling(of, clean[SensorKind::Accelerometer].as_ref());
             found.expect("both there").gyroscope.expect("there").values
         };
         let clean = rates(&whole);
         for invalid in [-2_147_483_648.0, 1e12] {
             let mut spiked = whole.clone();
-            spiked.accelerometer.as_mut().expect("there").readings[300].x = invalid;
+            spiked[SensorKind::Accelerometer].as_mut().expect("there").readings[300].x = invalid;
             let by_force = imu.parameters.g_sensitivity.norm();
             for (one, other) in rates(&spiked).iter().zip(&clean) {
                 assert!((one - other).norm() < 0.1 * by_force, "{one} {other}");

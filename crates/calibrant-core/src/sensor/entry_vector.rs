@@ -6,8 +6,8 @@
 //! to these entries. A covariance of any list of quantities becomes a covariance of the entries.
 
 use super::{
-    Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, NonlinearTerm, ParameterList, Quantity,
-    SensorKind, SensorParameters, SensorThermal, SharedErrors, Thermal, ThermalPart,
+    Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, NonlinearTerm, ParameterList, PerSensor,
+    Quantity, SensorKind, SensorParameters, SensorThermal, SharedErrors, Thermal, ThermalPart,
 };
 use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
 
@@ -97,7 +97,7 @@ pub(super) fn from_parameters(imu: &ImuParameters) -> EntryVector {
     }
     for term in NonlinearTerm::ALL {
         for axis in 0..3 {
-            entries[nonlinear(term, axis)] = imu.accelerometer.nonlinearity.of(term)[axis];
+            entries[nonlinear(term, axis)] = imu[SensorKind::Accelerometer].nonlinearity.of(term)[axis];
         }
     }
     entries
@@ -112,9 +112,10 @@ pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
             Matrix3::from_fn(|row, column| entries[matrix(sensor_kind, row, column)]),
         )
     };
-    let mut accelerometer = sensor(SensorKind::Accelerometer);
+    let mut sensors = PerSensor::from_fn(sensor);
     for term in NonlinearTerm::ALL {
-        *accelerometer.nonlinearity.of_mut(term) = Vector3::from_fn(|axis, _| entries[nonlinear(term, axis)]);
+        *sensors[SensorKind::Accelerometer].nonlinearity.of_mut(term) =
+            Vector3::from_fn(|axis, _| entries[nonlinear(term, axis)]);
     }
     let sensor_thermal = |sensor_kind| {
         let of = |part| {
@@ -125,14 +126,9 @@ pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
         SensorThermal { bias: of(ThermalPart::Bias), scale: of(ThermalPart::Scale) }
     };
     ImuParameters {
-        accelerometer,
-        gyroscope: sensor(SensorKind::Gyroscope),
+        sensors,
         g_sensitivity: Matrix3::from_fn(|row, column| entries[g_sensitivity(row, column)]),
-        thermal: Thermal {
-            accelerometer: sensor_thermal(SensorKind::Accelerometer),
-            gyroscope: sensor_thermal(SensorKind::Gyroscope),
-            ..Thermal::none()
-        },
+        thermal: Thermal { sensors: PerSensor::from_fn(sensor_thermal), ..Thermal::none() },
     }
 }
 

@@ -168,7 +168,7 @@ impl Invariant {
             }
             Self::Nonlinear(term, axis) => {
                 gradient[entry_vector::nonlinear(term, axis.index())] = 1.0;
-                imu.accelerometer.nonlinearity.of(term)[axis.index()]
+                imu[SensorKind::Accelerometer].nonlinearity.of(term)[axis.index()]
             }
             Self::Bias(sensor_kind, axis) => {
                 gradient[entry_vector::bias(sensor_kind, axis.index())] = 1.0;

@@ -110,12 +110,12 @@ impl RotatedImu {
         };
         let rotation = if target == sensor.matrix { Matrix3::identity() } else { u * v_t };
         let mut rotated = *imu;
-        rotated.accelerometer.matrix *= rotation;
-        rotated.gyroscope.matrix *= rotation;
+        rotated[SensorKind::Accelerometer].matrix *= rotation;
+        rotated[SensorKind::Gyroscope].matrix *= rotation;
         rotated.g_sensitivity *= rotation;
         match reference {
-            SensorKind::Accelerometer => rotated.accelerometer.matrix = target,
-            SensorKind::Gyroscope => rotated.gyroscope.matrix = target,
+            SensorKind::Accelerometer => rotated[SensorKind::Accelerometer].matrix = target,
+            SensorKind::Gyroscope => rotated[SensorKind::Gyroscope].matrix = target,
         }
         let column = |k: usize| gauge.residuals(&(target * unit(k).cross_matrix()));
         let derivative = Matrix3::from_columns(&[column(0), column(1), column(2)]);
@@ -133,9 +133,10 @@ impl RotatedImu {
         let dragged = step.sensor(self.reference).matrix * self.rotation;
         let delta = (self.restoring * self.gauge.residuals(&dragged)).cross_matrix();
         let mut out = *step;
-        out.accelerometer.matrix =
-            step.accelerometer.matrix * self.rotation + self.imu.accelerometer.matrix * delta;
-        out.gyroscope.matrix = step.gyroscope.matrix * self.rotation + self.imu.gyroscope.matrix * delta;
+        out[SensorKind::Accelerometer].matrix = step[SensorKind::Accelerometer].matrix * self.rotation
+            + self.imu[SensorKind::Accelerometer].matrix * delta;
+        out[SensorKind::Gyroscope].matrix = step[SensorKind::Gyroscope].matrix * self.rotation
+            + self.imu[SensorKind::Gyroscope].matrix * delta;
         out.g_sensitivity = step.g_sensitivity * self.rotation + self.imu.g_sensitivity * delta;
         out
     }
@@ -172,9 +173,9 @@ impl CalibratedImu {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_core::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use calibrant_core::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorKind};
     /// let mut parameters = ImuParameters::identity();
-    /// parameters.accelerometer.matrix[(0, 1)] = 0.01;
+    /// parameters[SensorKind::Accelerometer].matrix[(0, 1)] = 0.01;
     /// let units = [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)];
     /// let imu = CalibratedImu::new(parameters, units, ImuQuantity::full_list(true, true, false), "upper gauge");
     /// let lower = imu.in_gauge(Gauge::Lower)?.parameters;
@@ -267,16 +268,19 @@ pub(super) mod tests {
     /// An IMU in counts with everything in it.
     pub(in crate::sensor) fn imu() -> CalibratedImu {
         let parameters = ImuParameters {
-            accelerometer: SensorParameters {
-                bias: Vector3::new(33124.0, 33275.0, 32364.0),
-                matrix: Matrix3::new(414.5, 1.4, 3.7, -2.0, 412.0, 8.8, 0.5, 3.0, 414.6),
-                ..SensorParameters::identity()
-            },
-            gyroscope: SensorParameters {
-                bias: Vector3::new(32777.0, 32459.0, 32511.0),
-                matrix: Matrix3::new(4778.0, 30.0, -25.0, 14.0, 4764.0, 60.0, -43.0, 22.0, 4774.0),
-                ..SensorParameters::identity()
-            },
+            sensors: [
+                SensorParameters {
+                    bias: Vector3::new(33124.0, 33275.0, 32364.0),
+                    matrix: Matrix3::new(414.5, 1.4, 3.7, -2.0, 412.0, 8.8, 0.5, 3.0, 414.6),
+                    ..SensorParameters::identity()
+                },
+                SensorParameters {
+                    bias: Vector3::new(32777.0, 32459.0, 32511.0),
+                    matrix: Matrix3::new(4778.0, 30.0, -25.0, 14.0, 4764.0, 60.0, -43.0, 22.0, 4774.0),
+                    ..SensorParameters::identity()
+                },
+            ]
+            .into(),
             g_sensitivity: Matrix3::new(0.1, 0.02, -0.3, 0.04, 0.2, 0.01, -0.06, 0.05, 0.15),
             thermal: Thermal::none(),
         };
@@ -304,16 +308,16 @@ pub(super) mod tests {
             let (a, b) = (&before.parameters, &after.parameters);
             let product = |p: &ImuParameters| {
                 [
-                    p.accelerometer.matrix * p.accelerometer.matrix.transpose(),
-                    p.accelerometer.matrix * p.gyroscope.matrix.transpose(),
-                    p.g_sensitivity * p.gyroscope.matrix.transpose(),
+                    p[SensorKind::Accelerometer].matrix * p[SensorKind::Accelerometer].matrix.transpose(),
+                    p[SensorKind::Accelerometer].matrix * p[SensorKind::Gyroscope].matrix.transpose(),
+                    p.g_sensitivity * p[SensorKind::Gyroscope].matrix.transpose(),
                 ]
             };
             for (a, b) in product(a).iter().zip(&product(b)) {
                 assert!((a - b).amax() < 1e-13 * a.amax(), "{gauge:?}");
             }
-            assert_eq!(Gauge::of(&b.accelerometer.matrix), Some(gauge));
-            assert_eq!(a.gyroscope.bias, b.gyroscope.bias);
+            assert_eq!(Gauge::of(&b[SensorKind::Accelerometer].matrix), Some(gauge));
+            assert_eq!(a[SensorKind::Gyroscope].bias, b[SensorKind::Gyroscope].bias);
         }
     }
 
@@ -356,7 +360,8 @@ pub(super) mod tests {
     #[test]
     fn a_diagonal_sensor_keeps_its_quantities_and_a_left_handed_one_is_refused() {
         let mut one = imu();
-        one.parameters.accelerometer.matrix = Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0));
+        one.parameters[SensorKind::Accelerometer].matrix =
+            Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0));
         one.quantities = Gauge::Lower
             .parameter_list(SensorModel::ScaleBias)
             .quantities()
@@ -369,7 +374,7 @@ pub(super) mod tests {
             (rotated.quantities, rotated.covariance),
             (one.quantities.clone(), one.covariance.clone())
         );
-        one.parameters.accelerometer.matrix[(0, 0)] = -1.0;
+        one.parameters[SensorKind::Accelerometer].matrix[(0, 0)] = -1.0;
         assert!(one.in_gauge(Gauge::Upper).expect_err("left-handed").to_string().contains("left-handed"));
     }
 }

@@ -5,6 +5,7 @@
 //! and `ω` the angular rate in rad/s, both in the true frame. `Γ` is the g-sensitivity: how the gyroscope
 //! responds to specific force. `S` and `b` may follow temperature ([`Thermal`]).
 
+use super::per_sensor::indexed_by_sensor;
 use super::spikes::{Spikes, without};
 use super::{
     Axis, CovarianceDegrees, CovariancePart, PerSensor, Quantity, ReadingUnit, Recording, SensorKind,
@@ -16,10 +17,8 @@ use std::borrow::Cow;
 /// A recording of an IMU. Its sensors share a clock, not necessarily their sample times.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ImuRecording {
-    /// Readings in m/s² or counts.
-    pub accelerometer: Option<Recording>,
-    /// Readings in rad/s or counts.
-    pub gyroscope: Option<Recording>,
+    /// Readings of each sensor, in the unit of its stimulus or in counts.
+    pub sensors: PerSensor<Option<Recording>>,
     /// Temperature in °C at the sample times of the accelerometer (of the gyroscope where there is none).
     pub temperature_c: Option<Vec<f64>>,
 }
@@ -28,15 +27,19 @@ impl ImuRecording {
     /// The recording of one sensor.
     #[must_use]
     pub fn sensor(&self, sensor_kind: SensorKind) -> Option<&Recording> {
-        match sensor_kind {
-            SensorKind::Accelerometer => self.accelerometer.as_ref(),
-            SensorKind::Gyroscope => self.gyroscope.as_ref(),
-        }
+        self.sensors[sensor_kind].as_ref()
     }
 
     /// The sensors that it has.
     pub fn sensors(&self) -> impl Iterator<Item = (SensorKind, &Recording)> {
-        SensorKind::ALL.into_iter().filter_map(|sensor_kind| Some((sensor_kind, self.sensor(sensor_kind)?)))
+        self.sensors.present()
+    }
+
+    /// The accelerometer, where nothing else was recorded.
+    #[must_use]
+    pub fn accelerometer_alone(&self) -> Option<&Recording> {
+        let others = self.sensors().any(|(sensor_kind, _)| sensor_kind != SensorKind::Accelerometer);
+        self.sensor(SensorKind::Accelerometer).filter(|_| !others && self.temperature_c.is_none())
     }
 
     /// Adds another recording of the same sensors, which begins `pause_s` after the end of this one: in the pause nothing is known of the motion. Returns when it begins, s.
@@ -47,10 +50,8 @@ impl ImuRecording {
         let end_s = ends(self, <[f64]>::last, f64::max).unwrap_or_default();
         let start_s = ends(other, <[f64]>::first, f64::min).unwrap_or_default();
         let later_s = end_s + pause_s - start_s;
-        let sensors =
-            [(&mut self.accelerometer, &other.accelerometer), (&mut self.gyroscope, &other.gyroscope)];
-        for (recording, added) in sensors {
-            if let (Some(recording), Some(added)) = (recording, added) {
+        for (sensor_kind, added) in other.sensors() {
+            if let Some(recording) = &mut self.sensors[sensor_kind] {
                 recording.append(added, later_s);
             }
         }
@@ -63,8 +64,8 @@ impl ImuRecording {
     /// The recording at one temperature, °C, whatever temperature was recorded.
     #[must_use]
     pub fn at_temperature(self, celsius: f64) -> Self {
-        let first = self.accelerometer.as_ref().or(self.gyroscope.as_ref());
-        Self { temperature_c: Some(vec![celsius; first.map_or(0, Recording::len)]), ..self }
+        let samples = self.sensors().next().map_or(0, |(_, first)| first.len());
+        Self { temperature_c: Some(vec![celsius; samples]), ..self }
     }
 
     /// The recording without spikes and invalid readings of either sensor ([`Recording::without_spikes`]),
@@ -78,9 +79,10 @@ impl ImuRecording {
     /// the number of them, and what is removed nevertheless.
     #[must_use]
     pub fn gyroscope_with_knocks(&self) -> Option<(Recording, usize, Option<Spikes>)> {
-        let gyroscope = self.gyroscope.as_ref()?;
-        let (_, all) = gyroscope.without_spikes_beside(self.accelerometer.as_ref(), true);
-        let (kept, at_rest) = gyroscope.without_spikes_beside(self.accelerometer.as_ref(), false);
+        let gyroscope = self[SensorKind::Gyroscope].as_ref()?;
+        let (_, all) = gyroscope.without_spikes_beside(self[SensorKind::Accelerometer].as_ref(), true);
+        let (kept, at_rest) =
+            gyroscope.without_spikes_beside(self[SensorKind::Accelerometer].as_ref(), false);
         let others = all?.samples.len() - at_rest.as_ref().map_or(0, |spikes| spikes.samples.len());
         (others > 0).then(|| (kept.into_owned(), others, at_rest))
     }
@@ -96,9 +98,9 @@ impl ImuRecording {
         moves: impl Fn(SensorKind) -> bool + Sync,
     ) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
         let clean = |sensor_kind: SensorKind| {
-            let (clean, spikes) = self
-                .sensor(sensor_kind)?
-                .without_spikes_beside(self.sensor(sensor_kind.other()), moves(sensor_kind));
+            let beside = self.sensors().find(|(other, _)| *other != sensor_kind).map(|(_, other)| other);
+            let recording = self.sensor(sensor_kind)?;
+            let (clean, spikes) = recording.without_spikes_beside(beside, moves(sensor_kind));
             spikes.map(|spikes| (clean.into_owned(), spikes))
         };
         let (accelerometer, gyroscope) =
@@ -109,15 +111,11 @@ impl ImuRecording {
             let Some((clean, spikes)) = clean else { continue };
             let recording = recording.to_mut();
             // there is one temperature for each sample of the accelerometer
-            let of_temperature =
-                sensor_kind == SensorKind::Accelerometer || recording.accelerometer.is_none();
+            let of_temperature = recording.sensors().next().is_some_and(|(first, _)| first == sensor_kind);
             if let Some(temperatures) = recording.temperature_c.as_mut().filter(|_| of_temperature) {
                 without(temperatures, &spikes.cut);
             }
-            match sensor_kind {
-                SensorKind::Accelerometer => recording.accelerometer = Some(clean),
-                SensorKind::Gyroscope => recording.gyroscope = Some(clean),
-            }
+            recording[sensor_kind] = Some(clean);
             found.push((sensor_kind, spikes));
         }
         (recording, found)
@@ -127,17 +125,17 @@ impl ImuRecording {
 impl From<Recording> for ImuRecording {
     /// The recording of an accelerometer alone.
     fn from(accelerometer: Recording) -> Self {
-        Self { accelerometer: Some(accelerometer), gyroscope: None, temperature_c: None }
+        Self::default().with(SensorKind::Accelerometer, Some(accelerometer))
     }
 }
+
+indexed_by_sensor!(ImuRecording, Option<Recording>);
 
 /// The values of an IMU's parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImuParameters {
-    /// `b_a`, `S_a`.
-    pub accelerometer: SensorParameters,
-    /// `b_g`, `S_g`.
-    pub gyroscope: SensorParameters,
+    /// `b`, `S` of each sensor.
+    pub sensors: PerSensor<SensorParameters>,
     /// `Γ`, in the unit of the gyroscope's readings per m/s².
     pub g_sensitivity: Matrix3<f64>,
     /// The temperature coefficients. Biases and gains are those at the reference temperature.
@@ -149,8 +147,7 @@ impl ImuParameters {
     #[must_use]
     pub fn identity() -> Self {
         Self {
-            accelerometer: SensorParameters::identity(),
-            gyroscope: SensorParameters::identity(),
+            sensors: PerSensor::from_fn(|_| SensorParameters::identity()),
             g_sensitivity: Matrix3::zeros(),
             thermal: Thermal::none(),
         }
@@ -159,19 +156,11 @@ impl ImuParameters {
     /// The parameters of one sensor.
     #[must_use]
     pub fn sensor(&self, sensor_kind: SensorKind) -> &SensorParameters {
-        match sensor_kind {
-            SensorKind::Accelerometer => &self.accelerometer,
-            SensorKind::Gyroscope => &self.gyroscope,
-        }
-    }
-
-    pub(super) fn sensor_mut(&mut self, sensor_kind: SensorKind) -> &mut SensorParameters {
-        match sensor_kind {
-            SensorKind::Accelerometer => &mut self.accelerometer,
-            SensorKind::Gyroscope => &mut self.gyroscope,
-        }
+        &self.sensors[sensor_kind]
     }
 }
+
+indexed_by_sensor!(ImuParameters, SensorParameters);
 
 /// One scalar quantity of an IMU's model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -256,9 +245,9 @@ impl ImuQuantity {
     /// Adds `step` to it.
     pub fn add_to(self, imu: &mut ImuParameters, step: f64) {
         match self {
-            Self::Of(sensor_kind, quantity) => quantity.add_to(imu.sensor_mut(sensor_kind), step),
+            Self::Of(sensor_kind, quantity) => quantity.add_to(&mut imu[sensor_kind], step),
             Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())] += step,
-            Self::Thermal(sensor_kind, term) => term.add_to(imu.thermal.sensor_mut(sensor_kind), step),
+            Self::Thermal(sensor_kind, term) => term.add_to(&mut imu.thermal[sensor_kind], step),
         }
     }
 
@@ -382,8 +371,8 @@ impl CalibratedImu {
         let mut imu = self.clone();
         for without in SensorKind::ALL.into_iter().filter(|of| *of != sensor_kind) {
             imu.units[without] = None;
-            *imu.parameters.sensor_mut(without) = SensorParameters::identity();
-            *imu.parameters.thermal.sensor_mut(without) = Default::default();
+            imu.parameters[without] = SensorParameters::identity();
+            imu.parameters.thermal[without] = Default::default();
         }
         if imu.units[SensorKind::Gyroscope].is_none() {
             imu.parameters.g_sensitivity = Matrix3::zeros();

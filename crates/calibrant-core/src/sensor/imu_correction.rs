@@ -21,10 +21,10 @@ use std::sync::Arc;
 ///
 /// # Examples
 /// ```
-/// use calibrant_core::sensor::{CalibratedImu, ImuCorrection, ImuParameters, ReadingUnit};
+/// use calibrant_core::sensor::{CalibratedImu, ImuCorrection, ImuParameters, ReadingUnit, SensorKind};
 /// use nalgebra::Vector3;
 /// let mut parameters = ImuParameters::identity();
-/// parameters.accelerometer.bias = Vector3::new(0.1, 0.0, 0.0);
+/// parameters[SensorKind::Accelerometer].bias = Vector3::new(0.1, 0.0, 0.0);
 /// let imu = CalibratedImu::new(parameters, [Some(ReadingUnit::MetrePerSecondSquared), None], vec![], "");
 /// let correction = ImuCorrection::of(&imu)?;
 /// let force = correction.force(&Vector3::new(0.3, 0.0, 9.8)).expect("has an accelerometer");
@@ -130,14 +130,17 @@ impl ImuCorrection {
 
     /// Does a term bend the accelerometer's response, in its value or in the covariance?
     fn is_bent(&self) -> bool {
-        !self.imu.accelerometer.nonlinearity.is_none() || self.covers(entry_vector::LINEAR..ENTRIES)
+        !self.imu[SensorKind::Accelerometer].nonlinearity.is_none()
+            || self.covers(entry_vector::LINEAR..ENTRIES)
     }
 
     /// `∂f/∂y` of the accelerometer at a corrected force.
     fn force_by_reading(&self, correction: &Correction, force: &Vector3<f64>) -> Matrix3<f64> {
         match correction.nonlinearity.is_none() {
             true => correction.matrix,
-            false => correction.by_reading(&self.imu.at(self.temperature_c).accelerometer, force),
+            false => {
+                correction.by_reading(&self.imu.at(self.temperature_c)[SensorKind::Accelerometer], force)
+            }
         }
     }
 
@@ -255,7 +258,7 @@ impl ImuCorrection {
     /// [`Error::Recording`] where the readings are in another unit than the calibration's. Also where the
     /// recording lacks the accelerometer or the temperature that the correction needs.
     pub fn apply<'a>(&self, recording: &'a ImuRecording) -> Result<CorrectedRecording<'a>> {
-        self.apply_feeling(recording, recording.accelerometer.as_ref())
+        self.apply_feeling(recording, recording[SensorKind::Accelerometer].as_ref())
     }
 
     /// The same with the accelerometer's readings `felt` without spikes ([`Recording::without_spikes`]).
@@ -295,10 +298,11 @@ impl ImuCorrection {
             None
         };
         let temperatures = temperatures.as_ref();
-        let accelerometer = recording.accelerometer.as_ref().filter(|_| self.accelerometer.is_some());
+        let accelerometer =
+            recording[SensorKind::Accelerometer].as_ref().filter(|_| self.accelerometer.is_some());
         let accelerometer =
             accelerometer.map(|readings| self.correct_forces(readings, temperatures)).transpose()?;
-        let gyroscope = match recording.gyroscope.as_ref().filter(|_| self.gyroscope.is_some()) {
+        let gyroscope = match recording[SensorKind::Gyroscope].as_ref().filter(|_| self.gyroscope.is_some()) {
             None => None,
             Some(readings) => {
                 let needed = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
@@ -309,7 +313,7 @@ impl ImuCorrection {
                 }
                 let felt = felt.filter(|_| needed);
                 let same = |felt: &&Recording| {
-                    !recording.accelerometer.as_ref().is_some_and(|of| ptr::eq(of, *felt))
+                    !recording[SensorKind::Accelerometer].as_ref().is_some_and(|of| ptr::eq(of, *felt))
                 };
                 let other =
                     felt.filter(same).map(|felt| self.correct_forces(felt, temperatures)).transpose()?;

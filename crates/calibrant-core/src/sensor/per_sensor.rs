@@ -24,6 +24,11 @@ impl<T> PerSensor<T> {
     pub fn iter(&self) -> impl Iterator<Item = (SensorKind, &T)> {
         SensorKind::ALL.into_iter().zip(&self.0)
     }
+
+    /// All of them, to be changed.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (SensorKind, &mut T)> {
+        SensorKind::ALL.into_iter().zip(&mut self.0)
+    }
 }
 
 impl<T> PerSensor<Option<T>> {
@@ -59,3 +64,32 @@ impl<T> IndexMut<SensorKind> for PerSensor<T> {
         &mut self.0[sensor_kind as usize]
     }
 }
+
+/// Lets a type be indexed by the kind of sensor: by its field `sensors`.
+macro_rules! indexed_by_sensor {
+    ($type:ty, $of:ty) => {
+        impl std::ops::Index<SensorKind> for $type {
+            type Output = $of;
+
+            fn index(&self, sensor_kind: SensorKind) -> &$of {
+                &self.sensors[sensor_kind]
+            }
+        }
+
+        impl std::ops::IndexMut<SensorKind> for $type {
+            fn index_mut(&mut self, sensor_kind: SensorKind) -> &mut $of {
+                &mut self.sensors[sensor_kind]
+            }
+        }
+
+        impl $type {
+            /// The same with this of one sensor.
+            #[must_use]
+            pub fn with(mut self, sensor_kind: SensorKind, value: $of) -> Self {
+                self.sensors[sensor_kind] = value;
+                self
+            }
+        }
+    };
+}
+pub(super) use indexed_by_sensor;

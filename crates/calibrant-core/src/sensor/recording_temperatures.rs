@@ -24,7 +24,7 @@ impl<'a> Temperatures<'a> {
     /// [`Error::Recording`] where no sensor has such a temperature ([`WORKING_C`]), as in kelvin. Also where
     /// there is not one temperature for each sample.
     pub fn of(recording: &'a ImuRecording) -> Result<Option<Self>> {
-        let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
+        let sensor = recording.sensors().next().map(|(_, sensor)| sensor);
         let (Some(values_c), Some(sensor)) = (&recording.temperature_c, sensor) else { return Ok(None) };
         let times_s = sensor.times_s.as_slice();
         if times_s.len() != values_c.len() {
@@ -97,7 +97,7 @@ mod tests {
             axes: 3,
             unit: ReadingUnit::MetrePerSecondSquared,
         };
-        ImuRecording { accelerometer: Some(sensor), gyroscope: None, temperature_c: Some(values.to_vec()) }
+        ImuRecording { sensors: [Some(sensor), None].into(), temperature_c: Some(values.to_vec()) }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 
 use super::entry_vector::EntryMatrix;
 use super::{
-    Axis, CalibratedImu, Gauge, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind,
+    Axis, CalibratedImu, Gauge, HIGHEST_ORDER, ImuParameters, ImuQuantity, PerSensor, Quantity, SensorKind,
     SensorParameters, Thermal, ThermalPart, ThermalTerm, entry_vector,
 };
 use crate::error::{Error, InputError, Refusal, Result};
@@ -37,10 +37,10 @@ impl AtReference {
                     "choose a temperature within the range of the calibration",
                 )));
             }
-            let sensor = after.sensor_mut(sensor_kind);
+            let sensor = &mut after[sensor_kind];
             sensor.bias += imu.thermal.sensor(sensor_kind).bias_change(change_k);
             sensor.matrix = Matrix3::from_diagonal(&factor) * sensor.matrix;
-            let terms = after.thermal.sensor_mut(sensor_kind);
+            let terms = &mut after.thermal[sensor_kind];
             let second = terms.bias[1];
             terms.bias[0] += second * (2.0 * change_k);
             let second = terms.scale[1];
@@ -58,7 +58,7 @@ impl AtReference {
             let (terms, by) = (self.before.thermal.sensor(sensor_kind), step.thermal.sensor(sensor_kind));
             let factor = terms.gain_factor(d);
             let by_factor = by.scale[0] * d + by.scale[1] * (d * d);
-            let sensor = out.sensor_mut(sensor_kind);
+            let sensor = &mut out[sensor_kind];
             sensor.bias += by.bias_change(d);
             sensor.matrix = Matrix3::from_diagonal(&factor) * step.sensor(sensor_kind).matrix
                 + Matrix3::from_diagonal(&by_factor) * self.before.sensor(sensor_kind).matrix;
@@ -66,7 +66,7 @@ impl AtReference {
             let quotient = |by_term: Vector3<f64>, term: Vector3<f64>| {
                 (by_term - term.component_mul(&by_factor)).component_div(&factor)
             };
-            let changed = out.thermal.sensor_mut(sensor_kind);
+            let changed = &mut out.thermal[sensor_kind];
             changed.bias[0] = by.bias[0] + by.bias[1] * (2.0 * d);
             changed.scale[0] = quotient(by.scale[0] + by.scale[1] * (2.0 * d), after.scale[0]);
             changed.scale[1] = quotient(by.scale[1], after.scale[1]);
@@ -96,15 +96,15 @@ impl CalibratedImu {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind};
     /// let mut parameters = ImuParameters::identity();
     /// parameters.thermal.reference_c = 20.0;
-    /// parameters.thermal.accelerometer.bias = [[0.01, 0.0, 0.0].into(), [0.001, 0.0, 0.0].into()];
+    /// parameters.thermal[SensorKind::Accelerometer].bias = [[0.01, 0.0, 0.0].into(), [0.001, 0.0, 0.0].into()];
     /// let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
     /// let imu = CalibratedImu::new(parameters, units, vec![], "");
     /// let warm = imu.at_reference_temperature(30.0)?.parameters;
-    /// assert!((warm.accelerometer.bias.x - 0.2).abs() < 1e-15);
-    /// assert!((warm.thermal.accelerometer.bias[0].x - 0.03).abs() < 1e-15);
+    /// assert!((warm[SensorKind::Accelerometer].bias.x - 0.2).abs() < 1e-15);
+    /// assert!((warm.thermal[SensorKind::Accelerometer].bias[0].x - 0.03).abs() < 1e-15);
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn at_reference_temperature(&self, reference_c: f64) -> Result<Self> {
@@ -191,11 +191,11 @@ impl ImuParameters {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_core::sensor::ImuParameters;
+    /// use calibrant_core::sensor::{ImuParameters, SensorKind};
     /// let mut imu = ImuParameters::identity();
     /// imu.thermal.reference_c = 20.0;
-    /// imu.thermal.gyroscope.bias[0].x = 1e-4; // rad/s/K
-    /// imu.thermal.accelerometer.scale[1].z = 2e-6; // 1/K²
+    /// imu.thermal[SensorKind::Gyroscope].bias[0].x = 1e-4; // rad/s/K
+    /// imu.thermal[SensorKind::Accelerometer].scale[1].z = 2e-6; // 1/K²
     /// let hot = imu.at(50.0);
     /// assert!((hot.gyroscope.bias.x - 3e-3).abs() < 1e-15);
     /// assert!((hot.accelerometer.matrix[(2, 2)] - 1.0018).abs() < 1e-15);
@@ -205,9 +205,8 @@ impl ImuParameters {
         if self.thermal.is_none() {
             return *self;
         }
-        let [accelerometer, gyroscope] = [SensorKind::Accelerometer, SensorKind::Gyroscope]
-            .map(|sensor_kind| self.sensor_at(sensor_kind, temperature_c));
-        Self { accelerometer, gyroscope, thermal: Thermal::none(), ..*self }
+        let sensors = PerSensor::from_fn(|sensor_kind| self.sensor_at(sensor_kind, temperature_c));
+        Self { sensors, thermal: Thermal::none(), ..*self }
     }
 
     /// One of its sensors at a temperature.
@@ -338,7 +337,7 @@ pub(super) mod tests {
     fn a_symmetric_matrix_is_so_at_its_reference_only() {
         let symmetric = warm().in_gauge(Gauge::Symmetric).expect("right-handed");
         let at = |imu: &CalibratedImu, t: f64| imu.at_reference_temperature(t).expect("positive gains");
-        let matrix = at(&symmetric, 43.0).parameters.accelerometer.matrix;
+        let matrix = at(&symmetric, 43.0).parameters[SensorKind::Accelerometer].matrix;
         assert!((matrix - matrix.transpose()).amax() > 1e-6 * matrix.amax(), "{matrix}");
         let stated = format!("{} at 25 °C", symmetric.frame);
         let (warmer, back) = (at(&symmetric, 43.0), at(&at(&symmetric, 43.0), 25.0));
@@ -349,7 +348,7 @@ pub(super) mod tests {
         let upper = warm().in_gauge(Gauge::Upper).expect("right-handed");
         assert_eq!(at(&upper, 43.0).frame, upper.frame);
         let mut steady = symmetric;
-        steady.parameters.thermal.accelerometer.scale = [Vector3::zeros(); 2];
+        steady.parameters.thermal[SensorKind::Accelerometer].scale = [Vector3::zeros(); 2];
         assert_eq!(at(&steady, 43.0).frame, steady.frame);
     }
 

@@ -229,13 +229,14 @@ impl ImuRecording {
 
     /// Takes samples of a sensor out, with their temperatures: there is one for each sample of the accelerometer.
     fn cut(&mut self, sensor_kind: SensorKind, samples: &[usize]) {
-        let of_temperature = sensor_kind == SensorKind::Accelerometer || self.accelerometer.is_none();
+        let of_temperature =
+            sensor_kind == SensorKind::Accelerometer || self[SensorKind::Accelerometer].is_none();
         if let Some(temperatures) = self.temperature_c.as_mut().filter(|_| of_temperature) {
             without(temperatures, samples);
         }
         let recording = match sensor_kind {
-            SensorKind::Accelerometer => self.accelerometer.as_mut(),
-            SensorKind::Gyroscope => self.gyroscope.as_mut(),
+            SensorKind::Accelerometer => self[SensorKind::Accelerometer].as_mut(),
+            SensorKind::Gyroscope => self[SensorKind::Gyroscope].as_mut(),
         };
         if let Some(recording) = recording {
             without(&mut recording.times_s, samples);

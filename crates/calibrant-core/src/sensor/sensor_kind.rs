@@ -24,15 +24,6 @@ impl SensorKind {
         }
     }
 
-    /// The other sensor of an IMU.
-    #[must_use]
-    pub fn other(self) -> Self {
-        match self {
-            Self::Accelerometer => Self::Gyroscope,
-            Self::Gyroscope => Self::Accelerometer,
-        }
-    }
-
     /// Unit of its stimulus: m/s² or rad/s.
     #[must_use]
     pub fn stimulus_unit(self) -> ReadingUnit {

@@ -4,7 +4,8 @@
 //! sense element drifts, its direction does not; `k_m` in 1/K^m, as datasheets give it. A change of the true
 //! frame, `S → S R`, leaves both as they are. The g-sensitivity `Γ` does not follow temperature.
 
-use super::{Axis, ReadingUnit, SensorKind};
+use super::per_sensor::indexed_by_sensor;
+use super::{Axis, PerSensor, ReadingUnit, SensorKind};
 use nalgebra::Vector3;
 
 /// Highest power of τ.
@@ -21,11 +22,11 @@ pub struct Thermal {
     /// Least and greatest temperature at which the terms were determined, °C, where it is known. Beyond it
     /// the polynomials extrapolate.
     pub range_c: Option<[f64; 2]>,
-    /// Terms of the accelerometer.
-    pub accelerometer: SensorThermal,
-    /// Terms of the gyroscope.
-    pub gyroscope: SensorThermal,
+    /// Terms of each sensor.
+    pub sensors: PerSensor<SensorThermal>,
 }
+
+indexed_by_sensor!(Thermal, SensorThermal);
 
 /// The temperature model of one sensor; entry `m − 1` belongs to the power `τ^m`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -136,34 +137,19 @@ impl Thermal {
     /// Nothing follows temperature.
     #[must_use]
     pub fn none() -> Self {
-        Self {
-            reference_c: ROOM_C,
-            range_c: None,
-            accelerometer: SensorThermal::default(),
-            gyroscope: SensorThermal::default(),
-        }
+        Self { reference_c: ROOM_C, range_c: None, sensors: PerSensor::default() }
     }
 
     /// Does nothing follow temperature?
     #[must_use]
     pub fn is_none(&self) -> bool {
-        self.accelerometer.is_none() && self.gyroscope.is_none()
+        self.sensors.iter().all(|(_, terms)| terms.is_none())
     }
 
     /// The terms of one sensor.
     #[must_use]
     pub fn sensor(&self, sensor_kind: SensorKind) -> &SensorThermal {
-        match sensor_kind {
-            SensorKind::Accelerometer => &self.accelerometer,
-            SensorKind::Gyroscope => &self.gyroscope,
-        }
-    }
-
-    pub(super) fn sensor_mut(&mut self, sensor_kind: SensorKind) -> &mut SensorThermal {
-        match sensor_kind {
-            SensorKind::Accelerometer => &mut self.accelerometer,
-            SensorKind::Gyroscope => &mut self.gyroscope,
-        }
+        &self.sensors[sensor_kind]
     }
 
     /// Is a temperature so far outside the range that the polynomials extrapolate? The limit is a tenth of

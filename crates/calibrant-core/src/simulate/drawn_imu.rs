@@ -53,8 +53,8 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
     });
     let felt = Matrix3::from_fn(|_, _| draw(G_SENSITIVITY_SD));
     ImuParameters {
-        accelerometer: of_accelerometer,
-        gyroscope: SensorParameters::linear(bias, gain * (Matrix3::identity() + errors)),
+        sensors: [of_accelerometer, SensorParameters::linear(bias, gain * (Matrix3::identity() + errors))]
+            .into(),
         g_sensitivity: if gyroscope.g_sensitivity { gain * felt } else { Matrix3::zeros() },
         thermal: Thermal::none(),
     }

@@ -3,7 +3,7 @@
 
 use super::Rng;
 use super::recording::normal;
-use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, USUAL_NOISE_MPS2};
+use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, SensorKind, USUAL_NOISE_MPS2};
 use nalgebra::Vector3;
 
 /// Duration of a turn by hand from one hold to the next, s.
@@ -108,20 +108,25 @@ impl Stimuli {
         let mut noisy = |reading: Vector3<f64>, sd: f64| reading + Vector3::from_fn(|_, _| sd * normal(rng));
         let accelerometer: Vec<_> = samples
             .clone()
-            .map(|k| noisy(at(k).accelerometer.reading(&self.forces[k]), setup.accelerometer_noise))
+            .map(|k| {
+                noisy(at(k)[SensorKind::Accelerometer].reading(&self.forces[k]), setup.accelerometer_noise)
+            })
             .collect();
         let gyroscope: Vec<_> = samples
             .map(|k| {
                 let felt = imu.g_sensitivity * self.forces[k];
-                noisy(at(k).gyroscope.reading(&self.rates[k]) + felt, setup.gyroscope_noise)
+                noisy(at(k)[SensorKind::Gyroscope].reading(&self.rates[k]) + felt, setup.gyroscope_noise)
             })
             .collect();
         let recording = |times_s: Vec<f64>, readings, unit: ReadingUnit| {
             Some(Recording { times_s, readings, axes: 3, unit })
         };
         ImuRecording {
-            accelerometer: recording(self.times_s.clone(), accelerometer, setup.accelerometer_unit),
-            gyroscope: recording(self.times_s, gyroscope, setup.gyroscope_unit),
+            sensors: [
+                recording(self.times_s.clone(), accelerometer, setup.accelerometer_unit),
+                recording(self.times_s, gyroscope, setup.gyroscope_unit),
+            ]
+            .into(),
             temperature_c,
         }
     }

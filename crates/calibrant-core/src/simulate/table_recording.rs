@@ -136,6 +136,7 @@ fn turn_over(world_from_sensor: &UnitQuaternion<f64>, direction: &Vector3<f64>) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensor::SensorKind;
     use crate::simulate::{Purpose, stream};
 
     /// The turn is exact but for a rounding error and the error of a turn of known angle.
@@ -167,8 +168,8 @@ mod tests {
             ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 0.0, ..ImuSimulation::default() };
         let imu = ImuParameters::identity();
         let recording = simulate_table(&imu, &steps, &setup, &mut stream(1, Purpose::Sensor, 0));
-        let accelerometer = recording.accelerometer.expect("there");
-        let gyroscope = recording.gyroscope.expect("there");
+        let accelerometer = recording[SensorKind::Accelerometer].clone().expect("there");
+        let gyroscope = recording[SensorKind::Gyroscope].clone().expect("there");
         for step in &steps[..4] {
             let TableAction::Hold(direction) = step.action else { continue };
             for (t, force) in accelerometer.times_s.iter().zip(&accelerometer.readings) {

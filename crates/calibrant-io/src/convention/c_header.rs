@@ -72,7 +72,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
         };
         match sensor_kind {
             SensorKind::Accelerometer => {
-                let sensor = &imu.parameters.accelerometer;
+                let sensor = &imu.parameters[SensorKind::Accelerometer];
                 out.push_str(&c_nonlinearity::coefficients(sensor));
                 // temperature comes first
                 out.push_str(&c_nonlinearity::straightened(
@@ -162,10 +162,10 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         match sensor_kind {
             SensorKind::Accelerometer => {
                 sensor.nonlinearity = c_nonlinearity::read(text)?;
-                parameters.accelerometer = sensor;
+                parameters[SensorKind::Accelerometer] = sensor;
             }
             SensorKind::Gyroscope => {
-                parameters.gyroscope = sensor;
+                parameters[SensorKind::Gyroscope] = sensor;
                 if let Some(entries) = numbers(text, "calibrant_gyroscope_g_sensitivity", 9)? {
                     parameters.g_sensitivity = Matrix3::from_row_slice(&entries);
                 }

@@ -100,10 +100,8 @@ pub(super) fn read(text: &str) -> Checked<Thermal> {
         let (low, high) = line.strip_prefix(RANGE)?.strip_suffix(" degrees Celsius")?.split_once(" to ")?;
         Some([low.parse().ok()?, high.parse().ok()?])
     });
-    for (sensor_kind, terms) in [
-        (SensorKind::Accelerometer, &mut thermal.accelerometer),
-        (SensorKind::Gyroscope, &mut thermal.gyroscope),
-    ] {
+    for sensor_kind in SensorKind::ALL {
+        let terms = &mut thermal[sensor_kind];
         for (part, values) in [("bias", &mut terms.bias), ("scale", &mut terms.scale)] {
             for order in 1..=HIGHEST_ORDER {
                 let name = name(sensor_kind, part, order);

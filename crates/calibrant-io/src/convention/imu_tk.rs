@@ -70,7 +70,7 @@ pub(super) fn sensor_kind_of_name(path: &Path) -> Option<SensorKind> {
 /// Both sensors of a pair of files.
 pub(super) fn joined(accelerometer: CalibratedImuFile, gyroscope: CalibratedImuFile) -> CalibratedImuFile {
     let mut file = accelerometer;
-    file.imu.parameters.gyroscope = gyroscope.imu.parameters.gyroscope;
+    file.imu.parameters[SensorKind::Gyroscope] = gyroscope.imu.parameters[SensorKind::Gyroscope];
     file.imu.units[SensorKind::Gyroscope] = gyroscope.imu.unit(SensorKind::Gyroscope);
     file.imu.quantities = ImuQuantity::full_list(true, true, false);
     if gyroscope.imu.frame != file.imu.frame {
@@ -175,9 +175,9 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let mut parameters = ImuParameters::identity();
     let accelerometer = sensor_kind == SensorKind::Accelerometer;
     if accelerometer {
-        parameters.accelerometer = sensor;
+        parameters[SensorKind::Accelerometer] = sensor;
     } else {
-        parameters.gyroscope = sensor;
+        parameters[SensorKind::Gyroscope] = sensor;
     }
     let imu = CalibratedImu::new(
         parameters,

@@ -148,16 +148,19 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let force = corrected(&fields.acc_unit, "acc_unit", SensorKind::Accelerometer)?;
     let rate = corrected(&fields.gyr_unit, "gyr_unit", SensorKind::Gyroscope)?;
     let parameters = ImuParameters {
-        accelerometer: SensorParameters {
-            bias: vector(&fields.b_a, "b_a")? * acc,
-            matrix: matrix(&fields.K_a, "K_a")? * matrix(&fields.R_a, "R_a")? * (acc / force),
-            ..SensorParameters::identity()
-        },
-        gyroscope: SensorParameters {
-            bias: vector(&fields.b_g, "b_g")? * gyr,
-            matrix: matrix(&fields.K_g, "K_g")? * matrix(&fields.R_g, "R_g")? * (gyr / rate),
-            ..SensorParameters::identity()
-        },
+        sensors: [
+            SensorParameters {
+                bias: vector(&fields.b_a, "b_a")? * acc,
+                matrix: matrix(&fields.K_a, "K_a")? * matrix(&fields.R_a, "R_a")? * (acc / force),
+                ..SensorParameters::identity()
+            },
+            SensorParameters {
+                bias: vector(&fields.b_g, "b_g")? * gyr,
+                matrix: matrix(&fields.K_g, "K_g")? * matrix(&fields.R_g, "R_g")? * (gyr / rate),
+                ..SensorParameters::identity()
+            },
+        ]
+        .into(),
         g_sensitivity: matrix(&fields.K_ga, "K_ga")? * (gyr / force),
         thermal: Thermal::none(),
     };
@@ -197,8 +200,8 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let counts = |unit: ReadingUnit| unit == ReadingUnit::Counts;
     // one unit of the file's readings in ours; its rates are in deg/s
     let gyr = if counts(gyr_unit) { 1.0 } else { DEGREE };
-    let (k_a, r_a) = factors(&imu.parameters.accelerometer.matrix);
-    let (k_g, r_g) = factors(&(imu.parameters.gyroscope.matrix * (DEGREE / gyr)));
+    let (k_a, r_a) = factors(&imu.parameters[SensorKind::Accelerometer].matrix);
+    let (k_g, r_g) = factors(&(imu.parameters[SensorKind::Gyroscope].matrix * (DEGREE / gyr)));
     let vector = |v: &Vector3<f64>| Some(v.iter().copied().collect());
     let fields = ImucalFile {
         acc_unit: Some("m/s^2".into()),
@@ -208,11 +211,11 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
         comment: Some(format!("{}; frame: {}", written_by(), imu.frame)),
         K_a: Some(rows(&k_a)),
         R_a: Some(rows(&r_a)),
-        b_a: vector(&imu.parameters.accelerometer.bias),
+        b_a: vector(&imu.parameters[SensorKind::Accelerometer].bias),
         K_g: Some(rows(&k_g)),
         R_g: Some(rows(&r_g)),
         K_ga: Some(rows(&(imu.parameters.g_sensitivity / gyr))),
-        b_g: vector(&(imu.parameters.gyroscope.bias / gyr)),
+        b_g: vector(&(imu.parameters[SensorKind::Gyroscope].bias / gyr)),
         cal_type: Some("Ferraris".into()),
         format_version: Some("2.0.0".into()),
     };

@@ -114,9 +114,11 @@ impl ImuCore {
             let Some(fields) = fields else { continue };
             let (unit, sensor, g_sensitivity) = fields.into_sensor(sensor_kind)?;
             match sensor_kind {
-                SensorKind::Accelerometer => (units[0], parameters.accelerometer) = (Some(unit), sensor),
+                SensorKind::Accelerometer => {
+                    (units[0], parameters[SensorKind::Accelerometer]) = (Some(unit), sensor)
+                }
                 SensorKind::Gyroscope => {
-                    (units[1], parameters.gyroscope) = (Some(unit), sensor);
+                    (units[1], parameters[SensorKind::Gyroscope]) = (Some(unit), sensor);
                     parameters.g_sensitivity = g_sensitivity;
                 }
             }

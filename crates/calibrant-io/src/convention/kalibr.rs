@@ -233,7 +233,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         stated.as_ref().map_or(Ok(Vector3::zeros()), |(bias, field)| vector3(bias, field))
     };
     let mut parameters = ImuParameters::identity();
-    parameters.accelerometer = SensorParameters::linear(bias(&stated_biases[0])?, m_a * c_i_b);
+    parameters[SensorKind::Accelerometer] = SensorParameters::linear(bias(&stated_biases[0])?, m_a * c_i_b);
     let accelerometer_unit =
         Some(unit(SensorKind::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
     let gyroscope_unit = match &imu.gyroscopes {
@@ -241,7 +241,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         Some(gyroscopes) => {
             let c_gyro_i = optional(&gyroscopes.c_gyro_i, "gyroscopes.C_gyro_i", Matrix3::identity())?;
             rotation(&c_gyro_i, "gyroscopes.C_gyro_i")?;
-            parameters.gyroscope = SensorParameters {
+            parameters[SensorKind::Gyroscope] = SensorParameters {
                 bias: bias(&stated_biases[1])?,
                 matrix: needed(&gyroscopes.m, "gyroscopes.M")? * c_gyro_i * c_i_b,
                 ..SensorParameters::identity()
@@ -336,7 +336,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         ));
     };
     let noise = file.noise.clone().unwrap_or_default();
-    let (m_a, c_i_b) = factors(&imu.parameters.accelerometer.matrix, SensorKind::Accelerometer)?;
+    let (m_a, c_i_b) = factors(&imu.parameters[SensorKind::Accelerometer].matrix, SensorKind::Accelerometer)?;
     let mut out = format!("# {}: true to raw, y_a = M_a C_i_b f + b_a\nimu0:\n  T_i_b:\n", written_by());
     for row in 0..3 {
         let entries: Vec<f64> = c_i_b.row(row).iter().copied().chain([0.0]).collect();
@@ -363,7 +363,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     out.push_str("  accelerometers:\n");
     matrix(&mut out, "M", &m_a);
     if let Some(gyroscope_unit) = imu.unit(SensorKind::Gyroscope) {
-        let (m_g, c_gyro_b) = factors(&imu.parameters.gyroscope.matrix, SensorKind::Gyroscope)?;
+        let (m_g, c_gyro_b) = factors(&imu.parameters[SensorKind::Gyroscope].matrix, SensorKind::Gyroscope)?;
         out.push_str("  gyroscopes:\n");
         matrix(&mut out, "A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
         matrix(&mut out, "C_gyro_i", &(c_gyro_b * c_i_b.transpose()));
@@ -379,8 +379,8 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     }
     let format = ImuFormat::Kalibr.title();
     let mut loses = |what| warnings.push(FormatLoses { format, what, is_beside: true }.into());
-    if imu.parameters.accelerometer.bias != Vector3::zeros()
-        || imu.parameters.gyroscope.bias != Vector3::zeros()
+    if imu.parameters[SensorKind::Accelerometer].bias != Vector3::zeros()
+        || imu.parameters[SensorKind::Gyroscope].bias != Vector3::zeros()
     {
         loses("the biases");
     }

@@ -55,7 +55,7 @@ fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFil
 /// let text = "1 0 0\n0 1 0\n0 0 1\n\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n\n33124\n33275\n32364\n";
 /// let options = ConventionOptions { units: Some(RawUnits::Counts), sensor_kind: Some(SensorKind::Accelerometer), ..Default::default() };
 /// let file = parse_calibrated_imu(text.as_bytes(), &options)?;
-/// assert!((file.imu.parameters.accelerometer.matrix[(0, 0)] - 1.0 / 0.0024).abs() < 1e-9, "counts per m/s²");
+/// assert!((file.imu.parameters[SensorKind::Accelerometer].matrix[(0, 0)] - 1.0 / 0.0024).abs() < 1e-9, "counts per m/s²");
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_calibrated_imu(bytes: &[u8], options: &ConventionOptions) -> Result<CalibratedImuFile> {

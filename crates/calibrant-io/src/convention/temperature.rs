@@ -48,11 +48,11 @@ impl TemperatureCore {
         };
         let mut thermal = Thermal { reference_c, range_c, ..Thermal::none() };
         let there = [
-            (SensorKind::Accelerometer, self.accelerometer, units[0], &mut thermal.accelerometer),
-            (SensorKind::Gyroscope, self.gyroscope, units[1], &mut thermal.gyroscope),
+            (SensorKind::Accelerometer, self.accelerometer, units[0]),
+            (SensorKind::Gyroscope, self.gyroscope, units[1]),
         ];
-        for (sensor_kind, terms, unit, into) in there {
-            *into = match (terms, unit) {
+        for (sensor_kind, terms, unit) in there {
+            thermal[sensor_kind] = match (terms, unit) {
                 (None, _) => SensorThermal::default(),
                 (Some(terms), Some(unit)) => terms.into_terms(sensor_kind, unit)?,
                 (Some(_), None) => {

@@ -7,7 +7,7 @@ use crate::results::json;
 use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::convention::ValuesExact;
 use calibrant_core::sensor::{
-    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
+    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, PerSensor, Quantity, ReadingUnit, SensorKind,
 };
 use nalgebra::Matrix3;
 use serde::Deserialize;
@@ -56,7 +56,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     };
     let mut imu = CalibratedImu {
         parameters: ImuParameters::identity(),
-        units: [unit(SensorKind::Accelerometer), unit(SensorKind::Gyroscope)].into(),
+        units: PerSensor::from_fn(unit),
         quantities: Vec::new(),
         covariance: None,
         degrees_of_freedom: None,
@@ -70,10 +70,10 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     };
     // quantities that are not listed are zero
     if imu.unit(SensorKind::Accelerometer).is_some() {
-        imu.parameters.accelerometer.matrix = Matrix3::zeros();
+        imu.parameters[SensorKind::Accelerometer].matrix = Matrix3::zeros();
     }
     if imu.unit(SensorKind::Gyroscope).is_some() {
-        imu.parameters.gyroscope.matrix = Matrix3::zeros();
+        imu.parameters[SensorKind::Gyroscope].matrix = Matrix3::zeros();
     }
     let symmetric = (file.gauge.as_deref() == Some(Gauge::Symmetric.name())).then_some(&names);
     let estimated = listed.len();

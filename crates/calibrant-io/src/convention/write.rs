@@ -63,7 +63,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
             "choose another format, or take the values at one temperature with option `temperature` CELSIUS",
         ));
     }
-    let bends = &file.imu.parameters.accelerometer.nonlinearity;
+    let bends = &file.imu.parameters[SensorKind::Accelerometer].nonlinearity;
     if !bends.is_none() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
         let of_axis = |axis: usize| {
             [1.0, -1.0].map(|sign| bends.bend(axis, sign * Gravity::SOMEWHERE.magnitude_mps2).abs())

@@ -20,13 +20,13 @@ impl Experiment {
         let mut nominal = ImuParameters::identity();
         let Sensor { gain, offset, .. } = self.sensor;
         let gain = gain.ok_or_else(|| missing("sensor.gain_counts_per_mps2"))?;
-        nominal.accelerometer.matrix = Matrix3::from_diagonal(&gain);
-        nominal.accelerometer.bias = offset.unwrap_or_default();
+        nominal[SensorKind::Accelerometer].matrix = Matrix3::from_diagonal(&gain);
+        nominal[SensorKind::Accelerometer].bias = offset.unwrap_or_default();
         if let Some(gyroscope) = self.imu.as_ref().map(|imu| &imu.gyroscope) {
             let in_si = gyroscope.unit == SensorKind::Gyroscope.stimulus_unit();
             let gain = gyroscope.gain.or(in_si.then(|| Vector3::repeat(1.0)));
             let gain = gain.ok_or_else(|| missing("gyroscope.gain_counts_per_radps"))?;
-            nominal.gyroscope.matrix = Matrix3::from_diagonal(&gain);
+            nominal[SensorKind::Gyroscope].matrix = Matrix3::from_diagonal(&gain);
         }
         Ok(nominal)
     }

@@ -7,7 +7,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::simulation::NoiseAssumed;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{Calibration, FaceTilt};
-use calibrant_core::sensor::{ParameterList, SensorParameters, USUAL_NOISE_MPS2};
+use calibrant_core::sensor::{ParameterList, SensorKind, SensorParameters, USUAL_NOISE_MPS2};
 use calibrant_design::poses::{DirectionKnowledge, PoseNuisance, PoseProblem};
 use nalgebra::Vector3;
 
@@ -55,7 +55,7 @@ impl Experiment {
         let plan = self.holds()?;
         let Some(holds) = calibration.holds() else { return Err(self.without_holds()) };
         let directions: Vec<Vector3<f64>> = holds.used().map(|hold| hold.force_mps2.normalize()).collect();
-        let at = calibration.imu.accelerometer;
+        let at = calibration.imu[SensorKind::Accelerometer];
         let count = directions.len().max(1) as f64;
         let white: Vector3<f64> = holds
             .used()

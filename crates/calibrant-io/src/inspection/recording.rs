@@ -110,7 +110,7 @@ pub fn inspect(file: &ImuFile) -> Inspection {
         let unit = recording.sensor(*sensor_kind)?.unit();
         Some(SpikesFound::of(spikes, *sensor_kind, unit).into())
     }));
-    let holds = clean.accelerometer.as_ref().and_then(|accelerometer| {
+    let holds = clean[SensorKind::Accelerometer].as_ref().and_then(|accelerometer| {
         HoldsInspection::of(&clean, accelerometer, &mut findings)
             .map_err(|why| findings.push(undetermined(&why)))
             .ok()
@@ -180,7 +180,9 @@ impl HoldsInspection {
         let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
-            gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
+            gyroscope_at_rest: recording[SensorKind::Gyroscope]
+                .as_ref()
+                .and_then(|gyroscope| at_rest(gyroscope, &holds)),
             coarse,
             expected: expected.ok(),
             clipped,

@@ -2,7 +2,7 @@
 
 use crate::text::numbers::write_numbers;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{Axis, ImuRecording, ReadingUnit, Recording};
+use calibrant_core::sensor::{Axis, ImuRecording, ReadingUnit, Recording, SensorKind};
 use std::iter::once;
 use std::path::Path;
 
@@ -33,7 +33,9 @@ fn names(letter: char, axes: &[Axis], unit: ReadingUnit) -> String {
 /// [`Error::Recording`] where a sensor is missing or the sensors' times differ: this file has no place for
 /// them. [`Error::Output`] where it cannot be written.
 pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> {
-    let (Some(accelerometer), Some(gyroscope)) = (&recording.accelerometer, &recording.gyroscope) else {
+    let (Some(accelerometer), Some(gyroscope)) =
+        (&recording[SensorKind::Accelerometer], &recording[SensorKind::Gyroscope])
+    else {
         let input_error = InputError::new(
             Refusal::SensorMissing,
             "the recording has one sensor only",

@@ -138,7 +138,7 @@ impl Truth {
             ImuQuantity::Of(SensorKind::Accelerometer, of) => Some(of),
             _ => None,
         });
-        let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
+        let gauge = gauge_of(of_accelerometer, &truth[SensorKind::Accelerometer].matrix);
         Self {
             seed,
             convention,
@@ -165,8 +165,7 @@ fn gauge_of<'q>(
 /// The quantities that are not zero and not among these, however they are written down.
 fn beside(quantities: &[ImuQuantity], truth: &ImuParameters) -> Vec<ImuQuantity> {
     let nothing = SensorParameters::linear(Vector3::zeros(), Matrix3::zeros());
-    let mut reported =
-        ImuParameters { accelerometer: nothing, gyroscope: nothing, ..ImuParameters::identity() };
+    let mut reported = ImuParameters { sensors: [nothing, nothing].into(), ..ImuParameters::identity() };
     for quantity in quantities {
         quantity.add_to(&mut reported, quantity.value(truth));
     }

@@ -87,8 +87,11 @@ fn calibrated(tilt: f64, soft_hz: Option<f64>, correlated: bool) -> MachineCalib
     }
     let recording = |readings, unit| Recording::new(times_s.clone(), readings, 3, unit).expect("in order");
     let recording = ImuRecording {
-        accelerometer: Some(recording(forces, ReadingUnit::MetrePerSecondSquared)),
-        gyroscope: Some(recording(rates, ReadingUnit::RadianPerSecond)),
+        sensors: [
+            Some(recording(forces, ReadingUnit::MetrePerSecondSquared)),
+            Some(recording(rates, ReadingUnit::RadianPerSecond)),
+        ]
+        .into(),
         temperature_c: None,
     };
     let list = ParameterList::new(3, SensorModel::Full);

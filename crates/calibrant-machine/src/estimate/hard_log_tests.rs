@@ -16,7 +16,8 @@ use crate::spline::{Degree, UniformKnots};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
 use calibrant_core::sensor::{
-    ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, SensorKind, SensorModel,
+    ImuParameters, ImuQuantity, ImuRecording, ParameterList, PerSensor, ReadingUnit, Recording, SensorKind,
+    SensorModel,
 };
 use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
@@ -82,10 +83,8 @@ impl Simulated {
             let (times_s, readings) = (later(of.times_s()), of.readings().to_vec());
             Recording::new(times_s, readings, 3, of.unit()).expect("in order")
         };
-        let ImuRecording { accelerometer, gyroscope, .. } = &self.recording;
         self.recording = ImuRecording {
-            accelerometer: accelerometer.as_ref().map(moved),
-            gyroscope: gyroscope.as_ref().map(moved),
+            sensors: PerSensor::from_fn(|kind| self.recording.sensor(kind).map(moved)),
             temperature_c: None,
         };
         match &mut self.log {

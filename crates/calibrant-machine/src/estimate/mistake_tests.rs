@@ -4,7 +4,7 @@ use super::hard_log_tests::{Simulated, codes, wrist};
 use super::{MachineSetup, MountingPrior};
 use crate::chain::{Joint, JointKind, JointLimits, KinematicChain};
 use crate::simulate::LogErrors;
-use calibrant_core::sensor::SensorModel;
+use calibrant_core::sensor::{SensorKind, SensorModel};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 fn encoders(joints: usize) -> LogErrors {
@@ -93,7 +93,7 @@ fn a_mounting_that_is_called_exact_and_is_not_is_named_with_the_one_that_fits() 
 fn a_sensor_that_drifts_is_named() {
     let mut simulated = Simulated::new(Some(wrist()), MachineSetup::default(), &encoders(3));
     assert_eq!(said(&simulated, "sensor-drifts"), None);
-    let gyroscope = simulated.recording.gyroscope.as_mut().expect("recorded");
+    let gyroscope = simulated.recording[SensorKind::Gyroscope].as_mut().expect("recorded");
     let count = gyroscope.len() as f64;
     for (k, reading) in gyroscope.readings_mut().iter_mut().enumerate() {
         reading.y += 0.01 * (k as f64 / count - 0.5);

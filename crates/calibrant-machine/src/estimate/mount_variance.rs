@@ -109,7 +109,8 @@ mod tests {
     fn second_order_is_that_of_many_turns() {
         let sd = 0.02;
         let mut imu = ImuParameters::identity();
-        imu.accelerometer.matrix = Matrix3::new(1.0, 0.02, -0.03, 0.01, 1.1, 0.0, 0.04, 0.0, 0.9);
+        imu[SensorKind::Accelerometer].matrix =
+            Matrix3::new(1.0, 0.02, -0.03, 0.01, 1.1, 0.0, 0.04, 0.0, 0.9);
         let (layout, parameters) = mounted(imu, sd);
         let covariance = DMatrix::identity(layout.len(), layout.len()) * (sd * sd);
         let found = mount_variances(&layout, &parameters, &covariance);
@@ -118,7 +119,8 @@ mod tests {
         for _ in 0..turns {
             let turn = drawn(&mut numbers, sd);
             let exact = UnitQuaternion::from_scaled_axis(turn).to_rotation_matrix().into_inner();
-            let second = imu.accelerometer.matrix * (exact - Matrix3::identity() - turn.cross_matrix());
+            let second =
+                imu[SensorKind::Accelerometer].matrix * (exact - Matrix3::identity() - turn.cross_matrix());
             sums += second.component_mul(&second) / f64::from(turns);
         }
         for (row, column) in [(0, 0), (1, 1), (2, 2), (0, 1), (2, 0)] {
@@ -138,8 +140,8 @@ mod tests {
                 let own = Matrix3::from_fn(|_, _| drawn(&mut numbers, own_sd).x);
                 let turn = UnitQuaternion::from_scaled_axis(drawn(&mut numbers, sd)).to_rotation_matrix();
                 let mut imu = ImuParameters::identity();
-                let truth = imu.accelerometer.matrix + own;
-                imu.accelerometer.matrix = truth * turn.into_inner();
+                let truth = imu[SensorKind::Accelerometer].matrix + own;
+                imu[SensorKind::Accelerometer].matrix = truth * turn.into_inner();
                 let (layout, parameters) = mounted(imu, sd);
                 let k = place(&layout, 0, 0);
                 // data tell the matrix on the mounting as it is, and nothing of the mounting
@@ -148,13 +150,13 @@ mod tests {
                     let mounting = MachineQuantity::Mounting(axis);
                     let of = layout.quantities.iter().position(|of| *of == mounting).expect("estimated");
                     with_turn[(of, j)] = sd;
-                    let moved = imu.accelerometer.matrix * Vector3::ith(j, sd).cross_matrix();
+                    let moved = imu[SensorKind::Accelerometer].matrix * Vector3::ith(j, sd).cross_matrix();
                     with_turn[(k, j)] = -moved[(0, 0)];
                 }
                 let covariance = &with_turn * with_turn.transpose();
                 let variance =
                     covariance[(k, k)] + mount_variances(&layout, &parameters, &covariance)[k].beyond();
-                let error = imu.accelerometer.matrix[(0, 0)] - truth[(0, 0)];
+                let error = imu[SensorKind::Accelerometer].matrix[(0, 0)] - truth[(0, 0)];
                 stated += variance;
                 realised += error * error;
                 beyond += usize::from(error * error > 16.0 * variance);

@@ -51,7 +51,7 @@ pub fn record_sensors(
     let gravity = TiltedGravity::new(&setup.up).vector(truth);
     let carrier = motion.carrier(gravity, truth.mount, &truth.corrections);
     let mut joints = Default::default();
-    let mut recording = ImuRecording { accelerometer: None, gyroscope: None, temperature_c: None };
+    let mut recording = ImuRecording { sensors: [None, None].into(), temperature_c: None };
     for of in sensors {
         let stimuli: Vec<[Vector3<f64>; 2]> = times_s
             .iter()
@@ -70,8 +70,8 @@ pub fn record_sensors(
         let readings = readings.collect();
         let samples = Recording::new(times_s.clone(), readings, 3, of.unit)?;
         *match of.sensor {
-            SensorKind::Accelerometer => &mut recording.accelerometer,
-            SensorKind::Gyroscope => &mut recording.gyroscope,
+            SensorKind::Accelerometer => &mut recording[SensorKind::Accelerometer],
+            SensorKind::Gyroscope => &mut recording[SensorKind::Gyroscope],
         } = Some(samples);
     }
     Ok(recording)
@@ -210,14 +210,14 @@ mod tests {
         let acceleration = Vector3::new(0.5, -0.3, 0.2);
         let motion = moved(gantry(), &|t| acceleration.iter().map(|a| 0.5 * a * t * t).collect());
         let mut imu = ImuParameters::identity();
-        imu.accelerometer.bias = Vector3::new(0.1, 0.2, 0.3);
-        imu.accelerometer.matrix[(0, 2)] = 0.01;
+        imu[SensorKind::Accelerometer].bias = Vector3::new(0.1, 0.2, 0.3);
+        imu[SensorKind::Accelerometer].matrix[(0, 2)] = 0.01;
         let truth = MachineParameters::nominal(&setup(), imu, 3);
         let force = acceleration + Vector3::z() * GRAVITY;
         let expected = force + Vector3::new(0.1 + 0.01 * force.z, 0.2, 0.3);
         let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
-        assert!(recording.gyroscope.is_none());
-        for reading in recording.accelerometer.expect("there").readings() {
+        assert!(recording[SensorKind::Gyroscope].is_none());
+        for reading in recording[SensorKind::Accelerometer].clone().expect("there").readings() {
             assert!((reading - expected).norm() < 1e-9, "{reading}");
         }
     }
@@ -232,15 +232,15 @@ mod tests {
         // x of the sensor is up: -z, y, x of the plate are its axes
         truth.mount.tip_from_sensor =
             nalgebra::UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -std::f64::consts::FRAC_PI_2);
-        truth.imu.gyroscope.bias = Vector3::new(0.01, 0.0, -0.02);
+        truth.imu[SensorKind::Gyroscope].bias = Vector3::new(0.01, 0.0, -0.02);
         truth.imu.g_sensitivity[(2, 0)] = 1e-3;
         let kinds = SensorKind::ALL.map(|sensor| of(sensor, 0.0, 0.0));
         let recording = record(&motion, &truth, &kinds);
         let force = Vector3::new(GRAVITY, -radius * rate * rate, 0.0);
-        for reading in recording.accelerometer.expect("there").readings() {
+        for reading in recording[SensorKind::Accelerometer].clone().expect("there").readings() {
             assert!((reading - force).norm() < 1e-9, "{reading}");
         }
-        for reading in recording.gyroscope.expect("there").readings() {
+        for reading in recording[SensorKind::Gyroscope].clone().expect("there").readings() {
             let expected = Vector3::new(rate + 0.01, 0.0, -0.02 + 1e-3 * GRAVITY);
             assert!((reading - expected).norm() < 1e-9, "{reading}");
         }
@@ -254,7 +254,7 @@ mod tests {
         truth.delays_s = [0.25, 0.0];
         truth.clock_rate = 0.01;
         let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
-        let recording = recording.accelerometer.expect("there");
+        let recording = recording[SensorKind::Accelerometer].clone().expect("there");
         let last = recording.len() - 1;
         let middle = 0.5 * (recording.times_s()[0] + recording.times_s()[last]);
         for k in [0, 100, last] {
@@ -271,8 +271,9 @@ mod tests {
         let truth = MachineParameters::nominal(&setup(), ImuParameters::identity(), 3);
         let clean = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
         let noisy = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.01, 2.0)]);
-        let [clean, noisy] =
-            [clean, noisy].map(|recording| recording.accelerometer.expect("there").readings().to_vec());
+        let [clean, noisy] = [clean, noisy].map(|recording| {
+            recording[SensorKind::Accelerometer].clone().expect("there").readings().to_vec()
+        });
         let errors: Vec<Vector3<f64>> = noisy.iter().zip(&clean).map(|(a, b)| a - b).collect();
         let sd = |errors: &[Vector3<f64>]| {
             (errors.iter().map(Vector3::norm_squared).sum::<f64>() / (3 * errors.len()) as f64).sqrt()

@@ -98,7 +98,9 @@ fn columns(errors: &[Vec<PlacedError>]) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
     use calibrant_core::estimate::Comparison;
-    use calibrant_core::sensor::{CovarianceDegrees, Gauge, ImuParameters, ImuQuantity, ReadingUnit};
+    use calibrant_core::sensor::{
+        CovarianceDegrees, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorKind,
+    };
     use nalgebra::DMatrix;
 
     #[test]
@@ -189,7 +191,8 @@ mod tests {
     fn a_calibration_that_does_not_reach_the_reference_temperature_is_left_out() {
         let mut narrow = warm();
         // the gain of x is zero at 30 °C
-        narrow.parameters.thermal.accelerometer.scale = [[-0.1, 0.0, 0.0].into(), [0.0; 3].into()];
+        narrow.parameters.thermal[SensorKind::Accelerometer].scale =
+            [[-0.1, 0.0, 0.0].into(), [0.0; 3].into()];
         let last = warm().at_reference_temperature(35.0).expect("positive gains");
         let of = |imus: &[&CalibratedImu]| {
             let dated = |(k, imu)| DatedCalibration { time_years: k as f64, imu, station: None };
@@ -215,7 +218,7 @@ mod tests {
         };
         let before = CalibratedImu { degrees_of_freedom: Some(degrees(4.0)), ..warm() };
         let mut after = CalibratedImu { degrees_of_freedom: Some(degrees(9.0)), ..warm() };
-        after.parameters.accelerometer.bias.x += 3e-4;
+        after.parameters[SensorKind::Accelerometer].bias.x += 3e-4;
         let dated = [(0.0, &before), (0.7, &after)];
         let agings =
             aging_of(&dated.map(|(time_years, imu)| DatedCalibration { time_years, imu, station: None }));

@@ -67,7 +67,7 @@ fn letter(sensor_kind: SensorKind) -> char {
 }
 
 fn of_one_axis(calibration: &Calibration) -> String {
-    let sensor = &calibration.imu.accelerometer;
+    let sensor = &calibration.imu[SensorKind::Accelerometer];
     format!(
         "<p class=\"formula\">f = (y − {}) / {}</p><p>y in {}, f in m/s².</p>",
         significant(sensor.bias.x, 7),

@@ -7,7 +7,7 @@ use crate::figure::{
 };
 use crate::sheet::Section;
 use calibrant_core::estimate::{Calibration, RecoveredMotion};
-use calibrant_core::sensor::ImuRecording;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 /// The estimated motion, with the true one if it is known.
 pub(super) fn motion_section<'a>(
@@ -26,7 +26,7 @@ pub(super) fn motion_section<'a>(
         }
         _ => "",
     });
-    let Some(recording) = &recording.accelerometer else { return section };
+    let Some(recording) = &recording[SensorKind::Accelerometer] else { return section };
     let truth = about.true_motion.as_ref();
     let title = match truth {
         Some(_) => "Actual, measured and estimated acceleration (Figure 4 of the thesis)",
@@ -48,7 +48,7 @@ pub(super) fn residual_section<'a>(
     recovered: &'a RecoveredMotion,
     recording: &'a ImuRecording,
 ) -> Option<Section<'a>> {
-    let recording = recording.accelerometer.as_ref()?;
+    let recording = recording[SensorKind::Accelerometer].as_ref()?;
     let mut section = Section::on_page("Residuals");
     section.figure(|| Some(residuals_over_time(calibration, recovered, recording)));
     section.figure(|| Some(histograms(calibration, recovered, recording)));

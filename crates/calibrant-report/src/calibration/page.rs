@@ -134,10 +134,10 @@ fn hold_section<'a>(
     });
     section.table(hold_summary(calibration, holds));
     section.figure(|| (holds.degrees_of_freedom > 0).then(|| hold_residuals(holds)));
-    section.figure(|| still_gyroscope(calibration, holds, recording.gyroscope.as_ref()?));
-    section.figure(|| bias_over_temperature(calibration, holds, recording.gyroscope.as_ref()?));
+    section.figure(|| still_gyroscope(calibration, holds, recording[SensorKind::Gyroscope].as_ref()?));
+    section.figure(|| bias_over_temperature(calibration, holds, recording[SensorKind::Gyroscope].as_ref()?));
     section.drawn(|| hold_directions(holds));
-    section.figure(|| Some(recording_overview(holds, recording.accelerometer.as_ref()?)));
+    section.figure(|| Some(recording_overview(holds, recording[SensorKind::Accelerometer].as_ref()?)));
     section
         .on_page_below("Table of the holds", hold_table(holds, calibration.unit(SensorKind::Accelerometer)));
     section

@@ -6,7 +6,9 @@ use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::{Calibration, HoldCalibration, Uncalibrated};
-use calibrant_core::sensor::{Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording};
+use calibrant_core::sensor::{
+    Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording, SensorKind,
+};
 use nalgebra::Vector3;
 
 const BEFORE: &str = "before";
@@ -50,7 +52,7 @@ pub(crate) fn recording_before_and_after(
     holds: &HoldCalibration,
     recording: &ImuRecording,
 ) -> Option<Figure> {
-    let accelerometer = recording.accelerometer.as_ref()?;
+    let accelerometer = recording[SensorKind::Accelerometer].as_ref()?;
     // the figure needs the values only, not their uncertainty
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
     let corrected = ImuCorrection::of(&imu).ok()?.apply(recording).ok()?;
@@ -59,7 +61,7 @@ pub(crate) fn recording_before_and_after(
         rate_panels(
             &calibration.gyroscope.as_ref()?.before,
             &corrected.gyroscope?.values,
-            recording.gyroscope.as_ref()?,
+            recording[SensorKind::Gyroscope].as_ref()?,
         )
     };
     let (forces, rates) = rayon::join(|| force_panels(holds, &forces.values, accelerometer), rates);
@@ -83,7 +85,7 @@ pub(crate) fn recording_before_and_after(
              and gains change it, too.",
             ),
             (
-                is_thinned(recording.gyroscope.as_ref().unwrap_or(accelerometer).len()),
+                is_thinned(recording[SensorKind::Gyroscope].as_ref().unwrap_or(accelerometer).len()),
                 "The smallest and the largest value of each pixel column are drawn.",
             ),
         ],

@@ -3,7 +3,7 @@
 use super::panel::{Panel, Series};
 use super::{Figure, colour};
 use calibrant_core::estimate::{Calibration, HoldCalibration, HoldResult};
-use calibrant_core::sensor::{Axis, Correction, Recording};
+use calibrant_core::sensor::{Axis, Correction, Recording, SensorKind};
 use nalgebra::Vector3;
 
 /// Below this rate in °/s, rates are given in °/h.
@@ -39,7 +39,7 @@ fn still(calibration: &Calibration, holds: &HoldCalibration, gyroscope: &Recordi
 /// A reading over the gain of its axis, in degrees.
 fn degrees(calibration: &Calibration, axis: Axis, reading: f64) -> f64 {
     let k = axis.index();
-    (reading / calibration.imu.gyroscope.matrix.row(k).norm()).to_degrees()
+    (reading / calibration.imu[SensorKind::Gyroscope].matrix.row(k).norm()).to_degrees()
 }
 
 /// The mean rate of the corrected gyroscope in each hold. It should be zero. Beside it is what noise and
@@ -52,7 +52,7 @@ pub(crate) fn still_gyroscope(
     let at_rest = &calibration.gyroscope.as_ref()?.still;
     let rate = |still: Still| {
         let imu = still.temperature_c.map_or(calibration.imu, |temperature| calibration.imu.at(temperature));
-        let rate = Correction::of(&imu.gyroscope)?.apply(&still.reading).map(f64::to_degrees);
+        let rate = Correction::of(&imu[SensorKind::Gyroscope])?.apply(&still.reading).map(f64::to_degrees);
         Some((still, rate))
     };
     let means: Vec<(Still, Vector3<f64>)> =
@@ -96,7 +96,7 @@ pub(crate) fn bias_over_temperature(
     let panels = Panel::by_axis(&Axis::ALL, "temperature (°C)", label, |axis, panel| {
         let k = axis.index();
         // relative to the bias at the reference, so that counts and rates look alike
-        let degps = |reading: f64| degrees(calibration, axis, reading - imu.gyroscope.bias[k]);
+        let degps = |reading: f64| degrees(calibration, axis, reading - imu[SensorKind::Gyroscope].bias[k]);
         let twice = |of: &Still| {
             let noise = at_rest.noise[k] / of.samples.sqrt();
             2.0 * degrees(calibration, axis, noise.hypot(at_rest.between_holds_sd[k]))
@@ -104,7 +104,10 @@ pub(crate) fn bias_over_temperature(
         let at = || means.iter().filter_map(|of| Some((of.used, (of.temperature_c?, degps(of.reading[k])))));
         let all = at().map(|(_, point)| point).collect();
         let temperature = |i: usize| low + (high - low) * i as f64 / POINTS as f64;
-        let fitted = (0..=POINTS).map(temperature).map(|t| (t, degps(imu.at(t).gyroscope.bias[k]))).collect();
+        let fitted = (0..=POINTS)
+            .map(temperature)
+            .map(|t| (t, degps(imu.at(t)[SensorKind::Gyroscope].bias[k])))
+            .collect();
         panel
             .with(Series::bars("±2 sd", colour::GREY, all, means.iter().map(twice).collect()))
             .with(Series::line("polynomial", colour::SKY, fitted))

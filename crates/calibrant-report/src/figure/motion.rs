@@ -21,7 +21,7 @@ pub(crate) fn acceleration_figure(
     truth: Option<&JerkControlledMotion>,
 ) -> Figure {
     let counts = calibration.unit(SensorKind::Accelerometer) == ReadingUnit::Counts;
-    let correction = if counts { Correction::of(&calibration.imu.accelerometer) } else { None };
+    let correction = if counts { Correction::of(&calibration.imu[SensorKind::Accelerometer]) } else { None };
     let first = recovered.first_sample.min(recording.len());
     let end = match recovered.residuals.len() {
         0 => recording.len(),

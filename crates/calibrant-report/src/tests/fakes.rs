@@ -122,7 +122,7 @@ fn calibrated(
         prior_share: Vec::new(),
         gravity_slope: Vec::new(),
         datasheet_prior: false,
-        imu: ImuParameters { accelerometer: estimate, ..ImuParameters::identity() },
+        imu: ImuParameters::identity().with(SensorKind::Accelerometer, estimate),
         units: PerSensor::only(SensorKind::Accelerometer, recording.unit()),
         fit: FitStatistics {
             chi2: degrees_of_freedom as f64 * 1.013,
@@ -215,7 +215,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         prior_share: Vec::new(),
         gravity_slope: list.quantities().iter().map(by_gravity).collect(),
         datasheet_prior: false,
-        imu: ImuParameters { accelerometer: truth, ..ImuParameters::identity() },
+        imu: ImuParameters::identity().with(SensorKind::Accelerometer, truth),
         units: PerSensor::only(SensorKind::Accelerometer, ReadingUnit::Counts),
         fit: FitStatistics {
             chi2: 28.0,

@@ -17,7 +17,7 @@ fn gyroscope_of(calibration: &mut Calibration) -> &mut GyroscopeCalibration {
 #[test]
 fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let case = imus::imu_case(14, 1);
-    let gyroscope = case.recording.gyroscope.as_ref().expect("recorded");
+    let gyroscope = case.recording[SensorKind::Gyroscope].as_ref().expect("recorded");
     let segment = Segment::between(gyroscope, 0.0, 2.0).expect("long enough");
     let noise = SensorNoise::of(SensorKind::Gyroscope, gyroscope, segment).expect("noisy");
     let html = calibration_sheet(&case.calibration, &case.recording, &[noise], &about()).html();
@@ -67,7 +67,7 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
 #[test]
 fn a_terminal_shows_what_was_used_what_was_found_and_how_good_it_is() {
     let case = imus::imu_case(14, 1);
-    assert!(case.recording.gyroscope.is_some());
+    assert!(case.recording[SensorKind::Gyroscope].is_some());
     let about = about();
     let sheet = calibration_sheet(&case.calibration, &case.recording, &[], &about);
     let text = sheet.text(120);
@@ -105,8 +105,8 @@ fn a_terminal_shows_what_was_used_what_was_found_and_how_good_it_is() {
 fn the_magnitude_before_is_that_of_plain_readings() {
     let case = imus::imu_case(14, 1);
     let holds = case.calibration.holds().expect("held");
-    let imu = &case.calibration.imu.accelerometer;
-    let readings = case.recording.accelerometer.as_ref().expect("recorded").readings();
+    let imu = &case.calibration.imu[SensorKind::Accelerometer];
+    let readings = case.recording[SensorKind::Accelerometer].as_ref().expect("recorded").readings();
     let bias = (imu.bias.x + imu.bias.y + imu.bias.z) / 3.0;
     let gain = imu.matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
     let mut squares = 0.0;
@@ -180,7 +180,7 @@ fn degenerate_results_and_hostile_words_are_reported_without_harm() {
     gyroscope_of(&mut calibration).still.noise.fill(f64::NAN);
     assert_sound(&calibration_sheet(&calibration, &case.recording, &[], &about()).html());
 
-    calibration.imu.gyroscope.matrix.fill(0.0);
+    calibration.imu[SensorKind::Gyroscope].matrix.fill(0.0);
     let html = calibration_sheet(&calibration, &case.recording, &[], &about()).html();
     assert_sound(&html);
     assert!(html.contains("there is no correction"));

@@ -5,6 +5,7 @@ use super::{about, assert_sound, sensor};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::fit::NotConverged;
 use calibrant_core::estimate::CalibrationStatus;
+use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;
 
 mod machines;
@@ -129,6 +130,6 @@ fn degenerate_results_on_a_machine_are_reported_without_panic() {
     }
     assert_sound(&page(&case));
     case.calibration.noise.clear();
-    case.recording.accelerometer = None;
+    case.recording[SensorKind::Accelerometer] = None;
     assert_sound(&page(&case));
 }

@@ -7,6 +7,7 @@
 //! # Examples
 //! Two sensors of a production line, and a file that is not there:
 //! ```
+//! use calibrant::sensor::SensorKind;
 //! use calibrant::batch::{Batch, BatchOptions};
 //! use calibrant::io::{Experiment, preset, write_recording};
 //! use calibrant::progress::Progress;
@@ -18,7 +19,7 @@
 //! for seed in [1, 2] {
 //!     let path = directory.path().join(format!("sensor-{seed}.csv"));
 //!     let options = SimulationOptions { seed: Some(seed), ..SimulationOptions::default() };
-//!     write_recording(&path, simulate(&experiment, &options)?.recording.accelerometer.as_ref().expect("there"))?;
+//!     write_recording(&path, simulate(&experiment, &options)?.recording[SensorKind::Accelerometer].as_ref().expect("there"))?;
 //!     sources.push(Source::from_file(path));
 //! }
 //! let options = BatchOptions { directory: Some(directory.path().join("results")), ..BatchOptions::default() };

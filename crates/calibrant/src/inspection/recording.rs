@@ -4,7 +4,7 @@ use super::columns;
 use super::holds::hold_sections;
 use super::noticed::noticed;
 use super::sampling::sampling_line;
-use calibrant_core::sensor::Axis;
+use calibrant_core::sensor::{Axis, SensorKind};
 use calibrant_io::{FileFormat, ImuColumn, ImuFile, Inspection, SensorInspection};
 use calibrant_report::number_format::{count, short};
 use calibrant_report::{Cell, Section, Sheet, Table};
@@ -18,7 +18,7 @@ pub fn recording_sheet(file: &ImuFile, inspection: &Inspection, names: &[String]
     sections.push(noticed(&inspection.findings, file.second.is_some()));
     match &inspection.holds {
         Some(found) => sections.extend(hold_sections(found, inspection)),
-        None if file.recording.accelerometer.is_some() => {}
+        None if file.recording[SensorKind::Accelerometer].is_some() => {}
         None => {
             let mut section = Section::default();
             section.paragraph("Without an accelerometer there are no holds.");

@@ -6,7 +6,7 @@ use calibrant_core::error::{Error, InputError, Refusal, Result, with_options_wor
 use calibrant_core::estimate::{find_holds, find_imu_holds};
 use calibrant_core::motion::Hold;
 use calibrant_core::noise::Segment;
-use calibrant_core::sensor::{ImuRecording, Recording};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 
 /// Shortest hold of the search, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
@@ -21,7 +21,7 @@ const MOST: f64 = 0.9;
 /// A spike is not a movement, and does not divide a hold.
 pub(super) fn holds(imu: &ImuRecording) -> Result<Vec<Hold>> {
     let (clean, _) = imu.without_spikes();
-    match (&clean.accelerometer, &clean.gyroscope) {
+    match (&clean[SensorKind::Accelerometer], &clean[SensorKind::Gyroscope]) {
         (None, Some(gyroscope)) => find_holds(gyroscope, SHORTEST_HOLD_S),
         _ => find_imu_holds(&clean, SHORTEST_HOLD_S),
     }

@@ -58,11 +58,11 @@ pub(crate) fn take_out_motion_outliers(
     command: &CommandedMotion,
     recording: &mut ImuRecording,
 ) -> Option<Diagnostic> {
-    let readings = recording.accelerometer.as_ref()?;
+    let readings = recording[SensorKind::Accelerometer].as_ref()?;
     let problem = CalibrationProblem { sensor, recording: readings, stimulus: Stimulus::Motion(command) };
     let (clean, found) = without_motion_outliers(&problem)?;
     if clean.is_some() {
-        recording.accelerometer = clean;
+        recording[SensorKind::Accelerometer] = clean;
     }
     Some(found)
 }

@@ -1,14 +1,18 @@
 //! The holds of a recording are found once, and handed on to the estimator, the noise and the validation.
 
 use calibrant_core::estimate::{HoldsSetup, find_clean_holds, find_clean_imu_holds, holds_between};
-use calibrant_core::sensor::ImuRecording;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 /// The setup with the holds of this recording, from which outliers were taken out: those in the given intervals, else those that are found.
 ///
 /// Where there are none to be found, the setup has none, and the estimator says why.
 pub(crate) fn with_holds(setup: &HoldsSetup, recording: &ImuRecording) -> HoldsSetup {
     let minimum_s = setup.minimum_hold_s;
-    let found = match (&setup.intervals_s, &recording.accelerometer, &recording.gyroscope) {
+    let found = match (
+        &setup.intervals_s,
+        &recording[SensorKind::Accelerometer],
+        &recording[SensorKind::Gyroscope],
+    ) {
         (_, None, _) => None,
         (Some(intervals), Some(accelerometer), _) => holds_between(accelerometer, intervals).ok(),
         (None, Some(accelerometer), None) => find_clean_holds(accelerometer, minimum_s).ok(),

@@ -7,7 +7,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::samples::GyroscopeMissing;
 use calibrant_core::error::Result;
 use calibrant_core::motion::CommandedMotion;
-use calibrant_core::sensor::ImuRecording;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{HoldsPlan, ImuPlan};
 
 /// A kind of calibration.
@@ -28,7 +28,7 @@ impl<'e> Kind<'e> {
 
     /// What the recording lacks of this kind.
     pub(crate) fn missing(&self, recording: &ImuRecording) -> Vec<Diagnostic> {
-        let without = matches!(self, Self::Imu(..)) && recording.gyroscope.is_none();
+        let without = matches!(self, Self::Imu(..)) && recording[SensorKind::Gyroscope].is_none();
         without.then_some(GyroscopeMissing {}.into()).into_iter().collect()
     }
 
@@ -43,7 +43,7 @@ impl<'e> Kind<'e> {
             Self::Motion(command) => Setup::Motion((*command).clone()),
             Self::Holds(plan) => held(plan, notes)?,
             // it cannot be lost unnoticed: the calibration gets a diagnostic
-            Self::Imu(_, plan) if recording.gyroscope.is_none() => held(plan, notes)?,
+            Self::Imu(_, plan) if recording[SensorKind::Gyroscope].is_none() => held(plan, notes)?,
             Self::Imu(plan, holds) => {
                 Setup::Imu(&plan.gyroscope, Box::new(setup_of(plan, holds, source, recording, notes)?))
             }

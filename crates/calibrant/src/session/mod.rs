@@ -18,7 +18,7 @@
 //! ```
 //! use calibrant::io::{Experiment, preset, write_recording};
 //! use calibrant::session::{Session, Source};
-//! use calibrant::sensor::{ReadingUnit, SensorParameters};
+//! use calibrant::sensor::{ReadingUnit, SensorKind, SensorParameters};
 //! use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 //! use nalgebra::Vector3;
 //!
@@ -36,7 +36,7 @@
 //! outcome.write(directory.path())?;
 //!
 //! let calibration = outcome.calibration();
-//! assert!(calibration.imu.accelerometer.bias.norm() < 0.01);
+//! assert!(calibration.imu[SensorKind::Accelerometer].bias.norm() < 0.01);
 //! assert!(directory.path().join("report.html").exists());
 //! # Ok::<(), calibrant::Error>(())
 //! ```

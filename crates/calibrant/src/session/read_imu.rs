@@ -43,7 +43,9 @@ impl<'e> ImuReader<'e> {
     pub(crate) fn read_other(&self, source: &Source) -> Result<Recorded> {
         let help = "give the gyroscope's file of that recording with option `validate_gyroscope`";
         match Recorded::imu_from(source, &self.options) {
-            Ok(recorded) if source.gyroscope.is_none() && recorded.recording.gyroscope.is_none() => {
+            Ok(recorded)
+                if source.gyroscope.is_none() && recorded.recording[SensorKind::Gyroscope].is_none() =>
+            {
                 let message = "the recording has no gyroscope";
                 Err(Error::recording(
                     InputError::new(Refusal::SensorMissing, message, help).in_file(source.path()),

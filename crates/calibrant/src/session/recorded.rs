@@ -58,7 +58,7 @@ impl Recorded {
 
     /// The accelerometer's samples.
     pub(crate) fn accelerometer(&self) -> Result<&Recording> {
-        self.recording.accelerometer.as_ref().ok_or_else(|| {
+        self.recording[SensorKind::Accelerometer].as_ref().ok_or_else(|| {
             let message = format!("the recording has no {}", SensorKind::Accelerometer);
             Error::recording(InputError::new(Refusal::SensorMissing, message, "choose another file"))
         })

@@ -3,6 +3,7 @@
 use super::options::SessionOptions;
 use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::sensor::SensorKind;
 use calibrant_io::Input;
 use calibrant_report::About;
 use calibrant_report::number_format::significant;
@@ -35,7 +36,9 @@ pub(crate) fn about(
 
 /// From when to when the accelerometer was recorded.
 fn times(recorded: &Recorded) -> String {
-    let times = recorded.recording.accelerometer.as_ref().map_or(&[][..], |recording| recording.times_s());
+    let times = recorded.recording[SensorKind::Accelerometer]
+        .as_ref()
+        .map_or(&[][..], |recording| recording.times_s());
     let ends = times.first().zip(times.last());
     ends.map_or_else(String::new, |(first, last)| {
         format!(", {} to {} s", significant(*first, 6), significant(*last, 6))

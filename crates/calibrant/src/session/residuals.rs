@@ -108,7 +108,7 @@ impl Outcome {
                 let rotations = calibration.gyroscope.as_ref().map(|of| of_rotations(&of.rotations));
                 std::iter::once(of_holds(&holds.holds)).chain(rotations).collect()
             }
-            Recovered::Motion(motion) => (self.recording.accelerometer.iter())
+            Recovered::Motion(motion) => (self.recording[SensorKind::Accelerometer].iter())
                 .flat_map(|recording| of_motion(calibration, motion, recording))
                 .collect(),
             Recovered::OnMachine(_) => {

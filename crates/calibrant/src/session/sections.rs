@@ -5,7 +5,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::settings::SettingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{ImuSetup, Turn};
-use calibrant_core::sensor::ImuRecording;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 use calibrant_io::{HoldsPlan, ImuPlan, Section, SectionKind};
 
 /// The setup of this recording.
@@ -18,7 +18,8 @@ pub(crate) fn setup_of(
 ) -> Result<ImuSetup> {
     let mut setup = plan.setup(holds)?;
     if let Some(list) = &source.sections {
-        let times = recording.accelerometer.as_ref().map_or(&[][..], |recording| recording.times_s());
+        let times =
+            recording[SensorKind::Accelerometer].as_ref().map_or(&[][..], |recording| recording.times_s());
         let (sections, path) = list.read()?;
         if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
             let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());

@@ -96,9 +96,10 @@ impl Readings {
             Content::Read(file) => {
                 let mut file = file.as_ref().clone();
                 if let Some(only) = options.accelerometer_only {
-                    let accelerometer = file.recording.accelerometer.take();
-                    file.recording.accelerometer = accelerometer.map(|of| of.with_axes(only.axes));
-                    file.recording.gyroscope = None;
+                    let accelerometer = file.recording[SensorKind::Accelerometer].take();
+                    file.recording[SensorKind::Accelerometer] =
+                        accelerometer.map(|of| of.with_axes(only.axes));
+                    file.recording[SensorKind::Gyroscope] = None;
                 }
                 Ok(file)
             }

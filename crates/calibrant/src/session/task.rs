@@ -19,7 +19,7 @@ use calibrant_core::diagnostic::{Diagnostic, Severity};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationSettings, Validation, other_temperature};
 use calibrant_core::noise::SensorNoise;
-use calibrant_core::sensor::{Sensor, Temperatures};
+use calibrant_core::sensor::{Sensor, SensorKind, Temperatures};
 use calibrant_io::{Experiment, Prior, file_name};
 
 /// What all recordings share.
@@ -68,7 +68,7 @@ impl<'e> Task<'e> {
         before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
         let mut outcome = self.calibrate(source, &recorded, &setup, options.report);
         if let Some((gyroscope, samples, at_rest)) = knocks {
-            let cut = recorded.recording.gyroscope.replace(gyroscope);
+            let cut = recorded.recording[SensorKind::Gyroscope].replace(gyroscope);
             let kept = self.calibrate(source, &recorded, &setup, options.report);
             let better = kept.as_ref().ok().and_then(|(kept, _)| {
                 KnocksKept::of(outcome.as_ref().ok().map(|(cut, _)| cut), kept, samples)
@@ -79,7 +79,7 @@ impl<'e> Task<'e> {
                     keep_knocks(&mut before, at_rest.as_ref(), &recorded.recording);
                     outcome = kept;
                 }
-                None => recorded.recording.gyroscope = cut,
+                None => recorded.recording[SensorKind::Gyroscope] = cut,
             }
         }
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;

@@ -3,7 +3,7 @@
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
 use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{ImuRecording, Recording};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{
     Truth, write_imu_recording, write_joint_log, write_json, write_motion, write_pose_log, write_recording,
 };
@@ -50,7 +50,9 @@ impl Simulation {
     /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> usize {
-        let first = self.recording.accelerometer.as_ref().or(self.recording.gyroscope.as_ref());
+        let first = self.recording[SensorKind::Accelerometer]
+            .as_ref()
+            .or(self.recording[SensorKind::Gyroscope].as_ref());
         first.map_or(0, Recording::len)
     }
 
@@ -74,11 +76,9 @@ impl Simulation {
             Some((ReferenceLog::Poses(log), _)) => write_pose_log(&path("poses.csv"), log)?,
             None => {}
         }
-        match &self.recording {
-            ImuRecording { accelerometer: Some(alone), gyroscope: None, .. } => {
-                write_recording(&path("recording.csv"), alone)
-            }
-            both => write_imu_recording(&path("recording.csv"), both),
+        match self.recording.accelerometer_alone() {
+            Some(alone) => write_recording(&path("recording.csv"), alone),
+            None => write_imu_recording(&path("recording.csv"), &self.recording),
         }
     }
 }

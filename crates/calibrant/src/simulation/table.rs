@@ -33,8 +33,8 @@ pub(super) fn accelerometer_on_table(
         ..ImuSimulation::default()
     };
     let nothing = Recording::new(Vec::new(), Vec::new(), 3, sensor.unit)?;
-    let imu = ImuParameters { accelerometer: *truth, ..ImuParameters::identity() };
-    Ok(simulate_table(&imu, steps, &setup, rng).accelerometer.unwrap_or(nothing))
+    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, *truth);
+    Ok(simulate_table(&imu, steps, &setup, rng)[SensorKind::Accelerometer].clone().unwrap_or(nothing))
 }
 
 /// The steps on the table, in order of time; `None` where the sensor is turned by hand.

@@ -8,7 +8,7 @@ use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FacesProblem, HoldsSetup, Stimulus, TiltSource,
     calibrate, calibrate_faces,
 };
-use calibrant::sensor::{ImuParameters, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{ImuParameters, Recording, Sensor, SensorKind, SensorModel, SensorParameters};
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_table, stream};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use rayon::prelude::*;
@@ -47,8 +47,9 @@ fn record(
     };
     let steps: Vec<TableStep> = directions.iter().enumerate().map(step).collect();
     let simulation = ImuSimulation { face_sd_rad: tilt_rad, rate_hz: 50.0, ..ImuSimulation::default() };
-    let imu = ImuParameters { accelerometer: *truth, ..ImuParameters::identity() };
-    let recording = simulate_table(&imu, &steps, &simulation, rng).accelerometer.expect("recorded");
+    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, *truth);
+    let recording =
+        simulate_table(&imu, &steps, &simulation, rng)[SensorKind::Accelerometer].clone().expect("recorded");
     let intervals_s = Some((0..steps.len()).map(|k| (start_s(k), start_s(k) + 3.99)).collect());
     (recording, HoldsSetup { intervals_s, ..steady_holds() })
 }
@@ -73,7 +74,7 @@ fn coverage(number: u64, directions: &[Vector3<f64>], tilt_deg: f64, given: bool
             let truth = draw(tilt_rad, &mut rng);
             let recorded = record(&truth, directions, tilt_rad, &mut rng);
             let found = run(&recorded, directions, given.then_some(tilt_rad)).expect("determined");
-            let imu = ImuParameters { accelerometer: truth, ..ImuParameters::identity() };
+            let imu = ImuParameters::identity().with(SensorKind::Accelerometer, truth);
             let of_truth = found.quantities.iter().map(|quantity| quantity.value(&imu));
             let values = found.values.iter().zip(found.sd()).zip(of_truth);
             values.map(|((value, sd), truth)| (value - truth) / sd).collect()
@@ -120,7 +121,7 @@ fn directions_fix_the_frame_and_their_errors_count() {
     let found = run(&recorded, &poses(), Some(2e-3)).expect("determined");
     assert!(found.frame_is_known() && found.quantities.len() == 12);
     assert_eq!(found.holds().and_then(|holds| holds.tilt).expect("faces").source, TiltSource::Given);
-    assert!((found.imu.accelerometer.matrix - truth.matrix).amax() < 4e-3);
+    assert!((found.imu[SensorKind::Accelerometer].matrix - truth.matrix).amax() < 4e-3);
     // twice the alignment, twice the standard deviation of the cross-axis terms
     let doubled = run(&recorded, &poses(), Some(4e-3)).expect("determined");
     let cross = |of: &Calibration| -> f64 { of.sd()[6..].iter().sum() };
@@ -130,7 +131,7 @@ fn directions_fix_the_frame_and_their_errors_count() {
     let (sensor, stimulus) = (&Sensor::triaxial(SensorModel::Full), Stimulus::Holds(&recorded.1));
     let problem = CalibrationProblem { sensor, recording: &recorded.0, stimulus };
     let free = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
-    assert!((free.imu.accelerometer.matrix - truth.matrix).amax() > 0.01);
+    assert!((free.imu[SensorKind::Accelerometer].matrix - truth.matrix).amax() > 0.01);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use calibrant::batch::{Batch, BatchOptions, BatchResults};
 use calibrant::error::Refusal;
 use calibrant::io::{Experiment, preset};
 use calibrant::progress::Progress;
-use calibrant::sensor::Recording;
+use calibrant::sensor::{Recording, SensorKind};
 use calibrant::session::{Session, SessionOptions, Source};
 use calibrant::{SimulationOptions, simulate};
 
@@ -15,7 +15,9 @@ fn experiment() -> Experiment {
 /// A sensor held still.
 fn recording(seed: u64) -> Recording {
     let options = SimulationOptions { seed: Some(seed), ..SimulationOptions::default() };
-    simulate(&experiment(), &options).expect("simulated").recording.accelerometer.expect("there")
+    simulate(&experiment(), &options).expect("simulated").recording[SensorKind::Accelerometer]
+        .clone()
+        .expect("there")
 }
 
 /// A batch of recordings with these names and seeds; its results keep their text, and nothing is written.

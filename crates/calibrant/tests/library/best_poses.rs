@@ -16,7 +16,7 @@ use calibrant::information::Criterion;
 use calibrant::information::criterion::DOptimality;
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
-    Gauge, ImuParameters, ParameterList, Recording, Sensor, SensorModel, SensorParameters,
+    Gauge, ImuParameters, ParameterList, Recording, Sensor, SensorKind, SensorModel, SensorParameters,
 };
 use calibrant::simulate::{
     HoldsSimulation, ImuSimulation, Purpose, Rng, TableAction, TableStep, draw_sensor, simulate_holds_in,
@@ -132,8 +132,10 @@ fn in_fixture(problem: &PoseProblem, design: &PoseDesign, number: u64) -> Vec<f6
         between_holds_sd_mps2: BETWEEN,
         ..ImuSimulation::default()
     };
-    let imu = ImuParameters { accelerometer: truth, ..ImuParameters::identity() };
-    let recording = simulate_table(&imu, &steps, &simulation, &mut rng).accelerometer.expect("recorded");
+    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, truth);
+    let recording = simulate_table(&imu, &steps, &simulation, &mut rng)[SensorKind::Accelerometer]
+        .clone()
+        .expect("recorded");
     let setup = holds(design.directions.len(), start_s);
     let problem_of = FacesProblem {
         sensor: &sensor(),

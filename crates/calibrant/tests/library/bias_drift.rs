@@ -6,7 +6,7 @@ use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, ImuSetup, Stimulus, calibrate,
 };
-use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorKind, SensorModel, SensorParameters};
 use calibrant::simulate::{Purpose, Rng, stream};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -70,10 +70,8 @@ fn calibrated(number: u64, drift: &Vector3<f64>, in_order: bool, allowed: f64) -
     let found = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
     let sd = found.sd();
     let of = |k: usize| {
-        let truth = found.quantities[k].value(&calibrant::sensor::ImuParameters {
-            accelerometer: sensor,
-            ..calibrant::sensor::ImuParameters::identity()
-        });
+        let truth = found.quantities[k]
+            .value(&calibrant::sensor::ImuParameters::identity().with(SensorKind::Accelerometer, sensor));
         (found.values[k] - truth) / sd[k]
     };
     ((0..sd.len()).map(of).collect(), found)
@@ -135,7 +133,7 @@ fn the_parameters_of_an_imu_are_within_their_uncertainty_with_a_drift() {
             let mut rng = stream(96, Purpose::Sensor, number);
             let imu = draw_imu(&mut rng);
             let mut recording = ByHand::default().record(&imu, &mut rng);
-            let accelerometer = recording.accelerometer.as_mut().expect("there");
+            let accelerometer = recording[SensorKind::Accelerometer].as_mut().expect("there");
             let count = accelerometer.len() as f64;
             for (k, reading) in accelerometer.readings_mut().iter_mut().enumerate() {
                 *reading += Vector3::new(0.3, -0.5, 0.8) * (drift_mps2 * (k as f64 / count - 0.5));

@@ -10,7 +10,7 @@ use calibrant::estimate::{
     Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuProblem,
     ImuSetup, calibrate_imu, cross_validate_imu,
 };
-use calibrant::sensor::{ImuParameters, ImuRecording, Recording, Sensor, SensorModel};
+use calibrant::sensor::{ImuParameters, ImuRecording, Recording, Sensor, SensorKind, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
 use rand::RngExt;
@@ -52,8 +52,9 @@ fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameter
     let imu = draw_imu(&mut rng);
     let mut both = simulate_imu(&imu, setup, &mut rng);
     let arm = Vector3::from_fn(|_, _| arm_sd_m * crate::common::normal(&mut rng));
-    let (Some(forces), Some(rates)) = (&mut both.accelerometer, &both.gyroscope) else { unreachable!() };
-    let rate = |k: usize| rates.readings()[k] - imu.gyroscope.bias;
+    let rates = both[SensorKind::Gyroscope].clone().expect("of an IMU");
+    let forces = both[SensorKind::Accelerometer].as_mut().expect("of an IMU");
+    let rate = |k: usize| rates.readings()[k] - imu[SensorKind::Gyroscope].bias;
     for k in 4..rates.len() - 4 {
         let change = (rate(k + 4) - rate(k - 4)) * (400.0 / 8.0);
         forces.readings_mut()[k] += change.cross(&arm) + rate(k).cross(&rate(k).cross(&arm));
@@ -63,11 +64,13 @@ fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameter
 
 /// The accelerometer at 50 to 200 Hz and the gyroscope at 80 to 400 Hz, whose time becomes `clock(t)`.
 fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuRecording {
-    let (Some(forces), Some(rates)) = (&both.accelerometer, &both.gyroscope) else { unreachable!() };
+    let (Some(forces), Some(rates)) = (&both[SensorKind::Accelerometer], &both[SensorKind::Gyroscope]) else {
+        unreachable!()
+    };
     let steps = [[4, 1], [2, 5], [8, 2], [4, 4], [3, 3]][number as usize % 5];
     let (accelerometer, gyroscope) = (every(forces, steps[0], 1), every(rates, steps[1], 2));
     let gyroscope = retimed(&gyroscope, clock);
-    ImuRecording { accelerometer: Some(accelerometer), gyroscope: Some(gyroscope), temperature_c: None }
+    ImuRecording { sensors: [Some(accelerometer), Some(gyroscope)].into(), temperature_c: None }
 }
 
 /// An IMU that is turned about a point some centimetres beside it; the time of the gyroscope becomes
@@ -75,7 +78,7 @@ fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuR
 fn pair(number: u64, clock: impl Fn(f64) -> f64) -> (ImuParameters, ImuRecording) {
     let setup = ImuSimulation { rate_hz: 400.0, hold_s: 4.0, ..ImuSimulation::default() };
     let (imu, mut both) = on_an_arm(number, &setup, 0.03);
-    for of in [&mut both.accelerometer, &mut both.gyroscope] {
+    for of in both.sensors.iter_mut().map(|(_, of)| of) {
         *of = of.as_ref().map(|of| of_uneven_holds(of, number));
     }
     (imu, thinned(&both, number, clock))
@@ -185,7 +188,7 @@ fn the_xsens_pair_is_not_accused() {
     assert_eq!(message(&calibrate(&recording)), None);
     // and it is so with a wrong clock
     let mut other = recording;
-    let gyroscope = other.gyroscope.as_mut().expect("there");
+    let gyroscope = other[SensorKind::Gyroscope].as_mut().expect("there");
     *gyroscope = retimed(gyroscope, |t| 3.0 + (t - 3.0) * 1.0002);
     let calibration = calibrate(&other);
     let warning = message(&calibration).expect("told");
@@ -199,8 +202,8 @@ fn a_clock_that_goes_faster_is_told_with_its_rate_and_the_advice_repairs_the_gai
         let rate = [3e-4, -3e-4, 1e-3, -5e-3, 5e-3][k as usize % 5];
         let (imu, mut recording) = pair(k, |t| 5.0 + (t - 5.0) * (1.0 + rate) + 0.02);
         let off = |calibration: &Calibration| {
-            let gain = calibration.imu.gyroscope.matrix.trace() / 3.0;
-            gain / (imu.gyroscope.matrix.trace() / 3.0) - 1.0
+            let gain = calibration.imu[SensorKind::Gyroscope].matrix.trace() / 3.0;
+            gain / (imu[SensorKind::Gyroscope].matrix.trace() / 3.0) - 1.0
         };
         let calibration = run(&recording).expect("determined");
         let warning = message(&calibration).unwrap_or_else(|| panic!("{rate}: {:?}", calibration.warnings));
@@ -219,7 +222,7 @@ fn a_clock_that_goes_faster_is_told_with_its_rate_and_the_advice_repairs_the_gai
             (_, true) => number(&warning, "and add "),
             _ => 0.0,
         };
-        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
         let first = gyroscope.times_s()[0];
         *gyroscope = retimed(gyroscope, |t| first + (t - first) * factor + shift);
         let repaired = run(&recording).expect("determined");

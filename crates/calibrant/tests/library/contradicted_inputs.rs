@@ -4,7 +4,7 @@ use crate::common::draw_imu;
 use crate::common::messages;
 use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{Calibration, CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu};
-use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
+use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorKind, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
 use nalgebra::Vector3;
 
@@ -51,12 +51,12 @@ fn a_given_hold_in_which_the_sensor_turns_about_the_vertical_is_named_and_tells_
             "{:?}",
             clean.warnings
         );
-        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
         // in the second hold, with -x up, from 14 to 19 s
         let (start_s, end_s) = if rate < 0.1 { (13.0, 20.0) } else { (during.start, during.end) };
         for (t, y) in gyroscope.samples_mut() {
             if (start_s..end_s).contains(t) {
-                *y += truth.gyroscope.matrix.column(0) * rate;
+                *y += truth[SensorKind::Gyroscope].matrix.column(0) * rate;
             }
         }
         let calibration = run(&recording, &setup).expect("determined");
@@ -71,7 +71,7 @@ fn a_given_hold_in_which_the_sensor_turns_about_the_vertical_is_named_and_tells_
             message[0]
         );
         assert!(message[0].contains("Correct holds.intervals_s"), "{}", message[0]);
-        let off = (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
+        let off = (calibration.imu[SensorKind::Gyroscope].bias - truth[SensorKind::Gyroscope].bias).amax();
         assert!(off < 1e-3, "{rate}: the bias is off by {off}");
         let bias_sd = calibration.sd()[12];
         assert!(bias_sd < 2.0 * clean.sd()[12], "{bias_sd} in place of {}", clean.sd()[12]);

@@ -173,7 +173,9 @@ fn the_vertical_rate_is_in_the_model_and_without_a_latitude_it_is_the_g_sensitiv
         let truth = draw_imu(&mut rng);
         let recording = simulate_imu(&truth, &quiet_world(latitude_deg), &mut rng);
         let off = |calibration: &Calibration| calibration.imu.g_sensitivity - truth.g_sensitivity;
-        let bias = |calibration: &Calibration| calibration.imu.gyroscope.bias - truth.gyroscope.bias;
+        let bias = |calibration: &Calibration| {
+            calibration.imu[SensorKind::Gyroscope].bias - truth[SensorKind::Gyroscope].bias
+        };
         // the rotations leave an error of the integration of a linear rate
         let close =
             |calibration: &Calibration| off(calibration).amax() < 2e-9 && bias(calibration).amax() < 2e-8;
@@ -196,11 +198,13 @@ fn the_vertical_rate_is_in_the_model_and_without_a_latitude_it_is_the_g_sensitiv
         }
         // without a latitude all of it goes into the g-sensitivity, and the covariance contains that
         let unknown = Bench::new(true, None).calibrate(&recording);
-        let expected = truth.gyroscope.matrix * (earth_rate(latitude_deg).z / GRAVITY);
+        let expected = truth[SensorKind::Gyroscope].matrix * (earth_rate(latitude_deg).z / GRAVITY);
         assert!((off(&unknown) - expected).amax() < 2e-9 && bias(&unknown).amax() < 2e-8);
         let (places, added) = (g_sensitivity(&unknown), &unknown.covariance - &calibration.covariance);
         let slope = |k: usize| match unknown.quantities[k] {
-            ImuQuantity::GSensitivity(row, column) => truth.gyroscope.matrix[(row.index(), column.index())],
+            ImuQuantity::GSensitivity(row, column) => {
+                truth[SensorKind::Gyroscope].matrix[(row.index(), column.index())]
+            }
             _ => 0.0,
         };
         let scale = (EARTH_RATE_RADPS / GRAVITY).powi(2) / 3.0;
@@ -219,7 +223,9 @@ fn without_g_sensitivity_the_holds_tell_the_vertical_rate() {
     let truth = ImuParameters { g_sensitivity: Matrix3::zeros(), ..draw_imu(&mut rng) };
     let recording = simulate_imu(&truth, &quiet_world(-70.0), &mut rng);
     let [known, unknown] = [Some(-70.0), None].map(|at| Bench::new(false, at).calibrate(&recording));
-    let bias = |calibration: &Calibration| (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
+    let bias = |calibration: &Calibration| {
+        (calibration.imu[SensorKind::Gyroscope].bias - truth[SensorKind::Gyroscope].bias).amax()
+    };
     assert!(bias(&known) < 2e-8 && bias(&unknown) < 2e-8, "{:e} {:e}", bias(&known), bias(&unknown));
     // what is not given counts as scatter in another recording
     let scatter = |calibration: &Calibration| {
@@ -235,14 +241,14 @@ fn where_a_rotation_cannot_be_followed_another_heading_begins() {
     let mut rng = stream(96, Purpose::Sensor, 0);
     let truth = draw_imu(&mut rng);
     let mut recording = simulate_imu(&truth, &quiet_world(34.0), &mut rng);
-    let gyroscope = recording.gyroscope.as_mut().expect("a gyroscope");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("a gyroscope");
     // the gyroscope pauses in the third, the fourth and the tenth rotation, so that a hold is alone
     let paused = |t: f64| [3, 4, 10].iter().any(|&k| (t - 4.5 * f64::from(k) + 1.0).abs() < 0.4);
     *gyroscope = gyroscope.only(|k| !paused(gyroscope.times_s()[k]));
     let calibration = Bench::new(true, Some(34.0)).calibrate(&recording);
     assert_eq!(calibration.rotations().iter().filter(|rotation| !rotation.used).count(), 3);
     let off = (calibration.imu.g_sensitivity - truth.g_sensitivity).amax();
-    let bias = (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
+    let bias = (calibration.imu[SensorKind::Gyroscope].bias - truth[SensorKind::Gyroscope].bias).amax();
     assert!(off < 2e-9 && bias < 2e-8, "{off:e} {bias:e}");
 }
 
@@ -291,9 +297,9 @@ fn a_turn_on_a_table_is_that_of_the_sensor_and_the_earth() {
     for latitude_deg in [Some(60.0), None] {
         let bench = Bench { setup: ImuSetup { latitude_deg, ..setup.clone() }, ..Bench::new(false, None) };
         let calibration = bench.calibrate(&recording);
-        let off = calibration.imu.gyroscope.matrix - truth.gyroscope.matrix;
+        let off = calibration.imu[SensorKind::Gyroscope].matrix - truth[SensorKind::Gyroscope].matrix;
         for axis in 0..3 {
-            let share = off[(axis, axis)] / truth.gyroscope.matrix[(axis, axis)];
+            let share = off[(axis, axis)] / truth[SensorKind::Gyroscope].matrix[(axis, axis)];
             assert!(share.abs() < 2e-6, "{latitude_deg:?} {axis}: {share:e}");
         }
     }

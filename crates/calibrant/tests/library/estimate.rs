@@ -8,7 +8,7 @@ use calibrant::estimate::{
 use calibrant::motion::{
     CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, Limits, MotionClock, Trust,
 };
-use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{Recording, Sensor, SensorKind, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
 };
@@ -49,9 +49,10 @@ fn known_motion_equals_ordinary_least_squares() {
             let normal = x.tr_mul(&x).try_inverse().expect("regular");
             let ols = x.clone().svd(true, true).solve(&y, 0.0).expect("solved");
             let sigma = 2e-4;
-            assert!((ols[0] - calibration.imu.accelerometer.bias[axis]).abs() < 1e-12);
+            assert!((ols[0] - calibration.imu[SensorKind::Accelerometer].bias[axis]).abs() < 1e-12);
             for (c, &column) in columns.iter().enumerate() {
-                let difference = ols[1 + c] - calibration.imu.accelerometer.matrix[(axis, column)];
+                let difference =
+                    ols[1 + c] - calibration.imu[SensorKind::Accelerometer].matrix[(axis, column)];
                 assert!(difference.abs() < 1e-12, "{model:?} {axis}{column}: {difference}");
             }
             let sd = calibration.sd()[axis];

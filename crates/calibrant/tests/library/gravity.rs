@@ -10,7 +10,7 @@ use calibrant::information::Criterion;
 use calibrant::information::criterion::{AOptimality, DOptimality};
 use calibrant::io::{Experiment, preset};
 use calibrant::motion::{CommandedMotion, InputNoise, KnownEnds, Limits, MotionClock, MotionGravity, Trust};
-use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{Recording, Sensor, SensorKind, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_gravity, draw_sensor, initial_motion, sample_times, simulate_recording, stream,
 };
@@ -86,7 +86,7 @@ fn a_known_motion_with_gravity_equals_dense_least_squares() {
             for datasheet_prior in [false, true] {
                 let settings = CalibrationSettings { datasheet_prior, ..CalibrationSettings::default() };
                 let calibration = calibrate(&case.problem(), &settings).expect("identifiable");
-                let matrix = calibration.imu.accelerometer.matrix;
+                let matrix = calibration.imu[SensorKind::Accelerometer].matrix;
                 let (values, covariance) = dense(&case, &gravity, &matrix, datasheet_prior);
                 let p = calibration.values.len();
                 let sd = calibration.sd();
@@ -145,7 +145,7 @@ fn gravity_changes_the_bias_and_nothing_else() {
             assert!((a - b).amax() < 1e-9 + CONVERGED * noise);
         }
         // the constant was made with the true S, and is taken out with the estimated one
-        let shift = (with.truth.matrix - other.imu.accelerometer.matrix) * gravity.force_mps2;
+        let shift = (with.truth.matrix - other.imu[SensorKind::Accelerometer].matrix) * gravity.force_mps2;
         for k in 0..one.values.len() {
             let expected = one.values[k] + if k < 3 { shift[k] } else { 0.0 };
             let off = (other.values[k] - expected) / one.sd()[k];

@@ -12,7 +12,7 @@ use calibrant::estimate::{
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
     Correction, Gauge, ImuParameters, NonlinearTerm, Nonlinearity, ReadingUnit, Recording, Sensor,
-    SensorModel, SensorParameters,
+    SensorKind, SensorModel, SensorParameters,
 };
 use calibrant::simulate::{HoldsSimulation, Purpose, draw_sensor, simulate_holds, stream};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -81,7 +81,7 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
         "about 1 mm/s² over the hold means"
     );
 
-    let correction = Correction::of(&calibration.imu.accelerometer).expect("regular");
+    let correction = Correction::of(&calibration.imu[SensorKind::Accelerometer]).expect("regular");
     let gains = correction.scale().map(|k| 1.0 / k);
     let t = correction.misalignment();
     // standard deviations of a refit on hold means, by another program
@@ -147,7 +147,7 @@ fn terms_that_bend_the_response_are_estimated() {
         assert!(linear.warnings.iter().any(is_named), "{seed}: {:?}", messages(&linear.warnings));
         let calibration = run(&Sensor::triaxial(SensorModel::Full), &recording, &both).expect("identifiable");
         assert_eq!(messages(&calibration.warnings), Vec::<String>::new(), "{seed}");
-        let truth = ImuParameters { accelerometer: truth, ..ImuParameters::identity() };
+        let truth = ImuParameters::identity().with(SensorKind::Accelerometer, truth);
         for ((quantity, value), sd) in
             calibration.quantities.iter().zip(&calibration.values).zip(calibration.sd().iter())
         {
@@ -188,12 +188,15 @@ fn every_gauge_describes_the_same_sensor() {
     });
     for (_, one) in &results {
         for (gauge, other) in &results {
-            let converted = gauge.apply(&one.imu.accelerometer);
-            assert!((converted.matrix - other.imu.accelerometer.matrix).amax() < 1e-8, "to {gauge:?}");
+            let converted = gauge.apply(&one.imu[SensorKind::Accelerometer]);
             assert!(
-                (converted.bias - other.imu.accelerometer.bias).amax() < 1e-8,
+                (converted.matrix - other.imu[SensorKind::Accelerometer].matrix).amax() < 1e-8,
+                "to {gauge:?}"
+            );
+            assert!(
+                (converted.bias - other.imu[SensorKind::Accelerometer].bias).amax() < 1e-8,
                 "{}",
-                converted.bias - other.imu.accelerometer.bias
+                converted.bias - other.imu[SensorKind::Accelerometer].bias
             );
             assert!((one.fit.chi2 - other.fit.chi2).abs() < 1e-6, "the fit does not depend on the gauge");
         }
@@ -207,8 +210,8 @@ fn scale_bias_is_the_full_model_without_cross_axis_terms() {
         run(&sensor(SensorModel::ScaleBias), &recording, &steady_holds()).expect("identifiable");
     assert_eq!(calibration.parameters.len(), 6);
     assert_eq!(
-        calibration.imu.accelerometer.matrix,
-        Matrix3::from_diagonal(&calibration.imu.accelerometer.matrix.diagonal())
+        calibration.imu[SensorKind::Accelerometer].matrix,
+        Matrix3::from_diagonal(&calibration.imu[SensorKind::Accelerometer].matrix.diagonal())
     );
 }
 

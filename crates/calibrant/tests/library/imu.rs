@@ -5,7 +5,7 @@ use crate::common::{steady_holds, steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{Calibration, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, Turn};
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_recording, read_sections};
 use calibrant::motion::earth_rate;
-use calibrant::sensor::ReadingUnit;
+use calibrant::sensor::{ReadingUnit, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ fn xsens_mti_agrees_with_imu_tk_and_leaves_less_error_after_each_rotation() {
         let Some(calibration) = xsens(g_sensitivity) else { return };
         assert_eq!(calibration.status, CalibrationStatus::Converged);
         assert_eq!(calibration.rotations().len(), 37);
-        let correction = calibration.imu.gyroscope.matrix.try_inverse().expect("regular");
+        let correction = calibration.imu[SensorKind::Gyroscope].matrix.try_inverse().expect("regular");
         for (axis, gain) in [4777.956, 4764.207, 4773.657].into_iter().enumerate() {
             let own = 1.0 / correction[(axis, axis)];
             assert!((own / gain - 1.0).abs() < 3e-3, "axis {axis}: {own} beside {gain}");
@@ -48,7 +48,12 @@ fn xsens_mti_has_the_misalignment_that_the_factory_states() {
     };
     for i in 0..3 {
         for j in 0..3 {
-            let own = cosine(&calibration.imu.accelerometer.matrix, i, &calibration.imu.gyroscope.matrix, j);
+            let own = cosine(
+                &calibration.imu[SensorKind::Accelerometer].matrix,
+                i,
+                &calibration.imu[SensorKind::Gyroscope].matrix,
+                j,
+            );
             let factory = cosine(&accelerometer, i, &gyroscope, j);
             // the factory rounds each entry to 0.01
             assert!((own - factory).abs() < 0.02, "accelerometer {i}, gyroscope {j}: {own} beside {factory}");
@@ -72,7 +77,7 @@ fn a_ferraris_session_agrees_with_imucal() {
         ..ImuReadOptions::default()
     };
     let recording = read_imu_recording(&path, &options).expect("readable").recording;
-    let times = recording.accelerometer.as_ref().expect("there").times_s().to_vec();
+    let times = recording[SensorKind::Accelerometer].as_ref().expect("there").times_s().to_vec();
     let mut setup = steady_imu();
     setup.holds.gravity.magnitude_mps2 = 9.81;
     let (mut intervals, mut directions) = (Vec::new(), Vec::new());
@@ -107,16 +112,16 @@ fn a_ferraris_session_agrees_with_imucal() {
     let tilt = calibration.holds().expect("held").tilt.expect("faces");
     let imu = &calibration.imu;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let gain = imu.accelerometer.matrix.row(axis).norm();
+        let gain = imu[SensorKind::Accelerometer].matrix.row(axis).norm();
         // a tilted face shows less than gravity: theirs is too small by the square of the tilt
         let theirs = [0.996_745_865_1, 1.002_437_618_6, 1.023_395_347_5][axis] / (1.0 - tilt.sd_rad.powi(2));
         assert!((gain - theirs).abs() < 1e-6, "K_a {name}: {gain} beside {theirs}");
-        let gain = imu.gyroscope.matrix.row(axis).norm();
+        let gain = imu[SensorKind::Gyroscope].matrix.row(axis).norm();
         let theirs = [1.027_924_326_4, 0.982_427_773_8, 0.998_310_487_4][axis];
         // imucal multiplies the sum of samples by 1/rate, calibrant integrates from the first sample to the last
         let scale = sd(&format!("gyroscope.scale.{name}"));
         assert!((gain - theirs).abs() < 0.1 * scale, "K_g {name}: {gain} beside {theirs}, sd {scale}");
-        let bias = imu.accelerometer.bias[axis];
+        let bias = imu[SensorKind::Accelerometer].bias[axis];
         let theirs = [0.537_117_424_4, -0.616_202_993_1, 0.398_867_342_4][axis];
         let bias_sd = sd(&format!("accelerometer.bias.{name}"));
         assert!((bias - theirs).abs() < 2.0 * bias_sd, "b_a {name}: {bias} beside {theirs}, sd {bias_sd}");
@@ -125,8 +130,8 @@ fn a_ferraris_session_agrees_with_imucal() {
         let faces = &calibration.hold_results()[2 * axis..2 * axis + 2];
         let middle = 0.5 * (faces[0].hold.mean + faces[1].hold.mean);
         assert!((middle[axis] - theirs).abs() < 1e-8, "b_a {name}: {} beside {theirs}", middle[axis]);
-        let left =
-            imu.accelerometer.matrix.try_inverse().expect("regular") * (middle - imu.accelerometer.bias);
+        let left = imu[SensorKind::Accelerometer].matrix.try_inverse().expect("regular")
+            * (middle - imu[SensorKind::Accelerometer].bias);
         assert!(left[axis].abs() < 0.05 * bias_sd, "b_a {name}: {left}, sd {bias_sd}");
     }
     // face alignment by hand: between a tenth of a degree and two

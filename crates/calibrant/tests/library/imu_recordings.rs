@@ -6,7 +6,7 @@ use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::diagnostic::RotationReason;
 use calibrant::error::Error;
 use calibrant::estimate::{CalibrationStatus, Gyroscope, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
-use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording};
+use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -24,7 +24,7 @@ fn fails(recording: &ImuRecording, gyroscope: &Gyroscope) -> Error {
 #[test]
 fn degrees_that_are_called_radians_are_named() {
     let (_, mut recording) = small();
-    let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
+    let readings = recording[SensorKind::Gyroscope].as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|reading| *reading *= 180.0 / std::f64::consts::PI);
     let message = fails(&recording, &unfeeling_gyroscope()).to_string();
     assert!(message.contains("in deg/s, not rad/s"), "{message}");
@@ -34,12 +34,13 @@ fn degrees_that_are_called_radians_are_named() {
 fn counts_of_an_unknown_gain_and_axes_in_another_order_are_found() {
     let (truth, mut recording) = small();
     let order = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0) * 1000.0;
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     *gyroscope = gyroscope.mapped(ReadingUnit::Counts, |reading| order * reading + Vector3::repeat(32768.0));
     let model = Gyroscope { unit: ReadingUnit::Counts, ..unfeeling_gyroscope() };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &model, &steady_imu(), unit).expect("found");
-    let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
+    let error =
+        (calibration.imu[SensorKind::Gyroscope].matrix - order * truth[SensorKind::Gyroscope].matrix).amax();
     assert!(error < 5.0, "{error} of 1000");
     assert!(
         messages(&calibration.warnings)
@@ -52,11 +53,12 @@ fn counts_of_an_unknown_gain_and_axes_in_another_order_are_found() {
 fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
     let (truth, mut recording) = small();
     let order = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0);
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     gyroscope.readings_mut().iter_mut().for_each(|reading| *reading = order * *reading);
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
-    let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
+    let error =
+        (calibration.imu[SensorKind::Gyroscope].matrix - order * truth[SensorKind::Gyroscope].matrix).amax();
     assert!(error < 5e-3, "{error}");
     let warning = "along x, y and z of the accelerometer lie y, -x and -z of the gyroscope";
     assert!(
@@ -70,7 +72,7 @@ fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
 #[test]
 fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
     let (truth, mut recording) = small();
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     let limit = 1.6;
     let whole = gyroscope.readings().to_vec();
     gyroscope
@@ -79,7 +81,7 @@ fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
         .for_each(|reading| *reading = reading.map(|rate| rate.clamp(-limit, limit)));
     let is_cut = |from: f64, to: f64| {
         let within = |t: &f64| (from..=to).contains(t);
-        let times = recording.gyroscope.as_ref().expect("there").times_s();
+        let times = recording[SensorKind::Gyroscope].as_ref().expect("there").times_s();
         times.iter().zip(&whole).filter(|(t, _)| within(t)).filter(|(_, rate)| rate.amax() > limit).count()
             > 2
     };
@@ -92,7 +94,7 @@ fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
         let saturates = matches!(rotation.reason, Some(RotationReason::Saturated(..)));
         assert_eq!(saturates, cut, "{rotation:?}");
     }
-    let error = (calibration.imu.gyroscope.matrix - truth.gyroscope.matrix).amax();
+    let error = (calibration.imu[SensorKind::Gyroscope].matrix - truth[SensorKind::Gyroscope].matrix).amax();
     assert!(error < 5e-3, "{error}");
 }
 
@@ -126,8 +128,11 @@ fn an_axis_about_which_nothing_turns_is_named() {
         Recording::new(times_s, readings, 3, unit).expect("samples in order")
     };
     let recording = ImuRecording {
-        accelerometer: Some(noisy(&forces, 0.01, ReadingUnit::MetrePerSecondSquared)),
-        gyroscope: Some(noisy(&rates, 2e-3, ReadingUnit::RadianPerSecond)),
+        sensors: [
+            Some(noisy(&forces, 0.01, ReadingUnit::MetrePerSecondSquared)),
+            Some(noisy(&rates, 2e-3, ReadingUnit::RadianPerSecond)),
+        ]
+        .into(),
         temperature_c: None,
     };
     let error = fails(&recording, &unfeeling_gyroscope());
@@ -139,7 +144,7 @@ fn an_axis_about_which_nothing_turns_is_named() {
 #[test]
 fn an_axis_that_is_not_connected_is_named() {
     let (_, mut recording) = small();
-    let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
+    let readings = recording[SensorKind::Gyroscope].as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|reading| reading.y = 0.0);
     let message = fails(&recording, &unfeeling_gyroscope()).to_string();
     assert!(message.contains("axis y of the gyroscope never changes"), "{message}");
@@ -153,7 +158,7 @@ fn a_gyroscope_of_another_recording_is_refused() {
         &ImuSimulation::default(),
         &mut stream(9, Purpose::Sensor, 1),
     );
-    recording.gyroscope = other.gyroscope;
+    recording[SensorKind::Gyroscope] = other[SensorKind::Gyroscope].clone();
     let message = fails(&recording, &unfeeling_gyroscope()).to_string();
     assert!(message.contains("do not fit the accelerometer's"), "{message}");
 }
@@ -162,7 +167,7 @@ fn a_gyroscope_of_another_recording_is_refused() {
 fn a_gyroscope_that_ends_early_leaves_named_parameters_undetermined() {
     let (_, mut recording) = small();
     // it ends in the second hold
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     *gyroscope = gyroscope.only(|k| k < 690);
     let error = fails(&recording, &unfeeling_gyroscope());
     assert!(error.is_not_identifiable(), "{error}");
@@ -180,7 +185,7 @@ fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
         (6000..10_600, "the gyroscope's recording begins only at 60.0 s"),
     ] {
         let mut recording = whole.clone();
-        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
         *gyroscope = gyroscope.only(|k| covered.contains(&k));
         let calibration = run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), unit).expect("found");
         let holds = &calibration.hold_results();
@@ -226,7 +231,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
     assert_eq!(calibration.quantities.len(), 20);
-    assert_eq!(calibration.imu.gyroscope.bias.x, truth.gyroscope.bias.x);
+    assert_eq!(calibration.imu[SensorKind::Gyroscope].bias.x, truth[SensorKind::Gyroscope].bias.x);
     let place =
         calibration.quantities.iter().position(|known| known.name() == "gyroscope.scale.y").expect("there");
     assert!(calibration.prior_share[place] > 0.99 && calibration.sd()[place] < 1e-6);
@@ -236,7 +241,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let fixed = KnownTerm { quantity: quantity("gyroscope.scale.x"), value: 0.9, sd: None };
     let setup = ImuSetup { known: vec![fixed], ..steady_imu() };
     let calibration = run_imu(&recording, &unfeeling_gyroscope(), &setup, unit).expect("determined");
-    assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
+    assert_eq!(calibration.imu[SensorKind::Gyroscope].matrix.m11, 0.9);
     let message = messages(&calibration.warnings).join("; ");
     assert!(message.contains("gyroscope.scale.x in [known]: the given value is 0.9"), "{message}");
     let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 0.1, sd: Some(1e-4) };
@@ -332,10 +337,12 @@ fn the_noise_of_a_sample_is_the_datasheets_then_that_of_a_long_hold_then_the_sca
 #[test]
 fn a_turned_gyroscope_is_found_in_the_accelerometers_frame() {
     let (mut truth, _) = small();
-    truth.gyroscope.matrix *= Rotation3::from_euler_angles(0.02, -0.03, 0.05).matrix();
+    truth[SensorKind::Gyroscope].matrix *= Rotation3::from_euler_angles(0.02, -0.03, 0.05).matrix();
     let recording = simulate_imu(&truth, &ImuSimulation::default(), &mut stream(4, Purpose::Sensor, 7));
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &gyroscope, &steady_imu(), unit).expect("determined");
-    assert!((calibration.imu.gyroscope.matrix - truth.gyroscope.matrix).amax() < 3e-3);
+    assert!(
+        (calibration.imu[SensorKind::Gyroscope].matrix - truth[SensorKind::Gyroscope].matrix).amax() < 3e-3
+    );
 }

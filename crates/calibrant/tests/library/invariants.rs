@@ -3,7 +3,7 @@
 use crate::common::case::Case;
 use calibrant::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
 use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Trust};
-use calibrant::sensor::SensorModel;
+use calibrant::sensor::{SensorKind, SensorModel};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -57,9 +57,9 @@ proptest! {
         let sd = one.sd();
         for axis in 0..3 {
             let from = (axis + 1) % 3;
-            prop_assert!((one.imu.accelerometer.bias[from] - other.imu.accelerometer.bias[axis]).abs() < 1e-5 * sd[from]);
+            prop_assert!((one.imu[SensorKind::Accelerometer].bias[from] - other.imu[SensorKind::Accelerometer].bias[axis]).abs() < 1e-5 * sd[from]);
             for column in 0..3 {
-                let difference = one.imu.accelerometer.matrix[(from, (column + 1) % 3)] - other.imu.accelerometer.matrix[(axis, column)];
+                let difference = one.imu[SensorKind::Accelerometer].matrix[(from, (column + 1) % 3)] - other.imu[SensorKind::Accelerometer].matrix[(axis, column)];
                 prop_assert!(difference.abs() < 1e-5 * sd[3 + from].max(1e-12), "{difference}");
             }
         }

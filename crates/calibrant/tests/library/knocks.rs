@@ -86,7 +86,7 @@ fn spikes_beside_knocks_are_found() {
         let imu = draw_imu(&mut rng);
         let setup = ByHand { knocks: true, filtered: true, rate_hz: 200.0, ..ByHand::default() };
         let mut recording = setup.record(&imu, &mut rng);
-        let gyroscope = recording.gyroscope.as_mut().expect("recorded");
+        let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("recorded");
         let mut wrong = Vec::new();
         for (k, reading) in gyroscope.readings_mut().iter_mut().enumerate() {
             if rng.random::<f64>() < 1.0 / 2000.0 {

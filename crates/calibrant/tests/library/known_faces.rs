@@ -161,13 +161,13 @@ fn a_session_without_noise_converges() {
         let truth = draw_imu(&mut rng);
         let mut recording = simulate_table(&truth, &steps, &quiet, &mut rng);
         // a file of seven decimals
-        let of = recording.accelerometer.as_mut().expect("recorded");
+        let of = recording[SensorKind::Accelerometer].as_mut().expect("recorded");
         for reading in of.readings_mut() {
             *reading = reading.map(|y| (y * 1e7).round() / 1e7);
         }
         let found = run(&recording, &setup).expect("determined");
         assert_eq!(found.status, CalibrationStatus::Converged);
-        let off = found.imu.accelerometer.matrix - truth.accelerometer.matrix;
+        let off = found.imu[SensorKind::Accelerometer].matrix - truth[SensorKind::Accelerometer].matrix;
         assert!(off.amax() < 2e-8, "{off}");
     }
 }
@@ -190,8 +190,8 @@ fn a_box_off_square_is_in_the_standard_deviations() {
                 });
                 // in the axes of the box
                 let mut there = truth;
-                there.accelerometer.matrix *= off_square;
-                there.gyroscope.matrix *= off_square;
+                there[SensorKind::Accelerometer].matrix *= off_square;
+                there[SensorKind::Gyroscope].matrix *= off_square;
                 let recording = simulate_table(&there, &steps, &ImuSimulation::default(), &mut rng);
                 let calibration = run(&recording, &setup).expect("determined");
                 let tilt = calibration.holds().and_then(|holds| holds.tilt).expect("faces");
@@ -228,7 +228,7 @@ fn crooked_sensors_with_gains_that_are_off_are_calibrated() {
             let mut truth = draw_imu(&mut rng);
             // signs by the bits of the number, the two sensors' in opposite order: the worst of them are
             // turned against each other
-            for (k, sensor_kind) in [&mut truth.accelerometer, &mut truth.gyroscope].into_iter().enumerate() {
+            for (k, sensor_kind) in truth.sensors.iter_mut().map(|(_, of)| of).enumerate() {
                 let mut bits = if k == 0 { sensor } else { !sensor };
                 let mut sign = || {
                     bits = bits.rotate_right(1);
@@ -280,7 +280,7 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     // along gravity: noise of 500 samples, and the square of the tilt twice, of two faces each; half as much variance of what they share
     let (noise, square) = (0.01 / 9.806_65 / 500.0_f64.sqrt(), 0.3_f64.to_radians().powi(2));
     // the effect of a tilt through the other two axes
-    let of_others = cross * calibration.imu.accelerometer.matrix.fixed_view::<1, 2>(0, 1).norm();
+    let of_others = cross * calibration.imu[SensorKind::Accelerometer].matrix.fixed_view::<1, 2>(0, 1).norm();
     let found = calibration.sd()[place("accelerometer.scale.x")];
     let expected = (0.5 * noise * noise + 1.5 * square * square + of_others * of_others).sqrt();
     assert!((found / expected - 1.0).abs() < 0.05, "{found} {expected}");
@@ -294,7 +294,7 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     let message = messages(&large.warnings).join("; ");
     assert!(!message.contains("face_sd_deg"), "a small scatter says nothing of what faces share: {message}");
     let free = tilted(&six, 0.3, None);
-    let by = large.imu.accelerometer.matrix / free.imu.accelerometer.matrix[(0, 0)];
+    let by = large.imu[SensorKind::Accelerometer].matrix / free.imu[SensorKind::Accelerometer].matrix[(0, 0)];
     assert!((by[(0, 0)] - 1.0).abs() < 1e-6, "{by}");
     let few = tilted(&[six[0], six[2], six[4], six[5]], 0.4, None);
     let assumed = few.holds().expect("held").tilt.expect("faces");

@@ -4,7 +4,7 @@
 use crate::common::messages;
 use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{Calibration, CalibrationSettings, ImuProblem, calibrate_imu};
-use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
+use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorKind, SensorModel};
 use calibrant::simulate::{
     ImuSimulation, Purpose, TableAction, TableStep, simulate_imu, simulate_table, stream,
 };
@@ -20,9 +20,10 @@ fn calibrate(recording: &ImuRecording, model: SensorModel) -> Calibration {
 
 fn imu() -> ImuParameters {
     let mut imu = ImuParameters::identity();
-    imu.accelerometer.bias = Vector3::new(0.1, -0.05, 0.08);
-    imu.gyroscope.bias = Vector3::new(0.01, -0.02, 0.015);
-    imu.gyroscope.matrix = Matrix3::new(1.002, 0.003, -0.004, 0.002, 0.996, 0.005, -0.003, 0.001, 1.004);
+    imu[SensorKind::Accelerometer].bias = Vector3::new(0.1, -0.05, 0.08);
+    imu[SensorKind::Gyroscope].bias = Vector3::new(0.01, -0.02, 0.015);
+    imu[SensorKind::Gyroscope].matrix =
+        Matrix3::new(1.002, 0.003, -0.004, 0.002, 0.996, 0.005, -0.003, 0.001, 1.004);
     imu
 }
 
@@ -36,7 +37,7 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
     for angle in [2.0, 2.5, PI] {
         let mut recording = clean.clone();
         let hold = calibration.hold_results()[7].hold.clone();
-        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
         // just before the hold that was found; across gravity; for a tenth of a second, as one sample is a
         // spike
         let at = hold.first - 3;
@@ -54,13 +55,14 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
         let missed = rotation.error_rad;
         assert!((missed - angle).abs() < 0.03, "{angle}: missed by {missed}");
         assert_eq!(found.rotations().iter().filter(|rotation| !rotation.used).count(), 1);
-        let (one, other) = (found.imu.gyroscope.matrix, calibration.imu.gyroscope.matrix);
+        let (one, other) =
+            (found.imu[SensorKind::Gyroscope].matrix, calibration.imu[SensorKind::Gyroscope].matrix);
         assert!((one - other).amax() < 3e-4, "{angle}: {}", one - other);
     }
 }
 
 fn gyroscope_time(recording: &ImuRecording, at: usize) -> f64 {
-    recording.gyroscope.as_ref().expect("there").times_s()[at]
+    recording[SensorKind::Gyroscope].as_ref().expect("there").times_s()[at]
 }
 
 /// About x only right angles, so that a rotation by −90° in place of 90° gives a rotation error of exactly
@@ -86,16 +88,15 @@ fn an_axis_that_points_the_other_way_is_found_where_all_turns_about_it_are_right
     let setup = ImuSimulation::default();
     let mut recording = simulate_table(&imu(), &steps, &setup, &mut stream(2, Purpose::Sensor, 0));
     let right = calibrate(&recording, SensorModel::ScaleBias);
-    assert!((right.imu.gyroscope.matrix[(0, 0)] - 1.002).abs() < 2e-3);
-    recording
-        .gyroscope
+    assert!((right.imu[SensorKind::Gyroscope].matrix[(0, 0)] - 1.002).abs() < 2e-3);
+    recording[SensorKind::Gyroscope]
         .as_mut()
         .expect("there")
         .readings_mut()
         .iter_mut()
         .for_each(|reading| reading.x = -reading.x);
     let turned = calibrate(&recording, SensorModel::ScaleBias);
-    let (one, other) = (turned.imu.gyroscope.matrix, right.imu.gyroscope.matrix);
+    let (one, other) = (turned.imu[SensorKind::Gyroscope].matrix, right.imu[SensorKind::Gyroscope].matrix);
     assert!(
         (one.row(0) + other.row(0)).amax() < 1e-6 && (one.row(1) - other.row(1)).amax() < 1e-6,
         "{one} {other}"

@@ -4,7 +4,7 @@ use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
 use crate::common::{steady_imu, unfeeling_gyroscope};
 use calibrant::estimate::{Calibration, Gyroscope};
-use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit};
+use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector4};
 
@@ -17,7 +17,7 @@ fn run(recording: &ImuRecording, unit: ReadingUnit) -> calibrant::Result<Calibra
 fn turned(number: u64, by: &Matrix3<f64>) -> (ImuParameters, ImuRecording) {
     let mut rng = stream(501, Purpose::Sensor, number);
     let mut imu = draw_imu(&mut rng);
-    imu.gyroscope.matrix = by * imu.gyroscope.matrix;
+    imu[SensorKind::Gyroscope].matrix = by * imu[SensorKind::Gyroscope].matrix;
     let recording = simulate_imu(&imu, &ImuSimulation::default(), &mut rng);
     (imu, recording)
 }
@@ -38,10 +38,12 @@ fn every_attitude_is_found() {
         let unit = [ReadingUnit::RadianPerSecond, ReadingUnit::Counts][number as usize % 2];
         let gain = if unit == ReadingUnit::Counts { 1000.0 } else { 1.0 };
         let (truth, mut recording) = turned(number, &by);
-        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
         *gyroscope = gyroscope.mapped(unit, |reading| reading * gain);
         let calibration = run(&recording, unit).unwrap_or_else(|error| panic!("{number}: {error}"));
-        let error = (calibration.imu.gyroscope.matrix / gain - truth.gyroscope.matrix).amax();
+        let error = (calibration.imu[SensorKind::Gyroscope].matrix / gain
+            - truth[SensorKind::Gyroscope].matrix)
+            .amax();
         assert!(error < 5e-3, "{number}: {error}");
         let used = calibration.rotations().iter().filter(|rotation| rotation.used).count();
         assert!(used + 1 >= calibration.rotations().len(), "{number}: {used} rotations used");
@@ -66,7 +68,8 @@ fn the_angle_and_the_axis_are_told() {
 fn a_gyroscope_of_another_recording_is_refused_all_the_same() {
     for number in 0..8 {
         let (_, mut recording) = turned(number, &Matrix3::identity());
-        recording.gyroscope = turned(number + 100, &Matrix3::identity()).1.gyroscope;
+        recording[SensorKind::Gyroscope] =
+            turned(number + 100, &Matrix3::identity()).1[SensorKind::Gyroscope].clone();
         let message = run(&recording, ReadingUnit::RadianPerSecond).expect_err("refused").to_string();
         assert!(message.contains("half of the rotations miss gravity"), "{message}");
     }

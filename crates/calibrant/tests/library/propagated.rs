@@ -3,7 +3,7 @@
 use crate::common::hand::ByHand;
 use crate::common::{draw_imu, normal, run_imu};
 use crate::common::{steady_imu, unfeeling_gyroscope};
-use calibrant::sensor::{ImuParameters, ReadingUnit};
+use calibrant::sensor::{ImuParameters, ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
 use nalgebra::DVector;
 
@@ -12,13 +12,15 @@ fn a_derived_figure_scatters_as_its_parameters_do() {
     let mut rng = stream(97, Purpose::Sensor, 0);
     let mut imu = draw_imu(&mut rng);
     // a gain that is poorly known beside a large bias
-    imu.gyroscope.bias.x = 2.0;
+    imu[SensorKind::Gyroscope].bias.x = 2.0;
     let setup = ByHand { poses: 14, gyroscope_noise: 0.05, ..ByHand::default() };
     let recording = setup.record(&imu, &mut rng);
     let found =
         run_imu(&recording, &unfeeling_gyroscope(), &steady_imu(), ReadingUnit::MetrePerSecondSquared)
             .expect("determined");
-    let over_the_gain = |imu: &ImuParameters| imu.gyroscope.bias.x / imu.gyroscope.matrix.row(0).norm();
+    let over_the_gain = |imu: &ImuParameters| {
+        imu[SensorKind::Gyroscope].bias.x / imu[SensorKind::Gyroscope].matrix.row(0).norm()
+    };
     let (value, sd) = found.propagated(over_the_gain);
     let root = found.covariance.clone().cholesky().expect("a covariance").l();
     let draws: Vec<f64> = (0..4000)

@@ -6,7 +6,7 @@ use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
     Calibration, CalibrationSettings, CalibrationStatus, Gyroscope, ImuProblem, ImuSetup, Turn, calibrate_imu,
 };
-use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
+use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorKind, SensorModel};
 use calibrant::simulate::{
     ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_imu, simulate_table, stream,
 };
@@ -20,7 +20,7 @@ fn draw(rng: &mut Rng) -> ImuParameters {
 
 /// Rounds the gyroscope's readings to multiples of a step.
 fn round(recording: &mut ImuRecording, step: f64) {
-    let readings = recording.gyroscope.as_mut().expect("there").readings_mut();
+    let readings = recording[SensorKind::Gyroscope].as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|y| *y = y.map(|rate| (rate / step).round() * step));
 }
 
@@ -136,7 +136,7 @@ fn the_xsens_recording_is_not_coarse() {
     let Some((recording, _)) = crate::common::xsens() else { return };
     let holds = calibrant::estimate::find_imu_holds(&recording, 1.0).expect("found");
     let spans: Vec<_> = holds.iter().map(|hold| hold.first..hold.end).collect();
-    for sensor in [recording.accelerometer, recording.gyroscope] {
+    for sensor in [recording[SensorKind::Accelerometer].clone(), recording[SensorKind::Gyroscope].clone()] {
         let sensor = sensor.expect("there");
         assert_eq!(sensor.resolution(), Vector3::repeat(1.0), "counts");
         assert_eq!(calibrant::estimate::coarse_axes(&sensor, &spans), []);

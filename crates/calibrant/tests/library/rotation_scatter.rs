@@ -5,7 +5,7 @@ use crate::common::{draw_imu, run_imu, steady_imu, unfeeling_gyroscope};
 use calibrant::diagnostic::Diagnostic;
 use calibrant::error::Refusal;
 use calibrant::estimate::{Calibration, Gyroscope, ImuSetup};
-use calibrant::sensor::{ImuRecording, ReadingUnit};
+use calibrant::sensor::{ImuRecording, ReadingUnit, SensorKind};
 use calibrant::simulate::{Purpose, stream};
 use nalgebra::Vector3;
 
@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 fn recorded(number: u64, read: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> ImuRecording {
     let mut rng = stream(95, Purpose::Sensor, number);
     let mut recording = ByHand::default().record(&draw_imu(&mut rng), &mut rng);
-    let gyroscope = recording.gyroscope.as_mut().expect("recorded");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("recorded");
     gyroscope.readings_mut().iter_mut().for_each(|reading| *reading = read(reading));
     recording
 }

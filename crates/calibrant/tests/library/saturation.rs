@@ -26,7 +26,7 @@ fn draw(rng: &mut Rng) -> ImuParameters {
 
 /// Limits axis x of the accelerometer.
 fn clip(recording: &mut ImuRecording, limit: f64) {
-    let readings = recording.accelerometer.as_mut().expect("there").readings_mut();
+    let readings = recording[SensorKind::Accelerometer].as_mut().expect("there").readings_mut();
     readings.iter_mut().for_each(|y| y.x = y.x.clamp(-limit, limit));
 }
 
@@ -84,7 +84,7 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
     let truth = draw(&mut rng);
     let simulation = ImuSimulation { poses: 30, ..ImuSimulation::default() };
     let mut recording = simulate_imu(&truth, &simulation, &mut rng);
-    let whole = recording.accelerometer.clone().expect("there");
+    let whole = recording[SensorKind::Accelerometer].clone().expect("there");
     clip(&mut recording, limit);
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let calibration = run(&recording, &gyroscope, &steady_imu()).expect("determined");
@@ -134,7 +134,7 @@ fn too_few_holds_that_are_not_cut_off_are_an_error_that_says_so() {
     // the accelerometer alone
     let sensor = Sensor::triaxial(SensorModel::Full);
     let setup = steady_holds();
-    let accelerometer = recording.accelerometer.expect("there");
+    let accelerometer = recording[SensorKind::Accelerometer].clone().expect("there");
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &accelerometer, stimulus: Stimulus::Holds(&setup) };
     let error = calibrate(&problem, &CalibrationSettings::default()).expect_err("too few holds");
@@ -187,7 +187,8 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
     let calibration = run(&recording, &unfeeling_gyroscope(), &setup).expect("determined");
     let used: Vec<bool> = calibration.hold_results().iter().map(|hold| hold.used).collect();
     assert_eq!(used, [false, false, true, true, true, true, true, true, true, true]);
-    let error = (calibration.imu.accelerometer.matrix - truth.accelerometer.matrix).amax();
+    let error =
+        (calibration.imu[SensorKind::Accelerometer].matrix - truth[SensorKind::Accelerometer].matrix).amax();
     assert!(error < 1e-3, "{error}");
 
     // where the gyroscope senses the force, a turn with an unknown force is refused
@@ -234,7 +235,7 @@ fn a_long_quiet_hold_at_the_largest_count_is_not_cut_off() {
 #[test]
 fn the_xsens_recording_does_not_saturate() {
     let Some((recording, _)) = crate::common::xsens() else { return };
-    for sensor in [recording.accelerometer, recording.gyroscope] {
+    for sensor in [recording[SensorKind::Accelerometer].clone(), recording[SensorKind::Gyroscope].clone()] {
         assert!(sensor.expect("there").saturations().is_empty());
     }
 }
@@ -248,7 +249,7 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
     clip(&mut recording, 7.84);
     let sensor = Sensor::triaxial(SensorModel::Full);
     let setup = steady_holds();
-    let accelerometer = recording.accelerometer.expect("there");
+    let accelerometer = recording[SensorKind::Accelerometer].clone().expect("there");
     let problem =
         CalibrationProblem { sensor: &sensor, recording: &accelerometer, stimulus: Stimulus::Holds(&setup) };
     let calibration = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
@@ -277,7 +278,7 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
         .iter()
         .zip(calibration.sd().into_iter().zip(setup.gauge.parameter_list(SensorModel::Full).quantities()))
     {
-        let off = (value - quantity.value(&truth.accelerometer)) / sd;
+        let off = (value - quantity.value(&truth[SensorKind::Accelerometer])) / sd;
         assert!(off.abs() < 4.0, "{}: {off:.1} standard deviations", quantity.name());
     }
     assert!(holds.between_holds_sd_mps2 < 2e-3, "{}", holds.between_holds_sd_mps2);

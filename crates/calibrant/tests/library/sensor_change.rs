@@ -36,8 +36,8 @@ fn from(
     (gain, bias): (f64, f64),
 ) {
     let sensor = match sensor_kind {
-        SensorKind::Accelerometer => recording.accelerometer.as_mut(),
-        SensorKind::Gyroscope => recording.gyroscope.as_mut(),
+        SensorKind::Accelerometer => recording[SensorKind::Accelerometer].as_mut(),
+        SensorKind::Gyroscope => recording[SensorKind::Gyroscope].as_mut(),
     };
     let sensor = sensor.expect("there");
     for (t, reading) in sensor.samples_mut() {
@@ -65,7 +65,7 @@ fn a_sensor_that_does_not_change_is_not_accused() {
                 Vector3::from_fn(|_, _| size * normal(&mut rng))
             })
             .collect();
-        let accelerometer = recording.accelerometer.as_mut().expect("there");
+        let accelerometer = recording[SensorKind::Accelerometer].as_mut().expect("there");
         for (t, reading) in accelerometer.samples_mut() {
             *reading += pushes[((t / 4.5) as usize).min(poses - 1)];
         }
@@ -182,7 +182,7 @@ fn a_drift_is_told_and_temperature_pointed_at() {
     let simulation =
         ImuSimulation { poses: 30, temperature_c: Some([20.0, 38.0]), ..ImuSimulation::default() };
     let mut recording = simulated(405, 0, &simulation);
-    let accelerometer = recording.accelerometer.as_mut().expect("there");
+    let accelerometer = recording[SensorKind::Accelerometer].as_mut().expect("there");
     let end_s = accelerometer.times_s().last().copied().expect("samples");
     for (t, reading) in accelerometer.samples_mut() {
         reading.y += 0.04 * t / end_s;
@@ -209,7 +209,7 @@ fn an_accelerometer_alone_is_told_too() {
     for (step, changes) in [(0.0, false), (0.05, true)] {
         let mut recording = simulated(406, 1, &simulation);
         from(&mut recording, 4.5 * 11.0 + 3.5, SensorKind::Accelerometer, 2, (1.0, step));
-        let recording = recording.accelerometer.as_ref().expect("there");
+        let recording = recording[SensorKind::Accelerometer].as_ref().expect("there");
         let problem = CalibrationProblem { sensor: &sensor, recording, stimulus: Stimulus::Holds(&setup) };
         let calibration = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
         let Recovered::Holds(holds) = &calibration.recovered else { panic!("holds") };

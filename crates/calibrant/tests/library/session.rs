@@ -11,7 +11,9 @@ use calibrant::estimate::{
 };
 use calibrant::io::{Experiment, preset, write_imu_recording, write_motion, write_recording};
 use calibrant::motion::{CommandedMotion, Gravity, KnownEnds, Limits, MotionClock, Trust};
-use calibrant::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{
+    Gauge, ImuRecording, ReadingUnit, Recording, Sensor, SensorKind, SensorModel, SensorParameters,
+};
 use calibrant::session::{MotionSource, Outcome, Session, SessionOptions, Source};
 use calibrant::simulate::{
     HoldsSimulation, ImuSimulation, Purpose, draw_sensor, initial_motion, sample_times, simulate_holds,
@@ -198,8 +200,8 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
 #[test]
 fn holds_that_turn_do_not_count_where_the_others_tell_the_bias() {
     let mut recording = imu_recording(1);
-    let force = recording.accelerometer.clone().expect("there");
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let force = recording[SensorKind::Accelerometer].clone().expect("there");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     for ((t, reading), force) in force.times_s().iter().zip(gyroscope.readings_mut()).zip(force.readings()) {
         let (hold, since_s) = ((t / 4.5) as usize, t % 4.5);
         if hold % 5 == 3 && since_s < 2.5 {
@@ -223,7 +225,7 @@ fn notes_are_there_where_the_run_fails() {
     let few = |recording: &mut Recording| {
         *recording = recording.only(|k| k < 1200 && !(450..550).contains(&k));
     };
-    recording.accelerometer.iter_mut().chain(&mut recording.gyroscope).for_each(few);
+    recording.sensors.iter_mut().filter_map(|(_, of)| of.as_mut()).for_each(few);
     write_imu_recording(&file, &recording).expect("written");
     let experiment = experiment("imu");
     let session = Session::with(experiment.clone(), SessionOptions::default()).expect("prepared");

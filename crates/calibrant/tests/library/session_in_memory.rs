@@ -4,7 +4,7 @@ use calibrant::budget::Budget;
 use calibrant::error::Refusal;
 use calibrant::estimate::Calibration;
 use calibrant::io::{Experiment, preset, write_imu_recording};
-use calibrant::sensor::{ImuParameters, ImuRecording, Recording};
+use calibrant::sensor::{ImuParameters, Recording, SensorKind};
 use calibrant::session::{MotionSource, Outcome, Readings, Session, SessionOptions, Source};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use calibrant::{Simulation, SimulationOptions, simulate};
@@ -30,9 +30,7 @@ fn an_imu_in_memory_is_that_of_its_file() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("recording.csv");
     write_imu_recording(&path, &recording).expect("written");
-    let ImuRecording { accelerometer: Some(force), gyroscope: Some(rate), .. } = &recording else {
-        panic!("both sensors")
-    };
+    let [force, rate] = SensorKind::ALL.map(|kind| recording.sensor(kind).expect("both sensors"));
     let ([ax, ay, az], [gx, gy, gz]) = (columns(force), columns(rate));
     let table: [(&str, &[f64]); 7] = [
         ("t_s", force.times_s()),

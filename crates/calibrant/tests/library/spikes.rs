@@ -32,8 +32,8 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> Calibration {
 
 fn sensor(recording: &mut ImuRecording, sensor_kind: SensorKind) -> &mut Recording {
     match sensor_kind {
-        SensorKind::Accelerometer => recording.accelerometer.as_mut(),
-        SensorKind::Gyroscope => recording.gyroscope.as_mut(),
+        SensorKind::Accelerometer => recording[SensorKind::Accelerometer].as_mut(),
+        SensorKind::Gyroscope => recording[SensorKind::Gyroscope].as_mut(),
     }
     .expect("recorded")
 }
@@ -86,11 +86,12 @@ fn invalid_samples_in_a_row_are_a_gap_and_are_named_with_time_and_value() {
         let mut damaged = recording.clone();
         let readings = sensor(&mut damaged, of).readings_mut();
         readings[1000..1020].iter_mut().for_each(|reading| reading.x = -2_147_483_648.0);
-        damaged.temperature_c = Some(vec![25.0; damaged.accelerometer.as_ref().expect("there").len()]);
+        damaged.temperature_c =
+            Some(vec![25.0; damaged[SensorKind::Accelerometer].as_ref().expect("there").len()]);
         let (without, spikes) = damaged.without_spikes();
         let [(found, spikes)] = spikes.as_slice() else { panic!("{spikes:?}") };
         assert_eq!((*found, spikes.cut.len(), spikes.time_s), (of, 20, 10.0));
-        let samples = without.accelerometer.as_ref().expect("there").len();
+        let samples = without[SensorKind::Accelerometer].as_ref().expect("there").len();
         assert_eq!(without.temperature_c.as_ref().expect("there").len(), samples);
         let words = Diagnostic::from(Spikes::of(spikes, of, ReadingUnit::MetrePerSecondSquared)).to_string();
         assert!(words.contains("20 samples are invalid") && words.contains("at 10.000 s"), "{words}");
@@ -215,7 +216,7 @@ fn as_many_holds_as_parameters_leave_nothing_to_check() {
         gravity_mps2: 9.806_65,
         between_holds_sd_mps2: 0.0,
     };
-    let truth = draw_imu(&mut rng).accelerometer;
+    let truth = draw_imu(&mut rng)[SensorKind::Accelerometer];
     let (recording, _) = simulate_holds(&truth, &Vector3::repeat(0.01), unit, &simulation, &mut rng);
     let (sensor, setup) = (Sensor::triaxial(SensorModel::Full), steady_holds());
     let problem =

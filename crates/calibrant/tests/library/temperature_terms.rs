@@ -42,7 +42,8 @@ fn draw(model: &ThermalModel, rng: &mut Rng) -> ImuParameters {
     let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
     let gyroscope = sensor(0.02, 0.01);
     let g_sensitivity = Matrix3::zeros();
-    let mut imu = ImuParameters { accelerometer, gyroscope, g_sensitivity, thermal: Thermal::none() };
+    let mut imu =
+        ImuParameters { sensors: [accelerometer, gyroscope].into(), g_sensitivity, thermal: Thermal::none() };
     imu.thermal.reference_c = 32.0;
     draw_thermal(&mut imu, &model.quantities(), [Vector3::repeat(1.0); 2], rng);
     imu
@@ -252,21 +253,21 @@ fn a_constant_temperature_is_named_and_a_prior_alone_determines_a_term() {
     let setup = ImuSetup { known: ["x", "y", "z"].map(|axis| known(axis, None)).to_vec(), ..setup };
     let fixed = run(&recording, &setup).expect("fixed");
     assert!(fixed.quantities.iter().all(|quantity| !matches!(quantity, ImuQuantity::Thermal(..))));
-    assert_eq!(fixed.imu.thermal.gyroscope.bias[0], Vector3::repeat(3e-5));
+    assert_eq!(fixed.imu.thermal[SensorKind::Gyroscope].bias[0], Vector3::repeat(3e-5));
     // the bias at 32 °C is the one at 30.1 °C and 1.9 K more
     let (a, b) = (&calibration.imu, &fixed.imu);
-    let terms = a.thermal.gyroscope.bias[0] - b.thermal.gyroscope.bias[0];
+    let terms = a.thermal[SensorKind::Gyroscope].bias[0] - b.thermal[SensorKind::Gyroscope].bias[0];
     let expected = 1.9 * terms;
     // the weights are not quite the same: those with a prior come from a fit with free terms
     let sd = calibration.sd()[place(&calibration, "gyroscope.bias.x")];
-    let difference = a.gyroscope.bias - b.gyroscope.bias - expected;
+    let difference = a[SensorKind::Gyroscope].bias - b[SensorKind::Gyroscope].bias - expected;
     assert!(difference.amax() < 0.05 * sd, "{difference} {sd}");
 }
 
 #[test]
 fn two_temperatures_do_not_determine_a_parabola() {
     let (_, mut recording) = recorded(&GYROSCOPE_BIAS, [20.0, 45.0]);
-    let times = recording.accelerometer.as_ref().expect("there").times_s();
+    let times = recording[SensorKind::Accelerometer].as_ref().expect("there").times_s();
     // it jumps in the rotation from 52 to 54 s
     recording.temperature_c = Some(times.iter().map(|t| if *t < 53.0 { 20.0 } else { 45.0 }).collect());
     let parabola = ThermalModel { gyroscope_bias: 2, ..GYROSCOPE_BIAS };
@@ -294,18 +295,20 @@ fn what_is_no_temperature_is_said() {
 fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
     let model = ThermalModel { accelerometer_bias: 1, accelerometer_scale: 1, ..ThermalModel::default() };
     let (mut truth, _) = recorded(&model, [20.0, 45.0]);
-    truth.thermal.accelerometer.bias[0] = Vector3::new(4e-3, -4e-3, 4e-3);
+    truth.thermal[SensorKind::Accelerometer].bias[0] = Vector3::new(4e-3, -4e-3, 4e-3);
     // the same stream: the same motion and noise at both temperatures, which jump in the turn from 106 to 108 s
     let at = |temperature_c: f64| {
         let simulation = ImuSimulation { temperature_c: Some([temperature_c; 2]), ..ramp(30) };
         simulate_imu(&truth, &simulation, &mut stream(6, Purpose::Sensor, 4))
     };
     let (mut recording, warm) = (at(20.0), at(45.0));
-    let jump = recording.accelerometer.as_ref().expect("there").times_s().partition_point(|t| *t < 107.0);
-    for (cold, warm) in
-        [(&mut recording.accelerometer, warm.accelerometer), (&mut recording.gyroscope, warm.gyroscope)]
-    {
-        let (cold, warm) = (cold.as_mut().expect("there"), warm.expect("there"));
+    let jump = recording[SensorKind::Accelerometer]
+        .as_ref()
+        .expect("there")
+        .times_s()
+        .partition_point(|t| *t < 107.0);
+    for (sensor_kind, warm) in warm.sensors() {
+        let cold = recording[sensor_kind].as_mut().expect("there");
         cold.readings_mut()[jump..].copy_from_slice(&warm.readings()[jump..]);
     }
     recording.temperature_c.as_mut().expect("simulated")[jump..].fill(45.0);
@@ -331,7 +334,7 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
     assert_eq!(clean.imu.thermal.range_c.expect("known").map(f64::round), [20.0, 45.0]);
 
     let bad = &clean.hold_results()[11].hold;
-    let accelerometer = recording.accelerometer.as_mut().expect("there");
+    let accelerometer = recording[SensorKind::Accelerometer].as_mut().expect("there");
     for (t, reading) in accelerometer.samples_mut() {
         if (bad.start_s..=bad.end_s).contains(t) {
             *reading *= 1.01;
@@ -408,12 +411,12 @@ fn terms_are_found_where_the_directions_of_the_holds_are_known() {
     let model =
         ThermalModel { accelerometer_bias: 2, accelerometer_scale: 1, gyroscope_bias: 1, ..GYROSCOPE_BIAS };
     let mut truth = draw(&model, &mut stream(7, Purpose::Sensor, 1));
-    truth.thermal.accelerometer.bias[0] = Vector3::new(4e-3, -4e-3, 4e-3);
+    truth.thermal[SensorKind::Accelerometer].bias[0] = Vector3::new(4e-3, -4e-3, 4e-3);
     let simulation = ramp(30);
     let recording = simulate_imu(&truth, &simulation, &mut stream(7, Purpose::Sensor, 2));
     let quiet = ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 0.0, ..simulation.clone() };
     let exact = simulate_imu(&ImuParameters::identity(), &quiet, &mut stream(7, Purpose::Sensor, 2));
-    let forces = exact.accelerometer.expect("there");
+    let forces = exact[SensorKind::Accelerometer].clone().expect("there");
     let period = simulation.hold_s + simulation.turn_s;
     let starts: Vec<f64> = (0..30).map(|k| f64::from(k) * period).collect();
     let mut setup = setup(model);

@@ -10,7 +10,7 @@ use rand_distr::{Distribution, StandardNormal};
 fn against_gravity(gravity: Gravity, error: f64, gain: f64, rng: &mut ChaCha8Rng) -> CalibratedImu {
     let noise = 3e-5;
     let mut imu = imu();
-    imu.parameters.accelerometer.matrix *= gain;
+    imu.parameters[SensorKind::Accelerometer].matrix *= gain;
     let size = imu.quantities.len();
     let slope = shared_gravity(&imu.quantities, &[], &imu.parameters, &gravity).expect("uncertain");
     for (k, quantity) in imu.quantities.iter().enumerate() {

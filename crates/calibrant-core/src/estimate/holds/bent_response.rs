@@ -121,7 +121,7 @@ struct Magnitudes {
 
 impl Magnitudes {
     fn of(calibration: &Calibration, used: &[&HoldResult], known: &[NonlinearTerm]) -> Option<Self> {
-        let (of_holds, sensor) = (calibration.holds()?, &calibration.imu.accelerometer);
+        let (of_holds, sensor) = (calibration.holds()?, &calibration.imu[SensorKind::Accelerometer]);
         let gains = sensor.gains();
         let weigh = |hold: &&HoldResult| {
             let u = hold.force_mps2.normalize();

@@ -100,7 +100,7 @@ fn assemble(
     let g = setup.gravity;
     let mut covariance = robust.covariance.clone();
     let quantities = list.of_accelerometer();
-    let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
+    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, sensor);
     let prior = robust.prior_weight.as_ref().map(|weight| (weight.as_slice(), &robust.covariance));
     let prior_share = prior.map_or_else(Vec::new, |(weight, sigma)| shares_of_prior(weight, sigma));
     let slope = gravity_slope(&quantities, &imu, &g, prior);

@@ -2,7 +2,7 @@
 
 use crate::estimate::CalibrationSettings;
 use crate::estimate::imu::{ImuModel, State};
-use crate::sensor::{Correction, ImuParameters, SensorParameters};
+use crate::sensor::{Correction, ImuParameters, SensorKind, SensorParameters};
 use crate::solve::{CalibrationStatus, LoopSettings};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -39,7 +39,7 @@ pub(super) fn iterate(
 ) -> Option<Fit> {
     let means = model.holds.iter().map(|hold| hold.accelerometer);
     let forces = forces(means, start, model.gravity)?;
-    let imu = ImuParameters { accelerometer: *start, ..ImuParameters::identity() };
+    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, *start);
     let rounding = rounding(model);
     let settings = LoopSettings {
         most: settings.max_iterations,
@@ -53,7 +53,7 @@ pub(super) fn iterate(
     let end = model.minimise((State { imu, forces }, Vec::new()), &settings)?;
     Some(Fit {
         prior_chi2: model.prior_chi2(&end.state),
-        sensor: end.state.imu.accelerometer,
+        sensor: end.state.imu[SensorKind::Accelerometer],
         forces: end.state.forces,
         information: end.information,
         unreduced: end.unreduced,

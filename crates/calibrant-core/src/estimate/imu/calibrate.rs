@@ -12,7 +12,7 @@ use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
-use crate::sensor::{ImuRecording, SensorKind};
+use crate::sensor::SensorKind;
 
 /// Calibrates an IMU.
 ///
@@ -67,7 +67,7 @@ fn without_outliers(
     let mut outcome = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise);
     let mut note = None;
     if let Some((gyroscope, samples, at_rest)) = problem.recording.gyroscope_with_knocks() {
-        let recording = ImuRecording { gyroscope: Some(gyroscope), ..recording.into_owned() };
+        let recording = recording.into_owned().with(SensorKind::Gyroscope, Some(gyroscope));
         let kept = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise);
         if let Ok(found) = &kept
             && let Some(better) = KnocksKept::of(outcome.as_ref().ok(), found, samples)

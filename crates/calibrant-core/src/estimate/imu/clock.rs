@@ -16,7 +16,7 @@ use crate::estimate::holds::median;
 use crate::estimate::imu::clock_rate::{ClockRate, TimeOffset};
 use crate::estimate::imu::least_squares::integration::exponential;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
-use crate::sensor::{Correction, Recording, interpolated};
+use crate::sensor::{Correction, Recording, SensorKind, interpolated};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -230,9 +230,12 @@ impl<'a> ComparedRotation<'a> {
             return None;
         }
         // gravity by the gyroscope; what it misses at the end is spread over the rotation
-        let by_rate = imu.gyroscope.matrix.try_inverse()?;
-        let turns: Vec<Vector3<f64>> =
-            samples.cut_down(&imu.gyroscope.bias, step).into_iter().map(|turn| by_rate * turn).collect();
+        let by_rate = imu[SensorKind::Gyroscope].matrix.try_inverse()?;
+        let turns: Vec<Vector3<f64>> = samples
+            .cut_down(&imu[SensorKind::Gyroscope].bias, step)
+            .into_iter()
+            .map(|turn| by_rate * turn)
+            .collect();
         let mut gravity = state.forces[rotation.from];
         let mut propagated = vec![gravity];
         for turn in &turns {
@@ -289,7 +292,7 @@ impl<'a> ComparedRotation<'a> {
         Some(Self {
             at_s: 0.5 * (start_s + end_s),
             accelerometer,
-            force: Correction::of(&imu.accelerometer)?,
+            force: Correction::of(&imu[SensorKind::Accelerometer])?,
             propagated: between.map(|k| (times[k], propagated[k])).collect(),
             changes,
             along_no_arm,

@@ -21,7 +21,7 @@
 
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::imu::problem::ImuSetup;
-use crate::sensor::{ImuParameters, ImuQuantity};
+use crate::sensor::{ImuParameters, ImuQuantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3x2, Matrix3xX, Vector3};
 
 /// The Earth's rate: given values and unknowns.
@@ -113,7 +113,7 @@ impl EarthRate {
     pub(crate) fn of_hold(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Matrix3xX<f64> {
         let mut by = self.of_turn(imu, force);
         if let Some((chain, horizontal)) = self.seen.get(hold) {
-            let readings = imu.gyroscope.matrix * horizontal * self.north_sd;
+            let readings = imu[SensorKind::Gyroscope].matrix * horizontal * self.north_sd;
             by.fixed_columns_mut::<2>(self.first_of(*chain)).copy_from(&readings);
         }
         by
@@ -130,7 +130,8 @@ impl EarthRate {
 
     /// The g-sensitivity that looks like one standard deviation of the rate about the vertical, in the fixed entries. `None` if that rate is known.
     pub(crate) fn by_force(&self, imu: &ImuParameters) -> Option<Matrix3<f64>> {
-        let of_fixed = |sd: f64| imu.gyroscope.matrix.component_mul(&self.fixed) * (sd / self.gravity);
+        let of_fixed =
+            |sd: f64| imu[SensorKind::Gyroscope].matrix.component_mul(&self.fixed) * (sd / self.gravity);
         self.vertical_sd.map(of_fixed)
     }
 
@@ -138,7 +139,7 @@ impl EarthRate {
     pub(crate) fn taken_off(&self, quantity: ImuQuantity, imu: &ImuParameters) -> f64 {
         match (quantity, self.vertical_sd) {
             (ImuQuantity::GSensitivity(row, column), Some(sd)) => {
-                imu.gyroscope.matrix[(row.index(), column.index())] * sd / self.gravity
+                imu[SensorKind::Gyroscope].matrix[(row.index(), column.index())] * sd / self.gravity
             }
             _ => 0.0,
         }

@@ -77,7 +77,7 @@ fn solved(
     let mut covariance = information::covariance(&information).ok_or_else(singular)?;
     let values = &covariance * gradient;
     let sensor = list.sensor(&values);
-    let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
+    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, sensor);
     let shared_rad = first.alignment.map_or(0.0, |alignment| alignment.tilt.shared_sd_rad);
     let of_noise = covariance.clone();
     for error in SharedError::all(shared_rad) {

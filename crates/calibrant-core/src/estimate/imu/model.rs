@@ -62,7 +62,7 @@ impl LocalBias {
 
     /// The bias of an IMU there.
     pub(crate) fn at(&self, imu: &ImuParameters) -> Vector3<f64> {
-        let gyroscope = imu.at(self.temperature_c).gyroscope;
+        let gyroscope = imu.at(self.temperature_c)[SensorKind::Gyroscope];
         let deviation = self.mean - gyroscope.reading(&self.rate) - imu.g_sensitivity * self.force;
         gyroscope.bias + self.share.component_mul(&deviation)
     }
@@ -175,7 +175,7 @@ pub(crate) struct TurnData {
 impl TurnData {
     /// The integral of the gyroscope's readings beyond its bias, in the unit of its readings times s.
     pub(crate) fn beyond_bias(&self, imu: &ImuParameters) -> Vector3<f64> {
-        self.integral - imu.at(self.temperature_c).gyroscope.bias * self.duration_s
+        self.integral - imu.at(self.temperature_c)[SensorKind::Gyroscope].bias * self.duration_s
     }
 }
 

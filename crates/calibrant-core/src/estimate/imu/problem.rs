@@ -33,7 +33,7 @@ impl<'a> ImuProblem<'a> {
     ) -> FacesProblem<'b> {
         FacesProblem {
             sensor: self.accelerometer,
-            recording: self.recording.accelerometer.as_ref().unwrap_or(accelerometer),
+            recording: self.recording[SensorKind::Accelerometer].as_ref().unwrap_or(accelerometer),
             holds: &self.setup.holds,
             directions,
             face_sd_rad: self.setup.face_sd_rad,

@@ -12,7 +12,7 @@ use crate::estimate::imu::variance_components::between_holds::set_gyroscope_mean
 use crate::estimate::imu::variance_components::bias_drift::follow_drift;
 use crate::estimate::quantisation::coarse_axes_in;
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
+use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording, SensorKind};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// The gyroscope in a hold.
@@ -156,12 +156,16 @@ impl GravityPropagation<'_> {
         let mean_c = temperatures_c.iter().sum::<f64>() / temperatures_c.len().max(1) as f64;
         let felt = with_forces
             .then(|| {
-                interpolated_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer)
+                interpolated_forces(
+                    self.accelerometer,
+                    self.gyroscope,
+                    &self.imu.at(mean_c)[SensorKind::Accelerometer],
+                )
             })
             .flatten();
         let spans = rotation_spans(self.gyroscope, holds, &[]);
         let integrable = Integrable::of(self.gyroscope, with_forces.then_some(self.accelerometer));
-        let sensor = &self.imu.at(mean_c).accelerometer;
+        let sensor = &self.imu.at(mean_c)[SensorKind::Accelerometer];
         let (at_ends, _) = gravity_at_ends(self.accelerometer, sensor, holds, Some(self.turns_in_holds));
         let rotations = integrable.rotations(felt.as_deref(), &spans, (&data, &at_ends));
         let mut model = ImuModel {

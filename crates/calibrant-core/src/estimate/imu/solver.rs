@@ -114,7 +114,7 @@ fn stages(
     systematic.extend(lag.as_ref().map(|lag| lag.error.clone()));
     let known = (&setup.holds.gravity, setup.rate_sd);
     let uncertainty = Uncertainty::of(&model, &solution, known, (&gyroscope.coarse, systematic))?;
-    let recorded = problem.recording.accelerometer.as_ref();
+    let recorded = problem.recording[SensorKind::Accelerometer].as_ref();
     let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
     let changes = Changing {
         model: &model,

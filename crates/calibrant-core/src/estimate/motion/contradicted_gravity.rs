@@ -8,7 +8,7 @@
 use super::context::Context;
 use super::{Calibration, Error, Result};
 use crate::error::{InputError, Refusal};
-use crate::sensor::Axis;
+use crate::sensor::{Axis, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
 /// Gravity on Earth, m/s².
@@ -34,7 +34,7 @@ pub(super) fn check(context: &Context<'_>, calibration: &Calibration) -> Result<
     let sensor = context.problem.sensor;
     let (axes, given) = (sensor.axes, context.command.gravity);
     let active = |v: Vector3<f64>| Vector3::from_fn(|k, _| if k < axes { v[k] } else { 0.0 });
-    let accelerometer = &calibration.imu.accelerometer;
+    let accelerometer = &calibration.imu[SensorKind::Accelerometer];
     let (Some(offset), Some(inverse)) = (sensor.offset, accelerometer.matrix.try_inverse()) else {
         return Ok(());
     };

@@ -132,7 +132,7 @@ fn assemble(
         prior_share: Vec::new(),
         gravity_slope: Vec::new(),
         datasheet_prior: context.settings.datasheet_prior,
-        imu: ImuParameters { accelerometer: sensor, ..ImuParameters::identity() },
+        imu: ImuParameters::identity().with(SensorKind::Accelerometer, sensor),
         units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
         fit,
         recovered: Recovered::Motion(RecoveredMotion {

@@ -104,7 +104,7 @@ fn weak(calibration: &Calibration) -> Option<Diagnostic> {
 fn negative_scale(calibration: &Calibration) -> Option<Axis> {
     Axis::ALL
         .into_iter()
-        .find(|axis| calibration.imu.accelerometer.matrix[(axis.index(), axis.index())] < 0.0)
+        .find(|axis| calibration.imu[SensorKind::Accelerometer].matrix[(axis.index(), axis.index())] < 0.0)
 }
 
 /// Motion that was not recorded.

@@ -14,7 +14,7 @@ use crate::estimate::{
     ImuSetup, Stimulus, calibrate, calibrate_imu,
 };
 use crate::motion::Hold;
-use crate::sensor::{ImuRecording, Recording};
+use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -48,22 +48,22 @@ fn cross_validated_imu(
             "validate on another recording, with holds in any orientation",
         )));
     }
-    let accelerometer = problem.recording.accelerometer.as_ref();
+    let accelerometer = problem.recording[SensorKind::Accelerometer].as_ref();
     let accelerometer = accelerometer.map(|recording| steady(calibration, recording).into_owned());
-    let gyroscope = problem.recording.gyroscope.clone();
+    let gyroscope = problem.recording[SensorKind::Gyroscope].clone();
     let biases = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.recording_biases.as_ref());
     let gyroscope = match (gyroscope, biases) {
         (Some(recording), Some(biases)) => Some(biases.taken_out_of(&recording)),
         (gyroscope, _) => gyroscope,
     };
-    let recording = ImuRecording { accelerometer, gyroscope, ..problem.recording.clone() };
+    let recording = ImuRecording { sensors: [accelerometer, gyroscope].into(), ..problem.recording.clone() };
     let problem = &ImuProblem { recording: &recording, ..*problem };
     let (accelerometer, gyroscope) = recordings(problem)?;
     let all: Vec<Hold> = calibration.hold_results().iter().map(|result| result.hold.clone()).collect();
     let still_noise = calibration.gyroscope.as_ref().map(|gyroscope| gyroscope.still.noise);
     let train = |block: &Block| {
         let setup = without(block, problem.setup);
-        let recording = ImuRecording { gyroscope: Some(block.cut(gyroscope)), ..problem.recording.clone() };
+        let recording = problem.recording.clone().with(SensorKind::Gyroscope, Some(block.cut(gyroscope)));
         let problem = ImuProblem { recording: &recording, setup: &setup, ..*problem };
         let mut trained = calibrate_imu(&problem, settings)?;
         converged(trained.status)?;
@@ -197,7 +197,9 @@ mod tests {
             let mut recording = simulate_imu(&ImuParameters::identity(), &simulation, &mut rng);
             // a disturbance of each hold
             let noise = simulate_imu(&ImuParameters::identity(), &simulation, &mut rng);
-            let (Some(one), Some(other)) = (&mut recording.accelerometer, &noise.accelerometer) else {
+            let (Some(one), Some(other)) =
+                (&mut recording[SensorKind::Accelerometer], &noise[SensorKind::Accelerometer])
+            else {
                 continue;
             };
             let pushes: Vec<Vector3<f64>> =

@@ -59,9 +59,9 @@ impl HoldPrediction {
             temperature_c,
         };
         let size = prediction.quantities.len();
-        let of_accelerometer = Correction::of(&imu.accelerometer)?;
+        let of_accelerometer = Correction::of(&imu[SensorKind::Accelerometer])?;
         let force = of_accelerometer.apply(&hold.mean);
-        let correction = of_accelerometer.by_reading(&imu.accelerometer, &force);
+        let correction = of_accelerometer.by_reading(&imu[SensorKind::Accelerometer], &force);
         let mut by_parameters = DMatrix::zeros(3, size);
         for (k, quantity) in prediction.quantities.iter().enumerate() {
             if quantity.sensor_kind() == SensorKind::Accelerometer {
@@ -72,15 +72,17 @@ impl HoldPrediction {
             by * Matrix3::from_diagonal(&variance) * by.transpose()
         };
         let of_noise = noise_variance(hold, within, of_mean);
-        let of_scatter = between_variance(prediction.between_holds_sd_mps2, &imu.accelerometer.matrix);
+        let of_scatter =
+            between_variance(prediction.between_holds_sd_mps2, &imu[SensorKind::Accelerometer].matrix);
         let by_noise = spread(of_noise, &correction);
         let own = by_noise + spread(of_scatter, &correction);
         // the variance of a mean goes with the duration of the hold
         let shorter = hold.duration_s() * prediction.inverse_hold_s;
         let rate = match (still, noise.get(1)) {
             (Some(still), Some(ratio)) => {
-                let correction = imu.gyroscope.matrix.try_inverse()?;
-                let turning = correction * (still.mean - imu.gyroscope.bias - imu.g_sensitivity * force);
+                let correction = imu[SensorKind::Gyroscope].matrix.try_inverse()?;
+                let turning =
+                    correction * (still.mean - imu[SensorKind::Gyroscope].bias - imu.g_sensitivity * force);
                 let by_force =
                     -(correction * imu.g_sensitivity) - Matrix3::identity() * prediction.vertical_rate;
                 let mut by_parameters =

@@ -141,10 +141,10 @@ impl Prediction {
 
     /// The claim with another bias of the gyroscope, found where it is used: it has moved by `shift` (rad/s) of this covariance.
     pub(super) fn with_bias_moved_by(&self, shift: &Vector3<f64>, covariance: &Matrix3<f64>) -> Self {
-        let matrix = self.imu.gyroscope.matrix;
+        let matrix = self.imu[SensorKind::Gyroscope].matrix;
         let of_bias = matrix * covariance * matrix.transpose();
         let mut prediction = Self { covariance: self.covariance_without_bias(), ..self.clone() };
-        prediction.imu.gyroscope.bias += matrix * shift;
+        prediction.imu[SensorKind::Gyroscope].bias += matrix * shift;
         for row in Axis::ALL {
             for column in Axis::ALL {
                 if let (Some(i), Some(j)) = (self.place_of_bias(row), self.place_of_bias(column)) {

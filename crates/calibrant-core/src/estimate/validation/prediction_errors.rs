@@ -273,8 +273,10 @@ fn moved(
 
 /// χ² of a shift less what coarse steps may have made of it, where there are some: no more than √3 of their standard deviation, which is half a step where noise is small.
 fn beyond_steps(shift: &Shift, prediction: &Prediction) -> Option<f64> {
-    let correction =
-        prediction.imu.gyroscope.matrix.try_inverse().filter(|_| prediction.of_steps.amax() > 0.0)?;
+    let correction = prediction.imu[SensorKind::Gyroscope]
+        .matrix
+        .try_inverse()
+        .filter(|_| prediction.of_steps.amax() > 0.0)?;
     let of_steps = correction * Matrix3::from_diagonal(&prediction.of_steps) * correction.transpose();
     let value = shift.three(0);
     let beyond = Vector3::from_fn(|axis, _| {

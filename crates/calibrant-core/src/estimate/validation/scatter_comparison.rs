@@ -49,7 +49,7 @@ pub(super) fn as_shown(prediction: &Prediction, errors: &Errors) -> Option<Predi
             let row = DMatrix::from_row_slice(
                 1,
                 3,
-                &[0, 1, 2].map(|column| prediction.imu.gyroscope.matrix[(axis, column)]),
+                &[0, 1, 2].map(|column| prediction.imu[SensorKind::Gyroscope].matrix[(axis, column)]),
             );
             let mut scatter = Scatter::of(&errors.rates, &errors.rates.covariance, axis, &row);
             scatter.about_their_median(&Scatter::of(&errors.rates, &without_bias, axis, &row));

@@ -7,8 +7,9 @@ use crate::sensor::reference_temperature::tests::warm;
 
 fn readings(imu: &CalibratedImu) -> (Vector3<f64>, Vector3<f64>) {
     let (force, rate) = (Vector3::new(1.0, -5.0, 8.0), Vector3::new(0.4, -1.2, 0.3));
-    let gyroscope = imu.parameters.gyroscope.reading(&rate) + imu.parameters.g_sensitivity * force;
-    (imu.parameters.accelerometer.reading(&force), gyroscope)
+    let gyroscope =
+        imu.parameters[SensorKind::Gyroscope].reading(&rate) + imu.parameters.g_sensitivity * force;
+    (imu.parameters[SensorKind::Accelerometer].reading(&force), gyroscope)
 }
 
 #[test]
@@ -36,9 +37,9 @@ fn its_uncertainty_is_that_of_differences_at_other_temperatures_too() {
 #[test]
 fn its_uncertainty_is_that_of_differences_where_the_response_is_bent() {
     let mut bent = warm();
-    *bent.parameters.accelerometer.nonlinearity.of_mut(NonlinearTerm::SecondOrder) =
+    *bent.parameters[SensorKind::Accelerometer].nonlinearity.of_mut(NonlinearTerm::SecondOrder) =
         Vector3::new(2e-3, -1e-3, 5e-4);
-    *bent.parameters.accelerometer.nonlinearity.of_mut(NonlinearTerm::GainBySign) =
+    *bent.parameters[SensorKind::Accelerometer].nonlinearity.of_mut(NonlinearTerm::GainBySign) =
         Vector3::new(0.01, 0.02, -0.03);
     let is_term = |of: &ImuQuantity| matches!(of, ImuQuantity::Of(_, Quantity::Nonlinear(..)));
     bent.quantities.extend(ImuQuantity::all(true, true).into_iter().filter(is_term));
@@ -106,8 +107,11 @@ fn the_force_is_interpolated_at_the_gyroscopes_times() {
         unit: ReadingUnit::Counts,
     };
     let mut recording = ImuRecording {
-        accelerometer: Some(sensor_kind(vec![0.0, 1.0, 2.0], y_a)),
-        gyroscope: Some(sensor_kind(vec![-1.0, 0.5, 1.0, 7.0], y_g)),
+        sensors: [
+            Some(sensor_kind(vec![0.0, 1.0, 2.0], y_a)),
+            Some(sensor_kind(vec![-1.0, 0.5, 1.0, 7.0], y_g)),
+        ]
+        .into(),
         temperature_c: None,
     };
     let correction = ImuCorrection::of(&imu).expect("regular");
@@ -115,7 +119,7 @@ fn the_force_is_interpolated_at_the_gyroscopes_times() {
     assert_eq!(found.values.len(), 4);
     assert!(found.values.iter().all(|rate| (rate - Vector3::new(0.4, -1.2, 0.3)).amax() < 1e-10));
     assert_eq!(found.sd.expect("known").len(), 4);
-    recording.accelerometer = None;
+    recording[SensorKind::Accelerometer] = None;
     let error = correction.apply(&recording).expect_err("g-sensitivity").to_string();
     assert!(error.contains("has no accelerometer"), "{error}");
     let of_si = CalibratedImu {

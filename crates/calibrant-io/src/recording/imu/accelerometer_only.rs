@@ -87,7 +87,7 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
     let Some(AccelerometerOnly { axes, unit: expected }) = options.accelerometer_only else {
         return Ok(file);
     };
-    let Some(recording) = file.recording.accelerometer.take() else {
+    let Some(recording) = file.recording[SensorKind::Accelerometer].take() else {
         return refuse(
             Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),

@@ -23,6 +23,7 @@ use calibrant_core::sensor::{ImuRecording, SensorKind};
 ///
 /// # Examples
 /// ```
+/// use calibrant_core::sensor::SensorKind;
 /// use calibrant_io::{ImuReadOptions, ImuUnit, imu_from_columns};
 ///
 /// let (t, x, z) = ([0.0, 0.01, 0.02], [0.0; 3], [1.0, 1.01, 0.99]);
@@ -30,7 +31,8 @@ use calibrant_core::sensor::{ImuRecording, SensorKind};
 /// let question = imu_from_columns(&table, &ImuReadOptions::default()).expect_err("nothing says the unit");
 /// assert!(question.to_string().contains("suggest g"));
 /// let options = ImuReadOptions { accelerometer_unit: Some(ImuUnit::StandardGravity), ..ImuReadOptions::default() };
-/// let accelerometer = imu_from_columns(&table, &options)?.recording.accelerometer.expect("there");
+/// let recording = imu_from_columns(&table, &options)?.recording;
+/// let accelerometer = recording.sensor(SensorKind::Accelerometer).expect("there");
 /// assert_eq!(accelerometer.readings()[0].z, 9.806_65);
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
@@ -80,7 +82,10 @@ impl ImuFile {
             [("t_s", times.into_iter()), (kind.name(), readings.into_iter())]
         });
         let sha256 = vec![hex_of_lists(lists)];
-        let rows = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref()).map_or(0, |of| of.len());
+        let rows = recording[SensorKind::Accelerometer]
+            .as_ref()
+            .or(recording[SensorKind::Gyroscope].as_ref())
+            .map_or(0, |of| of.len());
         Self {
             format: FileFormat::Columns,
             columns: Vec::new(),

@@ -19,6 +19,7 @@ pub const TYPED_RATE_SD_PPM: f64 = 50_000.0;
 ///
 /// # Examples
 /// ```
+/// use calibrant_core::sensor::SensorKind;
 /// use calibrant_io::{ImuReadOptions, ImuUnit, parse_imu_recording};
 ///
 /// let text = b"n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,90,0,0,0,0,9.8\n1,0,90,0,0,9.8,0\n2,0,0,90,9.8,0,0\n";
@@ -32,7 +33,7 @@ pub const TYPED_RATE_SD_PPM: f64 = 50_000.0;
 ///     ..ImuReadOptions::default()
 /// };
 /// let file = parse_imu_recording(text, &options)?;
-/// let gyroscope = file.recording.gyroscope.expect("there");
+/// let gyroscope = file.recording.sensor(SensorKind::Gyroscope).expect("there");
 /// assert_eq!(gyroscope.readings()[0].x, std::f64::consts::FRAC_PI_2);
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
@@ -83,12 +84,12 @@ impl ImuReadOptions {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_core::sensor::ReadingUnit;
+    /// use calibrant_core::sensor::{ReadingUnit, SensorKind};
     /// use calibrant_io::{ImuReadOptions, parse_imu_recording};
     ///
     /// let options = ImuReadOptions::accelerometer(3, ReadingUnit::MetrePerSecondSquared);
     /// let file = parse_imu_recording(b"t_s,ax_g,ay_g,az_g\n0.00,0,0,1\n0.01,0,0,1\n", &options)?;
-    /// assert_eq!(file.recording.accelerometer.expect("there").readings()[0].z, 9.80665);
+    /// assert_eq!(file.recording.sensor(SensorKind::Accelerometer).expect("there").readings()[0].z, 9.80665);
     /// assert!(file.findings[0].to_string().contains("axis x never changes"));
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```

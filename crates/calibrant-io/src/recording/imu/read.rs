@@ -77,13 +77,14 @@ pub(super) fn with_checksum((file, sha256): (ImuFile, String)) -> ImuFile {
 ///
 /// # Examples
 /// ```
+/// use calibrant_core::sensor::SensorKind;
 /// use calibrant_io::{FileFormat, ImuReadOptions, parse_imu_recording};
 ///
 /// let text = "// Update Rate: 100.0Hz\nPacketCounter\tAcc_X\tAcc_Y\tAcc_Z\tGyr_X\tGyr_Y\tGyr_Z\n\
 ///             65534\t0.1\t0.2\t9.81\t0.0\t0.1\t0.0\n65535\t0.2\t0.1\t9.80\t0.1\t0.0\t0.1\n00001\t0.1\t0.1\t9.82\t0.0\t0.0\t0.0\n";
 /// let file = parse_imu_recording(text.as_bytes(), &ImuReadOptions::default())?;
 /// assert_eq!(file.format, FileFormat::MtManager);
-/// let gyroscope = file.recording.gyroscope.expect("there");
+/// let gyroscope = file.recording.sensor(SensorKind::Gyroscope).expect("there");
 /// assert_eq!(gyroscope.times_s(), [0.0, 0.01, 0.03], "the counter began anew, and one sample was lost");
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```

@@ -100,10 +100,10 @@ pub(super) fn assemble(
             if !is_plain {
                 check_gravity(&readings, *unit)?;
             }
-            recording.accelerometer = Some(readings);
+            recording[SensorKind::Accelerometer] = Some(readings);
         } else {
             check_rates(&readings, *unit)?;
-            recording.gyroscope = Some(readings);
+            recording[SensorKind::Gyroscope] = Some(readings);
         }
         for axis in calibrant_core::sensor::Axis::ALL {
             draft.set_unit(ColumnMeaning::Reading(sensor_kind, axis), ColumnUnit::Reading(*unit));
@@ -318,7 +318,10 @@ fn temperature(
         draft.leave_aside(ColumnMeaning::Temperature, "it has no values");
         return None;
     }
-    let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s();
+    let at = &recording[SensorKind::Accelerometer]
+        .as_ref()
+        .or(recording[SensorKind::Gyroscope].as_ref())?
+        .times_s();
     let missing = kept.len() - known.len();
     if missing > 0 {
         let all = || kept.rows().map(|row| times[row]);

@@ -48,6 +48,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 ///
 /// # Examples
 /// ```
+/// use calibrant_core::sensor::SensorKind;
 /// use calibrant_io::{ImuReadOptions, ImuUnit, parse_imu_pair};
 /// let options = ImuReadOptions {
 ///     accelerometer_unit: Some(ImuUnit::Counts),
@@ -55,7 +56,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 ///     ..ImuReadOptions::default()
 /// };
 /// let file = parse_imu_pair(b"0.00 33108 33329 36429\n0.01 33096 33336 36437\n", b"0.00 32786 32429 32499\n0.01 32797 32410 32531\n", &options)?;
-/// assert_eq!(file.recording.gyroscope.expect("there").readings()[1].y, 32410.0);
+/// assert_eq!(file.recording.sensor(SensorKind::Gyroscope).expect("there").readings()[1].y, 32410.0);
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
@@ -105,11 +106,13 @@ fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKi
 
 /// The other sensor's columns of a file that was given for one sensor.
 fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Diagnostic> {
-    let is_other =
-        |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != sensor_kind);
-    let columns: Vec<String> =
-        file.columns.iter().filter(is_other).map(|column| column.name.clone()).collect();
-    (!columns.is_empty()).then(|| ColumnsIgnored { columns, other: Some(sensor_kind.other()) }.into())
+    let of_other = |column: &ImuColumn| match column.meaning {
+        ColumnMeaning::Reading(of, _) if of != sensor_kind => Some((of, column.name.clone())),
+        _ => None,
+    };
+    let (others, columns): (Vec<SensorKind>, _) = file.columns.iter().filter_map(of_other).unzip();
+    let other = others.first().copied();
+    other.map(|_| ColumnsIgnored { columns, other }.into())
 }
 
 /// The finding where one of a pair of files covers much less of the time than the other, or nothing of it; and the sensor of that file.
@@ -118,17 +121,18 @@ fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<(Se
         Some(Span { start_s: *recording.times_s().first()?, end_s: *recording.times_s().last()? })
     };
     let (accelerometer, gyroscope) =
-        (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
+        (span(first[SensorKind::Accelerometer].as_ref()?)?, span(second[SensorKind::Gyroscope].as_ref()?)?);
     let common_s = accelerometer.end_s.min(gyroscope.end_s) - accelerometer.start_s.max(gyroscope.start_s);
     let lengths = [accelerometer, gyroscope].map(|span| span.end_s - span.start_s);
-    let (shorter, shorter_s, longer_s) = match lengths[1] < lengths[0] {
-        true => (SensorKind::Gyroscope, gyroscope, accelerometer),
-        false => (SensorKind::Accelerometer, accelerometer, gyroscope),
+    let both = [(SensorKind::Accelerometer, accelerometer), (SensorKind::Gyroscope, gyroscope)];
+    let [(shorter, shorter_s), (longer, longer_s)] = match lengths[1] < lengths[0] {
+        true => [both[1], both[0]],
+        false => both,
     };
     if common_s >= COVERED * lengths[0].max(lengths[1]) {
         return None;
     }
-    let files = FileTimes { shorter, shorter_s, longer_s, common_s };
+    let files = FileTimes { shorter, shorter_s, longer, longer_s, common_s };
     let found: Diagnostic = match common_s > 0.0 {
         true => FileShorter { files }.into(),
         false => FilesApart { files }.into(),
@@ -153,11 +157,9 @@ pub(super) fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
         findings: named(SensorKind::Gyroscope, &second),
     };
     ImuFile {
-        recording: ImuRecording {
-            accelerometer: first.recording.accelerometer,
-            gyroscope: second.recording.gyroscope,
-            temperature_c: first.recording.temperature_c,
-        },
+        recording: first
+            .recording
+            .with(SensorKind::Gyroscope, second.recording[SensorKind::Gyroscope].take()),
         columns: first.columns.into_iter().chain(second.columns).collect(),
         findings,
         sha256: [first.sha256, second.sha256].concat(),
@@ -171,7 +173,7 @@ pub(super) fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
 fn on_one_clock(first: &ImuFile, second: &mut ImuFile) {
     let (Some(of_first), Some(of_second)) = (first.counted_from_ns, second.counted_from_ns) else { return };
     let later_s = of_second.saturating_sub(of_first) as f64 / 1e9;
-    let gyroscope = second.recording.gyroscope.take();
-    second.recording.gyroscope = gyroscope.map(|gyroscope| gyroscope.later_by(later_s));
+    let gyroscope = second.recording[SensorKind::Gyroscope].take();
+    second.recording[SensorKind::Gyroscope] = gyroscope.map(|gyroscope| gyroscope.later_by(later_s));
     second.findings.retain(|finding| finding.code() != TimesFromFirst::CODE);
 }

@@ -105,7 +105,7 @@ pub(crate) fn check_log(problem: &MachineProblem<'_>) -> Result<()> {
         }
     }
     if let ReferenceLog::Poses(log) = problem.log
-        && problem.recording.accelerometer.is_some()
+        && problem.recording[SensorKind::Accelerometer].is_some()
         && log.positions_m.iter().all(Option::is_none)
     {
         return Err(refused(

@@ -10,7 +10,7 @@ use crate::estimate::{MachineProblem, MachineSetup};
 use crate::log::{PoseLog, ReferenceLog};
 use calibrant_core::diagnostic::machine::{JointReversed, PosesOtherwise, UpOtherwise};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
-use calibrant_core::sensor::{Axis, Recording};
+use calibrant_core::sensor::{Axis, Recording, SensorKind};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
 /// A distance of knots that follows hands and machines well enough to compare, s.
@@ -112,7 +112,7 @@ impl Tried {
             return Self { score: f64::INFINITY, is_biased: false };
         };
         let Candidate { score, components, parameters, .. } = found;
-        let unit = problem.recording.accelerometer.as_ref().map(Recording::unit);
+        let unit = problem.recording[SensorKind::Accelerometer].as_ref().map(Recording::unit);
         let bias = unit.and_then(|unit| plausible::bias(problem.setup, &parameters.imu, unit));
         Self { score: score / components as f64, is_biased: bias.is_some() }
     }

@@ -129,8 +129,8 @@ pub(crate) fn predicted(
     at: &MachineParameters,
 ) -> Vector3<f64> {
     match sensor {
-        SensorKind::Accelerometer => at.imu.accelerometer.reading(force),
-        SensorKind::Gyroscope => at.imu.gyroscope.reading(rate) + at.imu.g_sensitivity * force,
+        SensorKind::Accelerometer => at.imu[SensorKind::Accelerometer].reading(force),
+        SensorKind::Gyroscope => at.imu[SensorKind::Gyroscope].reading(rate) + at.imu.g_sensitivity * force,
     }
 }
 
@@ -139,11 +139,15 @@ fn gains(sensor: SensorKind, axis: usize, at: &MachineParameters) -> Vector6<f64
     let mut gains = Vector6::zeros();
     match sensor {
         SensorKind::Accelerometer => {
-            gains.fixed_rows_mut::<3>(0).copy_from(&at.imu.accelerometer.matrix.row(axis).transpose());
+            gains
+                .fixed_rows_mut::<3>(0)
+                .copy_from(&at.imu[SensorKind::Accelerometer].matrix.row(axis).transpose());
         }
         SensorKind::Gyroscope => {
             gains.fixed_rows_mut::<3>(0).copy_from(&at.imu.g_sensitivity.row(axis).transpose());
-            gains.fixed_rows_mut::<3>(3).copy_from(&at.imu.gyroscope.matrix.row(axis).transpose());
+            gains
+                .fixed_rows_mut::<3>(3)
+                .copy_from(&at.imu[SensorKind::Gyroscope].matrix.row(axis).transpose());
         }
     }
     gains

@@ -180,8 +180,10 @@ fn blocks(model: &Model<'_>, state: &State) -> Vec<Block> {
             for (k, term) in terms_at(residual.time_s).iter().enumerate() {
                 let (force, rate) = (term.fixed_rows::<3>(0), term.fixed_rows::<3>(3));
                 let change = match stream.sensor {
-                    SensorKind::Accelerometer => imu.accelerometer.matrix * force,
-                    SensorKind::Gyroscope => imu.gyroscope.matrix * rate + imu.g_sensitivity * force,
+                    SensorKind::Accelerometer => imu[SensorKind::Accelerometer].matrix * force,
+                    SensorKind::Gyroscope => {
+                        imu[SensorKind::Gyroscope].matrix * rate + imu.g_sensitivity * force
+                    }
                 };
                 for axis in 0..3 {
                     let (weight, _) = huber(residual.value[axis] / sd[axis]);

@@ -29,7 +29,7 @@ pub(super) fn check(setup: &MachineSetup, calibration: &MachineCalibration) -> V
 
 /// A bias that is gravity.
 pub(crate) fn bias(setup: &MachineSetup, imu: &ImuParameters, unit: ReadingUnit) -> Option<Diagnostic> {
-    implausible_bias(unit, &imu.accelerometer.bias, |axis| {
+    implausible_bias(unit, &imu[SensorKind::Accelerometer].bias, |axis| {
         is_known(setup, ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(axis)))
     })
 }

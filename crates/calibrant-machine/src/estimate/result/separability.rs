@@ -46,7 +46,7 @@ pub(super) fn check(setup: &MachineSetup, calibration: &MachineCalibration) -> V
             axis,
             variation_mps2: variation[i],
             mean_mps2: mean[i],
-            reading_mps2: calibration.parameters.imu.accelerometer.reading(&mean)[i],
+            reading_mps2: calibration.parameters.imu[SensorKind::Accelerometer].reading(&mean)[i],
             reading_sd_mps2: variance.max(0.0).sqrt(),
         })
     });

@@ -17,7 +17,7 @@ use crate::estimate::result::undetermined;
 use crate::estimate::{MachineCalibration, MachineProblem, MachineSettings};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::CalibrationStatus;
-use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
+use calibrant_core::sensor::{ImuRecording, PerSensor, Recording, SensorKind};
 use nalgebra::DVector;
 
 /// Shortest block, s.
@@ -101,11 +101,7 @@ fn without(
         let whole = problem.recording.sensor(kind)?;
         Some(whole.only(|k| !(start_s..end_s).contains(&whole.times_s()[k])))
     };
-    let recording = ImuRecording {
-        accelerometer: kept(SensorKind::Accelerometer),
-        gyroscope: kept(SensorKind::Gyroscope),
-        temperature_c: None,
-    };
+    let recording = ImuRecording { sensors: PerSensor::from_fn(kept), temperature_c: None };
     let state = State { motion: calibration.motion.clone(), parameters: calibration.parameters.clone() };
     let model = model(problem, calibration, &recording, &state);
     undetermined::check(&model, &state)?;

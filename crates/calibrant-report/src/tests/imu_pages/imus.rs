@@ -10,8 +10,8 @@ use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use sensor::{
-    Axis, Gauge, ImuParameters, ImuQuantity, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel,
-    SensorParameters, Thermal,
+    Axis, Gauge, ImuParameters, ImuQuantity, ImuRecording, ReadingUnit, Recording, Sensor, SensorKind,
+    SensorModel, SensorParameters, Thermal,
 };
 
 /// Sample rate, Hz.
@@ -88,16 +88,19 @@ pub(crate) fn imu_case(holds: usize, seed: u64) -> ImuCase {
 
 fn truth() -> ImuParameters {
     ImuParameters {
-        accelerometer: SensorParameters {
-            bias: Vector3::new(33124.0, 33275.0, 32364.0),
-            matrix: Matrix3::new(414.5, 1.4, 3.7, 0.0, 412.0, 8.8, 0.0, 0.0, 414.7),
-            ..SensorParameters::identity()
-        },
-        gyroscope: SensorParameters {
-            bias: Vector3::new(32777.0, 32459.0, 32511.0),
-            matrix: Matrix3::new(4778.0, -25.0, 60.0, 18.0, 4764.0, -31.0, 44.0, 9.0, 4766.0),
-            ..SensorParameters::identity()
-        },
+        sensors: [
+            SensorParameters {
+                bias: Vector3::new(33124.0, 33275.0, 32364.0),
+                matrix: Matrix3::new(414.5, 1.4, 3.7, 0.0, 412.0, 8.8, 0.0, 0.0, 414.7),
+                ..SensorParameters::identity()
+            },
+            SensorParameters {
+                bias: Vector3::new(32777.0, 32459.0, 32511.0),
+                matrix: Matrix3::new(4778.0, -25.0, 60.0, 18.0, 4764.0, -31.0, 44.0, 9.0, 4766.0),
+                ..SensorParameters::identity()
+            },
+        ]
+        .into(),
         g_sensitivity: Matrix3::new(0.1, 0.3, -0.1, 0.0, 0.2, 0.1, -0.2, 0.1, 0.4),
         thermal: Thermal::none(),
     }
@@ -120,8 +123,7 @@ impl<'a> Hand<'a> {
             rng: ChaCha8Rng::seed_from_u64(seed),
             world_from_sensor: Rotation3::identity(),
             recording: ImuRecording {
-                accelerometer: Some(empty.clone()),
-                gyroscope: Some(empty),
+                sensors: [Some(empty.clone()), Some(empty)].into(),
                 temperature_c: None,
             },
         }
@@ -135,7 +137,9 @@ impl<'a> Hand<'a> {
     }
 
     fn time_s(&self) -> f64 {
-        self.recording.gyroscope.as_ref().map_or(0.0, |gyroscope| gyroscope.len() as f64 / RATE_HZ)
+        self.recording[SensorKind::Gyroscope]
+            .as_ref()
+            .map_or(0.0, |gyroscope| gyroscope.len() as f64 / RATE_HZ)
     }
 
     /// Turns by this angle about a fixed axis, beginning and ending at rest. `knock` adds to the gyroscope's
@@ -150,17 +154,14 @@ impl<'a> Hand<'a> {
             let force =
                 (start * Rotation3::new(angle * share)).inverse() * Vector3::z() * GRAVITY.magnitude_mps2;
             let knocked = if (0.4..0.6).contains(&x) { knock } else { Vector3::zeros() };
-            let accelerometer = self.truth.accelerometer.reading(&force) + self.vector(3.3);
-            let gyroscope = self.truth.gyroscope.reading(&rate)
+            let accelerometer = self.truth[SensorKind::Accelerometer].reading(&force) + self.vector(3.3);
+            let gyroscope = self.truth[SensorKind::Gyroscope].reading(&rate)
                 + self.truth.g_sensitivity * force
                 + knocked
                 + self.vector(20.0);
             let time_s = self.time_s();
-            for (recording, reading) in [
-                (&mut self.recording.accelerometer, accelerometer),
-                (&mut self.recording.gyroscope, gyroscope),
-            ] {
-                if let Some(recording) = recording {
+            for (sensor_kind, reading) in SensorKind::ALL.into_iter().zip([accelerometer, gyroscope]) {
+                if let Some(recording) = &mut self.recording[sensor_kind] {
                     recording.push(time_s, reading).expect("samples in order");
                 }
             }

@@ -95,8 +95,11 @@ pub(crate) fn machine_case(poses: bool, duration_s: f64, seed: u64) -> MachineCa
     let times_s: Vec<f64> = (10..count - 10).map(time).collect();
     let of = |readings, unit| Recording::new(times_s.clone(), readings, 3, unit).expect("samples in order");
     let recording = ImuRecording {
-        accelerometer: Some(of(forces, ReadingUnit::MetrePerSecondSquared)),
-        gyroscope: Some(of(rates, ReadingUnit::RadianPerSecond)),
+        sensors: [
+            Some(of(forces, ReadingUnit::MetrePerSecondSquared)),
+            Some(of(rates, ReadingUnit::RadianPerSecond)),
+        ]
+        .into(),
         temperature_c: None,
     };
     let times_s: Vec<f64> = (0..count).map(time).collect();

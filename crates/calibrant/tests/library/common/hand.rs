@@ -1,7 +1,7 @@
 //! Simulated recordings of an IMU that is turned by hand: knocks where it is set down, a filter before the
 //! samples, a gyroscope that is late, holds that turn slowly, times of a host.
 
-use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording};
+use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, SensorKind};
 use calibrant::simulate::Rng;
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::RngExt;
@@ -144,10 +144,11 @@ impl ByHand {
         let late = (self.gyroscope_late_s / fine_s).round() as usize;
         for k in (0..rates.len()).step_by(FINE) {
             times_s.push(k as f64 * fine_s);
-            let force = noisy(imu.accelerometer.reading(&forces[k]), self.accelerometer_noise, rng);
+            let force =
+                noisy(imu[SensorKind::Accelerometer].reading(&forces[k]), self.accelerometer_noise, rng);
             accelerometer.push(force);
             let rate = rates[k.saturating_sub(late)];
-            gyroscope.push(noisy(imu.gyroscope.reading(&rate), self.gyroscope_noise, rng));
+            gyroscope.push(noisy(imu[SensorKind::Gyroscope].reading(&rate), self.gyroscope_noise, rng));
         }
         if let Some(tick_s) = self.host_tick_s {
             // the host takes a sample some time after it was made
@@ -161,8 +162,11 @@ impl ByHand {
             Some(Recording::new(times_s.clone(), readings, 3, unit).expect("samples in order"))
         };
         ImuRecording {
-            accelerometer: recording(accelerometer, ReadingUnit::MetrePerSecondSquared),
-            gyroscope: recording(gyroscope, ReadingUnit::RadianPerSecond),
+            sensors: [
+                recording(accelerometer, ReadingUnit::MetrePerSecondSquared),
+                recording(gyroscope, ReadingUnit::RadianPerSecond),
+            ]
+            .into(),
             temperature_c: None,
         }
     }

@@ -6,8 +6,8 @@ use calibrant::estimate::{
 use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
-    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
-    Thermal,
+    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
+    SensorParameters, Thermal,
 };
 use calibrant::simulate::Rng;
 use nalgebra::{Matrix3, Vector3};
@@ -40,7 +40,11 @@ pub(crate) fn draw_imu(rng: &mut Rng) -> ImuParameters {
     };
     let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
     let gyroscope = sensor(0.02, 0.01);
-    ImuParameters { accelerometer, gyroscope, g_sensitivity: Matrix3::zeros(), thermal: Thermal::none() }
+    ImuParameters {
+        sensors: [accelerometer, gyroscope].into(),
+        g_sensitivity: Matrix3::zeros(),
+        thermal: Thermal::none(),
+    }
 }
 
 /// An IMU of the size of MEMS errors, with g-sensitivity.
@@ -89,5 +93,5 @@ pub(crate) fn run_imu(
 /// The recording of an accelerometer, in this unit where the file states none.
 pub(crate) fn read_accelerometer(path: &Path, axes: usize, unit: ReadingUnit) -> Recording {
     let file = read_imu_recording(path, &ImuReadOptions::accelerometer(axes, unit)).expect("readable");
-    file.recording.accelerometer.expect("there")
+    file.recording[SensorKind::Accelerometer].clone().expect("there")
 }

@@ -3,7 +3,9 @@
 
 use super::conventions::{SI, imu};
 use calibrant::io::write_corrected_recording;
-use calibrant::sensor::{CalibratedImu, ImuCorrection, ImuParameters, ImuRecording, ReadingUnit, Recording};
+use calibrant::sensor::{
+    CalibratedImu, ImuCorrection, ImuParameters, ImuRecording, ReadingUnit, Recording, SensorKind,
+};
 use calibrant::simulate::{Purpose, Rng, stream};
 use nalgebra::{DVector, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -29,9 +31,20 @@ fn vector(row: &BTreeMap<String, f64>, name: &str) -> Vector3<f64> {
 /// The `f` and `ω` for which this IMU gives these readings: `y_a = S_a f + b_a`, `y_g = S_g ω + b_g + Γ f`,
 /// solved by LU.
 fn solved(p: &ImuParameters, y_a: &Vector3<f64>, y_g: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    let force = p.accelerometer.matrix.lu().solve(&(y_a - p.accelerometer.bias)).expect("regular");
+    let force = p[SensorKind::Accelerometer]
+        .matrix
+        .lu()
+        .solve(&(y_a - p[SensorKind::Accelerometer].bias))
+        .expect("regular");
     let felt = p.g_sensitivity * force;
-    (force, p.gyroscope.matrix.lu().solve(&(y_g - p.gyroscope.bias - felt)).expect("regular"))
+    (
+        force,
+        p[SensorKind::Gyroscope]
+            .matrix
+            .lu()
+            .solve(&(y_g - p[SensorKind::Gyroscope].bias - felt))
+            .expect("regular"),
+    )
 }
 
 fn drawn(imu: &CalibratedImu, rng: &mut Rng) -> ImuParameters {
@@ -61,8 +74,11 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
         Recording::new(times_s.clone(), readings.clone(), 3, unit).expect("samples in order")
     };
     let recording = ImuRecording {
-        accelerometer: Some(sensor_kind(&times, &readings_a, SI[0])),
-        gyroscope: Some(sensor_kind(&times_g, &readings_g, SI[1])),
+        sensors: [
+            Some(sensor_kind(&times, &readings_a, SI[0])),
+            Some(sensor_kind(&times_g, &readings_g, SI[1])),
+        ]
+        .into(),
         temperature_c: None,
     };
     let corrected = ImuCorrection::of(&imu).expect("regular").apply(&recording).expect("both");

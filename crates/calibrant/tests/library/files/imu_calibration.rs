@@ -21,7 +21,7 @@ fn it_is_read_as_a_calibrated_imu_to_the_bit() {
     let calibration = case.calibration;
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
-    let samples = case.recording.gyroscope.map_or(0, |recording| recording.len());
+    let samples = case.recording[SensorKind::Gyroscope].clone().map_or(0, |recording| recording.len());
     let inputs = [input(), Input { file: "gyroscope.csv".into(), samples, ..input() }];
     write_json(&path, &CalibrationFile::of(&calibration, &[], &Origin::of_inputs(inputs.clone()), &WORDS))
         .expect("written");

@@ -4,14 +4,14 @@ use crate::common::shared_data;
 use calibrant::diagnostic::Check;
 use calibrant::diagnostic::reader::SamplingIrregular;
 use calibrant::io::{ImuReadOptions, read_imu_recording};
-use calibrant::sensor::ReadingUnit;
+use calibrant::sensor::{ReadingUnit, SensorKind};
 
 #[test]
 fn the_xsens_recording_of_imu_tk_reads_whole() {
     let Some(path) = shared_data("xsens-mti-static/xsens_acc.mat") else { return };
     let options = ImuReadOptions::accelerometer(3, ReadingUnit::Counts);
     let file = read_imu_recording(&path, &options).expect("good");
-    let recording = file.recording.accelerometer.expect("there");
+    let recording = file.recording[SensorKind::Accelerometer].clone().expect("there");
     assert_eq!((recording.len(), file.rows), (51_175, 51_175));
     assert_eq!(recording.unit(), ReadingUnit::Counts);
     assert_eq!(recording.readings()[0].as_slice(), [33108.0, 33329.0, 36429.0]);

@@ -7,7 +7,7 @@ use calibrant::diagnostic::reader::{
 };
 use calibrant::diagnostic::{Check, Diagnostic};
 use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_recording};
-use calibrant::sensor::{ReadingUnit, Recording};
+use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
 
 /// A recording as it was read.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ struct Read {
 
 fn read(bytes: &[u8], options: &ImuReadOptions) -> Result<Read, Error> {
     let file = parse_imu_recording(bytes, options)?;
-    let recording = file.recording.accelerometer.expect("there");
+    let recording = file.recording[SensorKind::Accelerometer].clone().expect("there");
     Ok(Read { recording, findings: file.findings, sha256: file.sha256.concat() })
 }
 

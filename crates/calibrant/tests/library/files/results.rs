@@ -131,7 +131,7 @@ fn calibration(
         prior_share: Vec::new(),
         gravity_slope: Vec::new(),
         datasheet_prior: true,
-        imu: ImuParameters { accelerometer: parameters, ..ImuParameters::identity() },
+        imu: ImuParameters::identity().with(SensorKind::Accelerometer, parameters),
         units: PerSensor::only(SensorKind::Accelerometer, sensor.unit),
         fit: FitStatistics {
             chi2: 5.5,

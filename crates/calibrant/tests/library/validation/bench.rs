@@ -8,7 +8,7 @@ use calibrant::estimate::{
     HoldCalibration, ImuProblem, ImuSetup, Recovered, ValidatedErrors, Validation, calibrate_imu,
     cross_validate_imu, validate_imu,
 };
-use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
+use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorKind, SensorModel};
 use calibrant::simulate::{ImuSimulation, Rng, simulate_imu};
 use nalgebra::Vector3;
 
@@ -72,11 +72,11 @@ fn scatter(recording: &mut ImuRecording, simulation: &ImuSimulation, size: f64, 
         (0..=simulation.poses).map(|_| Vector3::from_fn(|_, _| sd * normal(rng))).collect()
     };
     let (pushes, biases, swings) = (vectors(2e-3 * size), vectors(5e-4 * size), vectors(2e-3 * size));
-    let accelerometer = recording.accelerometer.as_mut().expect("there");
+    let accelerometer = recording[SensorKind::Accelerometer].as_mut().expect("there");
     for (t, y) in accelerometer.samples_mut() {
         *y += pushes[(t / period) as usize];
     }
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     for (t, y) in gyroscope.samples_mut() {
         let j = (t / period) as usize;
         let into = t - j as f64 * period - simulation.hold_s;

@@ -5,7 +5,7 @@ use crate::common::{draw_imu, normal};
 use crate::validation::bench::{KINDS, bench, gyroscope_mut, holds_mut, intervals, mean};
 use calibrant::estimate::{CovarianceVerdict, ErrorKind, UnusedError, ValidatedErrors, Validation};
 use calibrant::report::validation_sentences;
-use calibrant::sensor::{ImuRecording, Recording, SensorParameters};
+use calibrant::sensor::{ImuRecording, Recording, SensorKind, SensorParameters};
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, simulate_imu, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ fn a_bias_that_has_moved_is_said_and_not_blamed_on_the_rotations() {
     let calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     let moved_by = Vector3::new(2e-3, -1e-3, 5e-4);
     let mut moved = truth;
-    moved.gyroscope.bias += truth.gyroscope.matrix * moved_by;
+    moved[SensorKind::Gyroscope].bias += truth[SensorKind::Gyroscope].matrix * moved_by;
     let validation = bench.validate(&calibration, &simulate_imu(&moved, &simulation, &mut rng));
     let shift = validation.bias_shift.expect("a gyroscope");
     assert!(shift.moved && shift.p_value < 1e-6);
@@ -47,13 +47,13 @@ fn what_stands_out_is_named() {
     let truth = draw_imu(&mut rng);
     let calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     let mut other = simulate_imu(&truth, &simulation, &mut rng);
-    let accelerometer = other.accelerometer.as_mut().expect("there");
+    let accelerometer = other[SensorKind::Accelerometer].as_mut().expect("there");
     for (t, y) in accelerometer.samples_mut() {
         if (4.5 * 6.0..4.5 * 6.0 + 2.5).contains(t) {
             *y *= 1.005;
         }
     }
-    let gyroscope = other.gyroscope.as_mut().expect("there");
+    let gyroscope = other[SensorKind::Gyroscope].as_mut().expect("there");
     for (t, y) in gyroscope.samples_mut() {
         if (4.5 * 11.0 + 3.0..4.5 * 11.0 + 4.0).contains(t) {
             *y += Vector3::repeat(0.02);
@@ -67,7 +67,11 @@ fn what_stands_out_is_named() {
     let sentences = validation_sentences(&validation).join("\n");
     // 0.005 (g + u·b)
     let felt = validation.of_kind(ErrorKind::Magnitude).expect("there").errors[6].error[0] / 0.005 - 9.806_65;
-    assert!(felt.abs() < truth.accelerometer.bias.norm() + 0.5, "{felt} beside {}", truth.accelerometer.bias);
+    assert!(
+        felt.abs() < truth[SensorKind::Accelerometer].bias.norm() + 0.5,
+        "{felt} beside {}",
+        truth[SensorKind::Accelerometer].bias
+    );
     assert!(sentences.contains("Hold 7 (27.0 to 29.5 s) has a gravity residual of 4"), "{sentences}");
     assert!(sentences.contains("The rotation from hold 12 to hold 13 ("), "{sentences}");
     for kind in KINDS {
@@ -89,7 +93,10 @@ fn errors_equal_those_of_plain_arithmetic() {
     let other = simulate_imu(&truth, &simulation, &mut rng);
     let validation = bench.validate(&calibration, &other);
     let imu = calibration.imu;
-    let (accelerometer, gyroscope) = (other.accelerometer.expect("there"), other.gyroscope.expect("there"));
+    let (accelerometer, gyroscope) = (
+        other[SensorKind::Accelerometer].clone().expect("there"),
+        other[SensorKind::Gyroscope].clone().expect("there"),
+    );
     // times are equal but for rounding
     let still = |recording: &Recording, (start, end): (f64, f64)| {
         let span = start - 1e-6..=end + 1e-6;
@@ -101,14 +108,16 @@ fn errors_equal_those_of_plain_arithmetic() {
         sensor.matrix.lu().solve(&(y - sensor.bias)).expect("regular")
     };
     let spans = intervals(&simulation);
-    let forces: Vec<_> =
-        spans.iter().map(|span| corrected(&imu.accelerometer, still(&accelerometer, *span))).collect();
+    let forces: Vec<_> = spans
+        .iter()
+        .map(|span| corrected(&imu[SensorKind::Accelerometer], still(&accelerometer, *span)))
+        .collect();
     let of = |kind: ErrorKind| &validation.of_kind(kind).expect("there").errors;
     for (error, force) in of(ErrorKind::Magnitude).iter().zip(&forces) {
         assert!((error.error[0] - (force.norm() - 9.806_65)).abs() < 1e-12);
     }
     for (error, span) in of(ErrorKind::Rate).iter().zip(&spans) {
-        let rate = corrected(&imu.gyroscope, still(&gyroscope, *span));
+        let rate = corrected(&imu[SensorKind::Gyroscope], still(&gyroscope, *span));
         assert!((Vector3::from_column_slice(error.error.as_slice()) - rate).norm() < 1e-14);
     }
     assert_eq!(of(ErrorKind::Rotation).len(), 15);
@@ -119,7 +128,8 @@ fn errors_equal_those_of_plain_arithmetic() {
         for k in (0..times.len() - 1).filter(inside) {
             for part in 0..100 {
                 let x = (part as f64 + 0.5) / 100.0;
-                let rate = corrected(&imu.gyroscope, readings[k] * (1.0 - x) + readings[k + 1] * x);
+                let rate =
+                    corrected(&imu[SensorKind::Gyroscope], readings[k] * (1.0 - x) + readings[k + 1] * x);
                 let step = (times[k + 1] - times[k]) / 100.0;
                 // gravity in the sensor's frame: ġ = −ω × g, by the rule of the midpoint
                 let middle = gravity - rate.cross(&gravity) * (0.5 * step);
@@ -150,9 +160,7 @@ fn repeated(gyroscope_noise: f64) {
     let (one, other) = (simulate_imu(&truth, &quiet, &mut rng), simulate_imu(&truth, &quiet, &mut rng));
     let noisy = |recording: &ImuRecording, rng: &mut Rng| {
         let mut recording = recording.clone();
-        for (sensor_kind, sd) in
-            [(&mut recording.accelerometer, 0.01), (&mut recording.gyroscope, gyroscope_noise)]
-        {
+        for (sensor_kind, sd) in recording.sensors.iter_mut().map(|(_, of)| of).zip([0.01, gyroscope_noise]) {
             for y in sensor_kind.as_mut().expect("there").readings_mut() {
                 *y += Vector3::from_fn(|_, _| sd * normal(rng));
             }

@@ -10,7 +10,7 @@ use calibrant::diagnostic::validation::{
 use calibrant::diagnostic::{Check, Code, Diagnostic};
 use calibrant::estimate::{ErrorKind, ThermalModel, Validation, other_temperature, validate_imu};
 use calibrant::report::validation_sentences;
-use calibrant::sensor::{ImuParameters, ImuRecording};
+use calibrant::sensor::{ImuParameters, ImuRecording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -68,7 +68,7 @@ fn an_honest_pair_needs_no_reason() {
 #[test]
 fn a_bias_of_the_accelerometer_that_has_moved_is_told_with_its_size() {
     let (mut reported, mut inside) = (0, 0);
-    for validation in tried(|truth| truth.accelerometer.bias.x += 0.05, |_| ()) {
+    for validation in tried(|truth| truth[SensorKind::Accelerometer].bias.x += 0.05, |_| ()) {
         let Some(found) = explanation(&validation, AccelerometerMoved::CODE) else { continue };
         let Some(shift_mps2) = axes(found, "shift_mps2") else { continue };
         let sd_mps2 = axes(found, "shift_sd_mps2").expect("with its sd");
@@ -92,8 +92,8 @@ fn a_bias_of_the_accelerometer_that_has_moved_is_told_with_its_size() {
 fn a_gain_of_the_accelerometer_that_has_changed_is_told_with_its_size() {
     let found = tried(
         |truth| {
-            let row = truth.accelerometer.matrix.row(2) * 1.01;
-            truth.accelerometer.matrix.set_row(2, &row);
+            let row = truth[SensorKind::Accelerometer].matrix.row(2) * 1.01;
+            truth[SensorKind::Accelerometer].matrix.set_row(2, &row);
         },
         |_| (),
     );
@@ -114,8 +114,8 @@ fn a_gain_of_the_accelerometer_that_has_changed_is_told_with_its_size() {
 fn a_gain_of_the_gyroscope_that_has_changed_is_told_with_its_size() {
     let found = tried(
         |truth| {
-            let row = truth.gyroscope.matrix.row(1) * 1.01;
-            truth.gyroscope.matrix.set_row(1, &row);
+            let row = truth[SensorKind::Gyroscope].matrix.row(1) * 1.01;
+            truth[SensorKind::Gyroscope].matrix.set_row(1, &row);
         },
         |_| (),
     );
@@ -142,7 +142,7 @@ fn rates_in_another_unit_are_known_by_their_turns() {
         let found = tried(
             |_| (),
             |other| {
-                let readings = other.gyroscope.as_mut().expect("there").readings_mut();
+                let readings = other[SensorKind::Gyroscope].as_mut().expect("there").readings_mut();
                 readings.iter_mut().for_each(|y| *y *= times);
             },
         );
@@ -167,7 +167,12 @@ fn readings_in_g_that_are_stated_in_metres_are_asked_about() {
         [(1.0 / 9.80665, "are the readings in g, "), (9.80665, "are the readings in m/s², ")]
     {
         let mut other = simulate(&truth, &setup, 0.0, &mut rng);
-        other.accelerometer.as_mut().expect("there").readings_mut().iter_mut().for_each(|y| *y *= times);
+        other[SensorKind::Accelerometer]
+            .as_mut()
+            .expect("there")
+            .readings_mut()
+            .iter_mut()
+            .for_each(|y| *y *= times);
         let error = validate_imu(&calibration, &bench.problem(&other)).expect_err("another unit").to_string();
         assert!(error.contains(expected), "{error}");
     }
@@ -180,8 +185,7 @@ fn another_temperature_is_told_where_nothing_follows_it() {
     let mut rng = stream(47, Purpose::Sensor, 0);
     let mut truth = draw_imu(&mut rng);
     let at = |recording: ImuRecording, temperature_c: f64| ImuRecording {
-        temperature_c: recording
-            .accelerometer
+        temperature_c: recording[SensorKind::Accelerometer]
             .as_ref()
             .map(|readings| vec![temperature_c; readings.times_s().len()]),
         ..recording
@@ -191,8 +195,8 @@ fn another_temperature_is_told_where_nothing_follows_it() {
     let same = at(simulate(&truth, &setup, 1.0, &mut rng), 45.0);
     let validation = bench.validate(&calibration, &same);
     assert_eq!(other_temperature(&calibration, &validation, &one, &same), None, "all is as predicted");
-    truth.accelerometer.matrix *= 1.01;
-    truth.gyroscope.bias.y += 0.01;
+    truth[SensorKind::Accelerometer].matrix *= 1.01;
+    truth[SensorKind::Gyroscope].bias.y += 0.01;
     let warm = simulate(&truth, &setup, 1.0, &mut rng);
     let mut validation = bench.validate(&calibration, &warm);
     assert_eq!(other_temperature(&calibration, &validation, &one, &warm), None, "no temperatures");
@@ -216,9 +220,9 @@ fn another_temperature_is_told_where_nothing_follows_it() {
 fn a_bias_and_a_gain_that_have_changed_together_are_both_told() {
     let found = tried(
         |truth| {
-            truth.accelerometer.bias.x += 0.05;
-            let row = truth.accelerometer.matrix.row(2) * 1.01;
-            truth.accelerometer.matrix.set_row(2, &row);
+            truth[SensorKind::Accelerometer].bias.x += 0.05;
+            let row = truth[SensorKind::Accelerometer].matrix.row(2) * 1.01;
+            truth[SensorKind::Accelerometer].matrix.set_row(2, &row);
         },
         |_| (),
     );
@@ -256,8 +260,8 @@ fn a_bias_and_a_gain_that_have_changed_together_are_both_told() {
 fn another_sensor_is_no_bias_and_gain() {
     let found = tried(
         |truth| {
-            truth.accelerometer.matrix[(0, 1)] += 0.02;
-            truth.accelerometer.matrix[(2, 0)] -= 0.02;
+            truth[SensorKind::Accelerometer].matrix[(0, 1)] += 0.02;
+            truth[SensorKind::Accelerometer].matrix[(2, 0)] -= 0.02;
         },
         |_| (),
     );
@@ -281,13 +285,13 @@ fn temperatures_beyond_the_calibrations_are_told() {
     let mut rng = stream(48, Purpose::Sensor, 0);
     let mut truth = draw_imu(&mut rng);
     truth.thermal.reference_c = 32.0;
-    truth.thermal.gyroscope.bias[0].x = 2e-4;
-    truth.thermal.accelerometer.bias[0].y = 1e-3;
+    truth.thermal[SensorKind::Gyroscope].bias[0].x = 2e-4;
+    truth.thermal[SensorKind::Accelerometer].bias[0].y = 1e-3;
     let calibration = bench.calibrate(&simulate(&truth, &setup, 1.0, &mut rng));
     let mut tried = |temperatures_c: [f64; 2], off: f64| {
         let mut truth = truth;
-        truth.accelerometer.bias.z += off;
-        truth.gyroscope.bias.z += off;
+        truth[SensorKind::Accelerometer].bias.z += off;
+        truth[SensorKind::Gyroscope].bias.z += off;
         let other = ImuSimulation { temperature_c: Some(temperatures_c), ..setup.clone() };
         bench.validate(&calibration, &simulate(&truth, &other, 1.0, &mut rng))
     };

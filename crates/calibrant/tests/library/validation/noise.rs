@@ -127,15 +127,18 @@ fn what_is_wrong_is_found_in_other_noise() {
                 let of: Vec<_> = found.iter().filter_map(|found| found.of_kind(kind)).collect();
                 share(&of, CovarianceVerdict::TooSmall)
             };
-            let gains = tried(on, scatter, count, |calibration, _| calibration.imu.gyroscope.matrix *= 1.01);
-            let scales =
-                tried(on, scatter, count, |calibration, _| calibration.imu.accelerometer.matrix *= 1.01);
+            let gains = tried(on, scatter, count, |calibration, _| {
+                calibration.imu[SensorKind::Gyroscope].matrix *= 1.01
+            });
+            let scales = tried(on, scatter, count, |calibration, _| {
+                calibration.imu[SensorKind::Accelerometer].matrix *= 1.01
+            });
             let biases = tried(on, scatter, count, |calibration, truth| {
                 // 5 standard deviations of the difference of two means of 24 holds, of 246 samples each
                 let noise = 2e-3 * 2e-3 / 246.0 * (1.0 + on.gyroscope.powi(2));
                 let between =
                     2.0 * calibration.gyroscope.as_ref().expect("an IMU").still.between_holds_sd.x.powi(2);
-                truth.gyroscope.bias.x += 5.0 * ((noise + between) / 24.0).sqrt();
+                truth[SensorKind::Gyroscope].bias.x += 5.0 * ((noise + between) / 24.0).sqrt();
             });
             let gain = too_small(&gains, ErrorKind::Rotation);
             let scale = too_small(&scales, ErrorKind::Magnitude);
@@ -163,7 +166,7 @@ fn filtered_noise_is_scatter_that_goes_with_the_noise() {
             let mut filtered = |sd: f64| {
                 let mut recording = simulate_imu(&truth, &quiet, &mut rng);
                 let mut noise = Vector3::zeros();
-                for y in recording.gyroscope.as_mut().expect("there").readings_mut() {
+                for y in recording[SensorKind::Gyroscope].as_mut().expect("there").readings_mut() {
                     noise = 0.8 * noise + 0.6 * Vector3::from_fn(|_, _| sd * normal(&mut rng));
                     *y += noise;
                 }
@@ -201,7 +204,10 @@ fn other_noise_is_said() {
 
 /// The accelerometer's readings in steps of this number of standard deviations of their noise.
 fn rounded(mut recording: ImuRecording, setup: &ImuSimulation, deviations: f64) -> ImuRecording {
-    in_steps(recording.accelerometer.as_mut().expect("there"), deviations * setup.accelerometer_noise);
+    in_steps(
+        recording[SensorKind::Accelerometer].as_mut().expect("there"),
+        deviations * setup.accelerometer_noise,
+    );
     recording
 }
 
@@ -250,9 +256,9 @@ fn a_gyroscope_with_coarse_steps_in_the_other_recording_has_not_moved() {
                 let calibration = bench.calibrate(&simulate(&truth, &setup, scatter, &mut rng));
                 let mut tried = |moved: f64| {
                     let mut truth = truth;
-                    truth.gyroscope.bias.x += moved;
+                    truth[SensorKind::Gyroscope].bias.x += moved;
                     let mut other = simulate(&truth, &setup, scatter, &mut rng);
-                    in_steps(other.gyroscope.as_mut().expect("there"), step);
+                    in_steps(other[SensorKind::Gyroscope].as_mut().expect("there"), step);
                     bench.validate(&calibration, &other)
                 };
                 [tried(0.0), tried(step)]
@@ -317,7 +323,10 @@ fn coarser_steps_are_no_noise() {
 
 /// Both sensors in steps of this number of standard deviations of their noise.
 fn in_both(recording: &mut ImuRecording, deviations: f64, setup: &ImuSimulation) -> ImuRecording {
-    in_steps(recording.accelerometer.as_mut().expect("there"), deviations * setup.accelerometer_noise);
-    in_steps(recording.gyroscope.as_mut().expect("there"), deviations * setup.gyroscope_noise);
+    in_steps(
+        recording[SensorKind::Accelerometer].as_mut().expect("there"),
+        deviations * setup.accelerometer_noise,
+    );
+    in_steps(recording[SensorKind::Gyroscope].as_mut().expect("there"), deviations * setup.gyroscope_noise);
     recording.clone()
 }

@@ -3,7 +3,7 @@
 use crate::common::{steady_holds, steady_imu};
 use crate::validation::bench::{Bench, KINDS};
 use calibrant::estimate::{CovarianceVerdict, Gyroscope, HoldsSetup, ImuSetup};
-use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Sensor, SensorKind, SensorModel};
 
 /// The recording of imu_tk: half of it calibrates, the other half validates; and by folds.
 #[test]
@@ -23,8 +23,9 @@ fn the_standard_deviations_on_the_xsens_recording_are_to_be_believed() {
             let of = of.as_ref().expect("there");
             Some(of.only(|k| (of.times_s()[k] < middle) == first))
         };
-        let (accelerometer, gyroscope) = (of(&recording.accelerometer), of(&recording.gyroscope));
-        ImuRecording { accelerometer, gyroscope, temperature_c: None }
+        let (accelerometer, gyroscope) =
+            (of(&recording[SensorKind::Accelerometer]), of(&recording[SensorKind::Gyroscope]));
+        ImuRecording { sensors: [accelerometer, gyroscope].into(), temperature_c: None }
     };
     let (one, two) = (half(true), half(false));
     let found = [bench.fold(&whole, &recording, 5), bench.validate(&bench.calibrate(&one), &two)];

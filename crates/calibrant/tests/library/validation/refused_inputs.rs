@@ -4,7 +4,7 @@ use crate::common::draw_imu;
 use crate::common::steady_imu;
 use crate::validation::bench::bench;
 use calibrant::estimate::{CalibrationSettings, ImuProblem, cross_validate_imu, validate_imu};
-use calibrant::sensor::ImuRecording;
+use calibrant::sensor::{ImuRecording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
 
@@ -45,10 +45,10 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
         assert!(error.is_invalid_recording(), "{error}");
         error.to_string()
     };
-    let without = ImuRecording { gyroscope: None, ..recording.clone() };
+    let without = recording.clone().with(SensorKind::Gyroscope, None);
     assert!(refused(&without).contains("the recording has no gyroscope"));
     let mut restless = recording.clone();
-    for sensor in [&mut restless.accelerometer, &mut restless.gyroscope] {
+    for sensor in restless.sensors.iter_mut().map(|(_, of)| of) {
         for (k, y) in sensor.as_mut().expect("there").readings_mut().iter_mut().enumerate() {
             *y += Vector3::repeat(3.0 * (k as f64 * 0.9).sin() * (1.0 + k as f64 * 1e-3));
         }
@@ -56,6 +56,11 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
     let message = refused(&restless);
     assert!(message.contains("no holds") || message.contains("miss the magnitude"), "{message}");
     let mut another = recording.clone();
-    another.accelerometer.as_mut().expect("there").readings_mut().iter_mut().for_each(|y| *y *= 0.1);
+    another[SensorKind::Accelerometer]
+        .as_mut()
+        .expect("there")
+        .readings_mut()
+        .iter_mut()
+        .for_each(|y| *y *= 0.1);
     assert!(refused(&another).contains("its holds miss the magnitude of gravity by 8.8"));
 }

@@ -9,7 +9,7 @@ use calibrant::estimate::{
     ValidatedErrors, Validation, calibrate, cross_validate, validate,
 };
 use calibrant::motion::Gravity;
-use calibrant::sensor::{ReadingUnit, Sensor, SensorModel};
+use calibrant::sensor::{ReadingUnit, Sensor, SensorKind, SensorModel};
 use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, simulate_holds, simulate_imu, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -144,7 +144,7 @@ fn an_accelerometer_alone_is_tried_on_another_recording_and_by_folds() {
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(28, Purpose::Sensor, number);
-            let truth = draw_imu(&mut rng).accelerometer;
+            let truth = draw_imu(&mut rng)[SensorKind::Accelerometer];
             let noise = Vector3::repeat(0.01);
             let (recording, _) = simulate_holds(&truth, &noise, unit, &setup, &mut rng);
             let (other, _) = simulate_holds(&truth, &noise, unit, &setup, &mut rng);

@@ -4,7 +4,7 @@ use crate::common::draw_imu;
 use crate::validation::bench::{KINDS, bench, intervals, simulate};
 use calibrant::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
 use calibrant::report::validation_sentences;
-use calibrant::sensor::Recording;
+use calibrant::sensor::{Recording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use rayon::prelude::*;
 
@@ -57,7 +57,7 @@ fn poses_that_repeat_are_counted_and_share_their_scatter() {
     let once = simulate_imu(&truth, &short, &mut rng);
     let mut twice = once.clone();
     let period_s = 12.0 * (short.hold_s + short.turn_s);
-    for recording in [&mut twice.accelerometer, &mut twice.gyroscope].into_iter().flatten() {
+    for recording in twice.sensors.iter_mut().map(|(_, of)| of).flatten() {
         let again = recording.times_s().iter().map(|t| t + period_s);
         let times_s = recording.times_s().iter().copied().chain(again).collect();
         let readings = recording.readings().repeat(2);
@@ -94,8 +94,8 @@ fn folds_judge_what_the_fit_used() {
         .iter()
         .map(|result| result.force_mps2.normalize())
         .collect();
-    let gain = truth.gyroscope.matrix;
-    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let gain = truth[SensorKind::Gyroscope].matrix;
+    let gyroscope = recording[SensorKind::Gyroscope].as_mut().expect("there");
     for (hold, (start_s, end_s)) in intervals(&simulation).into_iter().enumerate() {
         if turning.contains(&hold) {
             let pairs = gyroscope.samples_mut();

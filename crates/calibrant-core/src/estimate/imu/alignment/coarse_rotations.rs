@@ -3,6 +3,7 @@
 use crate::estimate::holds::median;
 use crate::estimate::imu::least_squares::integration::propagated_back;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
+use crate::sensor::SensorKind;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -38,7 +39,7 @@ impl CoarseRotations {
         let used = model.rotations.iter().filter(|data| data.used);
         let cut_down = |data: &RotationData<'_>| {
             let step = data.samples.times_s.len().div_ceil(COARSE_SAMPLES);
-            let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
+            let bias = state.imu.at(data.samples.temperature_c())[SensorKind::Gyroscope].bias;
             ThinnedRotation {
                 turns: data.samples.cut_down(&bias, step),
                 from: state.forces[data.from],

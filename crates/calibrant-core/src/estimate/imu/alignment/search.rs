@@ -9,7 +9,7 @@ use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, Judged,
 use crate::estimate::imu::alignment::mounting::find_mounting;
 use crate::estimate::imu::checks::common_factor;
 use crate::estimate::imu::model::{ImuModel, State};
-use crate::sensor::{ImuParameters, ReadingUnit};
+use crate::sensor::{ImuParameters, ReadingUnit, SensorKind};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
@@ -45,7 +45,7 @@ pub(crate) fn find_alignment(
 ) -> Option<Alignment> {
     let with = |matrix: Matrix3<f64>| {
         let mut imu = state.imu;
-        imu.gyroscope.matrix = matrix;
+        imu[SensorKind::Gyroscope].matrix = matrix;
         imu
     };
     let look = CoarseRotations::of(model, state);
@@ -155,7 +155,7 @@ fn gain_bound(model: &ImuModel<'_>, state: &State) -> Option<f64> {
         .filter_map(|data| {
             let angle = state.forces[data.from].angle(&state.forces[data.from + 1]);
             let samples = &data.samples;
-            let bias = state.imu.at(samples.temperature_c()).gyroscope.bias;
+            let bias = state.imu.at(samples.temperature_c())[SensorKind::Gyroscope].bias;
             let path: f64 = samples
                 .times_s
                 .windows(2)

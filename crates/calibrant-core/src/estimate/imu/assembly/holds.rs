@@ -33,7 +33,7 @@ pub(crate) fn hold_results(
         let unknown = (0..model.quantities.len()).filter(of_accelerometer).filter(|k| !known(k)).count();
         holds.degrees_of_freedom = model.holds.len().saturating_sub(unknown);
     }
-    holds.before = Uncalibrated::accelerometer(problem.accelerometer, &state.imu.accelerometer);
+    holds.before = Uncalibrated::accelerometer(problem.accelerometer, &state.imu[SensorKind::Accelerometer]);
     Ok(holds)
 }
 
@@ -45,7 +45,7 @@ fn correct(
     temperature: &RecordingTemperature<'_>,
 ) -> Result<()> {
     for result in &mut holds.holds {
-        let accelerometer = imu.at(temperature.of_hold(&result.hold)).accelerometer;
+        let accelerometer = imu.at(temperature.of_hold(&result.hold))[SensorKind::Accelerometer];
         let correction = Correction::of(&accelerometer).ok_or_else(singular)?;
         result.magnitude_residual_mps2 =
             correction.apply(&result.hold.mean).norm() - holds.gravity.magnitude_mps2;

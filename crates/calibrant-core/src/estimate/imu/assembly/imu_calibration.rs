@@ -115,7 +115,8 @@ impl Finished<'_> {
 /// The turns of known angle, measured with the calibrated gyroscope.
 fn turn_results(model: &ImuModel<'_>, turns: &[Turn], imu: &ImuParameters) -> Result<Vec<TurnResult>> {
     let result = |(data, turn): (&TurnData, &Turn)| {
-        let correction = imu.at(data.temperature_c).gyroscope.matrix.try_inverse().ok_or_else(singular)?;
+        let correction =
+            imu.at(data.temperature_c)[SensorKind::Gyroscope].matrix.try_inverse().ok_or_else(singular)?;
         Ok(TurnResult {
             start_s: turn.start_s,
             end_s: turn.end_s,

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, ImuModel, State, singular};
 use crate::estimate::imu::result::GyroscopeInHolds;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
-use crate::sensor::{Correction, ImuParameters};
+use crate::sensor::{Correction, ImuParameters, SensorKind};
 use nalgebra::Vector3;
 
 /// Its mean rates and noise there. `numbers`: of the used holds. `before`: the IMU before its calibration. `vertical_rate`: the Earth's rate about the vertical over gravity, if known.
@@ -31,7 +31,8 @@ pub(crate) fn stationary_result(
 fn between_holds_sd(model: &ImuModel<'_>, state: &State, between: &Vector3<f64>) -> Vector3<f64> {
     let found = |(j, hold): (usize, &HoldData)| {
         let rate = model.earth.rate_found(j, &state.forces[j]);
-        (state.imu.at(hold.temperature_c).gyroscope.matrix * rate).map(|reading| reading * reading)
+        (state.imu.at(hold.temperature_c)[SensorKind::Gyroscope].matrix * rate)
+            .map(|reading| reading * reading)
     };
     let squares: Vector3<f64> = model.holds.iter().enumerate().map(found).sum();
     (squares / model.holds.len() as f64 + between.component_mul(between)).map(f64::sqrt)
@@ -47,7 +48,7 @@ fn rate_rms(
     let (mut sum, mut count) = (0.0, 0);
     for (hold, force) in model.holds.iter().zip(forces) {
         let Some((mean, _)) = &hold.gyroscope else { continue };
-        let correction = Correction::of(&imu.at(hold.temperature_c).gyroscope)?;
+        let correction = Correction::of(&imu.at(hold.temperature_c)[SensorKind::Gyroscope])?;
         let rate = correction.apply(&(mean - imu.g_sensitivity * force));
         sum += (rate - force * vertical_rate).norm_squared();
         count += 1;

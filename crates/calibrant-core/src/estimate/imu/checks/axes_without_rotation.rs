@@ -4,7 +4,7 @@ use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
 use crate::estimate::imu::checks::axes_in_words::axes_in_words;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
-use crate::sensor::Axis;
+use crate::sensor::{Axis, SensorKind};
 
 /// An axis that shows less than this in all rotations does not turn, rad. Noise and the drift of the bias show as much.
 const HARDLY_RAD: f64 = 0.05;
@@ -18,8 +18,8 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
     let turned = |axis: &Axis| {
         let angle = |rotation: &RotationData<'_>| {
             let samples = &rotation.samples;
-            let bias = state.imu.at(samples.temperature_c()).gyroscope.bias[axis.index()];
-            let gain = state.imu.gyroscope.matrix.row(axis.index()).norm();
+            let bias = state.imu.at(samples.temperature_c())[SensorKind::Gyroscope].bias[axis.index()];
+            let gain = state.imu[SensorKind::Gyroscope].matrix.row(axis.index()).norm();
             let steps = samples.times_s.windows(2).zip(samples.readings);
             steps.map(|(t, y)| (t[1] - t[0]) * (y[axis.index()] - bias)).sum::<f64>().abs() / gain
         };

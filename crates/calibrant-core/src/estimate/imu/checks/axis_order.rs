@@ -4,13 +4,14 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::gyroscope::{AxesInOtherOrder, GyroscopeTurned};
 use crate::estimate::imu::alignment::axes::Axes;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+use crate::sensor::SensorKind;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// How its axes lie, where they were found by the rotations.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let stated = evidence.axes.map(|axes| match axes {
         Axes::InOrder(order) => Diagnostic::from(AxesInOtherOrder { order: order.clone(), by_turns: false }),
-        Axes::Rotated => mounting(&evidence.calibration.imu.gyroscope.matrix),
+        Axes::Rotated => mounting(&evidence.calibration.imu[SensorKind::Gyroscope].matrix),
     });
     stated.into_iter().collect()
 }

@@ -57,7 +57,7 @@ impl Changing<'_> {
         let quantities: Vec<ImuQuantity> =
             model.gyroscope_places().into_iter().map(|k| model.quantities[k]).collect();
         let (rows, imu) = (places.len(), &self.fit.state.imu);
-        let gain = imu.gyroscope.matrix.row(axis).norm();
+        let gain = imu[SensorKind::Gyroscope].matrix.row(axis).norm();
         let mut errors = DVector::zeros(rows);
         let (mut parameters, mut bias) = (DMatrix::zeros(rows, quantities.len()), DMatrix::zeros(rows, 3));
         for (row, (&place, still)) in
@@ -114,7 +114,8 @@ impl Changing<'_> {
             for (column, &k) in matrix.iter().enumerate() {
                 let by = white * residual.by_parameters.column(k);
                 put(&mut parameters, column, by);
-                let Some((of_gain, of_axes)) = entry(model.quantities[k], &imu.gyroscope.matrix) else {
+                let Some((of_gain, of_axes)) = entry(model.quantities[k], &imu[SensorKind::Gyroscope].matrix)
+                else {
                     continue;
                 };
                 // what the estimate lacks of the truth

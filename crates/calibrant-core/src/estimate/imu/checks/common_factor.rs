@@ -46,7 +46,7 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State, as_read_rad: f64) -> Re
 
 /// The factor of the fitted gains.
 pub(crate) fn of_fit(evidence: &Evidence<'_>) -> Diagnostics {
-    let (problem, matrix) = (evidence.problem, &evidence.calibration.imu.gyroscope.matrix);
+    let (problem, matrix) = (evidence.problem, &evidence.calibration.imu[SensorKind::Gyroscope].matrix);
     let nominal = match problem.gyroscope.unit {
         ReadingUnit::Counts => problem.gyroscope.gain,
         _ => Some(Vector3::repeat(1.0)),

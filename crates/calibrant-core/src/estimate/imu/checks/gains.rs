@@ -22,7 +22,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
         beyond_datasheet(&parameters, &calibration.values, &sd).into_iter().collect();
     let is_known =
         |quantity: ImuQuantity| evidence.problem.setup.known.iter().any(|known| known.quantity == quantity);
-    let accelerometer = calibration.imu.accelerometer;
+    let accelerometer = calibration.imu[SensorKind::Accelerometer];
     warnings.extend(implausible_bias(
         calibration.unit(SensorKind::Accelerometer),
         &accelerometer.bias,
@@ -51,7 +51,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
 /// The parameters of the result, those of the accelerometer with the values of its datasheet.
 fn described(evidence: &Evidence<'_>) -> Vec<Parameter> {
     let (sensor, calibration) = (evidence.problem.accelerometer, evidence.calibration);
-    let like = sensor.nominal().unwrap_or(calibration.imu.accelerometer);
+    let like = sensor.nominal().unwrap_or(calibration.imu[SensorKind::Accelerometer]);
     let lists = [
         ParameterList::new(3, sensor.model),
         evidence.problem.setup.holds.gauge.parameter_list(sensor.model),

@@ -3,10 +3,11 @@
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::coarse_rotations::CoarseRotations;
 use crate::estimate::imu::model::{ImuModel, State};
+use crate::sensor::SensorKind;
 
 /// Refuses readings with which gravity is missed by half as much where they are in deg/s. `median_rad`: by what it is missed in rad/s.
 pub(crate) fn check(model: &ImuModel<'_>, state: &State, median_rad: f64) -> Result<()> {
-    let per_degree = state.imu.gyroscope.matrix * (180.0 / std::f64::consts::PI);
+    let per_degree = state.imu[SensorKind::Gyroscope].matrix * (180.0 / std::f64::consts::PI);
     let so_read = CoarseRotations::of(model, state).judge(&per_degree);
     if !so_read.is_some_and(|look| look.median_rad < 0.5 * median_rad) {
         return Ok(());

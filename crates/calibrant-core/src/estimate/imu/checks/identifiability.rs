@@ -152,7 +152,7 @@ fn vague(model: &ImuModel<'_>, state: &State, covariance: &DMatrix<f64>) -> Opti
     let gain = match turned_gain(model, &state.imu).filter(|_| rotations == 0) {
         // no start was looked for: the matrix is still any
         Some(gain) => gain,
-        None => (state.imu.gyroscope.matrix.norm_squared() / 3.0).sqrt(),
+        None => (state.imu[SensorKind::Gyroscope].matrix.norm_squared() / 3.0).sqrt(),
     };
     let is_known = |k: usize| model.prior.as_ref().is_some_and(|(_, weight)| weight[k] > 0.0);
     let sd = |k: usize| covariance[(k, k)].max(0.0).sqrt() / gain;

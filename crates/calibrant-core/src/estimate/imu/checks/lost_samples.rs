@@ -6,7 +6,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::samples::SamplesLost;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::sensor::{Recording, quantile};
+use crate::sensor::{Recording, SensorKind, quantile};
 use nalgebra::Vector3;
 
 /// Least `s·s` in units of the noise, squared.
@@ -24,7 +24,7 @@ const FEWEST: usize = 4;
 
 /// Are samples of the gyroscope lost?
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    evidence.problem.recording.gyroscope.as_ref().and_then(lost_samples).into_iter().collect()
+    evidence.problem.recording[SensorKind::Gyroscope].as_ref().and_then(lost_samples).into_iter().collect()
 }
 
 fn lost_samples(gyroscope: &Recording) -> Option<Diagnostic> {

@@ -86,7 +86,7 @@ fn dependence(evidence: &Evidence<'_>) -> Option<crate::diagnostic::Diagnostic> 
 /// The largest output of each axis about its bias, rad/s.
 fn peaks(counting: &[&RotationData<'_>], state: &State) -> Vector3<f64> {
     let of = |data: &&RotationData<'_>| {
-        let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
+        let bias = state.imu.at(data.samples.temperature_c())[SensorKind::Gyroscope].bias;
         data.samples
             .readings
             .iter()
@@ -102,7 +102,7 @@ fn with_dependence(
     state: &State,
     kappa: &Vector3<f64>,
 ) -> Option<Vector2<f64>> {
-    let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
+    let bias = state.imu.at(data.samples.temperature_c())[SensorKind::Gyroscope].bias;
     let with = |reading: &Vector3<f64>| {
         let output = reading - bias;
         reading + output.component_mul(&output).component_mul(&output).component_mul(kappa)

@@ -58,7 +58,7 @@ pub(crate) fn of_worse_rotations(evidence: &Evidence<'_>) -> Diagnostics {
 /// The gyroscope's mean rates in the holds.
 pub(crate) fn at_rest(evidence: &Evidence<'_>) -> Diagnostics {
     let Some(gyroscope) = &evidence.calibration.gyroscope else { return Vec::new() };
-    let matrix = &evidence.calibration.imu.gyroscope.matrix;
+    let matrix = &evidence.calibration.imu[SensorKind::Gyroscope].matrix;
     let means = evidence.gyroscope.readings.iter().flatten();
     let samples: usize = means.map(|mean| mean.samples).sum();
     let of_noise = evidence.model.gyroscope_noise.variance(samples.max(1));

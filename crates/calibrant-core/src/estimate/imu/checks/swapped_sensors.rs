@@ -4,7 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::holds::SensorsSwapped;
 use crate::error::{Error, NotIdentifiable};
 use crate::estimate::holds::{find_clean_holds, median};
-use crate::sensor::{ImuRecording, Recording};
+use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
 
 /// This many segments of rest that differ are those of an accelerometer in several orientations.
@@ -16,7 +16,8 @@ const DIFFER_SD: f64 = 10.0;
 /// Says that the gyroscope rests at different values, as an accelerometer does, and the accelerometer at one value at most.
 #[must_use]
 pub fn swapped_sensors(recording: &ImuRecording, minimum_s: f64) -> Option<SensorsSwapped> {
-    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
+    let (accelerometer, gyroscope) =
+        (recording[SensorKind::Accelerometer].as_ref()?, recording[SensorKind::Gyroscope].as_ref()?);
     (rests_at_several(gyroscope, minimum_s) && !rests_at_several(accelerometer, minimum_s))
         .then_some(SensorsSwapped {})
 }

@@ -6,7 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::gyroscope::{ClockSkew, TimeOffset};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::clock::ClockDifference;
-use crate::sensor::Recording;
+use crate::sensor::{Recording, SensorKind};
 
 /// An offset of fewer sample intervals does not matter.
 const SHORT_INTERVALS: f64 = 1.5;
@@ -17,7 +17,9 @@ const SHORT_S: f64 = 0.005;
 /// The offset or the skew, where it is certain and matters.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let recording = evidence.problem.recording;
-    let (Some(accelerometer), Some(gyroscope)) = (&recording.accelerometer, &recording.gyroscope) else {
+    let (Some(accelerometer), Some(gyroscope)) =
+        (&recording[SensorKind::Accelerometer], &recording[SensorKind::Gyroscope])
+    else {
         return Vec::new();
     };
     let found = evidence.clock.as_ref().and_then(|clock| of_clock(clock, accelerometer, gyroscope));

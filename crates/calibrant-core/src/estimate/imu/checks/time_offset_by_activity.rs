@@ -6,7 +6,7 @@
 use crate::diagnostic::{late, repair};
 use crate::error::{Error, NotIdentifiable};
 use crate::estimate::holds::median;
-use crate::sensor::{ImuRecording, Recording};
+use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -69,7 +69,8 @@ impl MotionActivity {
     }
 
     fn of_both(recording: &ImuRecording, bin_s: f64) -> Option<[Self; 2]> {
-        let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
+        let (accelerometer, gyroscope) =
+            (recording[SensorKind::Accelerometer].as_ref()?, recording[SensorKind::Gyroscope].as_ref()?);
         let rest = Vector3::from_fn(|axis, _| {
             median(gyroscope.readings.iter().step_by(16).map(|reading| reading[axis]).collect())
         });
@@ -101,8 +102,8 @@ impl MotionActivity {
 /// Says by how much the gyroscope's times are off, where the sensors move alike at another lag and not as recorded.
 fn shifted(recording: &ImuRecording) -> Option<String> {
     let ends = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
-    let (first, last) = ends(recording.accelerometer.as_ref()?)?;
-    let (other_first, other_last) = ends(recording.gyroscope.as_ref()?)?;
+    let (first, last) = ends(recording[SensorKind::Accelerometer].as_ref()?)?;
+    let (other_first, other_last) = ends(recording[SensorKind::Gyroscope].as_ref()?)?;
     let bin_s = BIN_S.max((last - first).max(other_last - other_first) / MOST_BINS);
     if last - first < FAR_S || other_last - other_first < FAR_S {
         return None;
@@ -127,7 +128,7 @@ fn shifted(recording: &ImuRecording) -> Option<String> {
 
 /// The same error, which came of the gyroscope and the accelerometer together, with what their clocks have to do with it.
 pub(crate) fn with_time_offset(error: Error, recording: &ImuRecording) -> Error {
-    let both = recording.accelerometer.is_some() && recording.gyroscope.is_some();
+    let both = recording[SensorKind::Accelerometer].is_some() && recording[SensorKind::Gyroscope].is_some();
     match error {
         Error::Recording(input_error) if both => match shifted(recording) {
             Some(stated) => Error::recording(input_error.with_help(stated)),

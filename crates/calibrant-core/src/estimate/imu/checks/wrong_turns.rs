@@ -14,7 +14,7 @@ use crate::estimate::imu::alignment::axes::{axis_names, orders};
 use crate::estimate::imu::checks::evidence::Diagnostics;
 use crate::estimate::imu::model::TurnData;
 use crate::estimate::imu::problem::{Gyroscope, Turn};
-use crate::sensor::{ImuParameters, ReadingUnit};
+use crate::sensor::{ImuParameters, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
 /// All turns may show this share of their angle, where the range is not the one that was set. A warning says so.
@@ -136,7 +136,7 @@ struct ShownTurns<'a> {
 
 impl<'a> ShownTurns<'a> {
     fn of(gyroscope: &Gyroscope, imu: &ImuParameters, data: &'a [TurnData]) -> Option<Self> {
-        let svd = imu.accelerometer.matrix.svd(true, true);
+        let svd = imu[SensorKind::Accelerometer].matrix.svd(true, true);
         let mounting = svd.u? * svd.v_t?;
         let readings: Vec<Vector3<f64>> = data.iter().map(|turn| turn.beyond_bias(imu)).collect();
         let mut gains: Vec<f64> =

@@ -35,14 +35,14 @@ pub(crate) fn explained_means<'a>(
     gyroscope: &'a StationaryGyroscope,
     (quantities, prior): (&[ImuQuantity], Option<&Prior>),
 ) -> Means<'a> {
-    let thermal = Thermal { accelerometer: first.thermal, ..temperature.start };
+    let thermal = temperature.start.with(SensorKind::Accelerometer, first.thermal);
     let by = Explanation {
         recordings: Recordings::default(),
         forces: problem.gyroscope.g_sensitivity.then_some(used.forces.as_slice()),
         of_earth: earth_in_holds(problem, &used.forces),
         by_earth: Vec::new(),
         tau_k: used.holds.iter().map(|hold| thermal.tau_k(temperature.of_hold(hold))).collect(),
-        fixed: thermal.gyroscope,
+        fixed: thermal[SensorKind::Gyroscope],
         terms: std::array::from_fn(|axis| bias_terms(quantities, prior, axis)),
     };
     Means { readings: &gyroscope.readings, noise: &gyroscope.noise, by }
@@ -56,9 +56,9 @@ pub(crate) fn initial_values(
     means: &Means<'_>,
 ) -> InitialValues {
     let mut holds = hold_data(first, numbers, temperature);
-    let mut thermal = Thermal { accelerometer: first.thermal, ..temperature.start };
+    let mut thermal = temperature.start.with(SensorKind::Accelerometer, first.thermal);
     let between;
-    (between, thermal.gyroscope) = between_sd(means);
+    (between, thermal[SensorKind::Gyroscope]) = between_sd(means);
     set_gyroscope_means(&mut holds, means.readings, means.noise, &between);
     InitialValues { imu: start_values(problem, first, &holds, thermal), holds, between }
 }
@@ -108,17 +108,20 @@ fn start_values(
     thermal: Thermal,
 ) -> ImuParameters {
     let mut imu = ImuParameters {
-        accelerometer: first.sensor,
-        gyroscope: SensorParameters {
-            bias: mean_bias(holds, &thermal),
-            matrix: Matrix3::identity(),
-            ..SensorParameters::identity()
-        },
+        sensors: [
+            first.sensor,
+            SensorParameters {
+                bias: mean_bias(holds, &thermal),
+                matrix: Matrix3::identity(),
+                ..SensorParameters::identity()
+            },
+        ]
+        .into(),
         g_sensitivity: Matrix3::zeros(),
         thermal,
     };
     if let Some(gain) = problem.gyroscope.gain {
-        imu.gyroscope.matrix = Matrix3::from_diagonal(&gain);
+        imu[SensorKind::Gyroscope].matrix = Matrix3::from_diagonal(&gain);
     }
     set_fixed(&mut imu, &problem.setup.known);
     imu
@@ -129,7 +132,7 @@ pub(crate) fn mean_bias(holds: &[HoldData], thermal: &Thermal) -> Vector3<f64> {
     let (mut sum, mut weights) = (Vector3::zeros(), Vector3::zeros());
     for hold in holds {
         let Some((mean, weight)) = &hold.gyroscope else { continue };
-        let change = thermal.gyroscope.bias_change(thermal.tau_k(hold.temperature_c));
+        let change = thermal[SensorKind::Gyroscope].bias_change(thermal.tau_k(hold.temperature_c));
         sum += (mean - change).component_mul(weight);
         weights += weight;
     }

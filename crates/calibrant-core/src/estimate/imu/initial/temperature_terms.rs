@@ -52,7 +52,7 @@ pub(crate) fn with_temperature_terms(
         let adjusted = at_reference(
             recording,
             SensorKind::Accelerometer,
-            &state.imu.accelerometer,
+            &state.imu[SensorKind::Accelerometer],
             &thermal,
             temperature,
         );
@@ -73,7 +73,7 @@ pub(crate) fn with_temperature_terms(
         next.holds.between_holds_sd_mps2 = between;
         next.holds.between_holds_dominates = between > 0.0;
         next.holds.detected = detected;
-        next.thermal = thermal.accelerometer;
+        next.thermal = thermal[SensorKind::Accelerometer];
         next.adjusted = Some(adjusted);
         first = next;
         let chosen: Vec<bool> = first.holds.holds.iter().map(|result| result.used).collect();
@@ -140,12 +140,14 @@ impl<'a> AccelerometerOnly<'a> {
             .collect();
         let prior = prior_of(problem, &quantities);
         let mut imu = ImuParameters {
-            accelerometer: first.sensor,
             thermal: temperature.start,
-            ..ImuParameters::identity()
+            ..ImuParameters::identity().with(SensorKind::Accelerometer, first.sensor)
         };
-        imu.thermal.accelerometer =
-            if first.adjusted.is_some() { first.thermal } else { temperature.start.accelerometer };
+        imu.thermal[SensorKind::Accelerometer] = if first.adjusted.is_some() {
+            first.thermal
+        } else {
+            temperature.start[SensorKind::Accelerometer]
+        };
         set_fixed(&mut imu, &problem.setup.known);
         Self {
             first,
@@ -238,7 +240,8 @@ impl<'a> AccelerometerOnly<'a> {
     /// χ² of the faces, priors included.
     fn chi2_of_faces(&self, weighed: &ImuModel<'_>, fit: &Fit) -> Option<Chi2> {
         let along = weighed.holds.iter().zip(&fit.state.forces).map(|(hold, force)| {
-            let r = hold.accelerometer - fit.state.imu.at(hold.temperature_c).accelerometer.reading(force);
+            let r = hold.accelerometer
+                - fit.state.imu.at(hold.temperature_c)[SensorKind::Accelerometer].reading(force);
             let s = &self.first.sensor.matrix;
             chi2_of_face(&r, s, force, &hold.accelerometer_weight).map(|of| of.along)
         });

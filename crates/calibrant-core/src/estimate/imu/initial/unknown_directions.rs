@@ -11,7 +11,7 @@ use crate::estimate::problem::{CalibrationProblem, Stimulus};
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::result::Recovered;
 use crate::estimate::settings::CalibrationSettings;
-use crate::sensor::{Recording, SensorThermal};
+use crate::sensor::{Recording, SensorKind, SensorThermal};
 use nalgebra::Vector3;
 use std::borrow::Cow;
 
@@ -38,7 +38,7 @@ pub(crate) fn from_unknown_directions(
         setup.further_from_s.clear();
     }
     let stimulus = Stimulus::Holds(&setup);
-    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let as_read = problem.recording[SensorKind::Accelerometer].as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
     let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
         true => {
@@ -65,7 +65,7 @@ pub(crate) fn from_unknown_directions(
     let (thermal, adjusted) = (SensorThermal::default(), None);
     let warnings = first.warnings;
     Ok(InitialAccelerometer {
-        sensor: first.imu.accelerometer,
+        sensor: first.imu[SensorKind::Accelerometer],
         within,
         of_mean,
         holds,

@@ -5,7 +5,7 @@
 //! The gain is that at the mean temperature of the holds before and after. The bias is linear in time from the hold before to the hold after.
 
 use crate::estimate::imu::model::Samples;
-use crate::sensor::{ImuParameters, times};
+use crate::sensor::{ImuParameters, SensorKind, times};
 use nalgebra::{Matrix3, Vector3};
 
 impl Samples<'_> {
@@ -48,7 +48,7 @@ pub(crate) struct Rates<'a> {
 impl<'a> Rates<'a> {
     /// `None` where the gyroscope's matrix is singular.
     pub(crate) fn of(samples: &'a Samples<'a>, imu: &ImuParameters) -> Option<Self> {
-        let correction = imu.at(samples.temperature_c()).gyroscope.matrix.try_inverse()?;
+        let correction = imu.at(samples.temperature_c())[SensorKind::Gyroscope].matrix.try_inverse()?;
         let ends = samples.drift.map(|end| end.at(imu));
         let (from_s, to_s) = (samples.times_s[0], samples.times_s[samples.times_s.len() - 1]);
         Some(Self {

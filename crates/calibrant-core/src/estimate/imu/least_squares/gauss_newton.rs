@@ -7,8 +7,8 @@ use crate::estimate::imu::terms::sums::{chi2, normal_equations};
 use crate::estimate::imu::terms::term::At;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::tangent_plane::tangents;
-use crate::sensor::NonlinearTerm;
 use crate::sensor::entry_vector::{AT_REFERENCE, ENTRIES};
+use crate::sensor::{NonlinearTerm, SensorKind};
 use crate::solve::{Equations, LeastSquares, LoopSettings, minimise};
 use nalgebra::{DVector, SVector};
 
@@ -125,7 +125,7 @@ impl<const P: usize> LeastSquares<2, P> for ImuModel<'_> {
         for (quantity, step) in self.quantities.iter().zip(step.iter()) {
             quantity.add_to(&mut imu, *step);
         }
-        if imu.accelerometer.matrix.determinant() <= 0.0 {
+        if imu[SensorKind::Accelerometer].matrix.determinant() <= 0.0 {
             return None;
         }
         let turns = system.chain_step(step);

@@ -196,7 +196,7 @@ impl IntegratedRotation {
     pub(crate) fn derivative(&self, quantity: ImuQuantity, imu: &ImuParameters) -> Vector3<f64> {
         let thermal = &imu.thermal;
         let tau_k = thermal.tau_k(mean_temperature_c(&self.drift));
-        let factor = thermal.gyroscope.gain_factor(tau_k);
+        let factor = thermal[SensorKind::Gyroscope].gain_factor(tau_k);
         // a reading larger by δy means a rate smaller by M δy, less the part that the holds attribute to the bias
         let own =
             |sums: &[Matrix3<f64>; 3], row: usize, column: usize, still: fn(&LocalBias) -> &Vector3<f64>| {
@@ -221,7 +221,7 @@ impl IntegratedRotation {
                         bias(axis, self.drift.map(|end| term.power(thermal.tau_k(end.temperature_c))))
                     }
                     ThermalPart::Scale => {
-                        let row = imu.gyroscope.matrix.row(axis);
+                        let row = imu[SensorKind::Gyroscope].matrix.row(axis);
                         let along: Vector3<f64> =
                             (0..3).map(|column| entry(axis, column) * row[column]).sum();
                         along * (term.power(tau_k) / factor[axis])
@@ -252,13 +252,15 @@ mod tests {
 
     fn imu() -> ImuParameters {
         ImuParameters {
-            gyroscope: SensorParameters {
-                bias: Vector3::new(0.02, -0.03, 0.01),
-                matrix: Matrix3::new(1.05, 0.02, -0.01, 0.03, 0.97, 0.02, -0.02, 0.01, 1.02),
-                ..SensorParameters::identity()
-            },
             g_sensitivity: Matrix3::new(1.0, 0.5, -0.3, 0.2, -0.8, 0.1, 0.4, 0.3, 0.6) * 1e-3,
-            ..ImuParameters::identity()
+            ..ImuParameters::identity().with(
+                SensorKind::Gyroscope,
+                SensorParameters {
+                    bias: Vector3::new(0.02, -0.03, 0.01),
+                    matrix: Matrix3::new(1.05, 0.02, -0.01, 0.03, 0.97, 0.02, -0.02, 0.01, 1.02),
+                    ..SensorParameters::identity()
+                },
+            )
         }
     }
 
@@ -298,7 +300,7 @@ mod tests {
             .map(|(t, force)| {
                 let h = 1e-5;
                 let step = (attitude(t - h).inverse() * attitude(t + h)).scaled_axis() / (2.0 * h);
-                imu.gyroscope.reading(&step) + imu.g_sensitivity * force
+                imu[SensorKind::Gyroscope].reading(&step) + imu.g_sensitivity * force
             })
             .collect();
         let exact = (attitude(0.0).inverse() * attitude(end)).to_rotation_matrix().into_inner();
@@ -319,11 +321,10 @@ mod tests {
         // the sum of rates, whatever the sample rate
         let coning = coning(400.0);
         let imu = imu();
-        let correction = imu.gyroscope.matrix.try_inverse().expect("regular");
-        let rates =
-            coning.readings.iter().zip(&coning.forces).map(|(reading, force)| {
-                correction * (reading - imu.gyroscope.bias - imu.g_sensitivity * force)
-            });
+        let correction = imu[SensorKind::Gyroscope].matrix.try_inverse().expect("regular");
+        let rates = coning.readings.iter().zip(&coning.forces).map(|(reading, force)| {
+            correction * (reading - imu[SensorKind::Gyroscope].bias - imu.g_sensitivity * force)
+        });
         let step = coning.times[1] - coning.times[0];
         let sum = UnitQuaternion::from_scaled_axis(rates.sum::<Vector3<f64>>() * step);
         let naive = (sum.to_rotation_matrix().into_inner() - coning.exact).norm();

@@ -10,7 +10,7 @@ use crate::estimate::imu::rotations::spans::{Integrable, Span, rotation_spans};
 use crate::estimate::imu::rotations::turns::turn_data;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, Recording, SensorParameters};
+use crate::sensor::{ImuParameters, Recording, SensorKind, SensorParameters};
 use nalgebra::Vector3;
 
 /// The recording between the used holds.
@@ -44,7 +44,7 @@ impl<'a> Movement<'a> {
             _ => rotation_spans(gyroscope, holds, &setup.holds.further_from_s),
         };
         let (at_ends, turns_in_holds) = gravity_at_ends(accelerometer, sensor, holds, None);
-        let as_read = problem.recording.accelerometer.as_ref().filter(|_| feels);
+        let as_read = problem.recording[SensorKind::Accelerometer].as_ref().filter(|_| feels);
         Self { spans, integrable: Integrable::of(gyroscope, as_read), forces, at_ends, turns_in_holds, feels }
     }
 

@@ -6,7 +6,7 @@ use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::rotations::spans::Integrable;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::motion::turn_axis_sd_rad;
-use crate::sensor::ImuParameters;
+use crate::sensor::{ImuParameters, SensorKind};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -68,7 +68,7 @@ pub(crate) fn turn_data(
             variance += noise.of_mean * (duration_s * duration_s);
             // a rough gain: the integral of the readings beyond their bias, over the angle
             let temperature_c = temperature.mean(turn.start_s, turn.end_s);
-            let bias = start.at(temperature_c).gyroscope.bias * duration_s;
+            let bias = start.at(temperature_c)[SensorKind::Gyroscope].bias * duration_s;
             let gain = (integral - bias).norm() / turn.angle_rad.abs();
             let along = (integral - bias).try_normalize(0.0).unwrap_or_default().map(|share| share * share);
             let axis_sd_rad = turn_axis_sd_rad(turn.angle_rad, turn.angle_sd_rad);

@@ -32,14 +32,14 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
 /// # Errors
 /// As [`find_imu_holds`].
 pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
-    let Some(accelerometer) = &recording.accelerometer else {
+    let Some(accelerometer) = &recording[SensorKind::Accelerometer] else {
         return Err(Error::recording(InputError::new(
             Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
             "holds are found with it",
         )));
     };
-    let Some(gyroscope) = &recording.gyroscope else {
+    let Some(gyroscope) = &recording[SensorKind::Gyroscope] else {
         return find_clean_holds(accelerometer, minimum_s);
     };
     let (holds, calm) =
@@ -99,11 +99,14 @@ mod tests {
         let force = |t: f64| Vector3::new(shaken(t), 2.0 * shaken(t), 9.8);
         let rate = |t: f64| Vector3::new(shaken(t), 0.0, if (8.0..11.0).contains(&t) { 0.5 } else { 0.0 });
         let recording = ImuRecording {
-            accelerometer: Some(sensor(&force, 0.01, ReadingUnit::MetrePerSecondSquared)),
-            gyroscope: Some(sensor(&rate, 1e-3, ReadingUnit::RadianPerSecond)),
+            sensors: [
+                Some(sensor(&force, 0.01, ReadingUnit::MetrePerSecondSquared)),
+                Some(sensor(&rate, 1e-3, ReadingUnit::RadianPerSecond)),
+            ]
+            .into(),
             temperature_c: None,
         };
-        let alone = ImuRecording { gyroscope: None, ..recording.clone() };
+        let alone = recording.clone().with(SensorKind::Gyroscope, None);
         assert_eq!(find_imu_holds(&alone, 1.0).expect("found").len(), 1);
         let holds = find_imu_holds(&recording, 1.0).expect("found");
         let ends: Vec<[f64; 2]> = holds.iter().map(|hold| [hold.start_s, hold.end_s]).collect();

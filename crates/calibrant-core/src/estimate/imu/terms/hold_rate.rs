@@ -14,7 +14,7 @@ pub(crate) struct HoldRate;
 impl ImuModel<'_> {
     /// The gyroscope's reading in a hold, at the temperature of the IMU.
     pub(crate) fn at_rest(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
-        imu.gyroscope.reading(&self.earth.rate(hold, force)) + imu.g_sensitivity * force
+        imu[SensorKind::Gyroscope].reading(&self.earth.rate(hold, force)) + imu.g_sensitivity * force
     }
 }
 
@@ -42,7 +42,7 @@ impl Term for HoldRate {
     fn derivatives(&self, at: &At<'_>, k: usize) -> Derivatives {
         let (model, force, temperature_c) = (at.model, at.state.forces[k], at.model.holds[k].temperature_c);
         let imu = at.state.imu.at(temperature_c);
-        let by_force = imu.g_sensitivity + imu.gyroscope.matrix * model.earth.vertical_rate();
+        let by_force = imu.g_sensitivity + imu[SensorKind::Gyroscope].matrix * model.earth.vertical_rate();
         let still =
             Condition { imu: &at.state.imu, stimulus: model.earth.rate(k, &force), force, temperature_c };
         Derivatives {

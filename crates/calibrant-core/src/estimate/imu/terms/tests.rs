@@ -31,9 +31,9 @@ struct Simulated {
 fn imu() -> ImuParameters {
     let mut thermal = Thermal::none();
     thermal.reference_c = 23.0;
-    thermal.accelerometer.scale[0] = Vector3::new(1e-4, -2e-4, 3e-4);
-    thermal.gyroscope.bias[0] = Vector3::new(1e-4, 2e-4, -1e-4);
-    thermal.gyroscope.scale[1] = Vector3::new(1e-6, -2e-6, 1e-6);
+    thermal[SensorKind::Accelerometer].scale[0] = Vector3::new(1e-4, -2e-4, 3e-4);
+    thermal[SensorKind::Gyroscope].bias[0] = Vector3::new(1e-4, 2e-4, -1e-4);
+    thermal[SensorKind::Gyroscope].scale[1] = Vector3::new(1e-6, -2e-6, 1e-6);
     let mut accelerometer = SensorParameters {
         bias: Vector3::new(0.1, -0.2, 0.3),
         matrix: Matrix3::new(1.02, 0.01, 0.0, 0.02, 0.98, -0.01, 0.01, 0.0, 1.01),
@@ -41,12 +41,15 @@ fn imu() -> ImuParameters {
     };
     Quantity::Nonlinear(NonlinearTerm::SecondOrder, Axis::Y).add_to(&mut accelerometer, 1e-4);
     ImuParameters {
-        accelerometer,
-        gyroscope: SensorParameters {
-            bias: Vector3::new(0.02, -0.03, 0.01),
-            matrix: Matrix3::new(1.05, 0.02, -0.01, 0.03, 0.97, 0.02, -0.02, 0.01, 1.02),
-            ..SensorParameters::identity()
-        },
+        sensors: [
+            accelerometer,
+            SensorParameters {
+                bias: Vector3::new(0.02, -0.03, 0.01),
+                matrix: Matrix3::new(1.05, 0.02, -0.01, 0.03, 0.97, 0.02, -0.02, 0.01, 1.02),
+                ..SensorParameters::identity()
+            },
+        ]
+        .into(),
         g_sensitivity: Matrix3::new(1.0, 0.5, -0.3, 0.2, -0.8, 0.1, 0.4, 0.3, 0.6) * 1e-3,
         thermal,
     }
@@ -73,8 +76,8 @@ impl Simulated {
         let turns = [Vector3::new(1.5, 0.6, -0.4), Vector3::new(-0.5, 1.2, 0.9)];
         for (turn, temperatures_c) in turns.into_iter().zip(TEMPERATURES_C.array_windows::<2>()) {
             let start = forces[forces.len() - 1];
-            let biases = temperatures_c.map(|celsius| imu.at(celsius).gyroscope.bias);
-            let matrix = imu.at(0.5 * (temperatures_c[0] + temperatures_c[1])).gyroscope.matrix;
+            let biases = temperatures_c.map(|celsius| imu.at(celsius)[SensorKind::Gyroscope].bias);
+            let matrix = imu.at(0.5 * (temperatures_c[0] + temperatures_c[1]))[SensorKind::Gyroscope].matrix;
             let turned = |t: f64| {
                 let full = std::f64::consts::TAU;
                 t / duration_s - (full * t / duration_s).sin() / full
@@ -97,7 +100,7 @@ impl Simulated {
     /// What the gyroscope reads in a hold.
     fn at_rest(&self, hold: usize, earth: &EarthRate) -> Vector3<f64> {
         let (imu, force) = (self.imu.at(TEMPERATURES_C[hold]), &self.forces[hold]);
-        imu.gyroscope.reading(&earth.rate(hold, force)) + imu.g_sensitivity * force
+        imu[SensorKind::Gyroscope].reading(&earth.rate(hold, force)) + imu.g_sensitivity * force
     }
 
     fn state(&self) -> State {

@@ -13,9 +13,9 @@ impl ImuModel<'_> {
     pub(crate) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
         let imu = imu.at(turn.temperature_c);
         turn.integral
-            - imu.gyroscope.bias * turn.duration_s
+            - imu[SensorKind::Gyroscope].bias * turn.duration_s
             - imu.g_sensitivity * turn.force
-            - imu.gyroscope.matrix * self.turned(turn)
+            - imu[SensorKind::Gyroscope].matrix * self.turned(turn)
     }
 
     /// The rotation of a turn, with the Earth's about the vertical, rad.

@@ -1,12 +1,13 @@
 //! The bias of the gyroscope in a rotation, by the holds before and after it.
 
 use crate::estimate::imu::model::{ImuModel, LocalBias, State};
+use crate::sensor::SensorKind;
 use nalgebra::Vector3;
 
 /// The bias of a rotation is that of the holds before and after it, as far as these tell: a hold's deviation from the mean bias counts by the share of it that
 /// is neither noise nor a turn within holds.
 pub(crate) fn follow_drift(model: &mut ImuModel<'_>, state: &State, between: &Vector3<f64>) {
-    let matrix = state.imu.gyroscope.matrix;
+    let matrix = state.imu[SensorKind::Gyroscope].matrix;
     let of_turns = Vector3::from_fn(|axis, _| matrix.row(axis).norm() * model.turns_in_holds.rate_sd_radps);
     let true_variance =
         (between.component_mul(between) - of_turns.component_mul(&of_turns)).map(|v| v.max(0.0));

@@ -8,6 +8,7 @@ use crate::estimate::imu::variance_components::between_holds::{
 use crate::estimate::imu::variance_components::bias_drift::follow_drift;
 use crate::estimate::imu::variance_components::linear_problem::reweigh;
 use crate::estimate::imu::variance_components::rotations::RotationWeights;
+use crate::sensor::SensorKind;
 use nalgebra::Vector3;
 
 /// Rounds in which weights and estimate follow each other.
@@ -30,7 +31,7 @@ fn scatter(model: &mut ImuModel<'_>, state: &State, means: &Means<'_>) -> Vector
     };
     let by_earth = model.holds.iter().enumerate().map(of_earth).collect();
     let given = |(hold, force): (&HoldData, &Vector3<f64>)| {
-        state.imu.at(hold.temperature_c).gyroscope.matrix * force * model.earth.given()
+        state.imu.at(hold.temperature_c)[SensorKind::Gyroscope].matrix * force * model.earth.given()
     };
     let is_felt = means.by.forces.is_some();
     let of_earth = (!is_felt).then(|| model.holds.iter().zip(&state.forces).map(given).collect());

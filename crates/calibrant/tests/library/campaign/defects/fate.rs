@@ -46,7 +46,7 @@ impl Fate {
         let mut truth = draw_imu(&mut rng);
         let hand = ByHand { knocks: true, filtered: true, ..ByHand::default() };
         let mut recording = hand.record(&truth, &mut rng);
-        recording.gyroscope = recording.gyroscope.filter(|_| is_imu);
+        recording[SensorKind::Gyroscope] = recording[SensorKind::Gyroscope].clone().filter(|_| is_imu);
         kind.spoil(size, sensor_kind, &mut recording, &mut truth, &mut rng);
         let (outcome, mut said) = calibrated(&recording);
         let worst = outcome.map(|outcome| {
@@ -82,7 +82,8 @@ impl Fate {
 fn calibrated(recording: &ImuRecording) -> (calibrant::Result<Outcome>, Vec<String>) {
     let directory = tempfile::tempdir().expect("a directory");
     let source = written(recording, directory.path());
-    let text = preset(if recording.gyroscope.is_some() { "imu" } else { "static-poses" }).expect("a preset");
+    let text = preset(if recording[SensorKind::Gyroscope].is_some() { "imu" } else { "static-poses" })
+        .expect("a preset");
     // the gauge of the simulated sensors
     let experiment = Experiment::parse(&text.replace("\"lower\"", "\"upper\""), None).expect("valid");
     let options = SessionOptions { report: false, ..SessionOptions::default() };
@@ -106,8 +107,8 @@ fn worst(outcome: &Outcome, truth: &ImuParameters) -> (String, f64) {
 /// Writes a recording: one file, or two where each sensor has times of its own.
 fn written(recording: &ImuRecording, directory: &Path) -> Source {
     let mut source = Source::from_file(directory.join("recording.csv"));
-    let accelerometer = recording.accelerometer.as_ref().expect("recorded");
-    match &recording.gyroscope {
+    let accelerometer = recording[SensorKind::Accelerometer].as_ref().expect("recorded");
+    match &recording[SensorKind::Gyroscope] {
         Some(gyroscope) if gyroscope.times_s() != accelerometer.times_s() => {
             let path = directory.join("gyroscope.csv");
             write_recording(source.recording.path(), accelerometer).expect("written");

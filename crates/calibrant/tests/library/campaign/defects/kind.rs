@@ -87,13 +87,17 @@ impl Kind {
         rng: &mut Rng,
     ) {
         let size = self.sizes(sensor_kind)[size];
-        let is_alone = recording.gyroscope.is_none();
+        let is_alone = recording[SensorKind::Gyroscope].is_none();
         if self == Self::LostSamples {
             return lose(recording, size, rng);
         }
         let (sensor, parameters) = match sensor_kind {
-            SensorKind::Accelerometer => (&mut recording.accelerometer, &mut truth.accelerometer),
-            SensorKind::Gyroscope => (&mut recording.gyroscope, &mut truth.gyroscope),
+            SensorKind::Accelerometer => {
+                (&mut recording[SensorKind::Accelerometer], &mut truth[SensorKind::Accelerometer])
+            }
+            SensorKind::Gyroscope => {
+                (&mut recording[SensorKind::Gyroscope], &mut truth[SensorKind::Gyroscope])
+            }
         };
         let sensor = sensor.as_mut().expect("recorded");
         let (axis, count) = (rng.random_range(0..3), sensor.len());
@@ -159,9 +163,10 @@ impl Kind {
 
 /// Loses a share of the samples; the times of the others are those of an even rate.
 fn lose(recording: &mut ImuRecording, share: f64, rng: &mut Rng) {
-    let count = recording.accelerometer.as_ref().map_or(0, Recording::len);
+    let count = recording[SensorKind::Accelerometer].as_ref().map_or(0, Recording::len);
     let kept: Vec<bool> = (0..count).map(|_| rng.random::<f64>() >= share).collect();
-    for sensor in [&mut recording.accelerometer, &mut recording.gyroscope].into_iter().flatten() {
+    for kind in SensorKind::ALL {
+        let Some(sensor) = &mut recording[kind] else { continue };
         let mut number = 0..;
         let mut readings = sensor.readings().to_vec();
         readings.retain(|_| kept[number.next().expect("endless")]);

@@ -296,7 +296,7 @@ proptest! {
         let at = at % bytes.len();
         bytes[at] = byte;
         if let Ok(file) = parse_calibrated_imu(&bytes, &ConventionOptions::default()) {
-            prop_assert!(file.imu.parameters.accelerometer.matrix.iter().all(|entry| entry.is_finite()));
+            prop_assert!(file.imu.parameters[SensorKind::Accelerometer].matrix.iter().all(|entry| entry.is_finite()));
         }
     }
 }

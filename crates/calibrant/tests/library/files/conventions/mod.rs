@@ -26,18 +26,21 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
     let (gain_g, zero_g) = if counts(unit[1]) { (4778.0, 32777.0) } else { (1.0, -0.02) };
     let shape = Matrix3::new(1.003, 0.004, 0.009, -0.005, 0.994, 0.021, 0.001, 0.007, 1.0006);
     let parameters = ImuParameters {
-        accelerometer: SensorParameters {
-            bias: Vector3::new(zero_a, 1.004 * zero_a, 0.97 * zero_a),
-            matrix: shape * gain_a,
-            ..SensorParameters::identity()
-        },
-        gyroscope: SensorParameters {
-            bias: Vector3::new(zero_g, 0.99 * zero_g, 1.01 * zero_g),
-            matrix: shape.transpose()
-                * Matrix3::new(1.0, 0.0, 0.01, 0.02, 0.997, 0.0, 0.0, -0.03, 0.998)
-                * gain_g,
-            ..SensorParameters::identity()
-        },
+        sensors: [
+            SensorParameters {
+                bias: Vector3::new(zero_a, 1.004 * zero_a, 0.97 * zero_a),
+                matrix: shape * gain_a,
+                ..SensorParameters::identity()
+            },
+            SensorParameters {
+                bias: Vector3::new(zero_g, 0.99 * zero_g, 1.01 * zero_g),
+                matrix: shape.transpose()
+                    * Matrix3::new(1.0, 0.0, 0.01, 0.02, 0.997, 0.0, 0.0, -0.03, 0.998)
+                    * gain_g,
+                ..SensorParameters::identity()
+            },
+        ]
+        .into(),
         g_sensitivity: if g_sensitivity {
             Matrix3::new(1e-4, -2e-4, 3e-5, 4e-5, 1.5e-4, -6e-5, 7e-5, 8e-5, 9e-5) * gain_g
         } else {
@@ -100,7 +103,10 @@ pub(crate) fn readings(imu: &CalibratedImu, count: usize, seed: u64) -> Vec<[Vec
         .map(|_| {
             let (force, rate) = (random(20.0), random(10.0));
             let p = &imu.parameters;
-            [p.accelerometer.reading(&force), p.gyroscope.reading(&rate) + p.g_sensitivity * force]
+            [
+                p[SensorKind::Accelerometer].reading(&force),
+                p[SensorKind::Gyroscope].reading(&rate) + p.g_sensitivity * force,
+            ]
         })
         .collect()
 }
@@ -146,8 +152,8 @@ pub(crate) fn alone(imu: &CalibratedImu, sensor_kind: SensorKind) -> CalibratedI
     };
     alone.parameters.g_sensitivity = Matrix3::zeros();
     match sensor_kind {
-        SensorKind::Accelerometer => alone.parameters.gyroscope = SensorParameters::identity(),
-        SensorKind::Gyroscope => alone.parameters.accelerometer = SensorParameters::identity(),
+        SensorKind::Accelerometer => alone.parameters[SensorKind::Gyroscope] = SensorParameters::identity(),
+        SensorKind::Gyroscope => alone.parameters[SensorKind::Accelerometer] = SensorParameters::identity(),
     }
     alone
 }

@@ -5,12 +5,12 @@ use super::{COUNTS, SI, file, imu, largest_difference, readings, there_and_back}
 use calibrant::diagnostic::Check;
 use calibrant::diagnostic::convention::ResponseStraightened;
 use calibrant::io::{ImuFormat, write_calibrated_imu};
-use calibrant::sensor::{CalibratedImu, ImuQuantity, NonlinearTerm, Quantity, ReadingUnit};
+use calibrant::sensor::{CalibratedImu, ImuQuantity, NonlinearTerm, Quantity, ReadingUnit, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 
 /// An IMU with all terms.
 pub(super) fn bent(mut imu: CalibratedImu) -> CalibratedImu {
-    let bends = &mut imu.parameters.accelerometer.nonlinearity;
+    let bends = &mut imu.parameters[SensorKind::Accelerometer].nonlinearity;
     *bends.of_mut(NonlinearTerm::SecondOrder) = Vector3::new(2e-4, -5e-4, 1e-4);
     *bends.of_mut(NonlinearTerm::GainBySign) = Vector3::new(0.01, 0.003, -0.02);
     let is_term = |of: &ImuQuantity| matches!(of, ImuQuantity::Of(_, Quantity::Nonlinear(..)));
@@ -35,7 +35,10 @@ fn calibrant_json_keeps_the_terms_to_the_bit() {
 fn a_c_header_keeps_them_and_corrects_as_we_do() {
     let before = bent(imu(COUNTS, true));
     let back = there_and_back(&file(before.clone()), ImuFormat::CHeader).remove(0).imu;
-    assert_eq!(back.parameters.accelerometer.nonlinearity, before.parameters.accelerometer.nonlinearity);
+    assert_eq!(
+        back.parameters[SensorKind::Accelerometer].nonlinearity,
+        before.parameters[SensorKind::Accelerometer].nonlinearity
+    );
     assert!(largest_difference(&before, &back, &readings(&before, 1000, 3)) < 1e-11);
     if let Some(difference) = largest_difference_in_c(&before, &[]) {
         assert!(difference < 1e-12, "{difference:e}");

@@ -120,7 +120,7 @@ fn the_calibration_of_an_accelerometer_is_read_as_an_imu() {
         &WORDS,
     ));
     let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("readable");
-    assert_eq!(file.imu.parameters.accelerometer, calibration.imu.accelerometer);
+    assert_eq!(file.imu.parameters[SensorKind::Accelerometer], calibration.imu[SensorKind::Accelerometer]);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));
     assert_eq!(
         (file.imu.unit(SensorKind::Accelerometer), file.imu.unit(SensorKind::Gyroscope)),
@@ -161,7 +161,7 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
     let options = ConventionOptions { units: Some(RawUnits::Counts), ..Default::default() };
     let found = read_calibrated_imu(&named, &options).expect("imu_tk's own");
     assert_eq!(found.imu.unit(SensorKind::Gyroscope), Some(ReadingUnit::Counts));
-    assert!((found.imu.parameters.gyroscope.matrix[(1, 1)] - 5000.0).abs() < 1e-9);
+    assert!((found.imu.parameters[SensorKind::Gyroscope].matrix[(1, 1)] - 5000.0).abs() < 1e-9);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn imu_tks_published_result_is_that_of_its_file() {
         ..Default::default()
     };
     let file = parse_calibrated_imu(text.as_bytes(), &options).expect("imu_tk's own");
-    let s = file.imu.parameters.accelerometer.matrix;
+    let s = file.imu.parameters[SensorKind::Accelerometer].matrix;
     assert!((s[(0, 0)] - gains[0]).abs() < 1e-9 && (s[(2, 2)] - gains[2]).abs() < 1e-9);
     assert!(
         (s[(0, 1)] - gains[0] * -t[0] * 1.0).abs() < 1e-6,
@@ -229,9 +229,9 @@ fn kalibrs_own_file_is_read() {
 ";
     let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("Kalibr's");
     let p = &file.imu.parameters;
-    assert_eq!(p.accelerometer.matrix[(1, 0)], 0.02);
-    assert!((p.gyroscope.matrix[(0, 1)] + 0.3).abs() < 1e-15, "M_g C_gyro_i");
-    assert!((p.gyroscope.matrix[(1, 0)] - (0.08 + 0.36)).abs() < 1e-15);
+    assert_eq!(p[SensorKind::Accelerometer].matrix[(1, 0)], 0.02);
+    assert!((p[SensorKind::Gyroscope].matrix[(0, 1)] + 0.3).abs() < 1e-15, "M_g C_gyro_i");
+    assert!((p[SensorKind::Gyroscope].matrix[(1, 0)] - (0.08 + 0.36)).abs() < 1e-15);
     assert!((p.g_sensitivity[(0, 0)] - (0.8 * 3e-4 + 0.6 * 1e-4)).abs() < 1e-18, "A C_gyro_i");
     assert!(file.findings[0].message().contains("does not say biases"), "{:?}", file.findings);
     let noise = file.noise.clone().expect("there");
@@ -263,8 +263,8 @@ fn biases_beside_the_matrix_are_read_and_unknown_numbers_are_refused() {
                 gyroscopes:\n  M: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n  b: [0.03, 0.01, -0.02]\n";
     let read = |text: &str| parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default());
     let file = read(text).expect("as dedrunk-cli writes it");
-    assert_eq!(file.imu.parameters.accelerometer.bias, Vector3::new(0.1151, -0.1288, 0.0829));
-    assert_eq!(file.imu.parameters.gyroscope.bias, Vector3::new(0.03, 0.01, -0.02));
+    assert_eq!(file.imu.parameters[SensorKind::Accelerometer].bias, Vector3::new(0.1151, -0.1288, 0.0829));
+    assert_eq!(file.imu.parameters[SensorKind::Gyroscope].bias, Vector3::new(0.03, 0.01, -0.02));
     assert!(SensorKind::ALL.into_iter().all(|sensor_kind| file.imu.has_bias(sensor_kind)));
     let [note] = &file.findings[..] else { panic!("{:?}", file.findings) };
     assert!(note.message().contains("does not say accelerometer_noise_density: 0"), "{note:?}");
@@ -294,10 +294,13 @@ fn imucals_units_are_converted() {
       "K_ga": [[0.5, 0, 0], [0, 0, 0], [0, 0, 0]], "b_g": [0.2, 0, 0], "cal_type": "Turntable", "_format_version": "2.0.0"}"#;
     let imu = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("imucal's").imu;
     let p = &imu.parameters;
-    assert!((p.accelerometer.matrix[(0, 0)] - 2.0).abs() < 1e-15, "g per g");
-    assert!((p.accelerometer.bias.x - 0.980665).abs() < 1e-15);
-    assert!((p.gyroscope.matrix[(0, 0)] - 180.0 / std::f64::consts::PI).abs() < 1e-12, "rad/s per deg/s");
-    assert!((p.gyroscope.bias.x - 0.2).abs() < 1e-15);
+    assert!((p[SensorKind::Accelerometer].matrix[(0, 0)] - 2.0).abs() < 1e-15, "g per g");
+    assert!((p[SensorKind::Accelerometer].bias.x - 0.980665).abs() < 1e-15);
+    assert!(
+        (p[SensorKind::Gyroscope].matrix[(0, 0)] - 180.0 / std::f64::consts::PI).abs() < 1e-12,
+        "rad/s per deg/s"
+    );
+    assert!((p[SensorKind::Gyroscope].bias.x - 0.2).abs() < 1e-15);
     assert!((p.g_sensitivity[(0, 0)] - 0.5 / 9.80665).abs() < 1e-15, "rad/s per g");
 }
 
@@ -318,7 +321,8 @@ proptest! {
         for (quantity, step) in ImuQuantity::full_list(true, true, true).into_iter().zip(&entries) {
             quantity.add_to(&mut before.parameters, step / 3.0);
         }
-        for sensor in [&mut before.parameters.accelerometer, &mut before.parameters.gyroscope] {
+        for kind in SensorKind::ALL {
+            let sensor = &mut before.parameters[kind];
             sensor.matrix *= gain;
             sensor.bias *= zero;
         }

@@ -51,17 +51,17 @@ fn what_would_change_the_correction_is_refused() {
     let message = refusal(alone(&imu(SI, false), SensorKind::Accelerometer), ImuFormat::Imucal);
     assert!(message.contains("wants both sensors, and there is no gyroscope"), "{message}");
     let mut left = imu(SI, true);
-    left.parameters.accelerometer.matrix.row_mut(0).neg_mut();
+    left.parameters[SensorKind::Accelerometer].matrix.row_mut(0).neg_mut();
     let message = refusal(left, ImuFormat::Kalibr);
     assert!(message.contains("the axes of the accelerometer are left-handed"), "{message}");
     let mut flat = imu(SI, true);
-    flat.parameters.gyroscope.matrix.row_mut(1).fill(0.0);
+    flat.parameters[SensorKind::Gyroscope].matrix.row_mut(1).fill(0.0);
     for format in ImuFormat::ALL {
         let message = refusal(flat.clone(), format);
         assert!(message.contains("the matrix of the gyroscope is singular"), "{message}");
     }
     let mut turned = alone(&imu(SI, false), SensorKind::Accelerometer);
-    turned.parameters.accelerometer.matrix =
+    turned.parameters[SensorKind::Accelerometer].matrix =
         nalgebra::Matrix3::new(0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
     let message = refusal(turned, ImuFormat::ImuTk);
     assert!(message.contains("a zero on its diagonal"), "{message}");

@@ -2,6 +2,7 @@
 
 use super::{findings, read, refused, used};
 use calibrant::io::{ColumnMapping, ImuReadOptions, TimeUnit};
+use calibrant::sensor::SensorKind;
 
 /// Readings of both sensors.
 const READINGS: &str = "ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps";
@@ -20,7 +21,7 @@ fn file(names: &str, fields: impl Fn(usize) -> String) -> String {
 /// Time of the last row less that of the first, s.
 fn duration_s(text: &str, options: &ImuReadOptions) -> f64 {
     let read = read(text, options);
-    let times_s = read.recording.gyroscope.as_ref().expect("there").times_s().to_vec();
+    let times_s = read.recording[SensorKind::Gyroscope].as_ref().expect("there").times_s().to_vec();
     assert_eq!(times_s.len(), ROWS, "{:?}", findings(&read));
     times_s[ROWS - 1] - times_s[0]
 }
@@ -124,7 +125,7 @@ fn two_sensors_in_the_rows_of_a_file_are_never_one() {
         }
         let one = ImuReadOptions { instance: Some("1".into()), ..ImuReadOptions::default() };
         let file = read(&text, &one);
-        let readings = file.recording.accelerometer.as_ref().expect("there").readings();
+        let readings = file.recording[SensorKind::Accelerometer].as_ref().expect("there").readings();
         assert_eq!(readings.len(), ROWS);
         assert!(readings.iter().all(|reading| reading.x >= 1.0));
         assert!(!used(&file).contains(&named));

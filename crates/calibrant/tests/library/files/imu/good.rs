@@ -5,7 +5,7 @@ use calibrant::diagnostic::Check;
 use calibrant::io::{
     ColumnMapping, ColumnUnit, FileFormat, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_pair,
 };
-use calibrant::sensor::{ReadingUnit, Recording};
+use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
 
 /// Options with nothing given.
@@ -26,11 +26,11 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
 };
 
 fn accelerometer(text: &str, options: &ImuReadOptions) -> Recording {
-    read(text, options).recording.accelerometer.expect("an accelerometer")
+    read(text, options).recording[SensorKind::Accelerometer].clone().expect("an accelerometer")
 }
 
 fn gyroscope(text: &str, options: &ImuReadOptions) -> Recording {
-    read(text, options).recording.gyroscope.expect("a gyroscope")
+    read(text, options).recording[SensorKind::Gyroscope].clone().expect("a gyroscope")
 }
 
 /// Rows of an Xsens file: counter, time, accelerometer, gyroscope.
@@ -61,7 +61,7 @@ fn mt_manager_reads_the_same_with_every_delimiter_and_comment() {
         ] {
             let file = read(&mt(preamble, delimiter), &PLAIN);
             assert_eq!(file.format, FileFormat::MtManager);
-            assert_eq!(file.recording.gyroscope.as_ref(), Some(&expected), "{delimiter:?}");
+            assert_eq!(file.recording[SensorKind::Gyroscope].as_ref(), Some(&expected), "{delimiter:?}");
             assert_eq!(
                 findings(&file)[0],
                 "its sample times are missing: they are computed from the counter `PacketCounter` and 50 Hz (its `Update Rate`); its uncertainty is 100 ppm (option `rate_sd_ppm`, or rate_sd_ppm in [columns])"
@@ -85,9 +85,9 @@ fn sample_time_fine_is_in_tenths_of_a_millisecond_and_begins_anew() {
         );
     }
     let file = read(&text, &PLAIN);
-    let gyroscope = file.recording.gyroscope.as_ref().expect("there");
+    let gyroscope = file.recording[SensorKind::Gyroscope].as_ref().expect("there");
     assert_eq!(gyroscope.times_s(), [0.0, 0.01, 0.02, 0.03]);
-    assert!(file.recording.accelerometer.is_none());
+    assert!(file.recording[SensorKind::Accelerometer].is_none());
     let temperature = file.recording.temperature_c.as_ref().expect("there");
     let expected = [20.5, 21.5, 22.5, 23.5];
     assert!(temperature.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12));
@@ -118,14 +118,15 @@ fn movella_dot_is_in_degrees_and_microseconds() {
     .replace("4294967296", "0");
     let file = read(&text, &PLAIN);
     assert_eq!(file.format, FileFormat::MovellaDot);
-    let gyroscope = file.recording.gyroscope.as_ref().expect("there");
+    let gyroscope = file.recording[SensorKind::Gyroscope].as_ref().expect("there");
     assert_eq!(gyroscope.readings()[0].as_slice(), [std::f64::consts::PI, 0.0, std::f64::consts::FRAC_PI_2]);
     assert_eq!(gyroscope.times_s(), [0.0, 0.016667, 0.033334]);
     let free = file.columns.iter().find(|column| column.name == "FreeAcc_X").expect("there");
     assert_eq!(free.unused.as_deref(), Some("gravity has been removed: no reading of a sensor"));
     // without times, the counter and the output rate
     let text = text.replace("4294950629", "").replace(",0,0.1", ",,0.1").replace(",16667,", ",,");
-    let times = read(&text, &PLAIN).recording.gyroscope.expect("there").times_s().to_vec();
+    let times =
+        read(&text, &PLAIN).recording[SensorKind::Gyroscope].clone().expect("there").times_s().to_vec();
     assert_eq!(times, [0.0, 1.0 / 60.0, 2.0 / 60.0]);
 }
 
@@ -143,8 +144,8 @@ fn euroc_keeps_every_nanosecond() {
         let file = read(&text, options);
         assert_eq!(file.format, FileFormat::Euroc);
         let (accelerometer, gyroscope) = (
-            file.recording.accelerometer.as_ref().expect("there"),
-            file.recording.gyroscope.as_ref().expect("there"),
+            file.recording[SensorKind::Accelerometer].as_ref().expect("there"),
+            file.recording[SensorKind::Gyroscope].as_ref().expect("there"),
         );
         assert_eq!(accelerometer.times_s(), [0.0, 0.005_000_192, 0.010_000_128]);
         assert_eq!(accelerometer.readings()[2].x, 7.886_181_041_666_666);
@@ -162,11 +163,11 @@ fn euroc_keeps_every_nanosecond() {
 fn a_csv_says_units_by_name_in_many_ways() {
     let rows = "0,90,0,45,1,0,0\n10,0,90,1,0,1,0\n20,45,0,90,0,0,1\n";
     let expected = read(&format!("t_ms,gx_degps,gy_degps,gz_degps,ax_g,ay_g,az_g\n{rows}"), &PLAIN);
-    let accelerometer = expected.recording.accelerometer.as_ref().expect("there");
+    let accelerometer = expected.recording[SensorKind::Accelerometer].as_ref().expect("there");
     assert_eq!(accelerometer.times_s(), [0.0, 0.01, 0.02]);
     assert_eq!(accelerometer.readings()[2].z, 9.80665);
     assert_eq!(
-        expected.recording.gyroscope.as_ref().expect("there").readings()[0].x,
+        expected.recording[SensorKind::Gyroscope].as_ref().expect("there").readings()[0].x,
         std::f64::consts::FRAC_PI_2
     );
     for header in [
@@ -198,7 +199,10 @@ fn thousandths_are_units() {
     let named = read(&format!("t_s,ax_mg,ay_mg,az_mg,gx_mdps,gy_mdps,gz_mdps\n{rows}"), &PLAIN).recording;
     let given = units(ImuUnit::MilliGravity, ImuUnit::MilliDegreePerSecond);
     assert_eq!(read(&format!("t_s,ax,ay,az,gx,gy,gz\n{rows}"), &given).recording, named);
-    let (accelerometer, gyroscope) = (named.accelerometer.expect("there"), named.gyroscope.expect("there"));
+    let (accelerometer, gyroscope) = (
+        named[SensorKind::Accelerometer].clone().expect("there"),
+        named[SensorKind::Gyroscope].clone().expect("there"),
+    );
     assert!((accelerometer.readings()[0] - Vector3::new(0.0, 0.98, 0.017) * 9.80665).amax() < 1e-14);
     let expected = Vector3::new(std::f64::consts::FRAC_PI_2, 0.0, -0.5_f64.to_radians());
     assert!((gyroscope.readings()[0] - expected).amax() < 1e-14);
@@ -223,7 +227,10 @@ fn columns_are_mapped_by_name_or_number() {
     let by_name = options("clock", ["fx", "fy", "fz"], ["p", "q", "r"], "T");
     let named = read(&format!("ax,clock,p,q,r,fx,fy,fz,T\n{rows}"), &by_name);
     assert_eq!(named.recording, by_number.recording);
-    assert_eq!(named.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.01, 0.02]);
+    assert_eq!(
+        named.recording[SensorKind::Accelerometer].as_ref().expect("there").times_s(),
+        [0.0, 0.01, 0.02]
+    );
     assert_eq!(named.columns[0].unused.as_deref(), Some("other columns are named in [columns]"));
     // a mapped column's given unit takes precedence over its name
     let text = "t_s,ax_mps2,ay_mps2,az_mps2\n0,1,0,0\n1,0,1,0.1\n2,0,0.1,1\n";
@@ -255,7 +262,10 @@ fn columns_are_mapped_by_name_or_number() {
 fn rows_without_times_take_the_given_rate() {
     let options = ImuReadOptions { rate_hz: Some(4.0), ..PLAIN };
     let file = read("ax_mps2,ay_mps2,az_mps2\n0,1,9.8\n1,0,9.8\n2,1,9.7\n", &options);
-    assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.25, 0.5]);
+    assert_eq!(
+        file.recording[SensorKind::Accelerometer].as_ref().expect("there").times_s(),
+        [0.0, 0.25, 0.5]
+    );
     assert_eq!(
         findings(&file)[0],
         "the file has no sample times and no counter: each row is taken as one sample at 4 Hz (as given), so lost samples do not show; its uncertainty is 5 % (option `rate_sd_ppm`, or rate_sd_ppm in [columns])"
@@ -267,8 +277,11 @@ fn sensors_of_different_rates_may_share_a_file() {
     let text = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n\
         0.000,0,1,9.8,0.1,0.2,0.3\n0.005,,,,0.2,0.1,0.3\n0.010,1,0,9.7,0.1,0.3,0.2\n0.015,,,,0.3,0.2,0.1\n0.02,1,2,9.8,0.1,0.2,0.4\n";
     let file = read(text, &PLAIN);
-    assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s(), [0.0, 0.01, 0.02]);
-    assert_eq!(file.recording.gyroscope.as_ref().expect("there").len(), 5);
+    assert_eq!(
+        file.recording[SensorKind::Accelerometer].as_ref().expect("there").times_s(),
+        [0.0, 0.01, 0.02]
+    );
+    assert_eq!(file.recording[SensorKind::Gyroscope].as_ref().expect("there").len(), 5);
     assert_eq!(findings(&file), ["line 3: accelerometer: 2 rows without a reading (first here)"]);
 }
 
@@ -319,11 +332,11 @@ fn the_time_of_a_pair_may_be_named() {
     let options = ImuReadOptions { columns, time_unit: Some(TimeUnit::Millisecond), ..both };
     let read = |second: &[u8]| parse_imu_pair(b"elapsed,x,y,z\n0,1,2,4\n10,1,2,3\n", second, &options);
     let file = read(b"elapsed,x,y,z\n5,1,2,4\n15,1,2,3\n").expect("good");
-    assert_eq!(file.recording.accelerometer.expect("there").times_s(), [0.0, 0.01]);
-    assert_eq!(file.recording.gyroscope.expect("there").times_s(), [0.005, 0.015]);
+    assert_eq!(file.recording[SensorKind::Accelerometer].clone().expect("there").times_s(), [0.0, 0.01]);
+    assert_eq!(file.recording[SensorKind::Gyroscope].clone().expect("there").times_s(), [0.005, 0.015]);
     // a file without that name has its own time
     let own = read(b"t_ms,x,y,z\n5,1,2,4\n15,1,2,3\n").expect("good");
-    assert_eq!(own.recording.gyroscope.expect("there").times_s(), [0.005, 0.015]);
+    assert_eq!(own.recording[SensorKind::Gyroscope].clone().expect("there").times_s(), [0.005, 0.015]);
 }
 
 #[test]
@@ -335,8 +348,10 @@ fn a_pair_may_have_headers_and_different_times() {
         &both,
     )
     .expect("good");
-    let (accelerometer, gyroscope) =
-        (file.recording.accelerometer.expect("there"), file.recording.gyroscope.expect("there"));
+    let (accelerometer, gyroscope) = (
+        file.recording[SensorKind::Accelerometer].clone().expect("there"),
+        file.recording[SensorKind::Gyroscope].clone().expect("there"),
+    );
     assert_eq!((accelerometer.times_s(), gyroscope.times_s()), (&[0.0, 1.0][..], &[0.5, 1.5, 2.5][..]));
     // the same file twice: each is read for its own sensor
     let whole = b"t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n0,0,1,9.8,0.1,0.2,0.3\n1,1,0,9.8,0.2,0.1,0.4\n";

@@ -57,7 +57,7 @@ fn even_times_that_are_asked_for_need_samples_without_gaps() {
     };
     let options = ImuReadOptions { times: Some(SampleTimes::Even), ..ImuReadOptions::default() };
     let file = calibrant::io::parse_imu_recording(text(0.0).as_bytes(), &options).expect("even enough");
-    let times = file.recording.gyroscope.expect("there").times_s().to_vec();
+    let times = file.recording[SensorKind::Gyroscope].clone().expect("there").times_s().to_vec();
     assert!(times.array_windows().all(|[one, next]| (next - one - 0.01).abs() < 1e-5));
     let refused = calibrant::io::parse_imu_recording(text(2.0).as_bytes(), &options).expect_err("a gap");
     assert!(refused.to_string().contains("the samples are not even: there is none from 1.49"), "{refused}");

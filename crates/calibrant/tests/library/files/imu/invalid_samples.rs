@@ -26,8 +26,11 @@ fn one_absurd_number_is_a_invalid_sample_whatever_its_size() {
         let body = text(&[(120, 2, value)]);
         let imu = read(&format!("t_s,gx_degps,gy_degps,gz_degps\n{body}"), &ImuReadOptions::default());
         let alone = read(&format!("t_s,ax,ay,az\n{body}"), &plain);
-        let found =
-            [imu.recording.gyroscope, alone.recording.accelerometer].map(|found| found.expect("there"));
+        let found = [
+            imu.recording[SensorKind::Gyroscope].clone(),
+            alone.recording[SensorKind::Accelerometer].clone(),
+        ]
+        .map(|found| found.expect("there"));
         for (recording, factor) in found.iter().zip([1.0_f64.to_radians(), 1.0]) {
             let (clean, spikes) = recording.without_spikes(SensorKind::Gyroscope);
             let spikes = spikes.expect(value);

@@ -2,6 +2,7 @@
 
 use super::{findings, read, refused};
 use calibrant::io::{ImuReadOptions, SampleTimes, parse_imu_recording};
+use calibrant::sensor::SensorKind;
 
 /// Sample rate, Hz.
 const RATE_HZ: f64 = 100.0;
@@ -51,7 +52,7 @@ fn times_of_packets_are_asked_about_and_a_given_rate_takes_their_place() {
             "{name}: {question}"
         );
         let read = read(&text, &ImuReadOptions { times, ..given() });
-        let gyroscope = read.recording.gyroscope.as_ref().expect("there");
+        let gyroscope = read.recording[SensorKind::Gyroscope].as_ref().expect("there");
         assert_eq!((gyroscope.len(), gyroscope.times_s()[1500]), (ROWS, 15.0), "{name}");
         assert!(
             findings(&read)

@@ -4,6 +4,7 @@ use super::{findings, units};
 use calibrant::budget::Budget;
 use calibrant::error::Refusal;
 use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_recording};
+use calibrant::sensor::SensorKind;
 use parquet::basic::Compression;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::{ByteArray, FixedLenByteArray, Int96};
@@ -112,8 +113,8 @@ fn a_table_reads_with_any_compression() {
         let file = read(&write(SCHEMA, &groups, compression), &ImuReadOptions::default());
         assert_eq!((file.format, file.rows), (FileFormat::Parquet, 6));
         let (accelerometer, gyroscope) = (
-            file.recording.accelerometer.as_ref().expect("there"),
-            file.recording.gyroscope.as_ref().expect("there"),
+            file.recording[SensorKind::Accelerometer].as_ref().expect("there"),
+            file.recording[SensorKind::Gyroscope].as_ref().expect("there"),
         );
         assert_eq!(gyroscope.times_s(), [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]);
         assert_eq!(accelerometer.times_s(), [0.0, 0.02, 0.03, 0.04, 0.05], "the second has no x");
@@ -206,7 +207,10 @@ fn tables_that_cannot_be_used_say_why() {
         time_unit: Some(TimeUnit::Millisecond),
         ..units(ImuUnit::Counts, ImuUnit::DegreePerSecond)
     };
-    assert_eq!(read(&unitless, &reported).recording.gyroscope.expect("there").times_s(), [0.0, 0.01]);
+    assert_eq!(
+        read(&unitless, &reported).recording[SensorKind::Gyroscope].clone().expect("there").times_s(),
+        [0.0, 0.01]
+    );
 }
 
 #[test]
@@ -277,7 +281,7 @@ fn one_absurd_number_of_a_table_is_a_invalid_sample() {
         )
     };
     let read = |invalid| parse_imu_recording(&table(invalid), &ImuReadOptions::default());
-    let recording = read(1).expect("read").recording.gyroscope.expect("there");
+    let recording = read(1).expect("read").recording[SensorKind::Gyroscope].clone().expect("there");
     assert_eq!(recording.readings()[20].x, f64::from(1e38_f32));
     let message = read(5).expect_err("refused").to_string();
     assert!(
@@ -317,13 +321,21 @@ fn a_decimal_is_the_number_that_its_digits_say() {
         let [y, z] = axes;
         let file =
             gyroscope(time(), [(column, values), y, z]).unwrap_or_else(|error| panic!("{column}: {error}"));
-        let read: Vec<f64> =
-            file.recording.gyroscope.expect("there").readings().iter().map(|of| of.x).collect();
+        let read: Vec<f64> = file.recording[SensorKind::Gyroscope]
+            .clone()
+            .expect("there")
+            .readings()
+            .iter()
+            .map(|of| of.x)
+            .collect();
         assert_eq!(read, [-1.75_f64, 1.2345].map(|degps| degps * (std::f64::consts::PI / 180.0)), "{column}");
     }
     let time = ("int64 t_s (DECIMAL(18,3))", Values::Int64(vec![1000, 1010]));
     assert_eq!(
-        gyroscope(time, floats()).expect("read").recording.gyroscope.expect("there").times_s(),
+        gyroscope(time, floats()).expect("read").recording[SensorKind::Gyroscope]
+            .clone()
+            .expect("there")
+            .times_s(),
         [1.0, 1.01]
     );
 }
@@ -341,7 +353,7 @@ fn a_type_states_the_unit_of_a_time_and_the_sign_of_a_number() {
         ("int32 t_ms (INTEGER(32,false))", Values::Int32(vec![i32::MAX, i32::MIN + 9])),
     ] {
         let file = gyroscope((time, values), floats()).unwrap_or_else(|error| panic!("{time}: {error}"));
-        let times_s = file.recording.gyroscope.expect("there").times_s().to_vec();
+        let times_s = file.recording[SensorKind::Gyroscope].clone().expect("there").times_s().to_vec();
         assert!((times_s[1] - times_s[0] - 0.01).abs() < 1e-9, "{time}: {times_s:?}");
     }
 }

@@ -3,6 +3,7 @@
 use calibrant::io::{
     ImuFile, ImuReadOptions, ImuUnit, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,
 };
+use calibrant::sensor::SensorKind;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -126,5 +127,8 @@ fn a_pair_in_pieces_is_its_bytes() {
     let pair = read_imu_pair(&one, &other, &options).expect("a pair");
     assert!(pair == parse_imu_pair(first.as_bytes(), second.as_bytes(), &options).expect("a pair"));
     assert_eq!(pair.sha256.len(), 2);
-    assert_eq!(pair.recording.gyroscope.expect("there").readings()[ROWS - 1].y, 32_000.0 + 119.99);
+    assert_eq!(
+        pair.recording[SensorKind::Gyroscope].clone().expect("there").readings()[ROWS - 1].y,
+        32_000.0 + 119.99
+    );
 }

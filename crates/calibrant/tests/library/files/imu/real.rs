@@ -5,7 +5,7 @@ use crate::common::shared_data;
 use calibrant::diagnostic::Check;
 use calibrant::diagnostic::reader::ValuesMissing;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording};
-use calibrant::sensor::ReadingUnit;
+use calibrant::sensor::{ReadingUnit, SensorKind};
 
 #[test]
 fn the_pair_of_imu_tk_reads_whole() {
@@ -16,8 +16,10 @@ fn the_pair_of_imu_tk_reads_whole() {
     };
     let file = read_imu_pair(&acc, &gyr, &units(ImuUnit::Counts, ImuUnit::Counts)).expect("good");
     assert_eq!((file.format, file.rows), (FileFormat::ImuTk, 51_175));
-    let (accelerometer, gyroscope) =
-        (file.recording.accelerometer.expect("there"), file.recording.gyroscope.expect("there"));
+    let (accelerometer, gyroscope) = (
+        file.recording[SensorKind::Accelerometer].clone().expect("there"),
+        file.recording[SensorKind::Gyroscope].clone().expect("there"),
+    );
     assert_eq!((accelerometer.unit(), gyroscope.unit()), (ReadingUnit::Counts, ReadingUnit::Counts));
     assert_eq!(accelerometer.readings()[0].as_slice(), [33108.0, 33329.0, 36429.0]);
     assert_eq!(gyroscope.readings()[0].as_slice(), [32786.0, 32429.0, 32499.0]);
@@ -48,7 +50,7 @@ fn the_ferraris_session_of_imucal_asks_for_units_and_rate() {
     };
     let file = read_imu_recording(&path, &options).expect("good");
     assert_eq!(file.format, FileFormat::Imucal);
-    let gyroscope = file.recording.gyroscope.as_ref().expect("there");
+    let gyroscope = file.recording[SensorKind::Gyroscope].as_ref().expect("there");
     assert_eq!(gyroscope.unit(), ReadingUnit::RadianPerSecond);
     assert!((gyroscope.readings()[0].x - (-0.6103515625_f64).to_radians()).abs() < 1e-15);
     assert_eq!(gyroscope.times_s()[1024], 10.0);
@@ -69,7 +71,7 @@ fn every_sample_file_of_mt_manager_is_read_or_refused_with_the_reason() {
         assert_eq!(file.format, FileFormat::MtManager);
         assert_eq!(used(&file)[0], "PacketCounter");
         assert_eq!(used(&file)[1..], all);
-        let gyroscope = file.recording.gyroscope.as_ref().expect("there");
+        let gyroscope = file.recording[SensorKind::Gyroscope].as_ref().expect("there");
         assert_eq!((gyroscope.unit(), gyroscope.len()), (ReadingUnit::RadianPerSecond, file.rows));
         assert_eq!(gyroscope.readings()[0].as_slice(), [0.024471, 0.002012, 0.007768]);
         assert_eq!(gyroscope.times_s()[..3], [0.0, 0.01, 0.02]);
@@ -89,14 +91,17 @@ fn every_sample_file_of_mt_manager_is_read_or_refused_with_the_reason() {
             file.findings.iter().filter(|finding| finding.code() == ValuesMissing::CODE).collect();
         assert_eq!(missing.len(), 1, "{:?}", file.findings);
         assert_eq!(missing[0].line(), Some(14));
-        let accelerometer = file.recording.accelerometer.as_ref().expect("there");
+        let accelerometer = file.recording[SensorKind::Accelerometer].as_ref().expect("there");
         assert_eq!(accelerometer.len() + 1, file.rows);
-        assert_eq!(file.recording.gyroscope.as_ref().expect("there").len(), file.rows);
+        assert_eq!(file.recording[SensorKind::Gyroscope].as_ref().expect("there").len(), file.rows);
     }
     if let Some(path) = mt("MT2022_ACC_GYRO_ROT_MAT_SEMICOLON_00B42D4B.txt") {
         let file = read_imu_recording(&path, &with_rate).expect("good");
         assert_eq!(used(&file)[1..], all);
-        assert_eq!(file.recording.accelerometer.as_ref().expect("there").readings()[0].z, 9.922524);
+        assert_eq!(
+            file.recording[SensorKind::Accelerometer].as_ref().expect("there").readings()[0].z,
+            9.922524
+        );
     }
     if let Some(path) = mt("MT_012005D6-000_sit_to_stand-000_00B421ED.txt") {
         let reason =

@@ -6,6 +6,7 @@ use calibrant::diagnostic::reader::FileUnfinished;
 use calibrant::io::{
     ColumnMapping, FileFormat, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
 };
+use calibrant::sensor::SensorKind;
 use mcap::records::MessageHeader;
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -137,8 +138,8 @@ fn a_bag_reads_its_imu() {
     let file = read(&one());
     assert_eq!((file.format, file.rows), (FileFormat::Mcap, 5));
     let (accelerometer, gyroscope) = (
-        file.recording.accelerometer.as_ref().expect("there"),
-        file.recording.gyroscope.as_ref().expect("there"),
+        file.recording[SensorKind::Accelerometer].as_ref().expect("there"),
+        file.recording[SensorKind::Gyroscope].as_ref().expect("there"),
     );
     assert_eq!(gyroscope.times_s(), [0.0, 0.005, 0.01, 0.015, 0.02]);
     assert_eq!(gyroscope.readings()[3].as_slice(), [0.1 * 3.0, 0.2, -0.1]);
@@ -276,8 +277,10 @@ fn a_compressed_bag_that_was_cut_off_is_read_block_by_block() {
             Ok(file) => {
                 let message = unfinished(&file).expect("a warning");
                 assert!(message.starts_with(&format!("the bag was cut off at byte {length}, ")), "{message}");
-                let (part, all) =
-                    (file.recording.gyroscope.expect("there"), whole.recording.gyroscope.as_ref());
+                let (part, all) = (
+                    file.recording[SensorKind::Gyroscope].clone().expect("there"),
+                    whole.recording[SensorKind::Gyroscope].as_ref(),
+                );
                 assert_eq!(part.readings(), &all.expect("there").readings()[..file.rows]);
                 rows.push(file.rows);
             }
@@ -297,7 +300,10 @@ fn a_sensor_that_is_not_there_is_left_out() {
         (0..3).map(message).collect::<Vec<_>>()
     };
     let file = read(&bag(&[("/imu", IMU, "cdr", messages([false, true]))]));
-    assert!(file.recording.accelerometer.is_none() && file.recording.gyroscope.is_some());
+    assert!(
+        file.recording[SensorKind::Accelerometer].is_none()
+            && file.recording[SensorKind::Gyroscope].is_some()
+    );
     let column = file.columns.iter().find(|column| column.name == "linear_acceleration.x").expect("there");
     assert_eq!(column.unused.as_deref(), Some("its covariance begins with −1: the IMU does not have it"));
     let neither = bag(&[("/imu", IMU, "cdr", messages([true, true]))]);

@@ -87,7 +87,7 @@ fn each_sensor_has_its_own_series() {
             let celsius = file.recording.temperature_c.as_ref().expect("there");
             // 20 °C and 20 K/s, up to the last of its rows
             let expected = |t: f64| 20.0 + 20.0 * t.min(0.35);
-            let times = file.recording.accelerometer.as_ref().expect("there").times_s();
+            let times = file.recording[SensorKind::Accelerometer].as_ref().expect("there").times_s();
             let is_near = |(t, found): (&f64, &f64)| (found - expected(*t)).abs() < 1e-9;
             assert!(times.iter().zip(celsius).all(is_near), "{celsius:?}");
         }

@@ -6,6 +6,7 @@ use calibrant::io::{
     Experiment, ImuReadOptions, ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_imu_recording,
     parse_reference_log, preset,
 };
+use calibrant::sensor::SensorKind;
 use calibrant::session::{Calibrated, Session, SessionOptions, Source};
 use nalgebra::Vector3;
 
@@ -153,7 +154,7 @@ fn a_bag_with_joints_and_an_imu_needs_no_further_log() {
     let Calibrated::OnMachine(machine) = &outcome.calibrated else { panic!("on a machine") };
     let calibration = &machine.calibration;
     let (bias, delay_s) =
-        (calibration.parameters.imu.accelerometer.bias.x, calibration.parameters.delays_s[0]);
+        (calibration.parameters.imu[SensorKind::Accelerometer].bias.x, calibration.parameters.delays_s[0]);
     assert!((bias - 0.1).abs() < 0.03, "{bias}");
     assert!(delay_s.abs() < 1e-4, "the time stamps are of one clock: {delay_s}");
     assert_eq!((machine.log.file.as_str(), machine.log.format), ("both.mcap", "mcap"));
