@@ -157,6 +157,13 @@ class Calibration:
         """Correlation, (p, p)."""
         return self._matrix("correlation")
 
+    @property
+    def budget(self) -> dict[str, Array]:
+        """Shares of the variance of each parameter, 0 to 1, by source: noise, gravity, drift, …. Empty for a commanded motion."""
+        found = self.data.get("budget") or (self.data.get("machine") or {}).get("budget") or {}
+        shares = np.array(found.get("shares", ()), dtype=np.float64)
+        return {source: shares[:, k] for k, source in enumerate(found.get("sources", ()))}
+
     def _matrix(self, name: str) -> Array:
         rows, count = self.data.get(name), len(self._parameters)
         if rows is None:

@@ -200,3 +200,11 @@ def test_recordings_without_samples_or_with_absurd_times_are_refused(imu: cb.Rec
     absurd = cb.recording(1e-271 * np.arange(3000), imu.accelerometer.values[:3000])
     with pytest.raises(cb.NotIdentifiable, match="no hold was found"):
         cb.calibrate(absurd, "static-poses")
+
+
+def test_the_shares_of_a_budget_add_up(imu: cb.Recording) -> None:
+    found = cb.calibrate(imu, "imu")
+    assert np.allclose(sum(found.budget.values()), 1.0, rtol=0.0, atol=1e-9)
+    place = list(found).index("accelerometer.scale.x")
+    # gravity is that of any place
+    assert found.budget["gravity"][place] > 0.9

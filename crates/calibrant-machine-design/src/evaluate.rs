@@ -11,8 +11,9 @@ use crate::motion::Knots;
 use crate::turned_cross_terms::{beyond_first_order, of_turned_cross_terms};
 use crate::{LimitProof, TrajectoryProblem};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::{BudgetRow, VarianceSource};
 use calibrant_core::sensor::ImuQuantity;
-use calibrant_machine::estimate::{BudgetRow, MachineQuantity, Source, mount_variances};
+use calibrant_machine::estimate::{MachineQuantity, mount_variances};
 use calibrant_machine::spline::{Degree, VectorSpline};
 use nalgebra::DMatrix;
 
@@ -154,27 +155,20 @@ fn posterior(sensing: &Sensing, of: &Marginalised, cross_axis_sd: [f64; 2]) -> O
         second[(k, k)] += beyond_first_order(of, second[(k, k)]);
     }
     let second = second.view((0, 0), (p, p)).into_owned();
-    let sources: Vec<Source> = layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
+    let sources: Vec<VarianceSource> =
+        layout.quantities[p..].iter().map(|quantity| quantity.source()).collect();
     let quantities = sensing.quantities();
     let row = |(i, quantity): (usize, &ImuQuantity)| {
         let variance = covariance[(i, i)];
-        let mut parts = Source::ALL.map(|source| {
+        let mut parts = VarianceSource::ALL.map(|source| {
             let inside = |k: &usize| sources[*k] == source;
             let places: Vec<usize> = (0..size).filter(inside).collect();
             let pairs = places.iter().flat_map(|a| places.iter().map(move |b| (*a, *b)));
             pairs.map(|(a, b)| cross[(i, a)] * prior[(a, b)] * cross[(i, b)]).sum::<f64>()
         });
         let others: f64 = parts.iter().sum();
-        for (part, source) in parts.iter_mut().zip(Source::ALL) {
-            if source == Source::SensorNoise {
-                *part = (variance - others).max(0.0);
-            }
-        }
-        for (part, source) in parts.iter_mut().zip(Source::ALL) {
-            if source == Source::Mounting {
-                *part += second[(i, i)];
-            }
-        }
+        parts[VarianceSource::SensorNoise as usize] = (variance - others).max(0.0);
+        parts[VarianceSource::Mounting as usize] += second[(i, i)];
         BudgetRow { quantity: *quantity, variance: variance + second[(i, i)], parts }
     };
     Some(Posterior {

@@ -49,7 +49,7 @@ pub(crate) fn of_turned_cross_terms(
         let information = layout.prior[(*known, *known)];
         let own = match information > 0.0 {
             true => 1.0 / information,
-            false => spread[usize::from(*kind == SensorKind::Gyroscope)].powi(2),
+            false => spread[*kind as usize].powi(2),
         };
         let of_row = moved(*k) * (own + moved(*row)[(*k, *k)]);
         let same = entries.iter().filter(|(_, (other, of, _))| other == kind && of == row);

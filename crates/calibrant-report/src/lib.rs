@@ -4,6 +4,7 @@
 //! and are drawn when a page is printed.
 
 mod batch;
+mod budget;
 mod calibration;
 mod comparison;
 mod design;

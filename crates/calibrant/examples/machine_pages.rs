@@ -57,7 +57,7 @@ fn page(title: &str, problem: &MachineProblem<'_>) -> Result<String, Failure> {
         title: title.into(),
         facts: vec![(
             "Samples".into(),
-            problem.recording.accelerometer.as_ref().map_or(0, Recording::len).to_string(),
+            problem.recording[SensorKind::Accelerometer].as_ref().map_or(0, Recording::len).to_string(),
         )],
         ..About::default()
     };

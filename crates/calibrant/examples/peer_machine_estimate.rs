@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "{} parameters, {} iterations: the largest difference is {largest:.1e} standard deviations; these differ by {largest_sd:.1e}",
         ours.quantities.len(),
-        ours.iterations
+        ours.sensors.iterations
     );
     if largest > SAME || largest_sd > SAME_SD {
         return Err("the answers differ".into());

@@ -8,7 +8,7 @@ use calibrant_core::diagnostic::design::{SensorsNotCalibrated, SeriesInterrupted
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::interruption::Interruption;
-use calibrant_core::sensor::{ImuQuantity, Parameter, ReadingUnit, SensorKind};
+use calibrant_core::sensor::{ImuQuantity, Parameter, ReadingUnit};
 use calibrant_io::{Experiment, Plan, Trajectory};
 use calibrant_machine::estimate::MachineQuantity;
 use calibrant_machine_design::{PlainRoutine, PlainTrajectory, TrajectoryDesign, TrajectoryEvaluation};
@@ -182,8 +182,7 @@ impl RehearsalPlan<'_> {
         let experiment = &self.plan.experiment;
         let gyroscope = experiment.imu.as_ref().map(|imu| imu.gyroscope.unit);
         let units = [experiment.sensor.unit, gyroscope.unwrap_or(ReadingUnit::RadianPerSecond)];
-        let unit =
-            |quantity: &ImuQuantity| units[usize::from(quantity.sensor_kind() != SensorKind::Accelerometer)];
+        let unit = |quantity: &ImuQuantity| units[quantity.sensor_kind() as usize];
         let quantities = &self.plan.quantities;
         let parameters = quantities.iter().map(|of| Parameter::undescribed(*of, unit(of))).collect();
         let knots = design.optimal.motion.knots;

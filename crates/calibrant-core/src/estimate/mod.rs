@@ -49,7 +49,7 @@ mod unknown_latitude;
 mod validation;
 
 pub use crate::diagnostic::{Change, Changed, Course};
-pub use crate::solve::{CalibrationStatus, chi2_p_value, f_p_value};
+pub use crate::solve::{BudgetRow, CalibrationStatus, VarianceSource, chi2_p_value, f_p_value};
 pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference, Place};
@@ -70,7 +70,7 @@ pub use imu::{
     WhiteNoiseSearch, calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds,
     find_imu_holds, swapped_sensors,
 };
-pub use json::FitInUnit;
+pub use json::{Budget, FitInUnit};
 pub use motion_outliers::without_motion_outliers;
 pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

@@ -10,7 +10,7 @@ use crate::sensor::{
     Axis, CalibratedImu, CovarianceDegrees, CovariancePart, Gauge, ImuParameters, ImuQuantity, Parameter,
     PerSensor, Quantity, ReadingUnit, SensorKind, SensorModel, SharedErrors,
 };
-use crate::solve::CalibrationStatus;
+use crate::solve::{BudgetRow, CalibrationStatus, VarianceSource};
 use nalgebra::{DMatrix, Vector3};
 
 /// With fewer degrees of freedom left by a drift, the scatter between holds is at least that of the fit without it.
@@ -36,6 +36,8 @@ pub struct Calibration {
     pub values: Vec<f64>,
     /// Covariance of the estimates, p × p, entry (i, j) in unit i times unit j. The motion (or the directions) is marginalised.
     pub covariance: DMatrix<f64>,
+    /// Where the variance of each estimate comes from; empty for a commanded motion.
+    pub budget: Vec<BudgetRow>,
     /// The share of each quantity's information that comes from the prior, 0 to 1. Empty without a prior, and for a commanded motion.
     pub prior_share: Vec<f64>,
     /// Derivative of each estimate with respect to the assumed gravity, in its unit over m/s². Empty for a commanded motion.
@@ -79,6 +81,13 @@ impl Calibration {
             allowed,
         );
         datasheet::beyond_datasheet(parameters, values, &sd).into_iter().chain(bias).chain(gains).collect()
+    }
+
+    /// The sources that variances come from.
+    #[must_use]
+    pub fn variance_sources(&self) -> Vec<VarianceSource> {
+        let is_used = |source: &VarianceSource| self.budget.iter().any(|row| row.part(*source) > 0.0);
+        VarianceSource::ALL.into_iter().filter(is_used).collect()
     }
 
     /// Correlation matrix of the estimates.

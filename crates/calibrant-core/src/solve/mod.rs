@@ -11,6 +11,7 @@
 //! | How large are the variances? | `χ²(σ) = ν`, with `W_j = (V_j + σ² I)⁻¹` | `variance` |
 //! | How many residuals are left? | `ν = n − (p − Σ_k w_k Σ_kk)` | `degrees` |
 //! | Which residuals are bad? | `r/√(V ∓ J Σ Jᵀ)`, one change at a time | `studentised`, `leave_out` |
+//! | What is the covariance, and of what? | `Σ + Σ_s R_s R_sᵀ` | `uncertainty` |
 //! | What is probable? | tails of χ² and of Fisher's F | `statistics` |
 
 mod degrees;
@@ -21,6 +22,7 @@ mod leave_out;
 mod statistics;
 mod status;
 mod studentised;
+mod uncertainty;
 mod variance;
 
 pub(crate) use degrees::{degrees_left, shares_of_prior};
@@ -32,4 +34,6 @@ pub(crate) use statistics::{MANY_DEGREES, chi2_of_p_value};
 pub use statistics::{chi2_p_value, f_p_value};
 pub use status::CalibrationStatus;
 pub(crate) use studentised::{Scatter, studentised, studentised_length};
+pub(crate) use uncertainty::Uncertainty;
+pub use uncertainty::{BudgetRow, VarianceSource};
 pub(crate) use variance::{Trial, excess};

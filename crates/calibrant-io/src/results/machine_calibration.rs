@@ -4,13 +4,13 @@ use super::heading::{Heading, JsonFile};
 use super::judgement::Judgement;
 use super::machine_validation::ValidationOf;
 use super::origin::Origin;
+use calibrant_core::estimate::{Budget, VarianceSource};
 use calibrant_core::form::As;
 use calibrant_core::json::{flat, if_any, if_some};
 use calibrant_core::json_object;
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, SensorResidual,
-    Source,
 };
 use calibrant_machine::reference::Motion;
 use schemars::JsonSchema;
@@ -128,7 +128,8 @@ json_object! {
         tip_from_sensor_wxyz: of.tip_from_sensor_wxyz(),
         sensor_noise: of.calibration.noise.iter().map(|noise| of.noise_of(noise)).collect::<Vec<_>>(),
         log_noise: &of.calibration.reference_noise,
-        budget: of.budget(),
+        /// The variance of each of the sensor's parameters, by source.
+        budget: Budget::of(&of.calibration.sensors.budget, VarianceSource::ON_MACHINE),
     }
 }
 
@@ -176,15 +177,6 @@ struct NoiseOfSensor {
     residual_rms: [f64; 3],
     /// Of the variance with the activity of the motion.
     growth: Option<f64>,
-}
-
-/// The variance of each of the sensor's parameters, by source.
-#[derive(Serialize, JsonSchema)]
-struct Budget {
-    /// The sources, in the order of the columns.
-    sources: [&'static str; Source::ALL.len()],
-    /// Shares of the variance, a row for each parameter.
-    shares: Vec<Vec<f64>>,
 }
 
 impl MachineCalibrationFile<'_> {
@@ -245,16 +237,6 @@ impl MachineResult<'_> {
             white_noise: residual.white_noise.into(),
             residual_rms: residual.rms.into(),
             growth: residual.growth,
-        }
-    }
-
-    fn budget(&self) -> Budget {
-        let shares = |row: &calibrant_machine::estimate::BudgetRow| {
-            row.parts.iter().map(|part| part / row.variance).collect()
-        };
-        Budget {
-            sources: Source::ALL.map(Source::name),
-            shares: self.calibration.budget.iter().map(shares).collect(),
         }
     }
 }

@@ -256,7 +256,7 @@ pub fn spreadsheet_text(text: &str) -> String {
 }
 
 /// Units of parameters, each as it ends a column's name.
-const ENDINGS: [(&str, &str); 15] = [
+const ENDINGS: [(&str, &str); 16] = [
     ("1", ""),
     ("m/s²", "_mps2"),
     ("counts", "_counts"),
@@ -270,6 +270,7 @@ const ENDINGS: [(&str, &str); 15] = [
     ("rad/s/K²", "_radps_per_k2"),
     ("counts/K", "_counts_per_k"),
     ("counts/K²", "_counts_per_k2"),
+    ("1/(m/s²)", "_per_mps2"),
     ("1/K", "_per_k"),
     ("1/K²", "_per_k2"),
 ];
@@ -278,4 +279,24 @@ const ENDINGS: [(&str, &str); 15] = [
 #[must_use]
 pub fn unit_ending(unit: &str) -> &'static str {
     ENDINGS.iter().find(|(of, _)| *of == unit).map_or("", |(_, ending)| ending)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use calibrant_core::sensor::{ImuQuantity, ReadingUnit};
+
+    #[test]
+    fn every_unit_of_a_parameter_has_an_ending_of_its_own() {
+        for quantity in ImuQuantity::all(true, true) {
+            for reading in [quantity.sensor_kind().stimulus_unit(), ReadingUnit::Counts] {
+                let unit = quantity.unit(reading);
+                assert!(unit == "1" || !unit_ending(unit).is_empty(), "{unit} of {}", quantity.name());
+            }
+        }
+        let mut endings: Vec<&str> = ENDINGS.iter().map(|(_, ending)| *ending).collect();
+        endings.sort_unstable();
+        endings.dedup();
+        assert_eq!(endings.len(), ENDINGS.len());
+    }
 }

@@ -3,10 +3,10 @@
 use super::heading::{Heading, JsonFile};
 use super::reach::Reached;
 use crate::experiment::{LinksKnown, MachineDesignPlan};
+use calibrant_core::estimate::{Budget, VarianceSource};
 use calibrant_core::form::rows;
 use calibrant_core::json::{flat, if_some};
 use calibrant_core::json_object;
-use calibrant_machine::estimate::{BudgetRow, Source};
 use calibrant_machine_design::world::{Body, Capsule, LeftOutPair, Reason, World};
 use calibrant_machine_design::{
     Kept, LimitProof, TrajectoryBound, TrajectoryDesign, TrajectoryEvaluation, TrajectoryProblem,
@@ -147,7 +147,7 @@ json_object! {
         /// Entry (i, j) in the unit of parameter i times that of parameter j.
         covariance: value.of.covariance.as_ref().map(rows),
         /// Where the variance of each parameter comes from.
-        budget: Budget { sources: Source::ALL.map(Source::name).to_vec(), shares: value.shares() },
+        budget: Budget::of(&value.of.budget, VarianceSource::ON_MACHINE),
         /// Posture at the beginning, rad or m: the machine goes there first.
         start: value.of.motion.at(value.of.motion.knots.start_s, 0),
         /// Every limit, and whether it is proved for all times.
@@ -156,11 +156,6 @@ json_object! {
 }
 
 impl Value<'_> {
-    fn shares(&self) -> Vec<Vec<f64>> {
-        let of = |row: &BudgetRow| row.parts.iter().map(|part| part / row.variance).collect();
-        self.of.budget.iter().map(of).collect()
-    }
-
     fn limits(&self) -> Vec<LimitUsed> {
         let used = |proof: &LimitProof| LimitUsed {
             kind: proof.limit.kind(),
@@ -175,14 +170,6 @@ impl Value<'_> {
         };
         self.of.limits.iter().map(used).collect()
     }
-}
-
-#[derive(Serialize, JsonSchema)]
-struct Budget {
-    /// The sources of uncertainty.
-    sources: Vec<&'static str>,
-    /// Of each parameter the share of its variance from each source.
-    shares: Vec<Vec<f64>>,
 }
 
 /// How far a trajectory goes towards a limit.

@@ -118,7 +118,7 @@ impl Truth {
         units: [ReadingUnit; 2],
         truth: &ImuParameters,
     ) -> Self {
-        let unit = |sensor_kind: SensorKind| units[usize::from(sensor_kind == SensorKind::Gyroscope)];
+        let unit = |sensor_kind: SensorKind| units[sensor_kind as usize];
         let value = |quantity: &ImuQuantity| TrueParameter {
             name: quantity.name(),
             unit: quantity.unit(unit(quantity.sensor_kind())),

@@ -2,7 +2,6 @@
 
 use super::Sensing;
 use crate::recursion::{Contraction, Sweep, V, carried};
-use calibrant_core::sensor::SensorKind;
 use calibrant_machine::estimate::MachineQuantity;
 use nalgebra::{Matrix3, Vector3};
 
@@ -41,9 +40,7 @@ impl Directions {
                 MachineQuantity::Mounting(axis) => Direction::Turn(n, unit(axis.index())),
                 MachineQuantity::Tilt(k) => Direction::Base(-V::of(&sensing.by_gravity[k])),
                 MachineQuantity::Gravity => Direction::Base(-V::of(&sensing.by_gravity[2])),
-                MachineQuantity::Delay(sensor) => {
-                    Direction::Delay(usize::from(sensor == SensorKind::Gyroscope))
-                }
+                MachineQuantity::Delay(sensor) => Direction::Delay(sensor as usize),
                 MachineQuantity::ClockRate => Direction::Clock,
                 MachineQuantity::Zero(j) => {
                     let joint = &sensing.links.joints[j];

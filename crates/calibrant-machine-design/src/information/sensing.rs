@@ -122,7 +122,7 @@ impl Sensing {
         let exact = setup.mounting == MountingPrior::Exact && setup.geometry_rotation_sd_rad == 0.0;
         let criterion = Smooth::new(&problem.criterion, &quantities, &columns.entries, densities, exact);
         let grown_at = |joint: &Joint| if joint.kind.turns() { GROWN_AT[0] } else { GROWN_AT[1] };
-        let there = |s: usize| kinds.iter().any(|kind| usize::from(*kind == SensorKind::Gyroscope) == s);
+        let there = |s: usize| kinds.iter().any(|kind| *kind as usize == s);
         Ok(Self {
             links: Links::new(chain, &mount, &vector),
             mount,

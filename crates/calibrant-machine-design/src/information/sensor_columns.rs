@@ -1,7 +1,7 @@
 //! The sensor's parameters as combinations of the 24 entries of two full sensors.
 
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity};
 use nalgebra::DMatrix;
 
 /// Number of entries: for each sensor and row, the bias and three of the matrix.
@@ -35,7 +35,7 @@ impl SensorColumns {
         let mut entries = DMatrix::zeros(ENTRIES, quantities.len());
         for (k, quantity) in quantities.iter().enumerate() {
             let ImuQuantity::Of(kind, of) = *quantity else { return refused(quantity) };
-            let sensor = usize::from(kind == SensorKind::Gyroscope);
+            let sensor = kind as usize;
             let mut set = |row: Axis, column: usize| entries[(entry(sensor, row.index(), column), k)] = 1.0;
             match of {
                 Quantity::Bias(axis) => set(axis, 0),

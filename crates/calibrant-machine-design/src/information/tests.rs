@@ -6,7 +6,6 @@ use crate::TrajectoryProblem;
 use crate::chains_for_tests::{Numbers, arm_of_all_kinds, problem_of};
 use crate::motion::{Grid, Knots};
 use crate::recursion::V;
-use calibrant_core::sensor::SensorKind;
 use calibrant_machine::chain::{ChainSensitivity, FrameMotion, JointState};
 use calibrant_machine::estimate::MachineQuantity;
 use nalgebra::{DMatrix, Matrix4, Vector3, Vector4, Vector6};
@@ -115,7 +114,7 @@ fn nuisances_change_the_readings_as_in_the_estimate() {
                 MachineQuantity::Mounting(axis) => of.mount.mounting.column(axis.index()).into_owned(),
                 MachineQuantity::Tilt(k) => of.gravity() * sensing.by_gravity[k],
                 MachineQuantity::Gravity => of.gravity() * sensing.by_gravity[2],
-                MachineQuantity::Delay(sensor) => of_sensor(usize::from(sensor == SensorKind::Gyroscope)),
+                MachineQuantity::Delay(sensor) => of_sensor(sensor as usize),
                 MachineQuantity::ClockRate => change * after_middle_s,
                 MachineQuantity::Zero(j) => of.positions.column(j).into_owned(),
                 MachineQuantity::Geometry(j, k) => of.geometry.column(6 * j + k).into_owned(),

@@ -15,7 +15,8 @@
 use crate::estimate::least_squares::{Block, Scaled};
 use crate::estimate::noise::Posterior;
 use crate::estimate::problem::Layout;
-use crate::estimate::{BudgetRow, MachineQuantity, MachineTrust, Source};
+use crate::estimate::{MachineQuantity, MachineTrust};
+use calibrant_core::estimate::{BudgetRow, VarianceSource};
 use calibrant_core::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector};
 
@@ -132,7 +133,7 @@ pub(crate) fn budget(
     trust: MachineTrust,
 ) -> Vec<BudgetRow> {
     let sigma = &posterior.covariance;
-    let of_source = |source: Source| -> DMatrix<f64> {
+    let of_source = |source: VarianceSource| -> DMatrix<f64> {
         let places: Vec<usize> =
             (0..layout.len()).filter(|k| layout.quantities[*k].source() == source).collect();
         let columns = sigma.select_columns(&places);
@@ -140,10 +141,15 @@ pub(crate) fn budget(
         let by_prior = &columns * prior;
         DMatrix::from_fn(layout.len(), 1, |i, _| by_prior.row(i).dot(&columns.row(i)))
     };
-    let priors: Vec<(Source, DMatrix<f64>)> =
-        [Source::Geometry, Source::Mounting, Source::Timing, Source::Gravity, Source::SensorPrior]
-            .map(|s| (s, of_source(s)))
-            .into();
+    let priors: Vec<(VarianceSource, DMatrix<f64>)> = [
+        VarianceSource::Geometry,
+        VarianceSource::Mounting,
+        VarianceSource::Timing,
+        VarianceSource::Gravity,
+        VarianceSource::SensorPrior,
+    ]
+    .map(|s| (s, of_source(s)))
+    .into();
     (layout.quantities.iter().enumerate())
         .filter_map(|(i, quantity)| match quantity {
             MachineQuantity::Imu(of) => Some((i, *of)),
@@ -151,25 +157,27 @@ pub(crate) fn budget(
         })
         .map(|(i, quantity)| {
             let model_variance = sigma[(i, i)];
-            let mut parts = [0.0; Source::ALL.len()];
-            for (part, source) in parts.iter_mut().zip(Source::ALL) {
+            let mut parts = [0.0; VarianceSource::ALL.len()];
+            for (part, source) in parts.iter_mut().zip(VarianceSource::ALL) {
                 *part = match source {
-                    Source::SensorNoise => posterior.sums.of_streams.iter().map(|of| of[i]).sum(),
-                    Source::ReferenceNoise => 0.0,
+                    VarianceSource::SensorNoise => posterior.sums.of_streams.iter().map(|of| of[i]).sum(),
+                    VarianceSource::ReferenceNoise => 0.0,
                     _ => priors.iter().find(|(of, _)| *of == source).map_or(0.0, |(_, of)| of[(i, 0)]),
                 };
             }
             let rest = (model_variance - parts.iter().sum::<f64>()).max(0.0);
             let place = match trust {
-                MachineTrust::Noisy => Source::ReferenceNoise,
-                MachineTrust::Known => Source::SensorNoise,
+                MachineTrust::Noisy => VarianceSource::ReferenceNoise,
+                MachineTrust::Known => VarianceSource::SensorNoise,
             };
-            let at = |wanted: Source| Source::ALL.iter().position(|source| *source == wanted).unwrap_or(0);
+            let at = |wanted: VarianceSource| {
+                VarianceSource::ALL.iter().position(|source| *source == wanted).unwrap_or(0)
+            };
             parts[at(place)] += rest;
             // the noise is that of some intervals, so the parts are those of the variance only about
             let scale = (covariance[(i, i)] - beyond[i]) / parts.iter().sum::<f64>();
             let mut parts = parts.map(|part| part * scale);
-            parts[at(Source::Mounting)] += beyond[i];
+            parts[VarianceSource::Mounting as usize] += beyond[i];
             BudgetRow { quantity, variance: covariance[(i, i)], parts }
         })
         .collect()

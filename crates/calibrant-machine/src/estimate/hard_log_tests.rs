@@ -57,7 +57,7 @@ impl Simulated {
         let joints = chain.as_ref().map_or(0, |chain| chain.joints.len());
         let imu = ImuParameters::identity();
         let mut truth = draw_machine(&setup, imu, &SensorKind::ALL, joints, &mut rng).parameters;
-        truth.delays_s = delay_s.map_or(truth.delays_s, |delay_s| [delay_s; 2]);
+        truth.delays_s = delay_s.map_or(truth.delays_s, |delay_s| [delay_s; 2].into());
         let sampling = SensorSampling { start_s: 0.2, samples: 1960, rate_hz: 100.0 };
         let sensors = [
             (SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.02),

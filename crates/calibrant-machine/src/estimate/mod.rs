@@ -23,11 +23,10 @@ pub(crate) use least_squares::predicted;
 pub use mount_variance::{MountVariance, mount_variances};
 pub use problem::{
     Layout, MachineParameters, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
-    MountingPrior, Source, TiltedGravity,
+    MountingPrior, TiltedGravity,
 };
 pub use result::{
-    BudgetRow, MachineCalibration, ReferenceNoise, ResidualSpectrum, SampleResidual, SensorDrift,
-    SensorResidual,
+    MachineCalibration, ReferenceNoise, ResidualSpectrum, SampleResidual, SensorDrift, SensorResidual,
 };
 pub use validation::{
     FailedBlock, LargestShift, MachineValidation, MachineValidationSource, ParameterShift, check_folds,

@@ -82,7 +82,10 @@ mod tests {
             let offset = if matches!(quantity, MachineQuantity::Delay(_)) { 0.3 } else { 0.0 };
             within(scatter(&|draw| draw.drawn[k].1 - offset), setup.prior_sd(quantity, 2));
         }
-        let difference = |draw: &DrawnMachine| draw.parameters.delays_s[0] - draw.parameters.delays_s[1];
+        let difference = |draw: &DrawnMachine| {
+            let [one, other] = SensorKind::ALL.map(|kind| draw.parameters.delays_s[kind]);
+            one - other
+        };
         within(scatter(&difference), setup.delay_difference_sd_s);
     }
 }

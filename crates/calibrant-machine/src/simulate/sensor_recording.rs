@@ -251,7 +251,7 @@ mod tests {
     fn a_sample_shows_the_motion_at_its_own_time() {
         let motion = moved(gantry(), &|t| vec![t * t * t / 6.0 - 0.01 * t / 6.0, 0.0, 0.0]);
         let mut truth = MachineParameters::nominal(&setup(), ImuParameters::identity(), 3);
-        truth.delays_s = [0.25, 0.0];
+        truth.delays_s = [0.25, 0.0].into();
         truth.clock_rate = 0.01;
         let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
         let recording = recording[SensorKind::Accelerometer].clone().expect("there");

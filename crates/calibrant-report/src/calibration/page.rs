@@ -10,6 +10,7 @@ use super::parameters::{estimate_table, parameter_table};
 use super::quality::{nuisances_in_words, temperature_in_words};
 use super::rotations::{rotation_summary, rotation_table, turn_table};
 use super::verdict::verdict;
+use crate::budget;
 use crate::figure::{
     bias_over_temperature, correlation_map, hold_directions, hold_residuals, holds_before_and_after,
     recording_before_and_after, recording_overview, rotation_errors, still_gyroscope,
@@ -54,6 +55,7 @@ pub fn calibration_sheet<'a>(
         Recovered::OnMachine(_) => {}
     }
     sections.extend(rotations(calibration));
+    sections.extend(variances(calibration));
     sections.extend(noise_sections(noise).into_iter().map(Section::for_page));
     if let Recovered::Motion(motion) = &calibration.recovered {
         sections.extend(residual_section(calibration, motion, recording));
@@ -159,6 +161,15 @@ fn rotations(calibration: &Calibration) -> Vec<Section<'_>> {
         sections.push(section);
     }
     sections
+}
+
+/// Where there is more than the noise.
+fn variances(calibration: &Calibration) -> Option<Section<'_>> {
+    (calibration.variance_sources().len() > 1).then(|| {
+        let mut section = Section::on_page("Budget").lead("The variance of each parameter, by its sources.");
+        budget::on_page(&mut section, calibration);
+        section
+    })
 }
 
 fn fit(calibration: &Calibration) -> Section<'_> {

@@ -7,6 +7,8 @@ pub(super) const GREEN: &str = "#009e73";
 pub(super) const BLUE: &str = "#0072b2";
 pub(super) const VERMILLION: &str = "#d55e00";
 pub(super) const PURPLE: &str = "#cc79a7";
+pub(super) const YELLOW: &str = "#f0e442";
+pub(super) const BROWN: &str = "#7f4f24";
 pub(super) const GREY: &str = "#6e7781";
 /// Those of the axes x, y and z.
 pub(super) const AXES: [&str; 3] = [VERMILLION, GREEN, BLUE];

@@ -7,6 +7,7 @@
 mod allan;
 mod batch;
 mod before_after;
+mod budget;
 mod clipping;
 mod colour;
 mod correlation;
@@ -46,6 +47,7 @@ mod view;
 pub(super) use allan::allan_figure;
 pub(super) use batch::{code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
+pub(super) use budget::{budget_bars, source_in_words};
 pub(super) use clipping::{CHART_SCRIPT, renumbered};
 pub(super) use correlation::correlation_map;
 #[cfg(feature = "study")]
@@ -57,8 +59,8 @@ pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use machine::{
-    PLAYER_SCRIPT, Scene, budget_bars, correction_bars, joint_figure, player, residual_coherence,
-    residual_densities, residuals_and_speed, sensor_on_tip, source_in_words, three_views,
+    PLAYER_SCRIPT, Scene, correction_bars, joint_figure, player, residual_coherence, residual_densities,
+    residuals_and_speed, sensor_on_tip, three_views,
 };
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
 pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};

@@ -1,6 +1,5 @@
 //! The sheet of a calibration of a sensor that a machine carried.
 
-mod budget;
 mod geometry;
 mod mounting;
 mod noise;
@@ -10,5 +9,4 @@ mod quantity;
 mod validation;
 mod verdict;
 
-pub(crate) use budget::{bars, shares};
 pub use page::machine_sheet;

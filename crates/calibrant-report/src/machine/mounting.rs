@@ -1,8 +1,9 @@
 //! What the mounting means for the parameters, in a sentence.
 
 use crate::number_format::significant;
+use calibrant_core::estimate::{BudgetRow, VarianceSource};
 use calibrant_core::sensor::SensorKind;
-use calibrant_machine::estimate::{MachineCalibration, MachineSetup, MountingPrior, Source};
+use calibrant_machine::estimate::{MachineCalibration, MachineSetup, MountingPrior};
 
 /// Part of a parameter's variance from which on the mounting limits it.
 const LIMITING: f64 = 0.5;
@@ -19,15 +20,14 @@ pub(super) fn mounting_in_words(calibration: &MachineCalibration, setup: &Machin
             ))
         }
         MountingPrior::Within(sd_rad) => {
-            let place = Source::ALL.iter().position(|source| *source == Source::Mounting)?;
-            let limited =
-                calibration.budget.iter().filter(|row| row.parts[place] > LIMITING * row.variance).count();
+            let is_limited = |row: &&BudgetRow| row.share(VarianceSource::Mounting) > LIMITING;
+            let limited = calibration.sensors.budget.iter().filter(is_limited).count();
             (limited > 0).then(|| {
                 format!(
                     "The mounting is known to {}°, which limits {limited} of {} parameters. A fixture helps; \
                      or give [machine.mount] rotation = \"unknown\" and no rotation_sd_deg, and the data define the sensor's axes.",
                     significant(sd_rad.to_degrees(), 2),
-                    calibration.budget.len()
+                    calibration.sensors.budget.len()
                 )
             })
         }

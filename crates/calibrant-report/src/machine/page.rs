@@ -3,10 +3,11 @@
 use super::geometry::corrections;
 use super::mounting::mounting_in_words;
 use super::noise::{reference_noise, sensor_noise};
-use super::parameters::{budget, is_widened, mount_table, sensor_table};
+use super::parameters::{is_widened, mount_table, sensor_table};
 use super::validation::validation_section;
 use super::verdict::verdict;
 use crate::About;
+use crate::budget::{self, shares};
 use crate::calibration::chi2_rows;
 use crate::figure::{
     PLAYER_SCRIPT, Scene, correlation_map, drawn, player, residual_coherence, residual_densities,
@@ -99,7 +100,8 @@ fn delays_at_start(calibration: &MachineCalibration, recording: &ImuRecording) -
 fn variances(calibration: &MachineCalibration) -> Section<'_> {
     let mut section =
         Section::new("Budget").lead("The variance of each parameter of the sensor, by its sources.");
-    budget(&mut section, calibration);
+    section.table(shares(&calibration.sensors.budget).shown(Shown::OnTerminal));
+    budget::on_page(&mut section, &calibration.sensors);
     section
 }
 

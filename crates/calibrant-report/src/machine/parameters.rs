@@ -1,12 +1,10 @@
 //! Tables of the sensor's parameters, of mount and clock, and of the budget.
 
-use super::budget::{bars, shares};
 use super::quantity::{expected, machine_unit, of_mount};
-use crate::figure::source_in_words;
 use crate::number_format::{short, significant};
-use crate::sheet::{Cell, Column, Section, Shown, Table};
-use calibrant_core::sensor::{ImuQuantity, SensorKind};
-use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, Source};
+use crate::sheet::{Cell, Column, Table};
+use calibrant_core::sensor::SensorKind;
+use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
 
 /// From here on, correlated residuals are worth a mark.
 const WIDENED: f64 = 1.05;
@@ -82,35 +80,6 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
             share,
             widened(calibration.inflation[place]),
         ]);
-    }
-    table
-}
-
-/// The part of each source: as bars and in standard deviations on a page, in per cent on a terminal.
-pub(super) fn budget<'a>(section: &mut Section<'a>, calibration: &'a MachineCalibration) {
-    section.table(shares(&calibration.budget).shown(Shown::OnTerminal));
-    section.drawn(|| bars(&calibration.budget, |quantity| unit_of(calibration, quantity)));
-    let mut within = Section::default();
-    within.table(deviations(calibration));
-    within.paragraph("Each number is a standard deviation. Their squares add up to that of the sd.");
-    section.folded("Table of the budget", within);
-}
-
-fn unit_of(calibration: &MachineCalibration, quantity: ImuQuantity) -> &'static str {
-    machine_unit(calibration, MachineQuantity::Imu(quantity)).1
-}
-
-fn deviations(calibration: &MachineCalibration) -> Table {
-    let mut columns = vec!["parameter".to_string(), "sd".into()];
-    columns.extend(Source::ALL.map(source_in_words));
-    columns.push("unit".into());
-    let mut table = Table::new(columns);
-    for row in &calibration.budget {
-        let sd = |variance: f64| Cell::significant(variance.max(0.0).sqrt(), 2);
-        let mut cells = vec![Cell::Name(row.quantity.name()), sd(row.variance)];
-        cells.extend(row.parts.map(sd));
-        cells.push(Cell::unit(unit_of(calibration, row.quantity)));
-        table.row(cells);
     }
     table
 }

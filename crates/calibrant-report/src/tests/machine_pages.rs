@@ -115,7 +115,7 @@ fn degenerate_results_on_a_machine_are_reported_without_panic() {
     case.calibration.covariance.fill(f64::NAN);
     case.calibration.values.fill(f64::INFINITY);
     case.calibration.parameters.mount.lever_m.fill(f64::NAN);
-    for row in &mut case.calibration.budget {
+    for row in &mut case.calibration.sensors.budget {
         row.variance = f64::NAN;
         row.parts.fill(f64::NAN);
     }

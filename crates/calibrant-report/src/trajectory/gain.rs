@@ -2,27 +2,22 @@
 
 use super::predicted::{mean_ratio, smaller};
 use crate::number_format::{counted, significant};
-use calibrant_machine::estimate::{BudgetRow, MountingPrior, Source};
+use calibrant_core::estimate::{BudgetRow, VarianceSource};
+use calibrant_machine::estimate::MountingPrior;
 use calibrant_machine_design::{TrajectoryEvaluation, TrajectoryProblem};
 
 /// From this part of a variance on, a source alone decides it.
 const ALONE: f64 = 0.9;
 
-/// The part of a variance that comes from a source.
-fn part(row: &BudgetRow, source: Source) -> f64 {
-    let of = Source::ALL.iter().zip(row.parts).find(|(of, _)| **of == source);
-    of.map_or(0.0, |(_, part)| part / row.variance)
-}
-
 /// The standard deviation that a known mount leaves.
 fn with_known_mount(row: &BudgetRow) -> f64 {
-    let others = Source::ALL.iter().zip(row.parts).filter(|(of, _)| **of != Source::Mounting);
-    others.map(|(_, part)| part).sum::<f64>().sqrt()
+    let others = VarianceSource::ALL.into_iter().filter(|of| *of != VarianceSource::Mounting);
+    others.map(|of| row.part(of)).sum::<f64>().sqrt()
 }
 
 /// The places of parameters that this source alone limits.
-fn limited_by(of: &TrajectoryEvaluation, source: Source) -> Vec<usize> {
-    (0..of.budget.len()).filter(|k| part(&of.budget[*k], source) >= ALONE).collect()
+fn limited_by(of: &TrajectoryEvaluation, source: VarianceSource) -> Vec<usize> {
+    (0..of.budget.len()).filter(|k| of.budget[*k].share(source) >= ALONE).collect()
 }
 
 /// How much smaller standard deviations are than those of other trajectories: of those that the motion decides, then what limits the others, then by the criterion.
@@ -31,7 +26,8 @@ pub(super) fn gains(
     best: &TrajectoryEvaluation,
     problem: &TrajectoryProblem<'_>,
 ) -> String {
-    let elsewhere = [Source::Mounting, Source::Gravity].map(|source| limited_by(best, source)).concat();
+    let elsewhere =
+        [VarianceSource::Mounting, VarianceSource::Gravity].map(|source| limited_by(best, source)).concat();
     let decided = |other: &TrajectoryEvaluation| -> Vec<f64> {
         let pairs = other.sd().into_iter().zip(best.sd()).enumerate();
         pairs.filter(|(k, _)| !elsewhere.contains(k)).map(|(_, (before, after))| before / after).collect()
@@ -68,7 +64,7 @@ fn limited_by_mount(
     problem: &TrajectoryProblem<'_>,
 ) -> Option<String> {
     let MountingPrior::Within(sd_rad) = problem.setup.mounting else { return None };
-    let places = limited_by(best, Source::Mounting);
+    let places = limited_by(best, VarianceSource::Mounting);
     let left = |k: &usize| best.budget[*k].variance.sqrt() / with_known_mount(&best.budget[*k]);
     let times = mean_ratio(&places.iter().map(left).collect::<Vec<_>>())?;
     // `gyroscope.matrix` of its six entries

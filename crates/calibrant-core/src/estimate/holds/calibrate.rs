@@ -20,7 +20,7 @@ use crate::estimate::{
 };
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, PerSensor, Recording, SensorKind, SensorParameters};
-use crate::solve::{chi2_p_value, shares_of_prior};
+use crate::solve::{VarianceSource, chi2_p_value, shares_of_prior};
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
@@ -82,7 +82,8 @@ fn fitted(
     let mut fitted = drift_fit::fit(problem, setup, settings, (holds, biases.as_ref()), (sound, of_mean))?;
     if let Some(biases) = &biases {
         let without_drift = fitted.without.as_ref().unwrap_or(&fitted.robust);
-        fitted.robust.covariance += covariance_by(biases, without_drift, &fitted.holds, setup);
+        let by_biases = covariance_by(biases, without_drift, &fitted.holds, setup);
+        fitted.uncertainty.add_covariance(VarianceSource::OtherRecordings, &by_biases);
     }
     Ok((biases, fitted))
 }
@@ -93,18 +94,17 @@ fn assemble(
     setup: &HoldsSetup,
     reasons: Vec<Option<HoldReason>>,
     recording_biases: Option<RecordingBiases>,
-    Fitted { holds, robust, drift, without }: Fitted,
+    Fitted { holds, robust, drift, mut uncertainty, without }: Fitted,
 ) -> Calibration {
     let list = setup.parameter_list(problem.sensor.model);
     let sensor = robust.sensor;
     let g = setup.gravity;
-    let mut covariance = robust.covariance.clone();
     let quantities = list.of_accelerometer();
     let imu = ImuParameters::identity().with(SensorKind::Accelerometer, sensor);
-    let prior = robust.prior_weight.as_ref().map(|weight| (weight.as_slice(), &robust.covariance));
+    let prior = robust.prior_weight.as_ref().map(|weight| (weight.as_slice(), &uncertainty.covariance));
     let prior_share = prior.map_or_else(Vec::new, |(weight, sigma)| shares_of_prior(weight, sigma));
     let slope = gravity_slope(&quantities, &imu, &g, prior);
-    covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+    uncertainty.add(VarianceSource::Gravity, &slope, g.sd_mps2 * g.sd_mps2);
 
     let results: Vec<HoldResult> = holds
         .into_iter()
@@ -153,7 +153,8 @@ fn assemble(
         parameters: list.describe_accelerometer(problem.sensor, &nominal),
         quantities,
         values: list.quantities().iter().map(|quantity| quantity.value(&sensor)).collect(),
-        covariance,
+        budget: uncertainty.budget(&list.of_accelerometer()),
+        covariance: uncertainty.covariance,
         prior_share,
         gravity_slope: slope.iter().copied().collect(),
         datasheet_prior: false,

@@ -14,6 +14,7 @@ use crate::estimate::bias_drift::{BiasDrift, spans};
 use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::motion::Hold;
+use crate::solve::{Uncertainty, VarianceSource};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Rounds in which drift and parameters follow each other.
@@ -31,6 +32,8 @@ pub(super) struct Fitted {
     pub(super) holds: Vec<Hold>,
     pub(super) robust: Robust,
     pub(super) drift: Option<BiasDrift>,
+    /// That of the parameters, with what the drift adds.
+    pub(super) uncertainty: Uncertainty,
     /// The fit without a drift, where one was allowed for.
     pub(super) without: Option<Robust>,
 }
@@ -49,7 +52,8 @@ pub(super) fn fit(
     };
     let without = fit(&holds, Conditions { taken, ..Conditions::default() })?;
     if setup.bias_drift_sd_mps2 <= 0.0 || holds.len() < 3 {
-        return Ok(Fitted { holds, robust: without, drift: None, without: None });
+        let uncertainty = without.uncertainty();
+        return Ok(Fitted { holds, robust: without, drift: None, uncertainty, without: None });
     }
     let none = BiasDrift {
         value: Vector3::zeros(),
@@ -98,10 +102,11 @@ pub(super) fn fit(
     {
         best = other;
     }
-    let (holds, mut robust, Posterior { drift, slope, .. }) = best;
+    let (holds, robust, Posterior { drift, slope, .. }) = best;
     let dense = DMatrix::from_column_slice(3, 3, drift.covariance.as_slice());
-    robust.covariance += &slope * dense * slope.transpose();
-    Ok(Fitted { holds, robust, drift: Some(drift), without: Some(without) })
+    let mut uncertainty = robust.uncertainty();
+    uncertainty.add_covariance(VarianceSource::BiasDrift, &(&slope * dense * slope.transpose()));
+    Ok(Fitted { holds, robust, drift: Some(drift), uncertainty, without: Some(without) })
 }
 
 fn count(used: &[bool]) -> usize {

@@ -2,6 +2,7 @@
 
 use crate::estimate::CalibrationStatus;
 use crate::sensor::SensorParameters;
+use crate::solve::Uncertainty;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// What the robust fit gives. Vectors have one entry for each hold, used or not.
@@ -26,6 +27,13 @@ pub(super) struct Robust {
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
+}
+
+impl Robust {
+    /// The uncertainty of the parameters, before what all holds share.
+    pub(super) fn uncertainty(&self) -> Uncertainty {
+        Uncertainty::of(self.covariance.clone(), self.prior_weight.as_ref().map(DVector::as_slice))
+    }
 }
 
 /// The magnitude of a corrected hold less gravity.

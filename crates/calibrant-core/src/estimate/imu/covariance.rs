@@ -12,12 +12,12 @@ use crate::estimate::quantisation::CoarseAxis;
 use crate::information;
 use crate::motion::Gravity;
 use crate::sensor::{Condition, ImuParameters, ImuQuantity, SensorKind};
-use crate::solve::shares_of_prior;
+use crate::solve::{Uncertainty, VarianceSource, shares_of_prior};
 use nalgebra::{DMatrix, DVector};
 
-/// The uncertainty of the estimates and its sources.
-pub(crate) struct Uncertainty {
-    pub(crate) covariance: DMatrix<f64>,
+/// The uncertainty of the estimates of an IMU.
+pub(crate) struct ImuUncertainty {
+    pub(crate) uncertainty: Uncertainty,
     /// The share of each quantity's information that comes from the prior, 0 to 1.
     pub(crate) prior_share: Vec<f64>,
     /// Derivative of each estimate with respect to the assumed gravity.
@@ -28,37 +28,37 @@ pub(crate) struct Uncertainty {
     pub(crate) north_rms_radps: f64,
 }
 
-impl Uncertainty {
+impl ImuUncertainty {
     /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps; `rate_sd`: relative uncertainty of the sample rate;
     /// `systematic`: errors of the estimates by one standard deviation of what all data share: the accelerometer's drift, the alignment of faces, the thermometer.
     pub(crate) fn of(
         model: &ImuModel<'_>,
         solution: &Solution,
         (g, rate_sd): (&Gravity, f64),
-        (coarse, systematic): (&[CoarseAxis], Vec<DVector<f64>>),
+        (coarse, systematic): (&[CoarseAxis], Vec<(VarianceSource, DVector<f64>)>),
     ) -> Result<Self> {
         let imu = &solution.fit.state.imu;
-        let mut covariance = information::covariance(&solution.fit.information).ok_or_else(singular)?;
-        let prior_share = match &model.prior {
-            Some((_, weight)) => shares_of_prior(weight, &covariance),
+        let covariance = information::covariance(&solution.fit.information).ok_or_else(singular)?;
+        let weight = model.prior.as_ref().map(|(_, weight)| weight.as_slice());
+        let prior_share = match weight {
+            Some(weight) => shares_of_prior(weight, &covariance),
             None => vec![0.0; model.quantities.len()],
         };
-        // the uncertainty of gravity
-        let prior = model.prior.as_ref().map(|(_, weight)| (weight.as_slice(), &covariance));
-        let gravity_slope = gravity_slope(&model.quantities, imu, g, prior);
-        covariance += &gravity_slope * gravity_slope.transpose() * (g.sd_mps2 * g.sd_mps2);
-        for slope in systematic {
-            covariance += &slope * slope.transpose();
+        let gravity_slope =
+            gravity_slope(&model.quantities, imu, g, weight.map(|weight| (weight, &covariance)));
+        let mut uncertainty = Uncertainty::of(covariance, weight);
+        uncertainty.add(VarianceSource::Gravity, &gravity_slope, g.sd_mps2 * g.sd_mps2);
+        for (source, error) in systematic {
+            uncertainty.add(source, &error, 1.0);
         }
-        let slope = rate_slope(model, imu);
-        covariance += &slope * slope.transpose() * (rate_sd * rate_sd);
+        uncertainty.add(VarianceSource::Timing, &rate_slope(model, imu), rate_sd * rate_sd);
         // coarse steps: holds with nearly the same reading have the same error
-        let of_noise = covariance.clone();
-        for (slope, sd) in common_slopes(model, &solution.fit, coarse, &of_noise) {
-            covariance += &slope * slope.transpose() * (sd * sd);
+        for (slope, sd) in common_slopes(model, &solution.fit, coarse, &uncertainty.covariance) {
+            uncertainty.add(VarianceSource::CoarseSteps, &slope, sd * sd);
         }
-        let (of_vertical, north_rms_radps) = add_earth(model, &solution.weighed, &mut covariance)?;
-        Ok(Self { covariance, prior_share, gravity_slope, of_vertical, north_rms_radps })
+        let (of_earth, of_vertical, north_rms_radps) = of_earth(model, &solution.weighed)?;
+        uncertainty.add_covariance(VarianceSource::EarthRate, &of_earth);
+        Ok(Self { uncertainty, prior_share, gravity_slope, of_vertical, north_rms_radps })
     }
 }
 
@@ -71,18 +71,17 @@ fn rate_slope(model: &ImuModel<'_>, imu: &ImuParameters) -> DVector<f64> {
     DVector::from_iterator(model.quantities.len(), model.quantities.iter().map(of_gyroscope))
 }
 
-/// Adds the unknown part of the Earth's rate to a covariance: `D C Dᵀ`. `C` is the covariance of its unknowns, `D = −K C⁻¹` the derivative of the
+/// What the unknown part of the Earth's rate adds to the covariance: `D C Dᵀ`. `C` is the covariance of its unknowns, `D = −K C⁻¹` the derivative of the
 /// estimates, and `K` the covariance of both.
 ///
-/// Returns the error of each estimate by one standard deviation of the rate about the vertical, if that is unknown, and the size of the rate about the north.
-fn add_earth(
+/// Also the error of each estimate by one standard deviation of the rate about the vertical, if that is unknown, and the size of the rate about the north.
+fn of_earth(
     model: &ImuModel<'_>,
     weighed: &RotationWeights,
-    covariance: &mut DMatrix<f64>,
-) -> Result<(Option<DVector<f64>>, f64)> {
+) -> Result<(DMatrix<f64>, Option<DVector<f64>>, f64)> {
     let (places, all) = (model.gyroscope_places(), &weighed.covariance);
     let count = all.nrows() - places.len();
-    let mut both = DMatrix::zeros(covariance.nrows(), count);
+    let mut both = DMatrix::zeros(model.quantities.len(), count);
     for (row, &k) in places.iter().enumerate() {
         both.row_mut(k).copy_from(&all.view((row, places.len()), (1, count)));
     }
@@ -91,8 +90,7 @@ fn add_earth(
         model.earth.has_vertical().then(|| both.column(0) / own[(0, 0)].max(f64::MIN_POSITIVE).sqrt());
     let north_rms_radps = model.earth.north_rms(&own);
     let follow = own.cholesky().ok_or_else(singular)?.solve(&both.transpose());
-    *covariance += both * follow;
-    Ok((of_vertical, north_rms_radps))
+    Ok((both * follow, of_vertical, north_rms_radps))
 }
 
 /// The effect of rounding on the estimates, for each coarse axis of the gyroscope: derivatives with respect to common errors, and their size.

@@ -15,7 +15,7 @@ use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::estimate::settings::CalibrationSettings;
 use crate::information;
 use crate::sensor::{Correction, ImuParameters, Parameter, PerSensor, SensorKind, SensorParameters};
-use crate::solve::{CalibrationStatus, shares_of_prior};
+use crate::solve::{CalibrationStatus, Uncertainty, VarianceSource, shares_of_prior};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::borrow::Cow;
 
@@ -74,12 +74,13 @@ fn solved(
         information += &weighted * DMatrix::from_fn(3, list.len(), |i, k| columns[k][i]);
         gradient += weighted * about(&first.sensor, &hold.mean, force);
     }
-    let mut covariance = information::covariance(&information).ok_or_else(singular)?;
-    let values = &covariance * gradient;
+    let of_noise = information::covariance(&information).ok_or_else(singular)?;
+    let values = &of_noise * gradient;
     let sensor = list.sensor(&values);
     let imu = ImuParameters::identity().with(SensorKind::Accelerometer, sensor);
     let shared_rad = first.alignment.map_or(0.0, |alignment| alignment.tilt.shared_sd_rad);
-    let of_noise = covariance.clone();
+    let weight = settings.datasheet_prior.then(|| prior.weight.as_slice());
+    let mut uncertainty = Uncertainty::of(of_noise.clone(), weight);
     for error in SharedError::all(shared_rad) {
         let mut by = DVector::zeros(list.len());
         for (force, weight) in used.forces.iter().zip(&weights) {
@@ -88,14 +89,13 @@ fn solved(
                 *sum += quantity.derivative(&sensor, force).dot(&weighted);
             }
         }
-        let step = &of_noise * by;
-        covariance += &step * step.transpose();
+        uncertainty.add(VarianceSource::FaceAlignment, &(&of_noise * by), 1.0);
     }
     let quantities = list.of_accelerometer();
-    let told = settings.datasheet_prior.then(|| (prior.weight.as_slice(), &of_noise));
+    let told = weight.map(|weight| (weight, &of_noise));
     let prior_share = told.map_or_else(Vec::new, |(weight, sigma)| shares_of_prior(weight, sigma));
     let slope = gravity_slope(&quantities, &imu, &problem.holds.gravity, told);
-    covariance += &slope * slope.transpose() * problem.holds.gravity.sd_mps2.powi(2);
+    uncertainty.add(VarianceSource::Gravity, &slope, problem.holds.gravity.sd_mps2.powi(2));
     let off = &values - &prior.mean;
     let (mut chi2, mut squares) = (off.component_mul(&off).dot(&prior.weight), Vector3::zeros());
     for ((hold, force), weight) in used.holds.iter().zip(&used.forces).zip(&weights) {
@@ -109,9 +109,10 @@ fn solved(
         iterations: 1,
         gradient_norm: 0.0,
         values: values.iter().copied().collect(),
+        budget: uncertainty.budget(&quantities),
         quantities,
         parameters,
-        covariance,
+        covariance: uncertainty.covariance,
         prior_share,
         gravity_slope: slope.iter().copied().collect(),
         datasheet_prior: settings.datasheet_prior,

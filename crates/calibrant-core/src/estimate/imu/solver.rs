@@ -16,7 +16,7 @@ use crate::estimate::imu::checks::list::all_checks;
 use crate::estimate::imu::checks::time_offset_by_activity::with_time_offset;
 use crate::estimate::imu::checks::wrong_turns;
 use crate::estimate::imu::clock::ClockDifference;
-use crate::estimate::imu::covariance::Uncertainty;
+use crate::estimate::imu::covariance::ImuUncertainty;
 use crate::estimate::imu::drift_errors::drift_errors;
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::estimated::{estimated_quantities, prior_of};
@@ -37,6 +37,8 @@ use crate::estimate::recording_biases::Recordings;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
 use crate::sensor::SensorKind;
+use crate::solve::VarianceSource;
+use nalgebra::DVector;
 
 /// Calibrates an IMU. The search `white_noise` runs while the accelerometer is fitted.
 pub(crate) fn solve_imu(
@@ -98,22 +100,27 @@ fn stages(
     identifiability::check(&model, &state, &linearised).map_err(explained)?;
     // least squares and variance components
     let solution = solve(&mut model, (state, linearised.residuals), &means, initial.between, settings)?;
-    let mut systematic = drift_errors(&model, &solution.fit, &first.holds)?;
+    let mut systematic = Vec::new();
+    let mut by = |source: VarianceSource, errors: Vec<DVector<f64>>| {
+        systematic.extend(errors.into_iter().map(|error| (source, error)));
+    };
+    by(VarianceSource::BiasDrift, drift_errors(&model, &solution.fit, &first.holds)?);
     if let Some(tilt) = first.holds.tilt {
-        systematic.extend(shared_face_errors(&model, &solution.fit, tilt.shared_sd_rad)?);
+        let errors = shared_face_errors(&model, &solution.fit, tilt.shared_sd_rad)?;
+        by(VarianceSource::FaceAlignment, errors);
     }
     let of_accelerometer = first.holds.recording_biases.as_deref();
     for (sensor_kind, biases) in SensorKind::ALL.into_iter().zip([of_accelerometer, biases.as_ref()]) {
         if let Some(biases) = biases {
-            let biases = (sensor_kind, biases);
-            systematic.extend(recording_bias_errors(&model, &solution.fit, &used.holds, biases)?);
+            let errors = recording_bias_errors(&model, &solution.fit, &used.holds, (sensor_kind, biases))?;
+            by(VarianceSource::OtherRecordings, errors);
         }
     }
     let where_from = (&temperature, used.holds.as_slice(), setup.turns.as_slice());
     let lag = LagEffect::of(&model, &solution.fit, where_from, &setup.thermometer, settings)?;
-    systematic.extend(lag.as_ref().map(|lag| lag.error.clone()));
+    by(VarianceSource::Thermometer, lag.iter().map(|lag| lag.error.clone()).collect());
     let known = (&setup.holds.gravity, setup.rate_sd);
-    let uncertainty = Uncertainty::of(&model, &solution, known, (&gyroscope.coarse, systematic))?;
+    let uncertainty = ImuUncertainty::of(&model, &solution, known, (&gyroscope.coarse, systematic))?;
     let recorded = problem.recording[SensorKind::Accelerometer].as_ref();
     let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
     let changes = Changing {

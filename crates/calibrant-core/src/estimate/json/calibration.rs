@@ -1,5 +1,6 @@
 //! A calibration as JSON: how the estimate ended, the calibrated IMU, and what was recovered beside its parameters.
 
+use super::budget::Budget;
 use super::fit::FitInUnit;
 use super::gyroscope::{RotationsOf, StillOf};
 use super::holds::HoldsOf;
@@ -24,6 +25,8 @@ json_object! {
         imu: flat(ImuFields { imu: of.calibrated(), axes: of.axes(), knowledge: of.knowledge() }),
         /// The covariance with a diagonal of ones.
         correlation: Form::<Vec<Vec<f64>>>::form(&of.correlation()),
+        /// Where the variance of each parameter comes from, by hand.
+        budget: if_some(of.budget_by_hand()),
         fit: FitInUnit { fit: &of.fit, unit: of.unit(SensorKind::Accelerometer), axes: of.axes() },
         /// The motion, if the calibration is one of a commanded motion.
         motion: if_some(of.motion()),
@@ -44,6 +47,11 @@ impl Calibration {
             prior_share: self.prior_share.get(k).copied(),
         });
         known.collect()
+    }
+
+    /// That of a machine is in its own section.
+    fn budget_by_hand(&self) -> Option<Budget> {
+        self.holds().map(|_| Budget::of(&self.budget, &self.variance_sources()))
     }
 
     fn motion(&self) -> Option<MotionOf<'_>> {

@@ -129,6 +129,7 @@ fn assemble(
         parameters: list.describe_accelerometer(problem.sensor, &nominal),
         values: solved.values,
         covariance: solved.covariance,
+        budget: Vec::new(),
         prior_share: Vec::new(),
         gravity_slope: Vec::new(),
         datasheet_prior: context.settings.datasheet_prior,

@@ -96,15 +96,12 @@ pub(super) fn assemble(
         let (readings, lines) = readings(sensor_kind, *unit, &times, &kept, samples, &mut findings)?;
         let readings = readings.with_axes(draft.plain.map_or(3, |only| only.axes));
         lost_sign::check(&readings, &format!("{sensor_kind} "))?;
-        if sensor_kind == SensorKind::Accelerometer {
-            if !is_plain {
-                check_gravity(&readings, *unit)?;
-            }
-            recording[SensorKind::Accelerometer] = Some(readings);
-        } else {
-            check_rates(&readings, *unit)?;
-            recording[SensorKind::Gyroscope] = Some(readings);
+        match sensor_kind {
+            SensorKind::Accelerometer if is_plain => {}
+            SensorKind::Accelerometer => check_gravity(&readings, *unit)?,
+            SensorKind::Gyroscope => check_rates(&readings, *unit)?,
         }
+        recording[sensor_kind] = Some(readings);
         for axis in calibrant_core::sensor::Axis::ALL {
             draft.set_unit(ColumnMeaning::Reading(sensor_kind, axis), ColumnUnit::Reading(*unit));
         }

@@ -8,7 +8,6 @@ use super::covered;
 use super::reference_fit::{gaps, seen_orientations};
 use crate::estimate::MachineTrust;
 use crate::estimate::least_squares::{Model, State};
-use crate::estimate::problem::place;
 use crate::log::{PoseLog, ReferenceLog};
 use crate::reference::Motion;
 use crate::spline::fit_rotations;
@@ -63,7 +62,7 @@ fn filled(log: &PoseLog, model: &Model<'_>, state: &State) -> PoseLog {
 
 /// The orientations between two times, from the gyroscope.
 fn told(model: &Model<'_>, state: &State, (from_s, to_s): (f64, f64)) -> Vec<(f64, UnitQuaternion<f64>)> {
-    let gyroscope = place(SensorKind::Gyroscope);
+    let gyroscope = SensorKind::Gyroscope as usize;
     let (Some(stream), Motion::Poses(poses)) = (model.streams.get(gyroscope), &state.motion) else {
         return Vec::new();
     };

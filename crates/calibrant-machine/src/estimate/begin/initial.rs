@@ -40,7 +40,7 @@ impl<'a> Initial<'a> {
         let placement = Placement::new(problem, &motion, &covered, gravity.vector(&nominal));
         let mut parameters = match from {
             Some(parameters) => parameters.clone(),
-            None => MachineParameters { delays_s: [placement.delays_s()?[0]; 2], ..nominal.clone() },
+            None => MachineParameters { delays_s: [placement.delays_s()?[0]; 2].into(), ..nominal.clone() },
         };
         if setup.mounting == MountingPrior::Unknown {
             // a matrix that was found with other knots belongs to their mounting
@@ -69,9 +69,10 @@ impl<'a> Initial<'a> {
         let Model { covered, gravity, layout, .. } = &self.model;
         let placement = Placement::new(problem, &self.state.motion, covered, gravity.vector(&layout.nominal));
         let found = placement.delays_s().unwrap_or_default().into_iter();
-        let is_other =
-            |delay_s: &f64| self.state.parameters.delays_s.iter().all(|own| (own - delay_s).abs() > APART_S);
-        let from = |delay_s| MachineParameters { delays_s: [delay_s; 2], ..layout.nominal.clone() };
+        let is_other = |delay_s: &f64| {
+            self.state.parameters.delays_s.iter().all(|(_, own)| (own - delay_s).abs() > APART_S)
+        };
+        let from = |delay_s| MachineParameters { delays_s: [delay_s; 2].into(), ..layout.nominal.clone() };
         found.filter(is_other).map(from).collect()
     }
 }

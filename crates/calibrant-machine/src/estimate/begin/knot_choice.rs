@@ -10,6 +10,7 @@ use crate::estimate::problem::refused;
 use crate::estimate::{MachineParameters, MachineProblem, MachineTrust};
 use crate::spline::{Degree, UniformKnots};
 use calibrant_core::error::{Error, Result};
+use calibrant_core::sensor::SensorKind;
 use std::f64::consts::SQRT_2;
 
 /// Largest distance that is tried, s.
@@ -113,7 +114,7 @@ fn tried(problem: &MachineProblem<'_>, from: Initial<'_>, step_s: f64, steps: us
     let setup = problem.setup;
     let sd = || model.streams.iter().flat_map(|stream| stream.sd.iter());
     // of delays that fit alike, the likelier one: the logarithms are those of each of the samples
-    let deviation = (state.parameters.delays_s[0] - setup.delay_s) / setup.delay_sd_s;
+    let deviation = (state.parameters.delays_s[SensorKind::Accelerometer] - setup.delay_s) / setup.delay_sd_s;
     let unlikely = if setup.delay_sd_s > 0.0 { 0.5 * deviation * deviation / SAMPLES as f64 } else { 0.0 };
     let score = sd().map(|sd| sd.ln()).sum::<f64>() + unlikely;
     Some(Candidate { step_s, score, components: sd().count(), parameters: state.parameters })

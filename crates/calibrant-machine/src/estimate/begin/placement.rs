@@ -1,7 +1,7 @@
 //! The recording beside the motion before anything is fitted: the coarse delay, and the mounting where nothing is known of it.
 
 use crate::chain::{ChainCorrections, SensorMount};
-use crate::estimate::problem::{place, refused};
+use crate::estimate::problem::refused;
 use crate::estimate::{MachineParameters, MachineProblem, MountingPrior};
 use crate::reference::{Carrier, Motion};
 use calibrant_core::error::Result;
@@ -126,7 +126,7 @@ impl<'a> Placement<'a> {
 
     /// The mounting that aligns the readings with the motion, with these delays.
     pub(crate) fn mounting(&self, parameters: &MachineParameters) -> UnitQuaternion<f64> {
-        let delay_s = parameters.delays_s[place(self.sensor)];
+        let delay_s = parameters.delays_s[self.sensor];
         let recording = self.recording();
         let samples = recording.iter().flat_map(|of| of.times_s().iter().zip(of.readings()));
         let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =

@@ -2,7 +2,7 @@
 
 use super::{Block, Equations, Model, Pass, Solved, State};
 use crate::estimate::MachineQuantity;
-use crate::estimate::problem::{MachineSettings, place};
+use crate::estimate::problem::MachineSettings;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::CalibrationStatus;
 
@@ -89,7 +89,7 @@ pub(crate) fn minimise(
 fn rounding(model: &Model<'_>, here: &Minimum) -> f64 {
     let of_delay = |(k, quantity): (usize, &MachineQuantity)| match quantity {
         MachineQuantity::Delay(sensor) => {
-            let delay_s = here.state.parameters.delays_s[place(*sensor)];
+            let delay_s = here.state.parameters.delays_s[*sensor];
             f64::EPSILON * delay_s.abs() * here.solved.information[(k, k)].sqrt()
         }
         _ => 0.0,

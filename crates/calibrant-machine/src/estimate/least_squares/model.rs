@@ -1,7 +1,7 @@
 //! The least-squares problem: streams, log, and what is known beforehand.
 
 use super::{WeighedLog, predicted};
-use crate::estimate::problem::{Layout, TiltedGravity, place};
+use crate::estimate::problem::{Layout, TiltedGravity};
 use crate::estimate::{MachineParameters, MachineTrust};
 use crate::log::ReferenceLog;
 use crate::reference::{Carrier, Motion};
@@ -52,9 +52,7 @@ impl Model<'_> {
         let since = |from_s: f64| stream.recording.times_s()[k] - from_s;
         let parameters = &state.parameters;
         let start_s = state.motion.knots().start_s;
-        since(start_s)
-            + parameters.clock_rate * since(self.middle_s)
-            + parameters.delays_s[place(stream.sensor)]
+        since(start_s) + parameters.clock_rate * since(self.middle_s) + parameters.delays_s[stream.sensor]
     }
 
     /// What carries the sensor in a state.

@@ -7,6 +7,5 @@ mod work;
 
 pub use machine_problem::{MachineProblem, MachineSettings, MachineSetup, MachineTrust, MountingPrior};
 pub(crate) use machine_problem::{refused, unsolved};
-pub(crate) use parameters::place;
 pub use parameters::{Layout, MachineParameters, TiltedGravity};
-pub use quantity::{MachineQuantity, Source};
+pub use quantity::MachineQuantity;

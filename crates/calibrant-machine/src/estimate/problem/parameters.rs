@@ -2,7 +2,7 @@
 
 use crate::chain::{ChainCorrections, SensorMount};
 use crate::estimate::{MachineQuantity, MachineSetup, MountingPrior};
-use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind, SensorModel};
+use calibrant_core::sensor::{ImuParameters, ImuQuantity, PerSensor, SensorKind, SensorModel};
 use nalgebra::{DMatrix, DVector, Matrix3x2, UnitQuaternion, Vector2, Vector3};
 
 /// The sensor, its mount, gravity, clocks and joints.
@@ -17,19 +17,11 @@ pub struct MachineParameters {
     /// Magnitude of gravity, m/s².
     pub gravity_mps2: f64,
     /// Delay of the accelerometer and of the gyroscope, s.
-    pub delays_s: [f64; 2],
+    pub delays_s: PerSensor<f64>,
     /// Rate of the reference's clock against the IMU's, less 1.
     pub clock_rate: f64,
     /// Corrections of the joints.
     pub corrections: ChainCorrections,
-}
-
-/// The place of a sensor in pairs.
-pub(crate) fn place(sensor: SensorKind) -> usize {
-    match sensor {
-        SensorKind::Accelerometer => 0,
-        SensorKind::Gyroscope => 1,
-    }
 }
 
 impl MachineParameters {
@@ -45,7 +37,7 @@ impl MachineParameters {
             mount: SensorMount { lever_m: setup.lever_m, tip_from_sensor: setup.tip_from_sensor },
             tilt_rad: Vector2::zeros(),
             gravity_mps2: setup.gravity_mps2,
-            delays_s: [setup.delay_s; 2],
+            delays_s: PerSensor::from_fn(|_| setup.delay_s),
             clock_rate: 0.0,
             corrections: ChainCorrections::none(joints),
         }
@@ -63,7 +55,7 @@ impl MachineParameters {
             }
             MachineQuantity::Tilt(k) => self.tilt_rad[k] += step,
             MachineQuantity::Gravity => self.gravity_mps2 += step,
-            MachineQuantity::Delay(sensor) => self.delays_s[place(sensor)] += step,
+            MachineQuantity::Delay(sensor) => self.delays_s[sensor] += step,
             MachineQuantity::ClockRate => self.clock_rate += step,
             MachineQuantity::Zero(j) => self.corrections.joints[j].zero += step,
             MachineQuantity::Geometry(j, k) if k < 3 => self.corrections.joints[j].translation_m[k] += step,
@@ -79,7 +71,7 @@ impl MachineParameters {
             MachineQuantity::Mounting(axis) => self.turn(nominal)[axis.index()],
             MachineQuantity::Tilt(k) => self.tilt_rad[k],
             MachineQuantity::Gravity => self.gravity_mps2,
-            MachineQuantity::Delay(sensor) => self.delays_s[place(sensor)],
+            MachineQuantity::Delay(sensor) => self.delays_s[sensor],
             MachineQuantity::ClockRate => self.clock_rate,
             MachineQuantity::Zero(j) => self.corrections.joints[j].zero,
             MachineQuantity::Geometry(j, k) if k < 3 => self.corrections.joints[j].translation_m[k],
@@ -96,7 +88,7 @@ impl MachineParameters {
     /// Time of the motion at which a sensor took a sample, s. `middle_s` is that of the recording, about which the clock's rate counts.
     #[must_use]
     pub fn motion_time(&self, sensor: SensorKind, time_s: f64, middle_s: f64) -> f64 {
-        time_s + self.clock_rate * (time_s - middle_s) + self.delays_s[place(sensor)]
+        time_s + self.clock_rate * (time_s - middle_s) + self.delays_s[sensor]
     }
 }
 

@@ -1,5 +1,6 @@
 //! The quantities that a calibration on a machine estimates beside the sensor's.
 
+use calibrant_core::estimate::VarianceSource;
 use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
 
 /// One unknown: of the sensor, or of what carries it.
@@ -23,52 +24,6 @@ pub enum MachineQuantity {
     Zero(usize),
     /// Correction of a joint's transform: joint; 0 to 2 translation in m, 3 to 5 rotation in rad.
     Geometry(usize, usize),
-}
-
-/// Where an uncertainty comes from: the columns of the budget.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Source {
-    /// Noise of the accelerometer and the gyroscope.
-    SensorNoise,
-    /// Noise of the reference: encoders or tracker.
-    ReferenceNoise,
-    /// Geometry and zero offsets of the joints.
-    Geometry,
-    /// Lever arm and mounting.
-    Mounting,
-    /// Delays and the clock's rate.
-    Timing,
-    /// Magnitude of gravity and tilt of the base.
-    Gravity,
-    /// What is known of the sensor beforehand: its datasheet, or `[known]`.
-    SensorPrior,
-}
-
-impl Source {
-    /// All, in the order of tables.
-    pub const ALL: [Self; 7] = [
-        Self::SensorNoise,
-        Self::ReferenceNoise,
-        Self::Geometry,
-        Self::Mounting,
-        Self::Timing,
-        Self::Gravity,
-        Self::SensorPrior,
-    ];
-
-    /// As written in tables and files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SensorNoise => "sensor_noise",
-            Self::ReferenceNoise => "reference_noise",
-            Self::Geometry => "geometry",
-            Self::Mounting => "mounting",
-            Self::Timing => "timing",
-            Self::Gravity => "gravity",
-            Self::SensorPrior => "sensor_prior",
-        }
-    }
 }
 
 impl MachineQuantity {
@@ -118,13 +73,13 @@ impl MachineQuantity {
 
     /// The source whose prior knowledge it has.
     #[must_use]
-    pub fn source(self) -> Source {
+    pub fn source(self) -> VarianceSource {
         match self {
-            Self::Imu(_) => Source::SensorPrior,
-            Self::Lever(_) | Self::Mounting(_) => Source::Mounting,
-            Self::Tilt(_) | Self::Gravity => Source::Gravity,
-            Self::Delay(_) | Self::ClockRate => Source::Timing,
-            Self::Zero(_) | Self::Geometry(..) => Source::Geometry,
+            Self::Imu(_) => VarianceSource::SensorPrior,
+            Self::Lever(_) | Self::Mounting(_) => VarianceSource::Mounting,
+            Self::Tilt(_) | Self::Gravity => VarianceSource::Gravity,
+            Self::Delay(_) | Self::ClockRate => VarianceSource::Timing,
+            Self::Zero(_) | Self::Geometry(..) => VarianceSource::Geometry,
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::estimate::{
     SensorResidual, mount_variances,
 };
 use crate::log::ReferenceLog;
-use calibrant_core::estimate::{Calibration, FitStatistics, FoundOnMachine, Recovered};
+use calibrant_core::estimate::{BudgetRow, Calibration, FitStatistics, FoundOnMachine, Recovered};
 use calibrant_core::sensor::{Axis, Gauge, ImuQuantity, Parameter, PerSensor, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -64,7 +64,7 @@ pub(crate) fn assembled(
             problem,
             model,
             minimum,
-            &covariance,
+            (&covariance, budget(layout, posterior, &covariance, &beyond, model.trust)),
             FoundOnMachine {
                 shared: shared_errors(layout, &model.joint_names(), &posterior.covariance, &covariance),
                 frame: frame(model, state),
@@ -75,7 +75,6 @@ pub(crate) fn assembled(
         joints: model.joint_names(),
         quantities: layout.quantities.clone(),
         values: layout.quantities.iter().map(|of| state.parameters.value(*of, &layout.nominal)).collect(),
-        budget: budget(layout, posterior, &covariance, &beyond, model.trust),
         covariance,
         linear_covariance: posterior.covariance.clone(),
         inflation,
@@ -95,7 +94,7 @@ fn sensors(
     problem: &MachineProblem<'_>,
     model: &Model<'_>,
     minimum: &Minimum,
-    covariance: &DMatrix<f64>,
+    (covariance, budget): (&DMatrix<f64>, Vec<BudgetRow>),
     found: FoundOnMachine,
     fit: FitStatistics,
 ) -> Calibration {
@@ -111,6 +110,7 @@ fn sensors(
         parameters: quantities.iter().map(|of| Parameter::undescribed(*of, unit(of.sensor_kind()))).collect(),
         values: quantities.iter().map(|of| of.value(&imu)).collect(),
         covariance: of_sensors(&model.layout.quantities, covariance),
+        budget,
         quantities,
         prior_share: Vec::new(),
         gravity_slope: Vec::new(),

@@ -4,7 +4,7 @@ use super::drift::SensorDrift;
 use super::sample_residual::SampleResidual;
 use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::huber;
-use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust, Source};
+use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust};
 use crate::reference::Motion;
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{ImuQuantity, ImuRecording, SensorKind};
@@ -46,8 +46,6 @@ pub struct MachineCalibration {
     pub motion: Motion,
     /// Intervals of the motion's splines in which the sensor's samples are used: those of gaps in the log are not.
     pub covered: Vec<bool>,
-    /// Where each variance comes from.
-    pub budget: Vec<BudgetRow>,
     /// Part of the sensor's samples that lie in the log's time and in none of its gaps, 0 to 1.
     pub used_share: f64,
 }
@@ -107,26 +105,6 @@ pub struct ReferenceNoise {
     pub outliers: usize,
     /// Number of samples.
     pub samples: usize,
-}
-
-/// The variance of one of the sensor's parameters, by its sources.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BudgetRow {
-    /// The parameter.
-    pub quantity: ImuQuantity,
-    /// Its variance.
-    pub variance: f64,
-    /// Parts of it, in the order of [`Source::ALL`]. Their sum is the variance.
-    pub parts: [f64; Source::ALL.len()],
-}
-
-impl BudgetRow {
-    /// More of the reference.
-    pub(crate) fn add_of_reference(&mut self, variance: f64) {
-        self.variance += variance;
-        let parts = self.parts.iter_mut().zip(Source::ALL);
-        parts.filter(|(_, source)| *source == Source::ReferenceNoise).for_each(|(part, _)| *part += variance);
-    }
 }
 
 impl MachineCalibration {

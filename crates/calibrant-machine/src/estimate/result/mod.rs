@@ -15,6 +15,6 @@ mod unseen_mount;
 
 pub(crate) use assembly::assembled;
 pub use drift::SensorDrift;
-pub use machine_calibration::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
+pub use machine_calibration::{MachineCalibration, ReferenceNoise, SensorResidual};
 pub use sample_residual::SampleResidual;
 pub use spectrum::ResidualSpectrum;

@@ -8,6 +8,7 @@ use calibrant_core::diagnostic::machine::{
     LogOutliers, MachineResiduals, MountAllowedFor, ReferenceUndermodelled,
 };
 use calibrant_core::diagnostic::{Check, Code, Diagnostic};
+use calibrant_core::estimate::VarianceSource;
 
 /// What correlated errors of a tracker cause.
 const OF_TRACKERS: [Code; 3] = [MachineResiduals::CODE, ReferenceUndermodelled::CODE, LogOutliers::CODE];
@@ -37,10 +38,10 @@ pub(super) fn allow_for(
     }
     let before = calibration.sd();
     calibration.widen(unseen);
-    for row in &mut calibration.budget {
+    for row in &mut calibration.sensors.budget {
         let place = calibration.quantities.iter().position(|of| *of == MachineQuantity::Imu(row.quantity));
         let Some(place) = place else { continue };
-        row.add_of_reference(unseen[(place, place)]);
+        row.add(VarianceSource::ReferenceNoise, unseen[(place, place)]);
     }
     calibration.unseen.clone_from(unseen);
     let factors = calibration.sd().into_iter().zip(before).map(|(after, before)| after / before);

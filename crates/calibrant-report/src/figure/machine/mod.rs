@@ -2,7 +2,6 @@
 //!
 //! The pictures of the machine are drawn here, since scenes that turn are beyond the plotting library.
 
-mod budget;
 mod geometry;
 mod joints;
 mod mount;
@@ -12,7 +11,6 @@ mod scene;
 mod spectrum;
 mod views;
 
-pub(crate) use budget::{budget_bars, source_in_words};
 pub(crate) use geometry::correction_bars;
 pub(crate) use joints::joint_figure;
 pub(crate) use mount::sensor_on_tip;

@@ -128,6 +128,7 @@ fn calibration(
         quantities: list.of_accelerometer(),
         parameters: described,
         covariance: DMatrix::identity(p, p) * 0.25,
+        budget: Vec::new(),
         prior_share: Vec::new(),
         gravity_slope: Vec::new(),
         datasheet_prior: true,

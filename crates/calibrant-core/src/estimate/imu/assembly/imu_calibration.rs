@@ -8,7 +8,7 @@ use crate::estimate::imu::assembly::holds::hold_results;
 use crate::estimate::imu::assembly::rotations::rotation_results;
 use crate::estimate::imu::assembly::stationary::stationary_result;
 use crate::estimate::imu::clock::ClockDifference;
-use crate::estimate::imu::covariance::Uncertainty;
+use crate::estimate::imu::covariance::ImuUncertainty;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, TurnData, singular};
 use crate::estimate::imu::problem::{ImuProblem, Turn};
@@ -39,7 +39,7 @@ pub(crate) struct Finished<'a> {
     pub(crate) biases: Option<&'a RecordingBiases>,
     pub(crate) model: &'a ImuModel<'a>,
     pub(crate) solution: &'a Solution,
-    pub(crate) uncertainty: Uncertainty,
+    pub(crate) uncertainty: ImuUncertainty,
     pub(crate) clock: Option<ClockDifference>,
     pub(crate) thermometer: Option<ThermometerLag>,
     /// Changes of the sensors.
@@ -69,7 +69,8 @@ impl Finished<'_> {
             parameters: model.quantities.iter().map(|of| Parameter::undescribed(*of, unit(of))).collect(),
             values: model.quantities.iter().map(|quantity| quantity.value(&imu)).collect(),
             quantities: model.quantities.clone(),
-            covariance: uncertainty.covariance,
+            budget: uncertainty.uncertainty.budget(&model.quantities),
+            covariance: uncertainty.uncertainty.covariance,
             prior_share: uncertainty.prior_share,
             gravity_slope: uncertainty.gravity_slope.iter().copied().collect(),
             datasheet_prior: false,

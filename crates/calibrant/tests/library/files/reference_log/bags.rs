@@ -153,8 +153,10 @@ fn a_bag_with_joints_and_an_imu_needs_no_further_log() {
     let outcome = session.calibrate(&Source::from_file(&path)).expect("calibrated");
     let Calibrated::OnMachine(machine) = &outcome.calibrated else { panic!("on a machine") };
     let calibration = &machine.calibration;
-    let (bias, delay_s) =
-        (calibration.parameters.imu[SensorKind::Accelerometer].bias.x, calibration.parameters.delays_s[0]);
+    let (bias, delay_s) = (
+        calibration.parameters.imu[SensorKind::Accelerometer].bias.x,
+        calibration.parameters.delays_s[SensorKind::Accelerometer],
+    );
     assert!((bias - 0.1).abs() < 0.03, "{bias}");
     assert!(delay_s.abs() < 1e-4, "the time stamps are of one clock: {delay_s}");
     assert_eq!((machine.log.file.as_str(), machine.log.format), ("both.mcap", "mcap"));

@@ -1,0 +1,178 @@
+//! A covariance, and the sources that it is made of: `Σ = F⁻¹ + Σ_s R_s R_sᵀ`.
+//!
+//! The inverse of the information F has the noise, the scatter, and what is known beforehand. What all data share moves the estimates by a column of `R_s`
+//! for each independent error of one standard deviation. With the weights W of a prior, its part of the variances is the diagonal of `F⁻¹ W F⁻¹`.
+
+use crate::sensor::ImuQuantity;
+use nalgebra::{DMatrix, DVector};
+
+/// Where an uncertainty comes from: the columns of the budget.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum VarianceSource {
+    /// Noise of the sensors, and their scatter between holds and rotations.
+    SensorNoise,
+    /// Noise of the reference: encoders or tracker.
+    ReferenceNoise,
+    /// Geometry and zero offsets of the joints.
+    Geometry,
+    /// Lever arm and mounting.
+    Mounting,
+    /// Delays and clocks.
+    Timing,
+    /// Magnitude of gravity, and tilt of the base.
+    Gravity,
+    /// What is known of the sensor beforehand: its datasheet, or `[known]`.
+    SensorPrior,
+    /// Drift of the accelerometer's bias over a recording.
+    BiasDrift,
+    /// Biases of the other recordings that were calibrated together.
+    OtherRecordings,
+    /// The part of the alignment that all faces share.
+    FaceAlignment,
+    /// The lag of the thermometer.
+    Thermometer,
+    /// Steps of the readings that are coarse beside the noise.
+    CoarseSteps,
+    /// The part of the Earth's rate that is not known.
+    EarthRate,
+}
+
+impl VarianceSource {
+    /// All, in the order of tables.
+    pub const ALL: [Self; 13] = [
+        Self::SensorNoise,
+        Self::ReferenceNoise,
+        Self::Geometry,
+        Self::Mounting,
+        Self::Timing,
+        Self::Gravity,
+        Self::SensorPrior,
+        Self::BiasDrift,
+        Self::OtherRecordings,
+        Self::FaceAlignment,
+        Self::Thermometer,
+        Self::CoarseSteps,
+        Self::EarthRate,
+    ];
+    /// Those of a calibration on a machine.
+    pub const ON_MACHINE: &[Self] = Self::ALL.split_at(7).0;
+
+    /// As written in tables and files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SensorNoise => "sensor_noise",
+            Self::ReferenceNoise => "reference_noise",
+            Self::Geometry => "geometry",
+            Self::Mounting => "mounting",
+            Self::Timing => "timing",
+            Self::Gravity => "gravity",
+            Self::SensorPrior => "sensor_prior",
+            Self::BiasDrift => "bias_drift",
+            Self::OtherRecordings => "other_recordings",
+            Self::FaceAlignment => "face_alignment",
+            Self::Thermometer => "thermometer",
+            Self::CoarseSteps => "coarse_steps",
+            Self::EarthRate => "earth_rate",
+        }
+    }
+}
+
+/// The variance of one of the sensor's parameters, by its sources.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BudgetRow {
+    /// The parameter.
+    pub quantity: ImuQuantity,
+    /// Its variance.
+    pub variance: f64,
+    /// Parts of it, in the order of [`VarianceSource::ALL`]. Their sum is the variance.
+    pub parts: [f64; VarianceSource::ALL.len()],
+}
+
+impl BudgetRow {
+    /// The part of a source.
+    #[must_use]
+    pub fn part(&self, source: VarianceSource) -> f64 {
+        self.parts[source as usize]
+    }
+
+    /// Its share of the variance, 0 to 1.
+    #[must_use]
+    pub fn share(&self, source: VarianceSource) -> f64 {
+        self.part(source) / self.variance
+    }
+
+    /// More of a source.
+    pub fn add(&mut self, source: VarianceSource, variance: f64) {
+        self.variance += variance;
+        self.parts[source as usize] += variance;
+    }
+}
+
+/// A covariance that says what it is made of.
+#[derive(Debug, Clone)]
+pub(crate) struct Uncertainty {
+    pub(crate) covariance: DMatrix<f64>,
+    /// Variances by sources other than the noise.
+    parts: Vec<(VarianceSource, DVector<f64>)>,
+}
+
+impl Uncertainty {
+    /// The inverse of an information, of which a prior has these weights.
+    pub(crate) fn of(covariance: DMatrix<f64>, prior: Option<&[f64]>) -> Self {
+        let by_prior = |weight: &[f64]| {
+            DVector::from_fn(covariance.nrows(), |i, _| {
+                weight.iter().zip(covariance.row(i).iter()).map(|(weight, of)| weight * of * of).sum::<f64>()
+            })
+        };
+        let parts = prior.map(|weight| (VarianceSource::SensorPrior, by_prior(weight)));
+        Self { parts: parts.into_iter().collect(), covariance }
+    }
+
+    /// Adds an error of this variance, which moves the estimates by this for each unit.
+    pub(crate) fn add(&mut self, source: VarianceSource, slope: &DVector<f64>, variance: f64) {
+        self.add_covariance(source, &(slope * slope.transpose() * variance));
+    }
+
+    /// Adds a covariance.
+    pub(crate) fn add_covariance(&mut self, source: VarianceSource, covariance: &DMatrix<f64>) {
+        self.covariance += covariance;
+        self.parts.push((source, covariance.diagonal()));
+    }
+
+    /// The variances by their sources. What no other source has is the noise's.
+    pub(crate) fn budget(&self, quantities: &[ImuQuantity]) -> Vec<BudgetRow> {
+        let row = |(k, quantity): (usize, &ImuQuantity)| {
+            let mut row = BudgetRow { quantity: *quantity, variance: 0.0, parts: Default::default() };
+            for (source, variances) in &self.parts {
+                row.add(*source, variances[k]);
+            }
+            row.add(VarianceSource::SensorNoise, (self.covariance[(k, k)] - row.variance).max(0.0));
+            row
+        };
+        quantities.iter().enumerate().map(row).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::{Axis, Quantity, SensorKind};
+
+    /// Of one number with noise of variance 1, a prior of variance 1 about it, and an offset of variance 4 that halves in the estimate.
+    #[test]
+    fn the_parts_of_a_variance_are_those_of_its_errors() {
+        let mut uncertainty = Uncertainty::of(DMatrix::repeat(1, 1, 0.5), Some(&[1.0]));
+        uncertainty.add(VarianceSource::Gravity, &DVector::repeat(1, 0.5), 4.0);
+        let bias = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(Axis::X));
+        let budget = uncertainty.budget(&[bias]);
+        let of = |source| budget[0].part(source);
+        assert_eq!(budget[0].variance, uncertainty.covariance[(0, 0)]);
+        assert_eq!(
+            [VarianceSource::SensorNoise, VarianceSource::SensorPrior, VarianceSource::Gravity].map(of),
+            [0.25, 0.25, 1.0]
+        );
+        assert_eq!(budget[0].parts.iter().sum::<f64>(), budget[0].variance);
+        assert_eq!(VarianceSource::ALL.map(|source| source as usize), std::array::from_fn(|k| k));
+    }
+}
