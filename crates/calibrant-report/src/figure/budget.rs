@@ -46,8 +46,8 @@ pub(crate) fn budget_bars(rows: Vec<(String, String, [f64; VarianceSource::ALL.l
         "Where the variance of each parameter comes from",
         &legend,
         rows,
-        "Each bar is the variance of one parameter, divided among its sources. The largest part names what to improve: a better reference, \
-         a better known mount, or more data against noise.",
+        "Each bar is the variance of one parameter, divided among its sources. The largest part names what to improve, such as \
+         a better reference, a mount or a gravity that is known better, or more data against noise.",
     )
 }
 
