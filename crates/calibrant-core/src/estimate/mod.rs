@@ -16,6 +16,7 @@
 
 mod alignment;
 mod bias_drift;
+mod budget;
 mod calibrate;
 mod change;
 mod comparison;
@@ -49,8 +50,9 @@ mod unknown_latitude;
 mod validation;
 
 pub use crate::diagnostic::{Change, Changed, Course};
-pub use crate::solve::{BudgetRow, CalibrationStatus, VarianceSource, chi2_p_value, f_p_value};
+pub use crate::solve::{CalibrationStatus, VarianceSource, chi2_p_value, f_p_value};
 pub use bias_drift::BiasDrift;
+pub use budget::BudgetRow;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference, Place};
 pub use datasheet::{

@@ -5,12 +5,13 @@ use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use super::{RecoveredClock, RecoveredGravity, datasheet};
 use crate::diagnostic::{Change, Diagnostic};
+use crate::estimate::budget::BudgetRow;
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
     Axis, CalibratedImu, CovarianceDegrees, CovariancePart, Gauge, ImuParameters, ImuQuantity, Parameter,
     PerSensor, Quantity, ReadingUnit, SensorKind, SensorModel, SharedErrors,
 };
-use crate::solve::{BudgetRow, CalibrationStatus, VarianceSource};
+use crate::solve::{CalibrationStatus, VarianceSource};
 use nalgebra::{DMatrix, Vector3};
 
 /// With fewer degrees of freedom left by a drift, the scatter between holds is at least that of the fit without it.

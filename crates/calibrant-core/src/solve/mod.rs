@@ -35,5 +35,5 @@ pub use statistics::{chi2_p_value, f_p_value};
 pub use status::CalibrationStatus;
 pub(crate) use studentised::{Scatter, studentised, studentised_length};
 pub(crate) use uncertainty::Uncertainty;
-pub use uncertainty::{BudgetRow, VarianceSource};
+pub use uncertainty::VarianceSource;
 pub(crate) use variance::{Trial, excess};

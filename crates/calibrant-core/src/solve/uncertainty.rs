@@ -3,7 +3,6 @@
 //! The inverse of the information F has the noise, the scatter, and what is known beforehand. What all data share moves the estimates by a column of `R_s`
 //! for each independent error of one standard deviation. With the weights W of a prior, its part of the variances is the diagonal of `F⁻¹ W F⁻¹`.
 
-use crate::sensor::ImuQuantity;
 use nalgebra::{DMatrix, DVector};
 
 /// Where an uncertainty comes from: the columns of the budget.
@@ -78,37 +77,6 @@ impl VarianceSource {
     }
 }
 
-/// The variance of one of the sensor's parameters, by its sources.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BudgetRow {
-    /// The parameter.
-    pub quantity: ImuQuantity,
-    /// Its variance.
-    pub variance: f64,
-    /// Parts of it, in the order of [`VarianceSource::ALL`]. Their sum is the variance.
-    pub parts: [f64; VarianceSource::ALL.len()],
-}
-
-impl BudgetRow {
-    /// The part of a source.
-    #[must_use]
-    pub fn part(&self, source: VarianceSource) -> f64 {
-        self.parts[source as usize]
-    }
-
-    /// Its share of the variance, 0 to 1.
-    #[must_use]
-    pub fn share(&self, source: VarianceSource) -> f64 {
-        self.part(source) / self.variance
-    }
-
-    /// More of a source.
-    pub fn add(&mut self, source: VarianceSource, variance: f64) {
-        self.variance += variance;
-        self.parts[source as usize] += variance;
-    }
-}
-
 /// A covariance that says what it is made of.
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
@@ -140,39 +108,31 @@ impl Uncertainty {
         self.parts.push((source, covariance.diagonal()));
     }
 
-    /// The variances by their sources. What no other source has is the noise's.
-    pub(crate) fn budget(&self, quantities: &[ImuQuantity]) -> Vec<BudgetRow> {
-        let row = |(k, quantity): (usize, &ImuQuantity)| {
-            let mut row = BudgetRow { quantity: *quantity, variance: 0.0, parts: Default::default() };
-            for (source, variances) in &self.parts {
-                row.add(*source, variances[k]);
-            }
-            row.add(VarianceSource::SensorNoise, (self.covariance[(k, k)] - row.variance).max(0.0));
-            row
-        };
-        quantities.iter().enumerate().map(row).collect()
+    /// The variance of an estimate by its sources, in the order of [`VarianceSource::ALL`]. What no other source has is the noise's.
+    pub(crate) fn parts(&self, place: usize) -> [f64; VarianceSource::ALL.len()] {
+        let mut parts = [0.0; VarianceSource::ALL.len()];
+        for (source, variances) in &self.parts {
+            parts[*source as usize] += variances[place];
+        }
+        let others: f64 = parts.iter().sum();
+        parts[VarianceSource::SensorNoise as usize] = (self.covariance[(place, place)] - others).max(0.0);
+        parts
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sensor::{Axis, Quantity, SensorKind};
 
     /// Of one number with noise of variance 1, a prior of variance 1 about it, and an offset of variance 4 that halves in the estimate.
     #[test]
     fn the_parts_of_a_variance_are_those_of_its_errors() {
         let mut uncertainty = Uncertainty::of(DMatrix::repeat(1, 1, 0.5), Some(&[1.0]));
         uncertainty.add(VarianceSource::Gravity, &DVector::repeat(1, 0.5), 4.0);
-        let bias = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(Axis::X));
-        let budget = uncertainty.budget(&[bias]);
-        let of = |source| budget[0].part(source);
-        assert_eq!(budget[0].variance, uncertainty.covariance[(0, 0)]);
-        assert_eq!(
-            [VarianceSource::SensorNoise, VarianceSource::SensorPrior, VarianceSource::Gravity].map(of),
-            [0.25, 0.25, 1.0]
-        );
-        assert_eq!(budget[0].parts.iter().sum::<f64>(), budget[0].variance);
+        let parts = uncertainty.parts(0);
+        let of = [VarianceSource::SensorNoise, VarianceSource::SensorPrior, VarianceSource::Gravity];
+        assert_eq!(of.map(|source| parts[source as usize]), [0.25, 0.25, 1.0]);
+        assert_eq!(parts.iter().sum::<f64>(), uncertainty.covariance[(0, 0)]);
         assert_eq!(VarianceSource::ALL.map(|source| source as usize), std::array::from_fn(|k| k));
     }
 }

@@ -11,6 +11,7 @@ use super::setup::HoldsSetup;
 use super::{accelerometer_change, verdict};
 use crate::diagnostic::{Diagnostic, HoldReason};
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::estimate::budget::BudgetRow;
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::recording_biases::RecordingBiases;
@@ -153,7 +154,7 @@ fn assemble(
         parameters: list.describe_accelerometer(problem.sensor, &nominal),
         quantities,
         values: list.quantities().iter().map(|quantity| quantity.value(&sensor)).collect(),
-        budget: uncertainty.budget(&list.of_accelerometer()),
+        budget: BudgetRow::all(&uncertainty, &list.of_accelerometer()),
         covariance: uncertainty.covariance,
         prior_share,
         gravity_slope: slope.iter().copied().collect(),

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, samples};
 use crate::error::Result;
+use crate::estimate::budget::BudgetRow;
 use crate::estimate::datasheet::noise_not_as_given;
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::hold_result::HoldCalibration;
@@ -109,7 +110,7 @@ fn solved(
         iterations: 1,
         gradient_norm: 0.0,
         values: values.iter().copied().collect(),
-        budget: uncertainty.budget(&quantities),
+        budget: BudgetRow::all(&uncertainty, &quantities),
         quantities,
         parameters,
         covariance: uncertainty.covariance,

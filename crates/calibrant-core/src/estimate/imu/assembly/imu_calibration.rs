@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Change;
 use crate::error::Result;
+use crate::estimate::budget::BudgetRow;
 use crate::estimate::hold_result::{HoldCalibration, HoldResult};
 use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
 use crate::estimate::imu::assembly::holds::hold_results;
@@ -69,7 +70,7 @@ impl Finished<'_> {
             parameters: model.quantities.iter().map(|of| Parameter::undescribed(*of, unit(of))).collect(),
             values: model.quantities.iter().map(|quantity| quantity.value(&imu)).collect(),
             quantities: model.quantities.clone(),
-            budget: uncertainty.uncertainty.budget(&model.quantities),
+            budget: BudgetRow::all(&uncertainty.uncertainty, &model.quantities),
             covariance: uncertainty.uncertainty.covariance,
             prior_share: uncertainty.prior_share,
             gravity_slope: uncertainty.gravity_slope.iter().copied().collect(),
