@@ -3,7 +3,7 @@
 //!
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
-//! [`noise`] examines a sensor at rest. `solve` has the least squares that estimates share. [`estimate`] calibrates.
+//! [`noise`] examines a sensor at rest, by [`fourier`] too. `solve` has the least squares that estimates share. [`estimate`] calibrates.
 //! What a user should know of a result is a [`diagnostic`]. [`acceptance`] compares it with limits. [`simulate`] makes sensors and
 //! recordings. [`budget`] says what work takes, [`progress`] how far it is, and [`interruption`] ends it early. [`number_format`] writes
 //! numbers for people, [`json`] and [`form`] results for programs.
@@ -17,6 +17,7 @@ pub mod diagnostic;
 pub mod error;
 pub mod estimate;
 pub mod form;
+pub mod fourier;
 pub mod information;
 pub mod interruption;
 pub mod json;

@@ -2,9 +2,9 @@
 //! uses.
 
 use super::allan::{Confidence, Differences};
-use super::periodogram::Periodogram;
 use super::power_law::FlickerTable;
 use super::{PowerLaw, lag_sums};
+use crate::fourier::Fourier;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -35,7 +35,7 @@ pub struct Moments {
     /// One matrix for each pair `a ≤ b`, in the order of [`pair`].
     covariance: Vec<DMatrix<f64>>,
     confidence: Confidence,
-    periodogram: Periodogram,
+    fourier: Fourier,
 }
 
 /// Position of the pair of processes `a`, `b`.
@@ -70,8 +70,10 @@ impl Moments {
         let places: Vec<(usize, usize)> = (0..size).flat_map(|j| (j..size).map(move |k| (j, k))).collect();
         let flicker = FlickerTable::of(n);
         let pair_of = |&(j, k): &(usize, usize)| Pair::of(n, scales[j], scales[k], &flicker);
-        let (periodogram, pairs): (_, Vec<Pair>) =
-            rayon::join(|| Periodogram::of_length(n), || places.par_iter().map(pair_of).collect());
+        let (fourier, pairs): (_, Vec<Pair>) = rayon::join(
+            || Fourier::of_size(n.next_power_of_two()),
+            || places.par_iter().map(pair_of).collect(),
+        );
         for (&(j, k), two) in places.iter().zip(&pairs) {
             for a in 0..PROCESSES {
                 if j == k {
@@ -84,7 +86,7 @@ impl Moments {
                 }
             }
         }
-        Self { samples: n, scales, mean, covariance, confidence: Confidence::of(n), periodogram }
+        Self { samples: n, scales, mean, covariance, confidence: Confidence::of(n), fourier }
     }
 
     /// Number of samples.
@@ -99,8 +101,8 @@ impl Moments {
     }
 
     /// The Fourier transform for this number of values.
-    pub(super) fn periodogram(&self) -> &Periodogram {
-        &self.periodogram
+    pub(super) fn fourier(&self) -> &Fourier {
+        &self.fourier
     }
 
     /// The cluster sizes m.

@@ -82,7 +82,7 @@ impl NoiseFit {
                 "is the axis connected? its resolution may be coarser than its noise",
             )));
         }
-        let lines = Lines::of(series, moments.scales(), moments.periodogram());
+        let lines = Lines::of(series, moments.scales(), moments.fourier());
         let without = lines.as_ref().map(|lines| lines.taken_off(&observed));
         let regression = choose(moments, without.as_ref().unwrap_or(&observed));
         let vibration = lines.and_then(|lines| lines.vibration(&observed, &regression, interval_s));

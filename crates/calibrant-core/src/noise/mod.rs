@@ -70,7 +70,6 @@ mod lag_sums;
 mod linear_drift;
 mod model_selection;
 mod outliers;
-mod periodogram;
 mod power_law;
 mod segment;
 mod sensor_noise;

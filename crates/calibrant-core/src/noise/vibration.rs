@@ -21,8 +21,8 @@
 //! N².
 
 use super::allan_regression::Regression;
-use super::periodogram::Periodogram;
 use super::series::Series;
+use crate::fourier::Fourier;
 use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -73,13 +73,14 @@ pub(super) struct Lines {
 
 impl Lines {
     /// The lines that are beyond chance; `None` without any.
-    pub(super) fn of(series: &Series, scales: &[usize], periodogram: &Periodogram) -> Option<Self> {
+    pub(super) fn of(series: &Series, scales: &[usize], fourier: &Fourier) -> Option<Self> {
         if series.values.len() < 8 * ABOUT {
             return None;
         }
         let (count, mean, square) = (series.values.len() as f64, series.mean, series.square);
-        let size = periodogram.size();
-        let powers = periodogram.power(series.values.iter().map(|value| value - mean));
+        let size = fourier.size();
+        let spectrum = fourier.transform(series.values.iter().map(|value| value - mean));
+        let powers: Vec<f64> = spectrum.iter().map(|sum| sum.norm_sqr()).collect();
         let last = powers.len() - 1;
         let near = |k: usize, by: usize| k - by..=(k + by).min(last);
         let beyond = (size as f64).ln() + BEYOND_CHANCE;

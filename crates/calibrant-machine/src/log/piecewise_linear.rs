@@ -5,8 +5,8 @@
 //! The second difference of a piecewise linear function is 0 but next to a knot. So its size has a line in its
 //! spectrum at the frequency of the knots, or at the alias of it.
 
+use calibrant_core::fourier::Fourier;
 use nalgebra::{Matrix2, Vector2, Vector3};
-use realfft::RealFftPlanner;
 
 /// A little weight towards 0 for nodes that no sample determines.
 const RIDGE: f64 = 1e-9;
@@ -214,7 +214,7 @@ pub(super) fn second_differences(values: &[Vector3<f64>]) -> Vec<f64> {
 /// Periods in samples, the longest first.
 pub(super) fn periods(values: &[Vector3<f64>]) -> Vec<f64> {
     let sizes = second_differences(values);
-    let Some(spectrum) = spectrum(&sizes) else { return Vec::new() };
+    let spectrum = spectrum(&sizes);
     let is_peak = |bin: usize| {
         spectrum[bin] >= spectrum[bin - 1] && spectrum.get(bin + 1).is_none_or(|next| spectrum[bin] > *next)
     };
@@ -242,21 +242,16 @@ pub(super) fn periods(values: &[Vector3<f64>]) -> Vec<f64> {
 }
 
 /// Amplitudes of the sizes less their local mean, over it.
-fn spectrum(sizes: &[f64]) -> Option<Vec<f64>> {
+fn spectrum(sizes: &[f64]) -> Vec<f64> {
     let mean = |k: usize| {
         let around = &sizes[k.saturating_sub(AVERAGED / 2)..(k + AVERAGED / 2 + 1).min(sizes.len())];
         around.iter().sum::<f64>() / around.len() as f64
     };
     let length = sizes.len() & !1;
     let window = |k: usize| (std::f64::consts::PI * (k as f64 + 0.5) / length as f64).sin().powi(2);
-    let mut input: Vec<f64> = (0..length)
-        .map(|k| {
-            let mean = mean(k);
-            if mean > 0.0 { window(k) * (sizes[k] / mean - 1.0) } else { 0.0 }
-        })
-        .collect();
-    let transform = RealFftPlanner::new().plan_fft_forward(length);
-    let mut output = transform.make_output_vec();
-    transform.process(&mut input, &mut output).ok()?;
-    Some(output.iter().map(|line| line.norm()).collect())
+    let input = (0..length).map(|k| {
+        let mean = mean(k);
+        if mean > 0.0 { window(k) * (sizes[k] / mean - 1.0) } else { 0.0 }
+    });
+    Fourier::of_size(length).transform(input).iter().map(|line| line.norm()).collect()
 }

@@ -1,10 +1,9 @@
 //! The spectrum of a sensor's residuals, and how far they follow the reference (`welch1967`).
 
 use crate::estimate::{MachineCalibration, MachineParameters, SampleResidual};
+use calibrant_core::fourier::Fourier;
 use calibrant_core::sensor::{Recording, SensorKind};
-use nalgebra::Vector3;
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
+use nalgebra::{Complex, Vector3};
 
 /// Fewest and most samples of a segment.
 const LENGTHS: [usize; 2] = [32, 2048];
@@ -85,7 +84,7 @@ fn spectrum(samples: &[Sample], white_noise: &Vector3<f64>) -> Option<ResidualSp
     let longest = runs.iter().map(|run| run.len()).max()?;
     let wanted = (samples.len() / PARTS).clamp(LENGTHS[0], LENGTHS[1]).min(longest);
     let length = (wanted + 1).next_power_of_two() / 2;
-    let transform = RealFftPlanner::new().plan_fft_forward(length);
+    let fourier = Fourier::of_size(length);
     // Hann's window is the square of a sine
     let window: Vec<f64> =
         (0..length).map(|j| (std::f64::consts::PI * j as f64 / length as f64).sin().powi(2)).collect();
@@ -94,14 +93,12 @@ fn spectrum(samples: &[Sample], white_noise: &Vector3<f64>) -> Option<ResidualSp
     let zero = Vector3::zeros();
     let (mut residuals, mut reference) = (vec![zero; bins], vec![zero; bins]);
     let mut cross = vec![[Complex::new(0.0, 0.0); 3]; bins];
-    let (mut input, mut output) = (transform.make_input_vec(), transform.make_output_vec());
-    let mut of = |values: &mut dyn Iterator<Item = f64>| {
-        input.iter_mut().zip(values).for_each(|(place, value)| *place = value);
-        let mean = input.iter().sum::<f64>() / length as f64;
-        input.iter_mut().zip(&window).for_each(|(value, weight)| *value = (*value - mean) * weight);
-        // the lengths are those of the plan: it cannot fail
-        let _ = transform.process(&mut input, &mut output);
-        output[1..=bins].to_vec()
+    let of = |values: &mut dyn Iterator<Item = f64>| {
+        let values: Vec<f64> = values.collect();
+        let mean = values.iter().sum::<f64>() / length as f64;
+        let spectrum =
+            fourier.transform(values.iter().zip(&window).map(|(value, weight)| (value - mean) * weight));
+        spectrum[1..=bins].to_vec()
     };
     let mut segments = 0;
     for run in runs {
