@@ -201,7 +201,7 @@ checks! {
     }
     decided "With two gains for each axis the holds fit better; such a difference occurs by chance once in a thousand times, and would move a \
         bias by more than two of its standard deviations."
-    remedy "Write nonlinearity = [\"gain-by-sign\"] in [holds], which estimates the two gains from some two dozen holds; with \"second-order\" beside it where the \
+    remedy "Write nonlinearity = [\"gain-by-sign\"] in [holds], which estimates the two gains from some three dozen holds; with \"second-order\" beside it where the \
         holds do not tell the two apart. Else choose a larger range, or another sensor."
     says format!(
         "axis {axis} of the accelerometer seems to have a gain that is {:+.2} % larger for positive forces than for negative ones: with such \
@@ -223,7 +223,7 @@ checks! {
     }
     decided "With a second-order coefficient for each axis the holds fit better than with two gains; such coefficients occur by chance once in a thousand \
         times, and would move a bias by more than two of its standard deviations."
-    remedy "Write nonlinearity = [\"second-order\"] in [holds], which estimates the coefficients from some two dozen holds; with \"gain-by-sign\" beside it where \
+    remedy "Write nonlinearity = [\"second-order\"] in [holds], which estimates the coefficients from some three dozen holds; with \"gain-by-sign\" beside it where \
         the holds do not tell the two apart. Else choose a larger range, or another sensor."
     says format!(
         "axis {axis} of the accelerometer seems to have a second-order coefficient of {} mg/g²: with such terms the holds fit far better, and a \

@@ -173,7 +173,11 @@ mod tests {
     fn a_hum_is_seen_and_noise_is_none() {
         let scales = [1, 2, 4, 8, 16];
         let lines = |values: &[f64]| {
-            Lines::of(&Series::of(values.to_vec()), &scales, &Periodogram::of_length(values.len()))
+            Lines::of(
+                &Series::of(values.to_vec()),
+                &scales,
+                &Fourier::of_size(values.len().next_power_of_two()),
+            )
         };
         for seed in 0..40 {
             let noise = |process, coefficient| {

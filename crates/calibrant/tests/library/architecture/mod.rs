@@ -33,6 +33,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("acceptance", &["form", "json", "diagnostic"]),
     ("arrowhead", &[]),
     ("form", &[]),
+    ("fourier", &[]),
     ("json", &[]),
     ("interruption", &["error"]),
     ("number_format", &[]),
@@ -57,7 +58,20 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "solve",
         ],
     ),
-    ("noise", &["json", "diagnostic", "error", "interruption", "sensor", "motion", "root", "number_format"]),
+    (
+        "noise",
+        &[
+            "json",
+            "diagnostic",
+            "error",
+            "fourier",
+            "interruption",
+            "sensor",
+            "motion",
+            "root",
+            "number_format",
+        ],
+    ),
     ("simulate", &["form", "json", "error", "sensor", "motion", "noise"]),
 ];
 
