@@ -69,15 +69,15 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         },
     };
     // quantities that are not listed are zero
-    if imu.unit(SensorKind::Accelerometer).is_some() {
-        imu.parameters[SensorKind::Accelerometer].matrix = Matrix3::zeros();
+    let calibrated: Vec<SensorKind> = imu.units.present().map(|(sensor_kind, _)| sensor_kind).collect();
+    for sensor_kind in &calibrated {
+        imu.parameters[*sensor_kind].matrix = Matrix3::zeros();
     }
-    if imu.unit(SensorKind::Gyroscope).is_some() {
-        imu.parameters[SensorKind::Gyroscope].matrix = Matrix3::zeros();
-    }
+    // a sensor of which nothing was to be found may have fixed values, too
+    let is_of_them = |value: &&Value| calibrated.iter().any(|of| value.name.starts_with(of.name()));
     let symmetric = (file.gauge.as_deref() == Some(Gauge::Symmetric.name())).then_some(&names);
     let estimated = listed.len();
-    for (i, value) in listed.iter().chain(&file.fixed).enumerate() {
+    for (i, value) in listed.iter().chain(file.fixed.iter().filter(is_of_them)).enumerate() {
         let name = &value.name;
         let quantity = quantity_of(name, &imu, symmetric)
             .ok_or_else(|| invalid(format!("\"{name}\" is no parameter of a sensor"), HELP))?;
