@@ -19,7 +19,7 @@ const FEWEST_DEGREES: f64 = 6.0;
 
 /// A calibration of an accelerometer or of an IMU: parameters, their one covariance, and everything needed to judge them.
 ///
-/// `recovered` has the estimated motion or the holds. `gyroscope` has the results of the gyroscope, if there is one.
+/// `recovered` has the estimated motion, the holds, or that it was a machine. `gyroscope` has what a gyroscope by hand adds.
 #[derive(Debug, Clone)]
 pub struct Calibration {
     /// How the iteration ended.
@@ -39,11 +39,11 @@ pub struct Calibration {
     pub covariance: DMatrix<f64>,
     /// Where the variance of each estimate comes from; empty for a commanded motion.
     pub budget: Vec<BudgetRow>,
-    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty without a prior, and for a commanded motion.
+    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty without a prior, for a commanded motion, and on a machine.
     pub prior_share: Vec<f64>,
-    /// Derivative of each estimate with respect to the assumed gravity, in its unit over m/s². Empty for a commanded motion.
+    /// Derivative of each estimate with respect to the assumed gravity, in its unit over m/s². Empty for a commanded motion, and on a machine.
     pub gravity_slope: Vec<f64>,
-    /// Is the datasheet a prior?
+    /// Is the datasheet a prior? On a machine, its setup says so.
     pub datasheet_prior: bool,
     /// The estimates as a model, fixed quantities included. A sensor that was not calibrated is a perfect one.
     pub imu: ImuParameters,
@@ -53,7 +53,7 @@ pub struct Calibration {
     pub fit: FitStatistics,
     /// The motion or the holds, estimated with the parameters.
     pub recovered: Recovered,
-    /// The results of the gyroscope, if there is one.
+    /// The results of a gyroscope by hand, if there is one.
     pub gyroscope: Option<Box<GyroscopeCalibration>>,
     /// Changes of a sensor within the recording.
     pub changes: Vec<Change>,

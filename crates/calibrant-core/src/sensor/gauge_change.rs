@@ -179,8 +179,8 @@ impl CalibratedImu {
     /// let units = [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)];
     /// let imu = CalibratedImu::new(parameters, units, ImuQuantity::full_list(true, true, false), "upper gauge");
     /// let lower = imu.in_gauge(Gauge::Lower)?.parameters;
-    /// assert_eq!(lower.accelerometer.matrix[(0, 1)], 0.0);
-    /// assert!((lower.gyroscope.matrix[(1, 0)] - 0.01).abs() < 1e-4, "the gyroscope rotated with it");
+    /// assert_eq!(lower[SensorKind::Accelerometer].matrix[(0, 1)], 0.0);
+    /// assert!((lower[SensorKind::Gyroscope].matrix[(1, 0)] - 0.01).abs() < 1e-4, "the gyroscope rotated with it");
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn in_gauge(&self, gauge: Gauge) -> Result<Self> {

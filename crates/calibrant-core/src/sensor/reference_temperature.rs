@@ -197,8 +197,8 @@ impl ImuParameters {
     /// imu.thermal[SensorKind::Gyroscope].bias[0].x = 1e-4; // rad/s/K
     /// imu.thermal[SensorKind::Accelerometer].scale[1].z = 2e-6; // 1/K²
     /// let hot = imu.at(50.0);
-    /// assert!((hot.gyroscope.bias.x - 3e-3).abs() < 1e-15);
-    /// assert!((hot.accelerometer.matrix[(2, 2)] - 1.0018).abs() < 1e-15);
+    /// assert!((hot[SensorKind::Gyroscope].bias.x - 3e-3).abs() < 1e-15);
+    /// assert!((hot[SensorKind::Accelerometer].matrix[(2, 2)] - 1.0018).abs() < 1e-15);
     /// ```
     #[must_use]
     pub fn at(&self, temperature_c: f64) -> Self {

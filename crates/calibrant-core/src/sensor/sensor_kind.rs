@@ -12,7 +12,7 @@ pub enum SensorKind {
 }
 
 impl SensorKind {
-    /// Both.
+    /// All.
     pub const ALL: [Self; 2] = [Self::Accelerometer, Self::Gyroscope];
 
     /// `accelerometer` or `gyroscope`: how names of parameters begin.
