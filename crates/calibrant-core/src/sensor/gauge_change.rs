@@ -113,10 +113,7 @@ impl RotatedImu {
         rotated[SensorKind::Accelerometer].matrix *= rotation;
         rotated[SensorKind::Gyroscope].matrix *= rotation;
         rotated.g_sensitivity *= rotation;
-        match reference {
-            SensorKind::Accelerometer => rotated[SensorKind::Accelerometer].matrix = target,
-            SensorKind::Gyroscope => rotated[SensorKind::Gyroscope].matrix = target,
-        }
+        rotated[reference].matrix = target;
         let column = |k: usize| gauge.residuals(&(target * unit(k).cross_matrix()));
         let derivative = Matrix3::from_columns(&[column(0), column(1), column(2)]);
         let Some(inverse) = derivative.try_inverse() else {

@@ -234,11 +234,7 @@ impl ImuRecording {
         if let Some(temperatures) = self.temperature_c.as_mut().filter(|_| of_temperature) {
             without(temperatures, samples);
         }
-        let recording = match sensor_kind {
-            SensorKind::Accelerometer => self[SensorKind::Accelerometer].as_mut(),
-            SensorKind::Gyroscope => self[SensorKind::Gyroscope].as_mut(),
-        };
-        if let Some(recording) = recording {
+        if let Some(recording) = &mut self[sensor_kind] {
             without(&mut recording.times_s, samples);
             without(&mut recording.readings, samples);
         }

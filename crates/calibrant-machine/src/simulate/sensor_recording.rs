@@ -68,11 +68,7 @@ pub fn record_sensors(
             clean + Vector3::from_fn(|axis, _| normal(rng) * grown * of.noise[axis])
         });
         let readings = readings.collect();
-        let samples = Recording::new(times_s.clone(), readings, 3, of.unit)?;
-        *match of.sensor {
-            SensorKind::Accelerometer => &mut recording[SensorKind::Accelerometer],
-            SensorKind::Gyroscope => &mut recording[SensorKind::Gyroscope],
-        } = Some(samples);
+        recording[of.sensor] = Some(Recording::new(times_s.clone(), readings, 3, of.unit)?);
     }
     Ok(recording)
 }

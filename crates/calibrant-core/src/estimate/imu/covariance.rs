@@ -46,16 +46,17 @@ impl ImuUncertainty {
         };
         let gravity_slope =
             gravity_slope(&model.quantities, imu, g, weight.map(|weight| (weight, &covariance)));
+        // coarse steps: holds with nearly the same reading have the same error, to which the estimates respond by the inverse of the information alone
+        let of_steps = common_slopes(model, &solution.fit, coarse, &covariance);
         let mut uncertainty = Uncertainty::of(covariance, weight);
+        for (slope, sd) in of_steps {
+            uncertainty.add(VarianceSource::CoarseSteps, &slope, sd * sd);
+        }
         uncertainty.add(VarianceSource::Gravity, &gravity_slope, g.sd_mps2 * g.sd_mps2);
         for (source, error) in systematic {
             uncertainty.add(source, &error, 1.0);
         }
         uncertainty.add(VarianceSource::Timing, &rate_slope(model, imu), rate_sd * rate_sd);
-        // coarse steps: holds with nearly the same reading have the same error
-        for (slope, sd) in common_slopes(model, &solution.fit, coarse, &uncertainty.covariance) {
-            uncertainty.add(VarianceSource::CoarseSteps, &slope, sd * sd);
-        }
         let (of_earth, of_vertical, north_rms_radps) = of_earth(model, &solution.weighed)?;
         uncertainty.add_covariance(VarianceSource::EarthRate, &of_earth);
         Ok(Self { uncertainty, prior_share, gravity_slope, of_vertical, north_rms_radps })
