@@ -76,7 +76,7 @@ pub use json::{Budget, FitInUnit};
 pub use motion_outliers::without_motion_outliers;
 pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
-pub use recording_biases::RecordingBiases;
+pub use recording_biases::{RecordingBiases, recording_at};
 pub use recovered_clock::RecoveredClock;
 pub use recovered_gravity::RecoveredGravity;
 pub use repeated_readings::repeated_readings;

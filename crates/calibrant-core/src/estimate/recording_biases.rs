@@ -92,8 +92,9 @@ pub(super) struct Recordings {
     pub(super) earlier: usize,
 }
 
-/// The number of the recording at a time, from 0.
-pub(super) fn recording_at(further_from_s: &[f64], time_s: f64) -> usize {
+/// The number of the recording at a time, from 0. `further_from_s`: when each but the first begins.
+#[must_use]
+pub fn recording_at(further_from_s: &[f64], time_s: f64) -> usize {
     further_from_s.iter().filter(|from_s| **from_s <= time_s).count()
 }
 

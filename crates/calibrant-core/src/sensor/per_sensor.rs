@@ -25,17 +25,18 @@ impl<T> PerSensor<T> {
         SensorKind::ALL.into_iter().zip(&self.0)
     }
 
-    /// All of them, to be changed.
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = (SensorKind, &mut T)> {
-        SensorKind::ALL.into_iter().zip(&mut self.0)
+    /// The values, to be changed.
+    pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.0.iter_mut()
     }
 }
 
 impl<T> PerSensor<Option<T>> {
     /// Of one sensor alone.
     pub fn only(sensor_kind: SensorKind, value: T) -> Self {
-        let mut value = Some(value);
-        Self::from_fn(|of| if of == sensor_kind { value.take() } else { None })
+        let mut only = Self::from_fn(|_| None);
+        only[sensor_kind] = Some(value);
+        only
     }
 
     /// Those that are there.

@@ -211,7 +211,7 @@ fn no_start(shared: Shared<'_>, knots: Knots) -> Error {
     }
 }
 
-/// How the level of this number is searched, from 0, the coarsest; `levels`: of so many.
+/// The settings of a level of knots. `number`: from 0, the coarsest. `levels`: how many there are.
 fn level(number: usize, levels: usize, settings: &TrajectorySettings, interruption: &Interruption) -> Level {
     let place = number + 3 - levels;
     let first = if number > 0 && levels == 3 { BARRIERS[place - 1] } else { SHORT_BARRIERS[place] };

@@ -170,10 +170,7 @@ pub(crate) fn budget(
                 MachineTrust::Noisy => VarianceSource::ReferenceNoise,
                 MachineTrust::Known => VarianceSource::SensorNoise,
             };
-            let at = |wanted: VarianceSource| {
-                VarianceSource::ALL.iter().position(|source| *source == wanted).unwrap_or(0)
-            };
-            parts[at(place)] += rest;
+            parts[place as usize] += rest;
             // the noise is that of some intervals, so the parts are those of the variance only about
             let scale = (covariance[(i, i)] - beyond[i]) / parts.iter().sum::<f64>();
             let mut parts = parts.map(|part| part * scale);

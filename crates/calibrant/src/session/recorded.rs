@@ -5,7 +5,7 @@ use super::source::Source;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::holds::RecordingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::estimate::HoldResult;
+use calibrant_core::estimate::{HoldResult, recording_at};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, UtcTime};
 
@@ -111,9 +111,7 @@ impl Recorded {
 
     /// The recordings without a hold that is used, where there are several.
     pub(crate) fn unused(&self, holds: &[HoldResult]) -> Vec<Diagnostic> {
-        let of = |hold: &HoldResult| {
-            self.further_from_s.iter().filter(|from_s| **from_s <= hold.hold.start_s).count()
-        };
+        let of = |hold: &HoldResult| recording_at(&self.further_from_s, hold.hold.start_s);
         let is_used = |recording: &usize| holds.iter().any(|hold| hold.used && of(hold) == *recording);
         let recordings = if self.further_from_s.is_empty() { 0 } else { self.further_from_s.len() + 1 };
         let unused = (0..recordings).filter(|recording| !is_used(recording));

@@ -78,7 +78,7 @@ fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuR
 fn pair(number: u64, clock: impl Fn(f64) -> f64) -> (ImuParameters, ImuRecording) {
     let setup = ImuSimulation { rate_hz: 400.0, hold_s: 4.0, ..ImuSimulation::default() };
     let (imu, mut both) = on_an_arm(number, &setup, 0.03);
-    for of in both.sensors.iter_mut().map(|(_, of)| of) {
+    for of in both.sensors.values_mut() {
         *of = of.as_ref().map(|of| of_uneven_holds(of, number));
     }
     (imu, thinned(&both, number, clock))

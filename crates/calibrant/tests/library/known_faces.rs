@@ -228,7 +228,7 @@ fn crooked_sensors_with_gains_that_are_off_are_calibrated() {
             let mut truth = draw_imu(&mut rng);
             // signs by the bits of the number, the two sensors' in opposite order: the worst of them are
             // turned against each other
-            for (k, sensor_kind) in truth.sensors.iter_mut().map(|(_, of)| of).enumerate() {
+            for (k, sensor_kind) in truth.sensors.values_mut().enumerate() {
                 let mut bits = if k == 0 { sensor } else { !sensor };
                 let mut sign = || {
                     bits = bits.rotate_right(1);

@@ -16,7 +16,7 @@ fn the_gains_of_the_gyroscope_carry_the_uncertainty_of_the_rate() {
         let imu = draw_imu(&mut rng);
         let mut recording = ByHand::default().record(&imu, &mut rng);
         let faster = 1.0 + RATE_SD * normal(&mut rng);
-        for sensor in recording.sensors.iter_mut().map(|(_, of)| of) {
+        for sensor in recording.sensors.values_mut() {
             *sensor = sensor.take().map(|sensor| retimed(&sensor, |t| t * faster));
         }
         let setup = ImuSetup { rate_sd: RATE_SD, ..steady_imu() };

@@ -225,7 +225,7 @@ fn notes_are_there_where_the_run_fails() {
     let few = |recording: &mut Recording| {
         *recording = recording.only(|k| k < 1200 && !(450..550).contains(&k));
     };
-    recording.sensors.iter_mut().filter_map(|(_, of)| of.as_mut()).for_each(few);
+    recording.sensors.values_mut().flatten().for_each(few);
     write_imu_recording(&file, &recording).expect("written");
     let experiment = experiment("imu");
     let session = Session::with(experiment.clone(), SessionOptions::default()).expect("prepared");

@@ -6,7 +6,7 @@ use crate::estimate::begin::middle_s;
 use crate::estimate::least_squares::huber;
 use crate::estimate::{MachineParameters, MachineQuantity, MachineTrust};
 use crate::reference::Motion;
-use calibrant_core::estimate::Calibration;
+use calibrant_core::estimate::{Calibration, VarianceSource};
 use calibrant_core::sensor::{ImuQuantity, ImuRecording, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 use schemars::JsonSchema;
@@ -153,10 +153,13 @@ impl MachineCalibration {
         sensors.into_iter().filter_map(delay).collect()
     }
 
-    /// Widens the covariance of all quantities.
-    pub(crate) fn widen(&mut self, by: &DMatrix<f64>) {
+    /// Widens the covariance of all quantities, by this source.
+    pub(crate) fn widen(&mut self, source: VarianceSource, by: &DMatrix<f64>) {
         self.covariance += by;
         self.sensors.covariance = of_sensors(&self.quantities, &self.covariance);
+        for (row, (place, _)) in self.sensors.budget.iter_mut().zip(sensor_quantities(&self.quantities)) {
+            row.add(source, by[(place, place)]);
+        }
     }
 }
 

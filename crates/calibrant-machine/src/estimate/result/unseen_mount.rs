@@ -37,12 +37,7 @@ pub(super) fn allow_for(
         return;
     }
     let before = calibration.sd();
-    calibration.widen(unseen);
-    for row in &mut calibration.sensors.budget {
-        let place = calibration.quantities.iter().position(|of| *of == MachineQuantity::Imu(row.quantity));
-        let Some(place) = place else { continue };
-        row.add(VarianceSource::ReferenceNoise, unseen[(place, place)]);
-    }
+    calibration.widen(VarianceSource::ReferenceNoise, unseen);
     calibration.unseen.clone_from(unseen);
     let factors = calibration.sd().into_iter().zip(before).map(|(after, before)| after / before);
     let of_sensor = |(k, _): &(usize, f64)| matches!(calibration.quantities[*k], MachineQuantity::Imu(_));

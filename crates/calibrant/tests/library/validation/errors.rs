@@ -160,7 +160,7 @@ fn repeated(gyroscope_noise: f64) {
     let (one, other) = (simulate_imu(&truth, &quiet, &mut rng), simulate_imu(&truth, &quiet, &mut rng));
     let noisy = |recording: &ImuRecording, rng: &mut Rng| {
         let mut recording = recording.clone();
-        for (sensor_kind, sd) in recording.sensors.iter_mut().map(|(_, of)| of).zip([0.01, gyroscope_noise]) {
+        for (sensor_kind, sd) in recording.sensors.values_mut().zip([0.01, gyroscope_noise]) {
             for y in sensor_kind.as_mut().expect("there").readings_mut() {
                 *y += Vector3::from_fn(|_, _| sd * normal(rng));
             }

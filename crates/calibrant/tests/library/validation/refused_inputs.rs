@@ -48,7 +48,7 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
     let without = recording.clone().with(SensorKind::Gyroscope, None);
     assert!(refused(&without).contains("the recording has no gyroscope"));
     let mut restless = recording.clone();
-    for sensor in restless.sensors.iter_mut().map(|(_, of)| of) {
+    for sensor in restless.sensors.values_mut() {
         for (k, y) in sensor.as_mut().expect("there").readings_mut().iter_mut().enumerate() {
             *y += Vector3::repeat(3.0 * (k as f64 * 0.9).sin() * (1.0 + k as f64 * 1e-3));
         }

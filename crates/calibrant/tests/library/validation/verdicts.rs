@@ -57,7 +57,7 @@ fn poses_that_repeat_are_counted_and_share_their_scatter() {
     let once = simulate_imu(&truth, &short, &mut rng);
     let mut twice = once.clone();
     let period_s = 12.0 * (short.hold_s + short.turn_s);
-    for recording in twice.sensors.iter_mut().flat_map(|(_, of)| of) {
+    for recording in twice.sensors.values_mut().flatten() {
         let again = recording.times_s().iter().map(|t| t + period_s);
         let times_s = recording.times_s().iter().copied().chain(again).collect();
         let readings = recording.readings().repeat(2);

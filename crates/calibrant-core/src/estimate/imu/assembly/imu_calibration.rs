@@ -23,7 +23,7 @@ use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::result::{Calibration, FitStatistics, Recovered};
-use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};
+use crate::sensor::{ImuParameters, ImuQuantity, Parameter, PerSensor, SensorKind};
 
 /// The parts of the result.
 pub(crate) struct Finished<'a> {
@@ -59,10 +59,8 @@ impl Finished<'_> {
             hold_results(problem, (self.accelerometer, self.temperature), self.numbers, model, &fit.state)?;
         let of_hold = |hold: &HoldResult| self.temperature.of_hold(&hold.hold);
         let follows = !problem.setup.thermal.is_none();
-        let unit = |quantity: &ImuQuantity| match quantity.sensor_kind() {
-            SensorKind::Accelerometer => problem.accelerometer.unit,
-            SensorKind::Gyroscope => problem.gyroscope.unit,
-        };
+        let units: PerSensor<_> = [problem.accelerometer.unit, problem.gyroscope.unit].into();
+        let unit = |quantity: &ImuQuantity| units[quantity.sensor_kind()];
         Ok(Calibration {
             status: fit.status,
             iterations: fit.iterations,
@@ -76,7 +74,7 @@ impl Finished<'_> {
             gravity_slope: uncertainty.gravity_slope.iter().copied().collect(),
             datasheet_prior: false,
             imu,
-            units: [Some(problem.accelerometer.unit), Some(problem.gyroscope.unit)].into(),
+            units: PerSensor::from_fn(|sensor_kind| Some(units[sensor_kind])),
             fit: FitStatistics::of_chi2(
                 fit.chi2,
                 degrees_of_freedom(&At { model, state: &fit.state, rotations: &fit.residuals }),
