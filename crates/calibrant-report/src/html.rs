@@ -1,6 +1,7 @@
 //! The page: escaped text, numbered sections with their contents, and one file that needs nothing else.
 
-use super::figure::{CHART_SCRIPT, renumbered};
+/// Shows values, and zooms, in panels that state the ranges of their axes. It reads the drawings and the legends.
+pub(super) const CHART_SCRIPT: &str = include_str!("figure/chart.js");
 
 /// Text made safe for HTML, also within attributes.
 pub(super) fn escape(text: &str) -> String {
@@ -52,7 +53,7 @@ pub(super) fn page(title: &str, verdict: &str, sections: &[(&str, String)], foot
             false => numbered.next().map_or_else(String::new, heading) + html,
         })
         .collect();
-    renumbered(&format!(
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"generator\" content=\"calibrant {}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -61,7 +62,7 @@ pub(super) fn page(title: &str, verdict: &str, sections: &[(&str, String)], foot
         env!("CARGO_PKG_VERSION"),
         include_str!("style.css"),
         contents(&entries)
-    ))
+    )
 }
 
 /// A section in the contents: its number, its heading as HTML, and its address, which is unique on the page.

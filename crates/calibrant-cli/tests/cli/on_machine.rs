@@ -268,6 +268,10 @@ fn a_gantry_of_one_axis_takes_the_rest_from_the_datasheet() {
     );
     let calibration = bench.json("out/calibration.json");
     assert!((estimate(&calibration, "accelerometer.scale.y").1 / 0.005 - 1.0).abs() < 1e-3);
+    assert_eq!(calibration["prior"], "datasheet");
+    let scale_y = &calibration["parameters"][4];
+    assert_eq!(scale_y["name"], "accelerometer.scale.y");
+    assert!(scale_y["prior_share"].as_f64().is_some_and(|share| share > 0.99), "{scale_y}");
     // rows and columns of the budget: scale.y is the fifth parameter, what was known of the sensor the last source
     let budget = &calibration["machine"]["budget"];
     assert_eq!(budget["sources"].as_array().and_then(|of| of.last()?.as_str()), Some("sensor_prior"));

@@ -39,11 +39,11 @@ pub struct Calibration {
     pub covariance: DMatrix<f64>,
     /// Where the variance of each estimate comes from; empty for a commanded motion.
     pub budget: Vec<BudgetRow>,
-    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty without a prior, for a commanded motion, and on a machine.
+    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty without a prior, and for a commanded motion.
     pub prior_share: Vec<f64>,
     /// Derivative of each estimate with respect to the assumed gravity, in its unit over m/s². Empty for a commanded motion, and on a machine.
     pub gravity_slope: Vec<f64>,
-    /// Is the datasheet a prior? On a machine, its setup says so.
+    /// Is the datasheet a prior?
     pub datasheet_prior: bool,
     /// The estimates as a model, fixed quantities included. A sensor that was not calibrated is a perfect one.
     pub imu: ImuParameters,

@@ -1,34 +1,24 @@
 //! Reads the messages of ROS 2 bags in MCAP containers, of the types that a reader asks for, in CDR.
 
 use super::cdr::Unreadable;
+use super::mcap_chunk::{Broken, Fields, MAGIC, SHORT, records};
 use super::mcap_footer::{Cut, unread_after};
 use super::mcap_order::Logged;
-use super::mcap_records::chunk_lengths_add_up;
+use super::mcap_records::{HEAD, RawRecord, op, raw_records};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::quoted;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::number_format::counted;
-use mcap::records::Record;
-use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use mcap::{MAGIC, McapError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Bytes that the container's reader receives at once.
-const PIECE: usize = 1 << 20;
-/// A record may have this many bytes, even where the compressed file has fewer: a map that was latched.
-const LARGEST_RECORD: usize = 1 << 28;
+/// A chunk may have this many bytes, even where the compressed file has fewer: a map that was latched.
+const LARGEST_CHUNK: usize = 1 << 28;
 /// Bytes of a message that was compressed by itself, at most.
 const LARGEST_MESSAGE: usize = 1 << 24;
 /// A frame of zstd begins with this.
 const ZSTD: &[u8] = &[0x28, 0xb5, 0x2f, 0xfd];
-/// Opcode of a record with a schema.
-const SCHEMA: u8 = 3;
-/// Opcode of a record with a channel.
-const CHANNEL: u8 = 4;
-/// Opcode of a record with a message.
-const MESSAGE: u8 = 5;
 
 /// A type of messages, and how one is read.
 pub(crate) struct MessageType<M> {
@@ -45,6 +35,28 @@ impl<M> MessageType<M> {
             schema.strip_prefix(package)?.strip_prefix("/dds_/")?.strip_suffix('_').map(|dds| dds == name)
         };
         schema == self.name || of_dds() == Some(true)
+    }
+}
+
+/// What a container says of a channel.
+struct ChannelRecord<'a> {
+    id: u16,
+    schema_id: u16,
+    topic: &'a str,
+    message_encoding: &'a str,
+}
+
+impl<'a> ChannelRecord<'a> {
+    fn read(mut fields: Fields<'a>) -> Result<Self, Broken> {
+        let (id, schema_id) = (fields.u16()?, fields.u16()?);
+        let (topic, message_encoding) = (fields.text()?, fields.text()?);
+        let length = fields.u32()?;
+        // pairs of texts that nothing here needs
+        let mut pairs = Fields(fields.bytes(length.into())?);
+        while !pairs.0.is_empty() {
+            pairs.text()?;
+        }
+        Ok(Self { id, schema_id, topic, message_encoding })
     }
 }
 
@@ -78,35 +90,40 @@ pub(crate) struct Topics<M> {
 
 impl<'t, M> Bag<'t, M> {
     pub(crate) fn read(bytes: &[u8], types: &'t [MessageType<M>]) -> Checked<Self> {
-        if !chunk_lengths_add_up(bytes.get(MAGIC.len()..).unwrap_or_default()) {
-            return Err(damaged(&McapError::UnexpectedEoc).into());
-        }
-        let cut = Cut::of(bytes);
-        let is_cut = cut.is_some();
+        let Some(content) = bytes.strip_prefix(MAGIC) else {
+            return Err(damaged(&Broken::Content("it does not begin as one")).into());
+        };
         let (schemas, channels, messages) = Default::default();
-        let mut bag = Self { types, schemas, channels, messages, cut, unread: unread_after(bytes) };
-        let mut rest = bytes;
-        let options = LinearReaderOptions::default()
-            .with_record_length_limit(bytes.len().max(LARGEST_RECORD))
-            .with_validate_chunk_crcs(true)
-            // a recorder that was killed has written no end
-            .with_skip_end_magic(true);
-        let mut reader = LinearReader::new_with_options(options);
-        while let Some(event) = reader.next_event() {
-            match event {
-                Ok(LinearReadEvent::ReadRequest(need)) => {
-                    let length = rest.len().min(need.max(PIECE));
-                    reader.insert(length).copy_from_slice(&rest[..length]);
-                    reader.notify_read(length);
-                    rest = &rest[length..];
-                }
-                Ok(LinearReadEvent::Record { data, opcode }) => bag.take(opcode, data)?,
-                // a record that states more bytes than the file has is the one that was cut off
-                Err(McapError::UnexpectedEof | McapError::RecordTooLarge { .. }) if is_cut => break,
-                Err(error) => return Err(damaged(&error).into()),
+        let (cut, unread) = (Cut::of(bytes), unread_after(bytes));
+        let mut bag = Self { types, schemas, channels, messages, cut, unread };
+        let most = bytes.len().max(LARGEST_CHUNK) as u64;
+        for record in raw_records(content) {
+            match record.opcode {
+                op::FOOTER => break,
+                op::CHUNK => bag.take_chunk(&record, most)?,
+                _ if !record.is_whole() => (),
+                _ => bag.take(record.opcode, record.content)?,
             }
         }
         Ok(bag)
+    }
+
+    /// Takes the records of a chunk. The last one of the file may have been cut off.
+    fn take_chunk(&mut self, chunk: &RawRecord<'_>, most: u64) -> Checked<()> {
+        let found = match records(chunk.content, chunk.is_whole(), most) {
+            Err(Broken::Content(_)) if !chunk.is_whole() => return Ok(()),
+            found => found.map_err(|why| damaged(&why))?,
+        };
+        let mut left = found.len();
+        for record in raw_records(&found) {
+            left -= HEAD + record.content.len();
+            match record.is_whole() {
+                true => self.take(record.opcode, record.content)?,
+                false if chunk.is_whole() => return Err(damaged(&SHORT).into()),
+                false => (),
+            }
+        }
+        if chunk.is_whole() && left > 0 { Err(damaged(&SHORT).into()) } else { Ok(()) }
     }
 
     /// The missing end of the container, if it has none; an error where no message could be read before it.
@@ -124,17 +141,21 @@ impl<'t, M> Bag<'t, M> {
     }
 
     fn take(&mut self, opcode: u8, data: &[u8]) -> Checked<()> {
-        if ![SCHEMA, CHANNEL, MESSAGE].contains(&opcode) {
-            return Ok(());
-        }
-        if !texts_end(opcode, data) {
-            return Err(damaged(&McapError::UnexpectedEof).into());
-        }
-        match mcap::parse_record(opcode, data).map_err(|error| damaged(&error))? {
-            Record::Schema { header, .. } => {
-                self.schemas.insert(header.id, header.name);
+        let broken = |why: Broken| damaged(&why);
+        let mut fields = Fields(data);
+        match opcode {
+            op::SCHEMA => {
+                let (id, name) = (fields.u16().map_err(broken)?, fields.text().map_err(broken)?);
+                // encoding, and the definition
+                fields
+                    .text()
+                    .and_then(|_| fields.u32())
+                    .and_then(|length| fields.bytes(length.into()))
+                    .map_err(broken)?;
+                self.schemas.insert(id, name.to_owned());
             }
-            Record::Channel(channel) => {
+            op::CHANNEL => {
+                let channel = ChannelRecord::read(fields).map_err(broken)?;
                 let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
                 let message_type = self.types.iter().find(|one| one.is(&schema));
                 if message_type.is_some() && channel.message_encoding != "cdr" {
@@ -144,24 +165,29 @@ impl<'t, M> Bag<'t, M> {
                     );
                     return refuse(Refusal::FormatUnsupported, message, "only CDR is read");
                 }
-                let topic = channel.topic.clone();
+                let topic = channel.topic.to_owned();
                 if message_type.is_some() {
                     self.messages.entry(topic.clone()).or_default();
                 }
                 let new = || Channel { topic, schema, message_type };
                 self.channels.entry(channel.id).or_insert_with(new);
             }
-            Record::Message { header, data } => {
-                let Some(channel) = self.channels.get(&header.channel_id) else { return Ok(()) };
+            op::MESSAGE => {
+                let id = fields.u16().map_err(broken)?;
+                // its number, and the time when it was sent
+                let log_time_ns = fields.u32().and_then(|_| fields.u64()).map_err(broken)?;
+                fields.u64().map_err(broken)?;
+                let Some(channel) = self.channels.get(&id) else { return Ok(()) };
                 let Some(message_type) = channel.message_type else { return Ok(()) };
                 let Some(of_topic) = self.messages.get_mut(&channel.topic) else { return Ok(()) };
-                let message = unpacked(&data).and_then(|data| (message_type.read)(&data)).map_err(|why| {
-                    let (number, topic) = (of_topic.len() + 1, &channel.topic);
-                    let message = format!("message {number} of `{topic}` cannot be read: {why}");
-                    let help = format!("was it recorded as {} by ROS 2?", message_type.name);
-                    InputError::new(Refusal::FileDamaged, message, help)
-                })?;
-                of_topic.push(Logged { log_time_ns: header.log_time, message });
+                let message =
+                    unpacked(fields.0).and_then(|data| (message_type.read)(&data)).map_err(|why| {
+                        let (number, topic) = (of_topic.len() + 1, &channel.topic);
+                        let message = format!("message {number} of `{topic}` cannot be read: {why}");
+                        let help = format!("was it recorded as {} by ROS 2?", message_type.name);
+                        InputError::new(Refusal::FileDamaged, message, help)
+                    })?;
+                of_topic.push(Logged { log_time_ns, message });
             }
             _ => (),
         }
@@ -223,41 +249,16 @@ fn unpacked(data: &[u8]) -> Result<Cow<'_, [u8]>, Unreadable> {
     zstd::bulk::decompress(data, LARGEST_MESSAGE).map(Cow::Owned).map_err(|_| "it is compressed, and damaged")
 }
 
-/// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves the bytes that
-/// a text states, up to 4 GiB, before it checks that they are there.
-fn texts_end(opcode: u8, data: &[u8]) -> bool {
-    /// The bytes after a block that begins with its length.
-    fn after(data: &[u8]) -> Option<(&[u8], &[u8])> {
-        let (length, rest) = data.split_first_chunk::<4>()?;
-        rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)
-    }
-    let two = |data: &[u8]| Some(after(after(data)?.1)?.1.len());
-    match opcode {
-        // id, name, encoding
-        SCHEMA => data.get(2..).and_then(two).is_some(),
-        // id, schema, topic, encoding, and pairs of texts
-        CHANNEL => data.get(4..).and_then(two).is_some_and(|left| {
-            after(&data[data.len() - left..]).is_some_and(|(mut pairs, _)| {
-                while let Some((_, rest)) = after(pairs) {
-                    pairs = rest;
-                }
-                pairs.is_empty()
-            })
-        }),
-        _ => true,
-    }
-}
-
-fn damaged(error: &McapError) -> InputError {
+fn damaged(error: &Broken) -> InputError {
     match error {
-        McapError::UnsupportedCompression(name) => InputError::new(
+        Broken::Compression(name) => InputError::new(
             Refusal::FormatUnsupported,
             format!("the bag is compressed with {name}, which is not read"),
             "write it again with zstd: `mcap compress --compression zstd`",
         ),
-        error => InputError::new(
+        Broken::Content(why) => InputError::new(
             Refusal::FileDamaged,
-            format!("the MCAP container is damaged: {error}"),
+            format!("the MCAP container is damaged: {why}"),
             "try `mcap recover`",
         ),
     }

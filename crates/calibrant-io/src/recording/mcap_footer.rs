@@ -2,12 +2,11 @@
 //!
 //! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
 
-use super::mcap_records::{HEAD, raw_records};
+use super::mcap_chunk::MAGIC;
+use super::mcap_records::{HEAD, op, raw_records};
 use calibrant_core::diagnostic::reader::{BytesUnread, FileUnfinished};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{InputError, Refusal};
-use mcap::MAGIC;
-use mcap::records::op;
 
 /// A container without its end.
 #[derive(Clone)]

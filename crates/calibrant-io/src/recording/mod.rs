@@ -27,6 +27,8 @@ mod imu;
 pub(crate) mod line_map;
 mod lost_sign;
 #[cfg(feature = "mcap")]
+mod mcap_chunk;
+#[cfg(feature = "mcap")]
 pub(crate) mod mcap_container;
 #[cfg(feature = "mcap")]
 mod mcap_footer;

@@ -26,8 +26,8 @@
     return { a, b, log, span, value: (share) => (log ? 10 ** (a + share * (b - a)) : a + share * (b - a)) };
   };
   const chart = (svg) => {
-    const group = svg.querySelector("g[clip-path]"), frame = svg.querySelector("clipPath rect");
-    const [left, top, width, height] = ["x", "y", "width", "height"].map((name) => number(frame, name));
+    const group = svg.querySelector("svg");
+    const [left, top, width, height] = ["x", "y", "width", "height"].map((name) => number(group, name));
     const x = axis(svg.dataset.x), y = axis(svg.dataset.y), bottom = top + height;
     const labels = [...svg.querySelectorAll("text[font-size='13']")].map((node) => node.textContent);
     const unit = (/\((.*)\)$/.exec(labels[1] || "") || ["", ""])[1];
@@ -40,7 +40,7 @@
     const add = (label, at, low, high) => (series.get(label) || series.set(label, []).get(label)).push({ at: share(at), low: value(low), high: value(high) });
     const stretch = (node, from, to) => { node.setAttribute("x", from); node.setAttribute("width", to - from); };
     // how each part of the drawing moves; what values it has
-    const moves = [...group.querySelectorAll("path, circle, rect, line")].map((node) => {
+    const moves = [...group.querySelectorAll("path, circle, rect")].map((node) => {
       const box = node.getBBox(), label = names[look(node)], path = node.getAttribute("d");
       const middle = box.x + box.width / 2, centre = box.y + box.height / 2;
       if (path && box.width > 14) {
@@ -57,9 +57,7 @@
       if (!shade) return (place) => node.setAttribute("transform", `translate(${(place(share(middle)) - middle).toFixed(2)})`);
       return (place) => stretch(node, place(share(box.x)), place(share(box.x + box.width)));
     });
-    const ticks = [...svg.children].filter((node) => (node.tagName === "text"
-      ? number(node, "font-size") === 12 && node.getAttribute("text-anchor") === "middle"
-      : node.tagName === "line" && node.getAttribute("x1") === node.getAttribute("x2") && number(node, "x1") > left + 0.1));
+    const ticks = svg.querySelector("g.x");
     const own = make(svg, "g", { "font-size": 12, "text-anchor": "middle", stroke: "none" });
     const box = make(svg, "rect", { y: top, height, fill: "#0072b2", "fill-opacity": 0.15 });
     const cursor = make(svg, "path", { stroke: "#57606a", fill: "none" });
@@ -69,7 +67,7 @@
       view = to;
       moves.forEach((move) => move(place));
       const whole = view[0] === 0 && view[1] === 1, [low, high] = view.map((at) => x.a + at * (x.b - x.a));
-      ticks.forEach((node) => node.setAttribute("visibility", whole ? "visible" : "hidden"));
+      ticks.setAttribute("visibility", whole ? "visible" : "hidden");
       own.replaceChildren();
       const ten = 10 ** Math.floor(Math.log10((high - low) / 3));
       const step = ten * ([5, 2].find((of) => (high - low) / 3 >= of * ten) || 1);

@@ -1,6 +1,6 @@
 //! A picture of the device in a pose: a box with its three axes, seen from the side and a little above.
 //!
-//! This file draws it itself: the plotting library has no solids.
+//! This file draws it itself: a panel has no solids.
 
 use super::colour;
 use super::drawing::opened;

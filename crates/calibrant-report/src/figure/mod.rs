@@ -2,13 +2,12 @@
 //!
 //! A [`Figure`] becomes one `<figure>`. Its panels are beside each other where there is room, and else below
 //! each other. Each is an SVG of its own that scales with its column, so that letters stay legible on a
-//! phone. The legend comes from the series themselves. Only [`svg`] knows the plotting library.
+//! phone. The legend comes from the series themselves.
 
 mod allan;
 mod batch;
 mod before_after;
 mod budget;
-mod clipping;
 mod colour;
 mod correlation;
 #[cfg(feature = "study")]
@@ -23,6 +22,7 @@ mod histogram;
 mod holds;
 mod kinds;
 mod machine;
+mod map;
 mod motion;
 mod motion_pair;
 mod panel;
@@ -33,6 +33,7 @@ mod population;
 mod rehearsal;
 mod residuals;
 mod rotations;
+mod scale;
 mod sphere;
 mod starts;
 #[cfg(feature = "study")]
@@ -48,7 +49,6 @@ pub(super) use allan::allan_figure;
 pub(super) use batch::{code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
 pub(super) use budget::{budget_bars, source_in_words};
-pub(super) use clipping::{CHART_SCRIPT, renumbered};
 pub(super) use correlation::correlation_map;
 #[cfg(feature = "study")]
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};

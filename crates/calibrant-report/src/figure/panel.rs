@@ -135,7 +135,7 @@ pub(super) struct Panel {
     pub(super) y_includes: Vec<f64>,
     /// What the y axis shows, where that is not all values: what lies beyond it is cut.
     pub(super) y_shown: Option<(f64, f64)>,
-    /// Distance between ticks of the x axis, where it is not left to the plotting library.
+    /// Distance between ticks of the x axis, where it is not left to the scale.
     pub(super) x_step: Option<f64>,
     /// The same of the y axis.
     pub(super) y_step: Option<f64>,
@@ -266,7 +266,7 @@ const MOST_STEPS: usize = 7;
 /// The same where ticks have long numbers.
 const MOST_LONG_STEPS: usize = 4;
 
-/// The range of an axis, and the distance of its ticks where it is not left to the plotting library.
+/// The range of an axis, and the distance of its ticks where it is not left to the scale.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxisRange {
     pub(super) range: (f64, f64),

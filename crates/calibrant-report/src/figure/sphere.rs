@@ -1,6 +1,6 @@
 //! The figure of the holds' directions on the sphere, in two equal-area hemispheres.
 //!
-//! This file draws it itself: a sphere with a graticule and numbered points is beyond the plotting library.
+//! This file draws it itself: a sphere with a graticule and numbered points is no panel.
 
 use super::colour;
 use super::drawing::{entry, legend, opened};

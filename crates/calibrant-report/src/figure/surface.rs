@@ -38,7 +38,7 @@ pub(crate) fn trace_map(surface: &TraceSurface) -> Figure {
         "A uniaxial sensor and two intervals of {} s, at {} Hz, starting at {} m/s²: decimal logarithm of the sum of the variances of bias \
          and scale factor (in SI units) over the jerks of both intervals. The peak lies where both jerks vanish: a sensor \
          that hardly moves does not determine its scale factor. The smallest values lie in corners, \
-         where the jerks are largest, so the optimum lies on the limits. Edges of the bands are contours. The thesis estimates at each \
+         where the jerks are largest, so the optimum lies on the limits. A cell is one pair of jerks. The thesis estimates at each \
          point, draws a surface in space, and does not name its logarithm. The trace needs no estimation: it follows from \
          the motion alone.",
         short(settings.interval_s),

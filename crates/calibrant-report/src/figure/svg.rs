@@ -1,12 +1,10 @@
-//! Panels as SVG: the only file that knows the plotting library.
+//! Panels as SVG: axes, and what is drawn within them. `chart.js` reads the drawings.
 
-use super::drawing::{FONT, opened};
+use super::drawing::opened;
+use super::map;
 use super::panel::{Map, Mark, Panel, Series, Shape};
+use super::scale::{Scale, number};
 use crate::html::escape;
-use crate::number_format::{self, fixed};
-use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot, Theme};
-use kuva::{TickFormat, plot::BandPlot, plot::ContourPlot, render::annotations::ShadedRegion};
-use std::sync::Arc;
 
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
 const WIDTH: f64 = 400.0;
@@ -14,6 +12,14 @@ const HEIGHT: f64 = 270.0;
 const SQUARE_HEIGHT: f64 = 400.0;
 /// Makes a map nearly a square, beside the bar of its colours.
 const MAP_HEIGHT: f64 = 300.0;
+/// Room for the bar of a map's colours, and its numbers.
+const COLOURS: f64 = 70.0;
+/// Width of a digit at the size of the ticks' labels.
+const DIGIT: f64 = 6.7;
+/// Colour of axes and ticks.
+const AXIS: &str = "#424a53";
+const GRID: &str = "#e3e7eb";
+
 /// The panel as an SVG that takes the width of its column.
 pub(super) fn svg(panel: &Panel) -> String {
     let height = match panel.map {
@@ -21,131 +27,169 @@ pub(super) fn svg(panel: &Panel) -> String {
         None if panel.square => SQUARE_HEIGHT,
         None => HEIGHT,
     };
-    let Some(axes) = panel.axes() else {
+    let Some([x, y]) = panel.axes() else {
         return nothing(panel, height);
     };
-    let [x, y] = axes.map(|axis| axis.range);
-    let mut plots: Vec<Plot> = panel.map.iter().map(contours).collect();
-    plots.extend(panel.series.iter().flat_map(|series| self::plots(panel, series)));
-    let mut layout = Layout::new(x, y)
-        .with_width(WIDTH)
-        .with_height(height)
-        .with_x_label(panel.x_label.as_str())
-        .with_y_label(panel.y_label.as_str())
-        .with_theme(theme())
-        .with_title_size(15)
-        .with_label_size(13)
-        .with_tick_size(12)
-        .with_ticks(5)
-        .with_tick_format(TickFormat::Custom(Arc::new(move |value| tick(value, x))))
-        .with_x_axis_min(x.0)
-        .with_x_axis_max(x.1)
-        .with_y_axis_min(y.0)
-        .with_y_axis_max(y.1)
-        .with_grid_line_width(0.8);
-    if !panel.title.is_empty() {
-        layout = layout.with_title(panel.title.as_str());
+    let (x, y) = (Scale::new(x, panel.log_x), Scale::new(y, panel.log_y));
+    let widest =
+        |scale: &Scale| scale.ticks().iter().map(|tick| tick.1.chars().count()).max().unwrap_or(0) as f64;
+    let top = if panel.title.is_empty() { 10.0 } else { 42.0 };
+    let right = 6.6 + 0.5 * DIGIT * widest(&x) + if panel.map.is_some() { COLOURS } else { 0.0 };
+    let x = x.drawn(37.0 + DIGIT * widest(&y), WIDTH - right);
+    let y = y.drawn(height - 50.0, top);
+
+    let (mut ranges, mut inside) = (format!(" data-x=\"{x}\" data-y=\"{y}\""), String::new());
+    if panel.square || panel.map.is_some() {
+        ranges.clear();
     }
-    if let Some(step) = axes[0].step {
-        layout = layout.with_x_tick_step(step);
-    }
-    if let Some(step) = axes[1].step {
-        layout = layout.with_y_tick_step(step);
-    }
-    if panel.log_x {
-        layout = layout.with_log_x();
-    }
-    if panel.log_y {
-        layout = layout.with_log_y();
-    }
-    layout.show_colorbar = panel.map.is_some();
-    layout.colorbar_tick_format = TickFormat::Custom(Arc::new(crate::number_format::tick));
     for shade in &panel.shades {
-        layout = layout.with_shaded_region(
-            ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
+        let (from, to) = (x.at(shade.from), x.at(shade.to));
+        inside += &rectangle(
+            [from, y.to, to - from, y.from - y.to],
+            &format!("fill=\"{}\" opacity=\"0.3\"", shade.colour),
         );
     }
-    let axis = |(low, high): (f64, f64), log: bool| format!("{low} {high}{}", if log { " 1" } else { "" });
-    let ranges = format!(" data-x=\"{}\" data-y=\"{}\"", axis(x, panel.log_x), axis(y, panel.log_y));
-    responsive(
-        &kuva::render_to_svg(plots, layout),
-        height,
-        &panel.title,
-        if panel.square || panel.map.is_some() { "" } else { &ranges },
+    let colours = panel.map.as_ref().map_or_else(String::new, |map| {
+        inside += &map::cells(map, &x, &y);
+        colour_bar(map, x.to + 16.0, &y)
+    });
+    panel.series.iter().for_each(|series| drawing(panel, series, &x, &y, &mut inside));
+    let (left, wide, high) = (number(x.from), number(x.to - x.from), number(y.from - y.to));
+    let attributes = format!(" fill=\"#1b1f24\"{ranges}");
+    format!(
+        "{}<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}{colours}<svg x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" viewBox=\"{left} {top} {wide} {high}\">{inside}</svg></svg>",
+        opened([0.0, 0.0, WIDTH, height], &panel.title, &attributes),
+        axes(panel, &x, &y, height)
     )
 }
 
-/// A tick's label. Where the x axis is far from zero, as in seconds since 1970, six digits do not distinguish
-/// its ticks.
-fn tick(value: f64, x: (f64, f64)) -> String {
-    let (span, most) = (x.1 - x.0, x.0.abs().max(x.1.abs()));
-    if span > 1e-3 * most || !(x.0..=x.1).contains(&value) {
-        return number_format::tick(value);
+/// Grid, axes, ticks, and their labels. What moves with a zoom is in the group `x`.
+fn axes(panel: &Panel, x: &Scale, y: &Scale, height: f64) -> String {
+    let (left, right, top, bottom) = (number(x.from), number(x.to), number(y.to), number(y.from));
+    let middle = number(0.5 * (x.from + x.to));
+    let [mut across, mut below, mut beside, mut grid, mut ticks, mut ticks_of_y] = <[String; 6]>::default();
+    for (value, label) in x.ticks() {
+        let at = number(x.at(value));
+        across += &format!("M{at} {bottom}V{top}");
+        ticks += &format!("M{at} {bottom}v5");
+        below += &format!("<text x=\"{at}\" y=\"{}\">{label}</text>", number(y.from + 16.0));
     }
-    let decimals = (1.0 - span.log10()).ceil().clamp(0.0, 9.0) as usize;
-    fixed(value, decimals)
+    for (value, label) in y.ticks() {
+        let at = y.at(value);
+        grid += &format!("M{left} {}H{right}", number(at));
+        ticks_of_y += &format!("M{left} {}h-5", number(at));
+        beside += &format!("<text x=\"{}\" y=\"{}\">{label}</text>", number(x.from - 8.0), number(at + 4.4));
+    }
+    let beside_axis = format!("15 {}", number(0.5 * (y.from + y.to)));
+    let [title, x_label, y_label] = [&panel.title, &panel.x_label, &panel.y_label].map(|text| escape(text));
+    format!(
+        "<path d=\"{grid}\" stroke=\"{GRID}\" stroke-width=\"0.8\"/>\
+         <g class=\"x\" font-size=\"12\" text-anchor=\"middle\"><path d=\"{across}\" stroke=\"{GRID}\" stroke-width=\"0.8\"/><path d=\"{ticks}\" stroke=\"{AXIS}\"/>{below}</g>\
+         <path d=\"M{left} {top}V{bottom}H{right}{ticks_of_y}\" stroke=\"{AXIS}\" fill=\"none\"/><g font-size=\"12\" text-anchor=\"end\">{beside}</g>\
+         <g text-anchor=\"middle\"><text x=\"{middle}\" y=\"{}\" font-size=\"13\">{x_label}</text>\
+         <text transform=\"translate({beside_axis}) rotate(-90)\" font-size=\"13\">{y_label}</text><text x=\"{middle}\" y=\"26\" font-size=\"15\">{title}</text></g>",
+        height - 7.0
+    )
 }
 
-fn theme() -> Theme {
-    Theme {
-        axis_color: "#424a53".into(),
-        tick_color: "#424a53".into(),
-        grid_color: "#e3e7eb".into(),
-        text_color: "#1b1f24".into(),
-        font_family: Some(FONT.into()),
-        ..Theme::light()
-    }
-}
-
-fn contours(map: &Map) -> Plot {
-    let grid = ContourPlot::new().with_grid(map.values.clone(), map.x.clone(), map.y.clone());
-    grid.with_levels(&map.levels).with_filled().with_line_width(0.5).with_legend(map.label).into()
-}
-
-fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {
-    let drawn = || series.finite().filter(|&(x, y, _)| panel.shows(x, y));
-    let line = |points: Vec<(f64, f64)>, width: f64, dashes: &str| {
-        let style = if dashes.is_empty() { LineStyle::Solid } else { LineStyle::Custom(dashes.to_string()) };
-        LinePlot::new()
-            .with_data(points)
-            .with_color(series.colour)
-            .with_stroke_width(width)
-            .with_line_style(style)
-    };
-    let points: Vec<(f64, f64)> = drawn().map(|(x, y, _)| (x, y)).collect();
-    if points.is_empty() {
-        return Vec::new();
-    }
-    match series.mark {
-        Mark::Line { width, dashes } => vec![line(points, width, dashes).into()],
-        Mark::Dots { shape, radius } => vec![
-            ScatterPlot::new()
-                .with_data(points)
-                .with_color(series.colour)
-                .with_size(radius)
-                .with_marker(match shape {
-                    Shape::Circle => MarkerShape::Circle,
-                    Shape::Square => MarkerShape::Square,
-                    Shape::Triangle => MarkerShape::Triangle,
-                    Shape::Cross => MarkerShape::Cross,
-                })
-                .into(),
-        ],
-        Mark::Band => {
-            let (low, high): (Vec<f64>, Vec<f64>) = drawn().map(|(_, y, s)| (y - s, y + s)).unzip();
-            let x: Vec<f64> = points.iter().map(|point| point.0).collect();
-            vec![BandPlot::new(x, low, high).with_color(series.colour).with_opacity(0.25).into()]
+/// The bar of a map's colours, with the values at their edges.
+fn colour_bar(map: &Map, left: f64, y: &Scale) -> String {
+    let (bands, high) = (map.levels.len().saturating_sub(1), y.from - y.to);
+    let step = high / bands.max(1) as f64;
+    let mut bar = String::new();
+    for (k, level) in map.levels.iter().enumerate() {
+        let edge = y.from - step * k as f64;
+        if k < bands {
+            let fill = format!("fill=\"{}\"", map::colour(k, bands));
+            bar += &rectangle([left, edge - step, 14.0, step], &fill);
         }
-        Mark::Area => vec![line(points, 1.2, "").with_fill().with_fill_opacity(0.35).into()],
+        let label = crate::number_format::tick(*level);
+        bar += &format!(
+            "<text x=\"{}\" y=\"{}\" font-size=\"12\">{label}</text>",
+            number(left + 19.0),
+            number(edge + 4.4)
+        );
+    }
+    let label = escape(map.label);
+    format!(
+        "{bar}<text x=\"{}\" y=\"{}\" font-size=\"12\" text-anchor=\"end\">{label}</text>",
+        WIDTH - 4.0,
+        number(y.from + 32.0)
+    )
+}
+
+fn rectangle([left, top, wide, high]: [f64; 4], attributes: &str) -> String {
+    let [left, top, wide, high] = [left, top, wide, high].map(number);
+    format!("<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" {attributes}/>")
+}
+
+/// Adds the drawing of a series.
+fn drawing(panel: &Panel, series: &Series, x: &Scale, y: &Scale, out: &mut String) {
+    let colour = series.colour;
+    let seen = || series.finite().filter(|&(x, y, _)| panel.shows(x, y));
+    let place = |at: f64, value: f64| format!("{} {}", number(x.at(at)), number(y.at(value)));
+    let path = |points: Vec<String>| format!("M{}", points.join("L"));
+    let points = || seen().map(|(at, value, _)| place(at, value)).collect::<Vec<_>>();
+    let stroke = |path: String, width: f64, dashes: &str| {
+        let dashes =
+            if dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dashes}\"") };
+        format!("<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\" fill=\"none\"{dashes}/>")
+    };
+    let filled = |path: String, opacity: f64| {
+        format!("<path d=\"{path}Z\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>")
+    };
+    let (Some(first), Some(last)) = (seen().next(), seen().last()) else { return };
+    match series.mark {
+        Mark::Line { width, dashes } => *out += &stroke(path(points()), width, dashes),
+        Mark::Dots { shape, radius } => {
+            out.extend(seen().map(|(at, value, _)| marker(shape, colour, [x.at(at), y.at(value)], radius)))
+        }
+        Mark::Band => {
+            let lower = seen()
+                .map(|(at, value, spread)| place(at, value - spread))
+                .collect::<Vec<_>>()
+                .into_iter()
+                .rev();
+            *out += &filled(
+                path(seen().map(|(at, value, spread)| place(at, value + spread)).chain(lower).collect()),
+                0.25,
+            );
+        }
+        Mark::Area => {
+            let below = [last, first].map(|(at, ..)| place(at, y.low.max(0.0)));
+            *out += &filled(path(points().into_iter().chain(below).collect()), 0.35);
+            *out += &stroke(path(points()), 1.2, "");
+        }
         Mark::ErrorBars | Mark::Ranges { .. } => {
             let width = if let Mark::Ranges { width } = series.mark { width } else { 1.1 };
-            drawn().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], width, "").into()).collect()
+            out.extend(seen().map(|(at, value, spread)| {
+                stroke(path(vec![place(at, value - spread), place(at, value + spread)]), width, "")
+            }));
         }
         // one line that returns to zero between the stems: it draws the zero line too
         Mark::Stems => {
-            let path = points.iter().flat_map(|&(x, y)| [(x, 0.0), (x, y), (x, 0.0)]).collect();
-            vec![line(path, 1.5, "").into()]
+            let stem = |(at, value, _)| [place(at, 0.0), place(at, value), place(at, 0.0)];
+            *out += &stroke(path(seen().flat_map(stem).collect()), 1.5, "");
         }
+    }
+}
+
+/// A marker in the middle of `2 radius` units.
+fn marker(shape: Shape, colour: &str, [x, y]: [f64; 2], radius: f64) -> String {
+    let [left, right, top, bottom] = [x - radius, x + radius, y - radius, y + radius].map(number);
+    match shape {
+        Shape::Circle => {
+            format!("<circle cx=\"{}\" cy=\"{}\" r=\"{radius}\" fill=\"{colour}\"/>", number(x), number(y))
+        }
+        Shape::Square => {
+            rectangle([x - radius, y - radius, 2.0 * radius, 2.0 * radius], &format!("fill=\"{colour}\""))
+        }
+        Shape::Triangle => {
+            format!("<path d=\"M{} {top}L{right} {bottom}H{left}Z\" fill=\"{colour}\"/>", number(x))
+        }
+        Shape::Cross => format!(
+            "<path d=\"M{left} {top}L{right} {bottom}M{right} {top}L{left} {bottom}\" stroke=\"{colour}\" stroke-width=\"1.5\" fill=\"none\"/>"
+        ),
     }
 }
 
@@ -160,16 +204,7 @@ pub(super) fn key(series: &Series) -> String {
             "<path d=\"M1 7H33\" stroke=\"{colour}\" stroke-width=\"{}\" stroke-dasharray=\"{dashes}\"/>",
             width.max(LEAST_KEY_WIDTH)
         ),
-        Mark::Dots { shape, .. } => match shape {
-            Shape::Circle => format!("<circle cx=\"17\" cy=\"7\" r=\"3.5\" fill=\"{colour}\"/>"),
-            Shape::Square => {
-                format!("<rect x=\"13.5\" y=\"3.5\" width=\"7\" height=\"7\" fill=\"{colour}\"/>")
-            }
-            Shape::Triangle => format!("<path d=\"M17 2.5L21.5 11H12.5Z\" fill=\"{colour}\"/>"),
-            Shape::Cross => {
-                format!("<path d=\"M13 3L21 11M21 3L13 11\" stroke=\"{colour}\" stroke-width=\"1.6\"/>")
-            }
-        },
+        Mark::Dots { shape, .. } => marker(shape, colour, [17.0, 7.0], 3.5),
         Mark::Band => {
             format!("<rect x=\"1\" y=\"2\" width=\"32\" height=\"10\" fill=\"{colour}\" opacity=\"0.3\"/>")
         }
@@ -191,39 +226,6 @@ pub(super) fn shade_key(colour: &str) -> String {
     format!("<rect x=\"1\" y=\"1\" width=\"32\" height=\"12\" fill=\"{colour}\" opacity=\"0.3\"/>")
 }
 
-/// An SVG of fixed size made to follow its column, named for screen readers, its numbers shortened, with further attributes.
-fn responsive(svg: &str, height: f64, name: &str, attributes: &str) -> String {
-    let body = svg.find('>').map_or("", |end| &svg[end + 1..]);
-    let body = match (body.find("<!--"), body.find("-->")) {
-        (Some(start), Some(end)) if start < end => format!("{}{}", &body[..start], &body[end + 3..]),
-        _ => body.to_string(),
-    };
-    let attributes = format!(" fill=\"#1b1f24\"{attributes}");
-    opened([0.0, 0.0, WIDTH, height], name, &attributes) + &shortened(&body)
-}
-
-/// Drops decimals beyond the second within tags: the plotting library writes some coordinates as
-/// 123.45000000000002.
-fn shortened(svg: &str) -> String {
-    let mut short = String::with_capacity(svg.len());
-    let (mut decimals, mut after_point, mut in_tag, mut kept) = (0, false, false, 0);
-    for (at, byte) in svg.bytes().enumerate() {
-        if byte.is_ascii_digit() {
-            decimals += usize::from(after_point);
-            if in_tag && decimals > 2 {
-                short.push_str(&svg[kept..at]);
-                kept = at + 1;
-            }
-        } else {
-            in_tag = byte == b'<' || (in_tag && byte != b'>');
-            after_point = byte == b'.';
-            decimals = 0;
-        }
-    }
-    short.push_str(&svg[kept..]);
-    short
-}
-
 fn nothing(panel: &Panel, height: f64) -> String {
     let middle = WIDTH / 2.0;
     let opened = opened([0.0, 0.0, WIDTH, height], &panel.title, " text-anchor=\"middle\"");
@@ -236,18 +238,4 @@ fn nothing(panel: &Panel, height: f64) -> String {
         height / 2.0,
         escape(&panel.when_empty)
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_far_from_zero_are_told_apart() {
-        let epoch = (1_700_000_000.0, 1_700_000_166.0);
-        assert_eq!(tick(1_700_000_040.0, epoch), "1700000040");
-        assert_eq!(tick(0.5, epoch), "0.5", "of the other axis");
-        assert_eq!(tick(1e-12 + 9.80, (9.8, 9.802)), "9.8000");
-        assert_eq!(tick(40.0, (0.0, 166.0)), "40");
-    }
 }

@@ -18,7 +18,7 @@ use super::validation::unless_too_few;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, Result, TaskOption};
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, SensorKind};
-use calibrant_io::{Experiment, MachineLogInput, MachinePlan, file_name};
+use calibrant_io::{Experiment, MachineLogInput, MachinePlan, Prior, file_name};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MachineValidation,
@@ -96,7 +96,8 @@ impl<'e> MachineTask<'e> {
             .transpose()?;
         let mut calibration = calibrated(&problem, settings, source)?;
         calibration.sensors.warnings.splice(0..0, moved.outliers.iter().cloned());
-        let Experiment { sensor: accelerometer, imu, .. } = self.experiment;
+        let Experiment { sensor: accelerometer, imu, calibrate, .. } = self.experiment;
+        calibration.sensors.datasheet_prior = calibrate.prior == Prior::Datasheet;
         let beyond = beyond_datasheets(accelerometer, imu.as_ref(), &calibration);
         calibration.sensors.warnings.extend(beyond);
         calibration.sensors.warnings.extend(beyond_limits(&moved.log, self.chain));

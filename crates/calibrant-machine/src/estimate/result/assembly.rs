@@ -64,6 +64,7 @@ pub(crate) fn assembled(
             problem,
             model,
             minimum,
+            posterior,
             (&covariance, budget(layout, posterior, &covariance, &beyond, model.trust)),
             FoundOnMachine {
                 shared: shared_errors(layout, &model.joint_names(), &posterior.covariance, &covariance),
@@ -94,6 +95,7 @@ fn sensors(
     problem: &MachineProblem<'_>,
     model: &Model<'_>,
     minimum: &Minimum,
+    posterior: &Posterior,
     (covariance, budget): (&DMatrix<f64>, Vec<BudgetRow>),
     found: FoundOnMachine,
     fit: FitStatistics,
@@ -102,6 +104,9 @@ fn sensors(
     let imu = minimum.state.parameters.imu;
     let quantities: Vec<ImuQuantity> =
         sensor_quantities(&model.layout.quantities).map(|(_, quantity)| quantity).collect();
+    let prior_share: Vec<f64> = sensor_quantities(&model.layout.quantities)
+        .map(|(k, _)| (model.layout.prior[(k, k)] * posterior.covariance[(k, k)]).clamp(0.0, 1.0))
+        .collect();
     let unit = |kind: SensorKind| units[kind].unwrap_or(kind.stimulus_unit());
     Calibration {
         status: minimum.status,
@@ -112,7 +117,7 @@ fn sensors(
         covariance: of_sensors(&model.layout.quantities, covariance),
         budget,
         quantities,
-        prior_share: Vec::new(),
+        prior_share: if prior_share.iter().any(|share| *share > 0.0) { prior_share } else { Vec::new() },
         gravity_slope: Vec::new(),
         datasheet_prior: false,
         imu,

@@ -1,6 +1,6 @@
 //! Figures of a machine and of the sensor on it.
 //!
-//! The pictures of the machine are drawn here, since scenes that turn are beyond the plotting library.
+//! The pictures of the machine are drawn here, since scenes that turn are no panels.
 
 mod geometry;
 mod joints;
