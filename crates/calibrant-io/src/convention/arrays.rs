@@ -1,8 +1,8 @@
 //! Vectors and matrices in the form in which files list them.
 
 use super::words::invalid;
-use crate::text::decoding::Checked;
 use calibrant_core::sensor::Axis;
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::{Matrix3, Vector3};
 
 /// A matrix, row by row.

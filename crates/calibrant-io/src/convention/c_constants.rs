@@ -1,7 +1,7 @@
 //! Numbers in a C header: written as constants, and read back by name.
 
-use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::{Matrix3, Vector3};
 
 /// The remedy for a broken header.

@@ -11,10 +11,10 @@ use super::arrays::vector3;
 use super::c_constants::{HELP, matrix, numbers, vector};
 use super::words::{invalid, singular, written_by};
 use super::{CalibratedImuFile, ImuFormat, c_nonlinearity, c_temperature};
-use crate::text::decoding::Checked;
 use calibrant_core::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::Matrix3;
 use std::fmt::Write;
 

@@ -2,8 +2,8 @@
 
 use super::arrays::vector3;
 use super::c_constants::{matrix, numbers, vector};
-use crate::text::decoding::Checked;
 use calibrant_core::sensor::{NonlinearTerm, Nonlinearity, SensorParameters};
+use calibrant_recording::text::decoding::Checked;
 use std::fmt::Write;
 
 /// Steps of Newton's method in C: each squares an error of a few per cent.

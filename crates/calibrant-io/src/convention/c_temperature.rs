@@ -3,8 +3,8 @@
 use super::arrays::vector3;
 use super::c_constants::{HELP, number, numbers, vector};
 use super::words::invalid;
-use crate::text::decoding::Checked;
 use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, SensorThermal, Thermal};
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::Vector3;
 use std::fmt::Write;
 

@@ -16,7 +16,6 @@ use crate::results::calibration::CalibrationFile;
 use crate::results::heading::{Heading, JsonFile, RECORD_KIND};
 use crate::results::json;
 use crate::results::machine_calibration::MachineCalibrationFile;
-use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::convention::{FormatSupposed, VerdictBad};
 use calibrant_core::diagnostic::{Diagnostic, Phrase, Usability};
 use calibrant_core::error::{InputError, Refusal};
@@ -24,6 +23,7 @@ use calibrant_core::estimate::CalibrationStatus;
 use calibrant_core::json::{flat, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{CalibratedImu, ImuFields};
+use calibrant_recording::text::decoding::Checked;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 

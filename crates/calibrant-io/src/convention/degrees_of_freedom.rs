@@ -1,8 +1,8 @@
 //! The degrees of freedom behind the covariance in our JSON files: the object `covariance_degrees_of_freedom`.
 
 use super::words::invalid;
-use crate::text::decoding::Checked;
 use calibrant_core::sensor::CovarianceDegrees;
+use calibrant_recording::text::decoding::Checked;
 use serde::Deserialize;
 
 /// Those behind each part of the covariance; `null` where its size is known.

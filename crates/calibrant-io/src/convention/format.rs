@@ -1,8 +1,8 @@
 //! The formats of calibrations: their names, and how a file is recognised.
 
 use super::words::invalid;
-use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
+use calibrant_recording::text::decoding::Checked;
 use std::path::Path;
 
 /// A format of calibrations.

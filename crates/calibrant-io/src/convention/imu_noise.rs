@@ -1,10 +1,10 @@
 //! Noise densities that are given beside a calibration.
 
 use super::words::invalid;
-use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::RatesDiffer;
 use calibrant_core::sensor::SensorKind;
+use calibrant_recording::text::decoding::Checked;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -13,14 +13,14 @@
 
 use super::words::{input_error, invalid, singular, unit_named, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
-use crate::text::decoding::Checked;
-use crate::text::delimited::Lines;
 use calibrant_core::diagnostic::Phrase;
 use calibrant_core::diagnostic::convention::FormatSupposed;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::sensor::{
     CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
+use calibrant_recording::text::decoding::Checked;
+use calibrant_recording::text::delimited::Lines;
 use nalgebra::{Matrix3, Vector3};
 use std::path::{Path, PathBuf};
 

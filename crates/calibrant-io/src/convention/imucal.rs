@@ -16,13 +16,13 @@ use super::arrays::{matrix3, rows, vector3};
 use super::words::{input_error, invalid, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::results::json;
-use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Phrase;
 use calibrant_core::diagnostic::convention::FormatSupposed;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
 use calibrant_core::sensor::{
     CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal,
 };
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 

@@ -10,7 +10,6 @@ use super::degrees_of_freedom::DegreesCore;
 use super::temperature::TemperatureCore;
 use super::words::{invalid, unit_named};
 use crate::results::input::Input;
-use crate::text::decoding::Checked;
 use calibrant_core::estimate::shared_gravity;
 use calibrant_core::form::block;
 use calibrant_core::motion::Gravity;
@@ -18,6 +17,7 @@ use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, NonlinearTerm, Quantity, ReadingUnit,
     SensorKind, SensorParameters, SharedErrors, correction_name,
 };
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
 use std::collections::HashMap;

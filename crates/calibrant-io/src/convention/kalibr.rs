@@ -22,7 +22,6 @@ use super::imu_noise::ImuNoise;
 use super::kalibr_keys::refuse_unknown_numbers;
 use super::words::{input_error, invalid, singular, unit_named, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
-use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::convention::{
     FormatLoses, FormatNeeds, FormatSupposed, FrameTurned, LeverArmIgnored,
 };
@@ -31,6 +30,7 @@ use calibrant_core::error::{InputError, Refusal, Result};
 use calibrant_core::sensor::{
     CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
+use calibrant_recording::text::decoding::{self, Checked};
 use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;

@@ -1,7 +1,7 @@
 //! The keys of Kalibr's `imu.yaml` and of its relatives.
 
 use super::words::invalid;
-use crate::text::decoding::Checked;
+use calibrant_recording::text::decoding::Checked;
 use serde_json::Value;
 
 /// The keys of an IMU, and those below its sensors, which Kalibr, calibrant and other programs write.

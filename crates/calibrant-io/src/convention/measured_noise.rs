@@ -5,11 +5,11 @@ use super::ImuNoise;
 use super::file::LARGEST;
 use super::words::invalid;
 use crate::results::json::{self, SCHEMA};
-use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::WalkOfSomeAxes;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{Axis, CalibratedImu, ReadingUnit, SensorKind};
+use calibrant_recording::text::decoding::{self, Checked};
 use serde::Deserialize;
 use std::path::Path;
 

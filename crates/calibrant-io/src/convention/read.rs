@@ -3,10 +3,10 @@
 use super::file::{CalibratedImuFile, LARGEST};
 use super::options::ConventionOptions;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
-use crate::text::decoding::{self, Checked};
 use calibrant_core::diagnostic::convention::UnitGiven;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::SensorKind;
+use calibrant_recording::text::decoding::{self, Checked};
 use std::path::{Path, PathBuf};
 
 /// Reads a calibration of an IMU in any of the formats.

@@ -4,8 +4,8 @@
 
 use super::arrays::{missing, vector3};
 use super::words::invalid;
-use crate::text::decoding::Checked;
 use calibrant_core::sensor::{ReadingUnit, SensorKind, SensorThermal, Thermal};
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::Vector3;
 use serde::Deserialize;
 

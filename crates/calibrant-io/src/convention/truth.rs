@@ -4,11 +4,11 @@ use super::json_core::{check_direction, quantity_of};
 use super::words::invalid;
 use super::{CalibratedImuFile, ImuFormat};
 use crate::results::json;
-use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::convention::ValuesExact;
 use calibrant_core::sensor::{
     Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, PerSensor, Quantity, ReadingUnit, SensorKind,
 };
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::Matrix3;
 use serde::Deserialize;
 

@@ -1,9 +1,9 @@
 //! The check that every calibration must pass to be usable, whatever its format.
 
 use super::words::{input_error, invalid};
-use crate::text::decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, ImuCorrection, SensorKind};
+use calibrant_recording::text::decoding::Checked;
 use nalgebra::{DMatrix, Matrix3};
 
 /// Largest number that counts as plausible.

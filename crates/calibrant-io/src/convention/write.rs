@@ -3,13 +3,13 @@
 use super::file::{CalibratedImuFile, WrittenImu};
 use super::words::input_error;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
-use crate::files::atomic_output::write_text;
-use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::{FormatLoses, ResponseStraightened};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::SensorKind;
+use calibrant_recording::files::atomic_output::write_text;
+use calibrant_recording::text::decoding::Checked;
 use std::path::Path;
 
 /// Writes a calibration of an IMU in a format.

@@ -4,10 +4,10 @@ use super::number::Within;
 use super::ranges::{SdLimit, Value};
 use super::refused_key::refused;
 use super::remedies::remedy;
-use super::similar_word::nearest;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::ImuQuantity;
+use calibrant_recording::text::similar_word::nearest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

@@ -5,9 +5,9 @@ use super::number::Within;
 use super::ranges::{FileRate, RateSd};
 use super::refused_key::refused;
 use super::remedies::{COLUMN, remedy};
-use crate::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::SensorKind;
+use calibrant_recording::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit};
 use serde::{Deserialize, Serialize};
 
 /// `[columns]`: what a recording's file does not state itself.

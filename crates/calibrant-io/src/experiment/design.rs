@@ -4,11 +4,11 @@ use super::number::{Within, size, whole};
 use super::poses::{AllowedDirections, DirectionsAre, allowed};
 use super::ranges::{Acceleration, Cone, Weight};
 use super::refused_key::{missing, refused};
-use super::similar_word::{nearest, shorten};
 use super::spreads::need_spreads;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ParameterList, Sensor};
 use calibrant_design::poses::Allowed;
+use calibrant_recording::text::similar_word::{nearest, shorten};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

@@ -2,10 +2,10 @@
 
 use super::fault::{Fault, Wrong};
 use super::known_keys::suggest;
-use super::similar_word::shorten;
 use super::toml_value::TomlValue;
-use crate::text::excerpt::error_at;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_recording::text::excerpt::error_at;
+use calibrant_recording::text::similar_word::shorten;
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! What is wrong with a value of an experiment file, as serde finds it.
 
 use super::remedies::remedy;
-use super::similar_word::{nearest, shorten};
 use calibrant_core::error::Refusal;
+use calibrant_recording::text::similar_word::{nearest, shorten};
 use serde::de::{Error, Expected, Unexpected};
 use std::fmt;
 

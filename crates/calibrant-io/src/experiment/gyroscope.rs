@@ -9,12 +9,12 @@ use super::ranges::{
 use super::refused_key::refused;
 use super::remedies::remedy;
 use super::sensor::per_axis;
-use super::similar_word::nearest;
 use super::temperature::TemperatureSection;
 use crate::ImuUnit;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, ThermometerLag, Turn};
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
+use calibrant_recording::text::similar_word::nearest;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! The keys that an experiment file may have, as serde lists the fields of its types, and those that somebody meant.
 
 use super::file::ExperimentFile;
-use super::similar_word::nearest;
+use calibrant_recording::text::similar_word::nearest;
 use serde::de::value::StrDeserializer;
 use serde::de::{
     Deserialize, DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor,

@@ -3,7 +3,6 @@
 use super::number::{Either, Within};
 use super::ranges::{JointAcceleration, JointJerk, JointPosition, JointSpeed, TipSpeed};
 use super::refused_key::{missing, refused};
-use super::similar_word::{nearest, shorten};
 use super::widened_limits::widened;
 use crate::machine::{FileJointLimits, JointLimitsFile, read_joint_limits_file};
 use calibrant_core::diagnostic::Diagnostic;
@@ -11,6 +10,7 @@ use calibrant_core::diagnostic::design::ScalingFactorsApplied;
 use calibrant_core::error::Result;
 use calibrant_machine::chain::{Joint, JointKind, KinematicChain, SpeedNearEnds};
 use calibrant_machine_design::JointLimit;
+use calibrant_recording::text::similar_word::{nearest, shorten};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,8 +1,8 @@
 //! Which machine carries the sensor: one that is built in, or a URDF file.
 
-use super::similar_word::nearest;
 use crate::machine::{MACHINE_PRESETS, Urdf, machine_preset};
 use calibrant_core::error::Result;
+use calibrant_recording::text::similar_word::nearest;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

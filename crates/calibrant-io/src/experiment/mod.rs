@@ -46,7 +46,6 @@ mod read;
 mod refused_key;
 mod remedies;
 mod sensor;
-mod similar_word;
 mod spreads;
 mod study;
 mod temperature;
@@ -69,8 +68,6 @@ pub use machine_world::{LinksKnown, MachineWorld};
 pub use motion::MotionPlan;
 pub use plan::Plan;
 pub use read::{Experiment, read_acceptance, read_columns};
-pub use similar_word::nearest;
-pub(crate) use similar_word::shorten;
 pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
 
 /// The sections of an [`ExperimentFile`], and the types of their values.

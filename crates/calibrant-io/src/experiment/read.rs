@@ -11,12 +11,12 @@ use super::remedies::remedy;
 use super::spreads::need_spreads;
 use super::{CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions};
 use crate::experiment::presets::preset;
-use crate::text::decoding;
-use crate::{HashedFile, ImuReadOptions, file_name};
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{ReadingUnit, Sensor};
+use calibrant_recording::text::decoding;
+use calibrant_recording::{HashedFile, ImuReadOptions, file_name};
 use serde::Deserialize;
 use std::path::Path;
 

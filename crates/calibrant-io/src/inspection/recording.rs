@@ -2,7 +2,6 @@
 //! as JSON.
 
 use super::sampling::Sampling;
-use crate::recording::{ColumnUnit, ImuColumn, ImuFile, SecondFile};
 use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::diagnostic::holds::{HoldLeftOut, HoldsUndetermined};
 use calibrant_core::diagnostic::samples::Spikes as SpikesFound;
@@ -19,6 +18,7 @@ use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{
     Gauge, ImuRecording, MeanReading, Quantity, ReadingUnit, Recording, Saturation, SensorKind, Spikes,
 };
+use calibrant_recording::ImuFile;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -251,32 +251,6 @@ impl JsonFile for InspectionFile<'_> {
 fn range(values: &[f64]) -> [f64; 2] {
     let wider = |[least, most]: [f64; 2], value: &f64| [least.min(*value), most.max(*value)];
     values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wider)
-}
-
-json_object! {
-    SecondFile as second {
-        /// The format of the file.
-        format: second.format.name(),
-        /// Number of rows.
-        rows: second.rows,
-        /// Number of its columns.
-        columns: second.columns,
-    }
-}
-
-json_object! {
-    ImuColumn as column {
-        /// The name in the file.
-        name: &column.name,
-        /// What it was read as.
-        meaning: column.meaning.to_string(),
-        /// Its unit, where it is known.
-        unit: column.unit.map(ColumnUnit::symbol),
-        /// Is it read?
-        used: column.is_used(),
-        /// Why it is not read.
-        not_used_because: column.unused.as_deref(),
-    }
 }
 
 struct SpikesOf<'a> {

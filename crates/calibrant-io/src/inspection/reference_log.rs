@@ -1,11 +1,11 @@
 //! Inspection of a log of a machine's motion: what was recorded of it and how well, as data and as JSON.
 
 use super::sampling::Sampling;
-use crate::reference_log::ReferenceLogFile;
 use crate::results::heading::{Heading, JsonFile};
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_machine::log::{JointLog, PoseLog, RecoveredStream, ReferenceLog, recover_interpolated};
+use calibrant_recording::ReferenceLogFile;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! The times of samples, as `inspect` shows them: rate, jitter, gaps.
 
-use crate::recording::stated_rate::{GAP, measured_rate_hz};
 use calibrant_core::json_object;
 use calibrant_core::sensor::{missing, rate_hz};
+use calibrant_recording::stated_rate::{GAP, measured_rate_hz};
 
 /// The times of samples.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,11 +6,11 @@ use super::link_frames::LinkInChain;
 use super::meshes::places;
 use super::stl::read_stl;
 use super::xml;
-use crate::experiment::shorten;
-use crate::text::decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine_design::world::{Body, BodySource, Capsule, Shape, bodies_of_joints, capsule_around};
+use calibrant_recording::text::decoding::Checked;
+use calibrant_recording::text::similar_word::shorten;
 use nalgebra::{Isometry3, Vector3};
 use std::path::{Path, PathBuf};
 

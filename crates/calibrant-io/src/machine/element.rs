@@ -1,9 +1,9 @@
 //! An element of an XML file, and errors that name it.
 
-use crate::experiment::shorten;
-use crate::text::decoding::Checked;
-use crate::text::excerpt::error_at;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_recording::text::decoding::Checked;
+use calibrant_recording::text::excerpt::error_at;
+use calibrant_recording::text::similar_word::shorten;
 use roxmltree::Node;
 use std::ops::Range;
 

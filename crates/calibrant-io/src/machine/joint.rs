@@ -2,10 +2,10 @@
 
 use super::element::{Element, Place};
 use super::franka::near_ends_of_fr3;
-use crate::experiment::shorten;
-use crate::text::decoding::Checked;
 use calibrant_core::error::Refusal;
 use calibrant_machine::chain::{Joint, JointKind, JointLimits, SpeedNearEnds};
+use calibrant_recording::text::decoding::Checked;
+use calibrant_recording::text::similar_word::shorten;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// Shortest axis.

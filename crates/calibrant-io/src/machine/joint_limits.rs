@@ -1,8 +1,8 @@
 //! MoveIt's `joint_limits.yaml`: what URDF does not say of joints, or says otherwise.
 
-use crate::experiment::shorten;
-use crate::text::decoding::{Checked, as_text, parsed};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_recording::text::decoding::{Checked, as_text, parsed};
+use calibrant_recording::text::similar_word::shorten;
 use serde::Deserialize;
 use serde_saphyr::Spanned;
 use std::collections::BTreeMap;

@@ -2,9 +2,9 @@
 
 use super::element::Place;
 use super::joint::UrdfJoint;
-use crate::experiment::{nearest, shorten};
-use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_recording::text::decoding::{Checked, refuse};
+use calibrant_recording::text::similar_word::{nearest, shorten};
 use std::collections::HashMap;
 
 /// Largest number of links that a message lists.

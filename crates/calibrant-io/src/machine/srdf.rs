@@ -2,8 +2,8 @@
 
 use super::element::Element;
 use super::xml;
-use crate::text::decoding::{Checked, parsed};
 use calibrant_core::error::{Error, Result};
+use calibrant_recording::text::decoding::{Checked, parsed};
 use std::path::Path;
 
 /// Reads the pairs of `<disable_collisions>`.

@@ -1,7 +1,7 @@
 //! Meshes in STL, binary or text: the vertices of their triangles.
 
-use crate::text::decoding::{Checked, open_file, refuse, too_large, unreadable};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_recording::text::decoding::{Checked, open_file, refuse, too_large, unreadable};
 use nalgebra::Vector3;
 use std::io::Read;
 use std::path::Path;

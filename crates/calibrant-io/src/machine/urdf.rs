@@ -7,9 +7,9 @@ use super::link_frames::link_frames;
 use super::link_tree::LinkTree;
 use super::meshes::{Mesh, MissingMesh, missing};
 use super::xml;
-use crate::text::decoding::{Checked, parsed, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::chain::KinematicChain;
+use calibrant_recording::text::decoding::{Checked, parsed, refuse};
 use nalgebra::Isometry3;
 use std::path::{Path, PathBuf};
 

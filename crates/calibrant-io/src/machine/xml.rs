@@ -1,10 +1,10 @@
 //! The XML of URDF and SRDF files.
 
 use super::element::Element;
-use crate::experiment::shorten;
-use crate::text::decoding::{Checked, as_text, refuse, too_large};
-use crate::text::excerpt::error_at;
 use calibrant_core::error::{InputError, Refusal};
+use calibrant_recording::text::decoding::{Checked, as_text, refuse, too_large};
+use calibrant_recording::text::excerpt::error_at;
+use calibrant_recording::text::similar_word::shorten;
 use roxmltree::{Document, ParsingOptions};
 
 /// Largest file, bytes.

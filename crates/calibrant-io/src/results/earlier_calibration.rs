@@ -2,12 +2,12 @@
 //! next design.
 
 use crate::convention::read_estimates;
-use crate::text::decoding::{self, Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::covariance;
 use calibrant_core::sensor::{
     ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
+use calibrant_recording::text::decoding::{self, Checked, refuse};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};

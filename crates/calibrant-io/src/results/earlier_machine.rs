@@ -1,10 +1,10 @@
 //! What an earlier `calibration.json` found of a machine: its geometry, mount and delays, and the noise of the sensor.
 
-use crate::text::decoding::{self, Checked, refuse};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use calibrant_machine::chain::{ChainCorrections, KinematicChain};
 use calibrant_machine::estimate::{MachineQuantity, MachineSetup};
+use calibrant_recording::text::decoding::{self, Checked, refuse};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,8 @@
 //! The first fields of every JSON file.
 
 use super::json::SCHEMA;
-use super::program::program;
 use calibrant_core::json::{Entry, Fields, ObjectSchema};
+use calibrant_recording::files::program::program;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};

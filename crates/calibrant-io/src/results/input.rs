@@ -1,8 +1,9 @@
 //! The files that a result came from.
 
-use crate::recording::stated_rate::measured_rate_hz;
 use calibrant_core::number_format::{count, significant};
 use calibrant_core::sensor::Recording;
+use calibrant_recording::file_name;
+use calibrant_recording::stated_rate::measured_rate_hz;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -37,10 +38,4 @@ impl Input {
             rate_hz: readings.map_or(0.0, |of| measured_rate_hz(of.times_s())),
         }
     }
-}
-
-/// Name of a file, without its directory.
-#[must_use]
-pub fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

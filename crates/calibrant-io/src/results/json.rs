@@ -1,7 +1,7 @@
 //! JSON for people and programs: indented, but with rows of numbers on one line.
 
-use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::{InputError, Refusal, Result};
+use calibrant_recording::files::atomic_output::write_atomically;
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};

@@ -16,7 +16,6 @@ pub(crate) mod machine_validation;
 pub(crate) mod noise;
 pub(crate) mod origin;
 pub(crate) mod pose_design;
-pub(crate) mod program;
 pub(crate) mod reach;
 #[cfg(feature = "study")]
 pub(crate) mod study;

@@ -1,10 +1,10 @@
 //! Where a result comes from: the sensor, its station, and the files.
 
 use super::input::Input;
-use crate::files::hashed_file::HashedFile;
-use crate::files::utc_time::UtcTime;
 use calibrant_core::json::if_some;
 use calibrant_core::json_object;
+use calibrant_recording::files::hashed_file::HashedFile;
+use calibrant_recording::files::utc_time::UtcTime;
 
 /// Where a calibration comes from. There is no time of day in it: the same files give the same origin.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,12 +1,13 @@
 //! Writes `summary.csv`: one row for each of several recordings.
 
 use super::exact_number;
-use crate::files::atomic_output::write_atomically;
 use calibrant_core::acceptance::{CheckedLimit, Decision};
 use calibrant_core::diagnostic::{Diagnostic, Verdict};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus, FitStatistics};
 use calibrant_core::sensor::Parameter;
+use calibrant_recording::files::atomic_output::write_atomically;
+use calibrant_recording::spreadsheet_text;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::io;
@@ -246,13 +247,6 @@ impl Summary {
 
 fn number(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
-}
-
-/// A text that a spreadsheet takes for a text: one that begins like a formula gets an apostrophe before it.
-#[must_use]
-pub fn spreadsheet_text(text: &str) -> String {
-    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    if formula { format!("'{text}") } else { text.to_owned() }
 }
 
 /// Units of parameters, each as it ends a column's name.

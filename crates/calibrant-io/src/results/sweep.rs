@@ -1,9 +1,9 @@
 //! Writes `sweep.csv`: the best designs over the values of one variable.
 
 use super::summary::unit_ending;
-use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::Result;
 use calibrant_design::{Sweep, SweepPoint};
+use calibrant_recording::files::atomic_output::write_atomically;
 use std::path::Path;
 
 /// Writes `sweep.csv`: a row for each value. The units are in the names; `sd` of a pure number has none.

@@ -1,11 +1,11 @@
 //! `sweep.json` and `sweep.csv` of trajectories: the best of several durations.
 
 use super::heading::{Heading, JsonFile};
-use crate::files::atomic_output::write_atomically;
 use calibrant_core::error::Result;
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_machine_design::{TrajectorySweep, TrajectorySweepPoint};
+use calibrant_recording::files::atomic_output::write_atomically;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
