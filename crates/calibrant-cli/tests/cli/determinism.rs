@@ -43,7 +43,7 @@ fn assert_ids_differ(page: &str) {
     let ids = after(" id=\"", '"');
     let different: BTreeSet<&String> = ids.iter().collect();
     assert_eq!(different.len(), ids.len());
-    let referred = after("url(#", ')');
+    let referred = after("href=\"#", '"');
     assert!(!referred.is_empty() && referred.iter().all(|id| different.contains(id)));
 }
 

@@ -109,7 +109,7 @@ pub(super) struct Shade {
     pub(super) to: f64,
 }
 
-/// A quantity over both axes, shown as bands of colours whose edges are contours.
+/// A quantity over both axes, shown as cells in bands of colours.
 #[derive(Debug, Clone)]
 pub(super) struct Map {
     /// Its name, beside the bar of the colours.
