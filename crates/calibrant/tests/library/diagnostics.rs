@@ -46,7 +46,15 @@ fn names_are_unique_and_in_kebab_case() {
 #[test]
 fn each_code_has_a_producer() {
     let mut produced = String::new();
-    for folder in ["calibrant-core", "calibrant-machine", "calibrant-io", "calibrant", "calibrant-cli"] {
+    let folders = [
+        "calibrant-core",
+        "calibrant-machine",
+        "calibrant-recording",
+        "calibrant-io",
+        "calibrant",
+        "calibrant-cli",
+    ];
+    for folder in folders {
         collect(&workspace().join("crates").join(folder).join("src"), &mut produced);
     }
     for code in Code::all() {

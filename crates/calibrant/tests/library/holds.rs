@@ -135,7 +135,7 @@ fn a_gain_that_depends_on_the_sign_is_found() {
 fn terms_that_bend_the_response_are_estimated() {
     let both = HoldsSetup { nonlinearity: NonlinearTerm::ALL.to_vec(), ..steady_holds() };
     let (mut squares, mut count) = (0.0, 0.0);
-    for seed in 1..=8 {
+    for seed in 1..=4 {
         let (truth, recording) = simulate_bent(36, seed, |bends| {
             *bends.of_mut(NonlinearTerm::SecondOrder) = Vector3::new(2e-4, -1e-4, 1.5e-4);
             *bends.of_mut(NonlinearTerm::GainBySign) = Vector3::new(0.005, 0.005, -0.003);
@@ -155,7 +155,7 @@ fn terms_that_bend_the_response_are_estimated() {
             count += 1.0;
         }
     }
-    // 120 of them, correlated within a recording
+    // 60 of them, correlated within a recording
     let rms = f64::sqrt(squares / count);
     assert!((0.75..1.25).contains(&rms), "{rms}");
 }

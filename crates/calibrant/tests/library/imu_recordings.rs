@@ -264,8 +264,8 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
         ("gyroscope.scale.x", -0.4),
         ("gyroscope.matrix.xy", 0.4),
     ] {
-        for share in [1.0 / 3.0, 1.0, 2.5, 10.0, 1e4, 1e9] {
-            for sd in [None, Some(1e-9)] {
+        for share in [1.0 / 3.0, 1.0, 1e9] {
+            for sd in if share == 1.0 { vec![None, Some(1e-9)] } else { vec![None] } {
                 let fixed = quantity(name);
                 let known = KnownTerm { quantity: fixed, value: fixed.value(&truth) + share * absurd, sd };
                 let setup = ImuSetup { known: vec![known], ..steady_imu() };
