@@ -35,7 +35,7 @@ fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
 /// ```
 /// let directory = tempfile::tempdir().expect("a temporary directory");
 /// let path = directory.path().join("new/result.txt");
-/// calibrant_io::write_atomically(&path, |out| writeln!(out, "42"))?;
+/// calibrant_recording::write_atomically(&path, |out| writeln!(out, "42"))?;
 /// assert_eq!(std::fs::read_to_string(path).expect("written"), "42\n");
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```

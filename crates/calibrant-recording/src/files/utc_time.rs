@@ -11,7 +11,7 @@ use std::fmt;
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::UtcTime;
+/// use calibrant_recording::UtcTime;
 /// let time = UtcTime::from_seconds(1_777_624_200);
 /// assert_eq!(time.to_string(), "2026-05-01T08:30:00Z");
 /// assert_eq!(UtcTime::parse("20260501_083000"), Some(time));

@@ -42,7 +42,7 @@ pub fn read_motion(path: &Path, axes: usize) -> Result<JerkControlledMotion> {
 ///
 /// # Examples
 /// ```
-/// let motion = calibrant_io::parse_motion(b"t_s,ax_mps2\n0,0\n1,5\n", 1)?;
+/// let motion = calibrant_recording::parse_motion(b"t_s,ax_mps2\n0,0\n1,5\n", 1)?;
 /// assert_eq!(motion.jerk_mps3()[0].x, 5.0);
 /// # Ok::<(), calibrant_core::Error>(())
 /// ```

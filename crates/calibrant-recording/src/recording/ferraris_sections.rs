@@ -55,7 +55,7 @@ pub fn read_sections(path: &Path) -> Result<Vec<Section>> {
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::{SectionKind, parse_sections};
+/// use calibrant_recording::{SectionKind, parse_sections};
 /// use nalgebra::Vector3;
 /// let sections = parse_sections(br#"{"x_a": {"start": 90, "end": 99}, "z_rot": {"start": 5, "end": 80}}"#)?;
 /// assert_eq!(sections[0].kind, SectionKind::Turn(Vector3::z()));

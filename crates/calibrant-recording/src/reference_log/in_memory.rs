@@ -16,7 +16,7 @@ impl ReferenceLogFile {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_io::ReferenceLogFile;
+    /// use calibrant_recording::ReferenceLogFile;
     /// use calibrant_machine::log::{JointLog, ReferenceLog};
     ///
     /// let log = |positions| {

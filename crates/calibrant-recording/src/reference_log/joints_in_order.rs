@@ -20,7 +20,7 @@ impl ReferenceLogFile {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_io::{ReferenceLogOptions, parse_reference_log};
+    /// use calibrant_recording::{ReferenceLogOptions, parse_reference_log};
     ///
     /// let text = b"t_s,elbow_rad,shoulder_rad\n0,1,2\n1,3,4\n";
     /// let file = parse_reference_log(text, &ReferenceLogOptions::default())?;

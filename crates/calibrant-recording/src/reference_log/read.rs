@@ -46,7 +46,7 @@ pub fn read_reference_log(path: &Path, options: &ReferenceLogOptions) -> Result<
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::{ReferenceFormat, ReferenceLogOptions, parse_reference_log};
+/// use calibrant_recording::{ReferenceFormat, ReferenceLogOptions, parse_reference_log};
 ///
 /// let text = b"t_s,elbow_deg,rail_mm\n0.00,90,100\n0.01,91,nan\n";
 /// let file = parse_reference_log(text, &ReferenceLogOptions::default())?;

@@ -17,7 +17,7 @@ use std::path::Path;
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::{ReferenceLogOptions, read_reference_log, write_joint_log};
+/// use calibrant_recording::{ReferenceLogOptions, read_reference_log, write_joint_log};
 /// use calibrant_machine::log::JointLog;
 /// let (names, times_s) = (vec!["elbow".to_owned(), "rail".to_owned()], vec![0.0, 0.1]);
 /// let log = JointLog { names, times_s, positions: vec![0.1, 0.2, 0.3, f64::NAN], velocities: None };

@@ -17,7 +17,7 @@ const LATE_S: u32 = 1;
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::{Trajectory, goal_text};
+/// use calibrant_recording::{Trajectory, goal_text};
 /// use calibrant_machine::spline::{Degree, UniformKnots, VectorSpline};
 /// let knots = UniformKnots { start_s: 0.0, step_s: 0.5, intervals: 4, degree: Degree::Cubic };
 /// let spline = VectorSpline { knots, dimension: 1, controls: vec![0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 1.0] };

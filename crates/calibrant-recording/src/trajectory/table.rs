@@ -80,9 +80,13 @@ pub fn write_trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::{Trajectory, Urdf, machine_preset, read_trajectory, write_trajectory};
+/// use calibrant_machine::chain::{Joint, JointKind, JointLimits, KinematicChain};
 /// use calibrant_machine::spline::{Degree, UniformKnots, VectorSpline};
-/// let table = Urdf::parse(machine_preset("rate-table").expect("known").as_bytes())?.chain(None, None)?;
+/// use calibrant_recording::{Trajectory, read_trajectory, write_trajectory};
+/// use nalgebra::{Isometry3, Vector3};
+/// let (origin, limits) = (Isometry3::identity(), JointLimits::default());
+/// let joint = Joint { name: "table".into(), kind: JointKind::Continuous, axis: Vector3::z_axis(), origin, limits };
+/// let table = KinematicChain { base: "base".into(), tip: "tip".into(), joints: vec![joint], tip_transform: origin };
 /// let knots = UniformKnots { start_s: 0.0, step_s: 0.5, intervals: 4, degree: Degree::Cubic };
 /// let spline = VectorSpline { knots, dimension: 1, controls: vec![0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 1.0] };
 /// let directory = tempfile::tempdir().expect("a temporary directory");

@@ -24,7 +24,7 @@ use calibrant_core::sensor::{ImuRecording, SensorKind};
 /// # Examples
 /// ```
 /// use calibrant_core::sensor::SensorKind;
-/// use calibrant_io::{ImuReadOptions, ImuUnit, imu_from_columns};
+/// use calibrant_recording::{ImuReadOptions, ImuUnit, imu_from_columns};
 ///
 /// let (t, x, z) = ([0.0, 0.01, 0.02], [0.0; 3], [1.0, 1.01, 0.99]);
 /// let table: [(&str, &[f64]); 4] = [("t_s", &t), ("ax", &x), ("ay", &x), ("az", &z)];

@@ -20,7 +20,7 @@ pub const TYPED_RATE_SD_PPM: f64 = 50_000.0;
 /// # Examples
 /// ```
 /// use calibrant_core::sensor::SensorKind;
-/// use calibrant_io::{ImuReadOptions, ImuUnit, parse_imu_recording};
+/// use calibrant_recording::{ImuReadOptions, ImuUnit, parse_imu_recording};
 ///
 /// let text = b"n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,90,0,0,0,0,9.8\n1,0,90,0,0,9.8,0\n2,0,0,90,9.8,0,0\n";
 /// let question = parse_imu_recording(text, &ImuReadOptions::default()).expect_err("no units, no rate");
@@ -85,7 +85,7 @@ impl ImuReadOptions {
     /// # Examples
     /// ```
     /// use calibrant_core::sensor::{ReadingUnit, SensorKind};
-    /// use calibrant_io::{ImuReadOptions, parse_imu_recording};
+    /// use calibrant_recording::{ImuReadOptions, parse_imu_recording};
     ///
     /// let options = ImuReadOptions::accelerometer(3, ReadingUnit::MetrePerSecondSquared);
     /// let file = parse_imu_recording(b"t_s,ax_g,ay_g,az_g\n0.00,0,0,1\n0.01,0,0,1\n", &options)?;

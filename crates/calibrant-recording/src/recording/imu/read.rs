@@ -78,7 +78,7 @@ pub(super) fn with_checksum((file, sha256): (ImuFile, String)) -> ImuFile {
 /// # Examples
 /// ```
 /// use calibrant_core::sensor::SensorKind;
-/// use calibrant_io::{FileFormat, ImuReadOptions, parse_imu_recording};
+/// use calibrant_recording::{FileFormat, ImuReadOptions, parse_imu_recording};
 ///
 /// let text = "// Update Rate: 100.0Hz\nPacketCounter\tAcc_X\tAcc_Y\tAcc_Z\tGyr_X\tGyr_Y\tGyr_Z\n\
 ///             65534\t0.1\t0.2\t9.81\t0.0\t0.1\t0.0\n65535\t0.2\t0.1\t9.80\t0.1\t0.0\t0.1\n00001\t0.1\t0.1\t9.82\t0.0\t0.0\t0.0\n";

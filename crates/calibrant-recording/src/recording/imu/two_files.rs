@@ -49,7 +49,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 /// # Examples
 /// ```
 /// use calibrant_core::sensor::SensorKind;
-/// use calibrant_io::{ImuReadOptions, ImuUnit, parse_imu_pair};
+/// use calibrant_recording::{ImuReadOptions, ImuUnit, parse_imu_pair};
 /// let options = ImuReadOptions {
 ///     accelerometer_unit: Some(ImuUnit::Counts),
 ///     gyroscope_unit: Some(ImuUnit::Counts),

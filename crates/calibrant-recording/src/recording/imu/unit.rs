@@ -56,7 +56,7 @@ impl ImuUnit {
     ///
     /// # Examples
     /// ```
-    /// use calibrant_io::ImuUnit;
+    /// use calibrant_recording::ImuUnit;
     /// assert_eq!(ImuUnit::parse("m s^-2"), Some(ImuUnit::MetrePerSecondSquared));
     /// assert_eq!(ImuUnit::parse("dps"), Some(ImuUnit::DegreePerSecond));
     /// assert_eq!(ImuUnit::parse("furlongs"), None);
