@@ -30,12 +30,12 @@ fn a_calibration_does_not_depend_on_threads_or_folders() {
         calibrate("--threads 2 a/recording.csv -o one-again");
         let page = bench.read("one/report.html");
         assert!(page == bench.read("one-again/report.html"), "{preset}");
-        assert_ids_differ(&page);
+        assert!(assert_ids_differ(&page) > 0, "{preset}");
     }
 }
 
-/// No id is twice in a page, and every reference finds its id.
-fn assert_ids_differ(page: &str) {
+/// No id is twice in a page, and every reference finds its id. The number of references.
+fn assert_ids_differ(page: &str) -> usize {
     let after = |begin: &str, end: char| -> Vec<String> {
         let pieces = page.split(begin).skip(1);
         pieces.map(|piece| piece.split(end).next().unwrap_or_default().to_owned()).collect()
@@ -45,6 +45,7 @@ fn assert_ids_differ(page: &str) {
     assert_eq!(different.len(), ids.len());
     let referred = after("href=\"#", '"');
     assert!(referred.iter().all(|id| different.contains(id)));
+    referred.len()
 }
 
 #[test]
@@ -59,7 +60,8 @@ fn the_pages_of_an_imu_are_the_same_to_the_byte() {
     for (one, two) in [("one", "two"), ("noise-one", "noise-two")] {
         let page = bench.read(&format!("{one}/report.html"));
         assert!(page == bench.read(&format!("{two}/report.html")), "{one}");
-        assert_ids_differ(&page);
+        // the page of noise is short, and has no contents
+        assert!(assert_ids_differ(&page) > 0 || one == "noise-one");
     }
 }
 

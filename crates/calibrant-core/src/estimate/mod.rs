@@ -50,7 +50,7 @@ mod unknown_latitude;
 mod validation;
 
 pub use crate::diagnostic::{Change, Changed, Course};
-pub use crate::solve::{CalibrationStatus, VarianceSource, chi2_p_value, f_p_value};
+pub use crate::solve::{CalibrationStatus, VarianceSource, chi2_p_value, f_p_value, shares_of_prior};
 pub use bias_drift::BiasDrift;
 pub use budget::BudgetRow;
 pub use calibrate::calibrate;

@@ -4,8 +4,9 @@
 
 use nalgebra::DMatrix;
 
-/// The share of each unknown's information that its prior has, 0 to 1.
-pub(crate) fn shares_of_prior(weight: &[f64], covariance: &DMatrix<f64>) -> Vec<f64> {
+/// The share of each unknown's information that its prior has, 0 to 1: `Σ_kk w_k`, with the covariance `Σ` and the inverse variances `w` of the prior.
+#[must_use]
+pub fn shares_of_prior(weight: &[f64], covariance: &DMatrix<f64>) -> Vec<f64> {
     weight.iter().enumerate().map(|(k, weight)| (weight * covariance[(k, k)]).clamp(0.0, 1.0)).collect()
 }
 

@@ -25,7 +25,8 @@ mod studentised;
 mod uncertainty;
 mod variance;
 
-pub(crate) use degrees::{degrees_left, shares_of_prior};
+pub(crate) use degrees::degrees_left;
+pub use degrees::shares_of_prior;
 pub(crate) use gauss_newton::{Equations, LeastSquares, LoopSettings, Minimum, minimise};
 pub(crate) use hardly_determined::hardly_determined;
 pub(crate) use identify::ScaledInformation;

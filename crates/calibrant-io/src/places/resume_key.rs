@@ -1,8 +1,8 @@
 //! The key of a result: what it depends on, as one checksum.
 
-use calibrant_recording::files::atomic_output::program;
 use calibrant_recording::files::checksum::hex;
 use calibrant_recording::files::hashed_file::HashedFile;
+use calibrant_recording::files::program::program;
 use sha2::{Digest, Sha256};
 
 /// What a result depends on: program, options and files. Equal keys give equal results.

@@ -3,7 +3,6 @@
 use super::manifest;
 use super::standard_input::NAME;
 use crate::files::checksum::hex;
-pub use crate::files::program::program;
 use calibrant_core::error::{Error, Result};
 use sha2::{Digest, Sha256};
 use std::io::{self, BufWriter, Write};

@@ -7,7 +7,7 @@ use super::scale::{Scale, number};
 const VIRIDIS: [[f64; 3]; 5] =
     [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
 
-/// The colour of one of so many bands.
+/// The colour of a band by its number from 0, the lowest; there are `bands`.
 pub(super) fn colour(band: usize, bands: usize) -> String {
     let place = 4.0 * band as f64 / (bands.max(2) - 1) as f64;
     let first = (place as usize).min(3);

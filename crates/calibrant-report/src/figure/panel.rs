@@ -332,7 +332,7 @@ fn round_below(value: f64) -> f64 {
 }
 
 /// The smallest of …, 1, 2, 5, 10, … that is not below a positive value.
-fn round_above(value: f64) -> f64 {
+pub(super) fn round_above(value: f64) -> f64 {
     let decade = 10f64.powf(value.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|&round| round >= value).unwrap_or(10.0 * decade)
 }

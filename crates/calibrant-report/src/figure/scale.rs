@@ -1,6 +1,6 @@
 //! The scale of an axis: where its values are drawn, and its ticks.
 
-use super::panel::AxisRange;
+use super::panel::{AxisRange, round_above};
 use crate::number_format::{fixed, tick};
 use std::fmt;
 
@@ -23,7 +23,7 @@ pub(super) struct Scale {
 impl Scale {
     pub(super) fn new(axis: AxisRange, log: bool) -> Self {
         let (low, high) = axis.range;
-        let step = axis.step.unwrap_or_else(|| round_step((high - low) / STEPS));
+        let step = axis.step.unwrap_or_else(|| round_above((high - low) / STEPS));
         Self { low, high, log, step, from: 0.0, to: 1.0 }
     }
 
@@ -69,12 +69,6 @@ impl fmt::Display for Scale {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{} {}{}", self.low, self.high, if self.log { " 1" } else { "" })
     }
-}
-
-/// The least of …, 1, 2, 5, 10, … that is not below a positive value.
-fn round_step(least: f64) -> f64 {
-    let decade = 10f64.powf(least.log10().floor());
-    [1.0, 2.0, 5.0].map(|of| of * decade).into_iter().find(|&step| step >= least).unwrap_or(10.0 * decade)
 }
 
 /// A coordinate in a drawing: two decimals.

@@ -12,7 +12,9 @@ use crate::estimate::{
     SensorResidual, mount_variances,
 };
 use crate::log::ReferenceLog;
-use calibrant_core::estimate::{BudgetRow, Calibration, FitStatistics, FoundOnMachine, Recovered};
+use calibrant_core::estimate::{
+    BudgetRow, Calibration, FitStatistics, FoundOnMachine, Recovered, shares_of_prior,
+};
 use calibrant_core::sensor::{Axis, Gauge, ImuQuantity, Parameter, PerSensor, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -104,9 +106,12 @@ fn sensors(
     let imu = minimum.state.parameters.imu;
     let quantities: Vec<ImuQuantity> =
         sensor_quantities(&model.layout.quantities).map(|(_, quantity)| quantity).collect();
-    let prior_share: Vec<f64> = sensor_quantities(&model.layout.quantities)
-        .map(|(k, _)| (model.layout.prior[(k, k)] * posterior.covariance[(k, k)]).clamp(0.0, 1.0))
-        .collect();
+    let of_sensors = |of: &DMatrix<f64>| of_sensors(&model.layout.quantities, of);
+    let prior = of_sensors(&model.layout.prior).diagonal();
+    let prior_share = match prior.amax() > 0.0 {
+        true => shares_of_prior(prior.as_slice(), &of_sensors(&posterior.covariance)),
+        false => Vec::new(),
+    };
     let unit = |kind: SensorKind| units[kind].unwrap_or(kind.stimulus_unit());
     Calibration {
         status: minimum.status,
@@ -114,10 +119,10 @@ fn sensors(
         gradient_norm: minimum.last_step,
         parameters: quantities.iter().map(|of| Parameter::undescribed(*of, unit(of.sensor_kind()))).collect(),
         values: quantities.iter().map(|of| of.value(&imu)).collect(),
-        covariance: of_sensors(&model.layout.quantities, covariance),
+        covariance: of_sensors(covariance),
         budget,
         quantities,
-        prior_share: if prior_share.iter().any(|share| *share > 0.0) { prior_share } else { Vec::new() },
+        prior_share,
         gravity_slope: Vec::new(),
         datasheet_prior: false,
         imu,
