@@ -4,6 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, GainUnusual, ParameterImplausible};
 use crate::diagnostic::fit::{NoiseImplausible, NoiseNotAsGiven};
 use crate::diagnostic::holds::HoldsTremble;
+use crate::estimate::imu::Prior;
 use crate::sensor::{Axis, Parameter, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
@@ -25,6 +26,12 @@ const ALIKE: f64 = 1.0 / 3.0;
 const NOT_AS_GIVEN: f64 = 2.0;
 /// A noise beyond this multiple of the given one is a fault.
 const IMPLAUSIBLE: f64 = 10.0;
+
+/// What the datasheet says of the parameters beforehand: nothing of those without a spread.
+pub(super) fn prior(parameters: &[Parameter]) -> Prior {
+    let of = |parameter: &Parameter| Some((parameter.nominal?, parameter.spread?.powi(-2)));
+    parameters.iter().map(|parameter| of(parameter).unwrap_or_default()).unzip()
+}
 
 /// How far a value is from its nominal one, in spreads of datasheet and estimate together. `None` where the datasheet does not say.
 fn deviations(parameter: &Parameter, value: f64, sd: f64) -> Option<f64> {

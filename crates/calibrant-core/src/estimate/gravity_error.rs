@@ -2,24 +2,22 @@
 
 use crate::motion::Gravity;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind, SharedErrors};
-use nalgebra::{DMatrix, DVector};
+use crate::solve::{Uncertainty, VarianceSource};
+use nalgebra::DVector;
 
-/// Derivative of each estimate with respect to the assumed gravity. Times the uncertainty of gravity, it is a column of the covariance's root.
-///
-/// Data follow gravity and a prior does not. With the information `F = F_d + W` of data and prior and `Σ = F⁻¹`, the estimate is
-/// `Σ (F_d p_d + W m)`, and so `∂p/∂g = Σ F_d ∂p_d/∂g = (I − Σ W) ∂p_d/∂g`. `prior`: the diagonal of W, and Σ.
-pub(super) fn gravity_slope(
-    quantities: &[ImuQuantity],
-    imu: &ImuParameters,
-    gravity: &Gravity,
-    prior: Option<(&[f64], &DMatrix<f64>)>,
-) -> DVector<f64> {
-    let mut slope = slope_of_data(quantities, imu, gravity);
-    if let Some((weight, covariance)) = prior {
-        let told = DVector::from_fn(slope.len(), |k, _| weight[k] * slope[k]);
-        slope -= covariance * told;
+impl Uncertainty {
+    /// Adds the uncertainty of the assumed gravity. The derivative of each estimate with respect to gravity: times its standard deviation, a column of the
+    /// covariance's root.
+    pub(super) fn add_gravity(
+        &mut self,
+        quantities: &[ImuQuantity],
+        imu: &ImuParameters,
+        gravity: &Gravity,
+    ) -> DVector<f64> {
+        let slope = self.follow(slope_of_data(quantities, imu, gravity));
+        self.add(VarianceSource::Gravity, &slope, gravity.sd_mps2.powi(2));
+        slope
     }
-    slope
 }
 
 /// Derivative of each quantity that data alone determine with respect to the assumed gravity, `∂p_d/∂g = −p/g`.

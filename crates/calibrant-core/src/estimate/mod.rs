@@ -15,6 +15,7 @@
 //! agree with that.
 
 mod alignment;
+mod at_rest;
 mod bias_drift;
 mod budget;
 mod calibrate;

@@ -272,12 +272,6 @@ impl ParameterList {
         sensor
     }
 
-    /// Rounds in which least squares with known stimuli are exact: one where readings are linear in the parameters.
-    pub(crate) fn rounds(&self) -> usize {
-        let bends = self.quantities.iter().any(|quantity| matches!(quantity, Quantity::Nonlinear(..)));
-        if bends { 6 } else { 1 }
-    }
-
     /// The quantities, in order.
     #[must_use]
     pub fn quantities(&self) -> &[Quantity] {

@@ -3,6 +3,7 @@
 //! The inverse of the information F has the noise, the scatter, and what is known beforehand. What all data share moves the estimates by a column of `R_s`
 //! for each independent error of one standard deviation. With the weights W of a prior, its part of the variances is the diagonal of `F⁻¹ W F⁻¹`.
 
+use super::degrees::shares_of_prior;
 use nalgebra::{DMatrix, DVector};
 
 /// Where an uncertainty comes from: the columns of the budget.
@@ -81,6 +82,9 @@ impl VarianceSource {
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
     pub(crate) covariance: DMatrix<f64>,
+    /// `F⁻¹`, and the weights of the prior in it.
+    inverse: DMatrix<f64>,
+    prior: Option<Vec<f64>>,
     /// Variances by sources other than the noise.
     parts: Vec<(VarianceSource, DVector<f64>)>,
 }
@@ -94,7 +98,25 @@ impl Uncertainty {
             })
         };
         let parts = prior.map(|weight| (VarianceSource::SensorPrior, by_prior(weight)));
-        Self { parts: parts.into_iter().collect(), covariance }
+        Self {
+            parts: parts.into_iter().collect(),
+            inverse: covariance.clone(),
+            prior: prior.map(<[f64]>::to_vec),
+            covariance,
+        }
+    }
+
+    /// The share of each estimate's information that comes from the prior, where there is one.
+    pub(crate) fn prior_share(&self) -> Option<Vec<f64>> {
+        self.prior.as_ref().map(|weight| shares_of_prior(weight, &self.inverse))
+    }
+
+    /// By how much the estimates move with something that moves by this what the data alone tell: `(I − F⁻¹ W) ∂p`. Data follow it, and a prior does not:
+    /// with the information `F_d` of the data, the estimate is `F⁻¹ (F_d p_d + W m)`.
+    pub(crate) fn follow(&self, of_data: DVector<f64>) -> DVector<f64> {
+        let Some(weight) = &self.prior else { return of_data };
+        let told = DVector::from_fn(of_data.len(), |k, _| weight[k] * of_data[k]);
+        of_data - &self.inverse * told
     }
 
     /// Adds an error of this variance, which moves the estimates by this for each unit.

@@ -11,17 +11,16 @@ use super::setup::HoldsSetup;
 use super::{accelerometer_change, verdict};
 use crate::diagnostic::{Diagnostic, HoldReason};
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::estimate::budget::BudgetRow;
-use crate::estimate::gravity_error::gravity_slope;
+use crate::estimate::at_rest::AtRest;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::recording_biases::RecordingBiases;
 use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
-    Recovered, Uncalibrated, coarse_axes_in,
+    Uncalibrated, coarse_axes_in,
 };
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, PerSensor, Recording, SensorKind, SensorParameters};
-use crate::solve::{VarianceSource, chi2_p_value, shares_of_prior};
+use crate::solve::{VarianceSource, chi2_p_value};
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
@@ -95,18 +94,10 @@ fn assemble(
     setup: &HoldsSetup,
     reasons: Vec<Option<HoldReason>>,
     recording_biases: Option<RecordingBiases>,
-    Fitted { holds, robust, drift, mut uncertainty, without }: Fitted,
+    Fitted { holds, robust, drift, uncertainty, without }: Fitted,
 ) -> Calibration {
     let list = setup.parameter_list(problem.sensor.model);
-    let sensor = robust.sensor;
-    let g = setup.gravity;
-    let quantities = list.of_accelerometer();
-    let imu = ImuParameters::identity().with(SensorKind::Accelerometer, sensor);
-    let prior = robust.prior_weight.as_ref().map(|weight| (weight.as_slice(), &uncertainty.covariance));
-    let prior_share = prior.map_or_else(Vec::new, |(weight, sigma)| shares_of_prior(weight, sigma));
-    let slope = gravity_slope(&quantities, &imu, &g, prior);
-    uncertainty.add(VarianceSource::Gravity, &slope, g.sd_mps2 * g.sd_mps2);
-
+    let (sensor, g) = (robust.sensor, setup.gravity);
     let results: Vec<HoldResult> = holds
         .into_iter()
         .zip(reasons)
@@ -147,22 +138,17 @@ fn assemble(
     };
     let gains = Matrix3::from_diagonal(&sensor.matrix.diagonal());
     let nominal = problem.sensor.nominal().unwrap_or(SensorParameters::linear(sensor.bias, gains));
-    let mut calibration = Calibration {
+    let at_rest = AtRest {
+        quantities: list.of_accelerometer(),
+        parameters: list.describe_accelerometer(problem.sensor, &nominal),
+        units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
+        imu: ImuParameters::identity().with(SensorKind::Accelerometer, sensor),
+        uncertainty,
+        fit,
         status: robust.status,
         iterations: robust.iterations,
         gradient_norm: robust.gradient_norm,
-        parameters: list.describe_accelerometer(problem.sensor, &nominal),
-        budget: BudgetRow::all(&uncertainty, &quantities),
-        quantities,
-        values: list.quantities().iter().map(|quantity| quantity.value(&sensor)).collect(),
-        covariance: uncertainty.covariance,
-        prior_share,
-        gravity_slope: slope.iter().copied().collect(),
-        datasheet_prior: false,
-        imu,
-        units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
-        fit,
-        recovered: Recovered::Holds(HoldCalibration {
+        holds: HoldCalibration {
             holds: results,
             gravity: g,
             gauge: setup.gauge,
@@ -179,11 +165,9 @@ fn assemble(
             drift: drift.map(Box::new),
             recording_biases: recording_biases.map(Box::new),
             change: change.map(Box::new),
-        }),
-        gyroscope: None,
-        changes: change.into_iter().collect(),
-        warnings: Vec::new(),
+        },
     };
+    let mut calibration = Calibration { changes: change.into_iter().collect(), ..at_rest.calibration() };
     calibration.warnings = verdict::warnings(&calibration, &robust.weakest);
     calibration
 }

@@ -10,6 +10,7 @@ use super::sphere::sphere;
 use super::verdict::explain;
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::estimate::change::longest_run;
+use crate::estimate::datasheet::prior;
 use crate::estimate::hold_variance::{between_variance, noise_variance};
 use crate::estimate::imu::{HoldData, ImuModel, Prior};
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
@@ -75,7 +76,8 @@ pub(super) fn fit(
             .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&usable, &list))))?,
     };
     let within = pooled_sd(&usable, &start, setup.gravity.magnitude_mps2);
-    let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
+    let nominal = problem.sensor.nominal().filter(|_| settings.datasheet_prior);
+    let prior = nominal.map(|nominal| prior(&list.describe(problem.sensor, &nominal)));
     let problem = Problem {
         holds,
         sound,
@@ -113,14 +115,6 @@ pub(super) fn expect(
     let problem = Problem { holds, sound, list, gravity, within, of_mean, prior, conditions, settings };
     let information = problem.information(&start)?;
     Ok((start, within, information))
-}
-
-fn prior(problem: &CalibrationProblem<'_>, list: &ParameterList) -> Option<Prior> {
-    let parameters = list.describe(problem.sensor, &problem.sensor.nominal()?);
-    Some((
-        parameters.iter().map(|of| of.nominal.unwrap_or(0.0)).collect(),
-        parameters.iter().map(|of| of.spread.map_or(0.0, |spread| spread.powi(-2))).collect(),
-    ))
 }
 
 fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {

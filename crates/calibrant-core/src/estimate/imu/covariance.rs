@@ -1,27 +1,21 @@
 //! The covariance of the estimates.
 //!
-//! The noise gives the inverse of the information. The uncertainty of gravity and of the sample rate, common errors by coarse steps, and the unknown part of the Earth's
+//! The noise gives the inverse of the information. The uncertainty of the sample rate, common errors by coarse steps, and the unknown part of the Earth's
 //! rate add to it.
 
 use crate::error::Result;
-use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::imu::model::{Fit, ImuModel, singular};
 use crate::estimate::imu::variance_components::rotations::RotationWeights;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::quantisation::CoarseAxis;
 use crate::information;
-use crate::motion::Gravity;
 use crate::sensor::{Condition, ImuParameters, ImuQuantity, SensorKind};
-use crate::solve::{Uncertainty, VarianceSource, shares_of_prior};
+use crate::solve::{Uncertainty, VarianceSource};
 use nalgebra::{DMatrix, DVector};
 
-/// The uncertainty of the estimates of an IMU.
+/// The uncertainty of the estimates of an IMU, before that of gravity.
 pub(crate) struct ImuUncertainty {
     pub(crate) uncertainty: Uncertainty,
-    /// The share of each quantity's information that comes from the prior, 0 to 1.
-    pub(crate) prior_share: Vec<f64>,
-    /// Derivative of each estimate with respect to the assumed gravity.
-    pub(crate) gravity_slope: DVector<f64>,
     /// Error of each estimate by one standard deviation of the Earth's rate about the vertical, if that is unknown.
     pub(crate) of_vertical: Option<DVector<f64>>,
     /// Root mean square of each component of the Earth's rate about the north, rad/s.
@@ -34,32 +28,25 @@ impl ImuUncertainty {
     pub(crate) fn of(
         model: &ImuModel<'_>,
         solution: &Solution,
-        (g, rate_sd): (&Gravity, f64),
+        rate_sd: f64,
         (coarse, systematic): (&[CoarseAxis], Vec<(VarianceSource, DVector<f64>)>),
     ) -> Result<Self> {
         let imu = &solution.fit.state.imu;
         let covariance = information::covariance(&solution.fit.information).ok_or_else(singular)?;
         let weight = model.prior.as_ref().map(|(_, weight)| weight.as_slice());
-        let prior_share = match weight {
-            Some(weight) => shares_of_prior(weight, &covariance),
-            None => vec![0.0; model.quantities.len()],
-        };
-        let gravity_slope =
-            gravity_slope(&model.quantities, imu, g, weight.map(|weight| (weight, &covariance)));
         // coarse steps: holds with nearly the same reading have the same error, to which the estimates respond by the inverse of the information alone
         let of_steps = common_slopes(model, &solution.fit, coarse, &covariance);
         let mut uncertainty = Uncertainty::of(covariance, weight);
         for (slope, sd) in of_steps {
             uncertainty.add(VarianceSource::CoarseSteps, &slope, sd * sd);
         }
-        uncertainty.add(VarianceSource::Gravity, &gravity_slope, g.sd_mps2 * g.sd_mps2);
         for (source, error) in systematic {
             uncertainty.add(source, &error, 1.0);
         }
         uncertainty.add(VarianceSource::Timing, &rate_slope(model, imu), rate_sd * rate_sd);
         let (of_earth, of_vertical, north_rms_radps) = of_earth(model, &solution.weighed)?;
         uncertainty.add_covariance(VarianceSource::EarthRate, &of_earth);
-        Ok(Self { uncertainty, prior_share, gravity_slope, of_vertical, north_rms_radps })
+        Ok(Self { uncertainty, of_vertical, north_rms_radps })
     }
 }
 

@@ -140,6 +140,11 @@ impl HoldData {
             temperature_c: 0.0,
         }
     }
+
+    /// Without a gyroscope, in a known direction.
+    pub(crate) fn on_face(mean: Vector3<f64>, weight: Matrix3<f64>, force: Vector3<f64>) -> Self {
+        Self { known: Some(force), ..Self::of_accelerometer(mean, weight) }
+    }
 }
 
 /// A rotation from one hold to the next one used.

@@ -11,7 +11,7 @@ use nalgebra::{DVector, Vector3};
 
 /// One standard deviation of one term of `E`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SharedError {
+struct SharedError {
     row: usize,
     column: usize,
     size: f64,
@@ -19,7 +19,7 @@ pub(crate) struct SharedError {
 
 impl SharedError {
     /// All terms, for shared errors of this standard deviation, rad about each axis.
-    pub(crate) fn all(shared_rad: f64) -> impl Iterator<Item = Self> {
+    fn all(shared_rad: f64) -> impl Iterator<Item = Self> {
         let across = shared_rad;
         let along = std::f64::consts::SQRT_2 * shared_rad * shared_rad;
         (0..9).map(move |k| {
@@ -29,7 +29,7 @@ impl SharedError {
     }
 
     /// By how much it moves a vector along a direction that was met.
-    pub(crate) fn of(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+    fn of(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         let by = Vector3::ith(self.row, self.size * vector[self.column]);
         if self.row == self.column {
             return by;

@@ -119,8 +119,7 @@ fn stages(
     let where_from = (&temperature, used.holds.as_slice(), setup.turns.as_slice());
     let lag = LagEffect::of(&model, &solution.fit, where_from, &setup.thermometer, settings)?;
     by(VarianceSource::Thermometer, lag.iter().map(|lag| lag.error.clone()).collect());
-    let known = (&setup.holds.gravity, setup.rate_sd);
-    let uncertainty = ImuUncertainty::of(&model, &solution, known, (&gyroscope.coarse, systematic))?;
+    let uncertainty = ImuUncertainty::of(&model, &solution, setup.rate_sd, (&gyroscope.coarse, systematic))?;
     let recorded = problem.recording[SensorKind::Accelerometer].as_ref();
     let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
     let changes = Changing {

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Change;
 use crate::error::Result;
-use crate::estimate::budget::BudgetRow;
+use crate::estimate::at_rest::AtRest;
 use crate::estimate::hold_result::{HoldCalibration, HoldResult};
 use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
 use crate::estimate::imu::assembly::holds::hold_results;
@@ -22,7 +22,7 @@ use crate::estimate::imu::terms::term::At;
 use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::recording_biases::RecordingBiases;
-use crate::estimate::result::{Calibration, FitStatistics, Recovered};
+use crate::estimate::result::{Calibration, FitStatistics};
 use crate::sensor::{ImuParameters, ImuQuantity, Parameter, PerSensor, SensorKind};
 
 /// The parts of the result.
@@ -61,24 +61,29 @@ impl Finished<'_> {
         let follows = !problem.setup.thermal.is_none();
         let units: PerSensor<_> = [problem.accelerometer.unit, problem.gyroscope.unit].into();
         let unit = |quantity: &ImuQuantity| units[quantity.sensor_kind()];
-        Ok(Calibration {
-            status: fit.status,
-            iterations: fit.iterations,
-            gradient_norm: fit.gradient_norm,
+        let at_rest = AtRest {
             parameters: model.quantities.iter().map(|of| Parameter::undescribed(*of, unit(of))).collect(),
-            values: model.quantities.iter().map(|quantity| quantity.value(&imu)).collect(),
             quantities: model.quantities.clone(),
-            budget: BudgetRow::all(&uncertainty.uncertainty, &model.quantities),
-            covariance: uncertainty.uncertainty.covariance,
-            prior_share: uncertainty.prior_share,
-            gravity_slope: uncertainty.gravity_slope.iter().copied().collect(),
-            datasheet_prior: false,
-            imu,
             units: PerSensor::from_fn(|sensor_kind| Some(units[sensor_kind])),
+            imu,
+            uncertainty: uncertainty.uncertainty,
+            holds: HoldCalibration {
+                temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
+                thermometer: self.thermometer,
+                ..holds
+            },
             fit: FitStatistics::of_chi2(
                 fit.chi2,
                 degrees_of_freedom(&At { model, state: &fit.state, rotations: &fit.residuals }),
             ),
+            status: fit.status,
+            iterations: fit.iterations,
+            gradient_norm: fit.gradient_norm,
+        };
+        let mut calibration = at_rest.calibration();
+        // an IMU says it of each, also where there is no prior
+        calibration.prior_share.resize(model.quantities.len(), 0.0);
+        Ok(Calibration {
             gyroscope: Some(Box::new(GyroscopeCalibration {
                 unit: problem.gyroscope.unit,
                 still: stationary_result(
@@ -101,13 +106,8 @@ impl Finished<'_> {
                 of_vertical: uncertainty.of_vertical,
                 north_rms_radps: uncertainty.north_rms_radps,
             })),
-            recovered: Recovered::Holds(HoldCalibration {
-                temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
-                thermometer: self.thermometer,
-                ..holds
-            }),
             changes: self.changes,
-            warnings: Vec::new(),
+            ..calibration
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The accelerometer from holds whose directions are known: six faces on a table, a turntable, a robot.
 //!
-//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. Where terms bend the response, the
-//! readings are those about the last solution, a few times (Gauss–Newton). `ε_j` is the noise of the mean and
+//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. Where terms bend the response, a
+//! few steps of Gauss–Newton. `ε_j` is the noise of the mean and
 //! the face alignment (`face_alignment`).
 
 use crate::diagnostic::faces::{FaceBrief, FacesScatter};
@@ -19,6 +19,7 @@ use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, inverse_covariance};
 use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceScatter, align_faces};
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
+use crate::estimate::imu::model::{HoldData, ImuModel};
 use crate::estimate::problem::FacesProblem;
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::uncalibrated::Uncalibrated;
@@ -28,7 +29,7 @@ use crate::sensor::{
     Correction, NonlinearTerm, ParameterList, Recording, SensorModel, SensorParameters, SensorThermal,
 };
 use crate::solve::ScaledInformation;
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
 const WRONG_SCATTER: f64 = 0.05;
@@ -68,8 +69,9 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         sound.map(|j| (holds[j].clone(), forces[j])).unzip();
     let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
-    let linear = Linear { holds: &usable, forces: &along, list: list.clone(), within, of_mean };
-    let (mut sensor, alignment, condition) = match linear.solve(problem.face_sd_rad) {
+    let gravity = setup.gravity.magnitude_mps2;
+    let faces = Faces { holds: &usable, forces: &along, list, gravity, within, of_mean };
+    let (mut sensor, alignment, condition) = match faces.solve(problem.face_sd_rad) {
         Ok(solved) => solved,
         Err(error) => {
             if !matches!(error, Error::NotIdentifiable(_)) {
@@ -89,7 +91,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
     }
     accelerometer_gains::check(problem.sensor.unit, &sensor.matrix)?;
     let bent = finding_of_terms(&setup.nonlinearity, |terms| {
-        linear.with_terms(problem.sensor.model, terms, &sensor, &alignment.scatter)
+        faces.with_terms(problem.sensor.model, terms, &sensor, &alignment.scatter)
     });
     let turned = turned_faces(problem, &holds, &sensor.matrix);
     let correction = Correction::of(&sensor);
@@ -101,7 +103,7 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
         .map(|((hold, force), clipped)| {
             let off = corrected(hold).norm() - setup.gravity.magnitude_mps2;
             let along = sensor.by_stimulus(force) * force.normalize();
-            let weight = linear.weight(hold, force, &sensor.by_stimulus(force), &alignment.scatter);
+            let weight = faces.weight(hold, force, &sensor.by_stimulus(force), &alignment.scatter);
             let precision = along.dot(&(weight * along)).sqrt();
             HoldResult {
                 hold: hold.clone(),
@@ -177,33 +179,20 @@ fn scattered(
     Diagnostic::from(FacesScatter { tilt_rad, along_mps2, worst_rad: most, worst })
 }
 
-/// A reading less what is not linear in the parameters about a sensor: `y + Σ_k c_k ρ e_k(u)`.
-pub(crate) fn about(at: &SensorParameters, reading: &Vector3<f64>, force: &Vector3<f64>) -> Vector3<f64> {
-    if at.nonlinearity.is_none() {
-        return *reading;
-    }
-    reading + at.reading(force) - at.bias - at.matrix * force
-}
-
 #[derive(Clone)]
-struct Linear<'a> {
+struct Faces<'a> {
     holds: &'a [Hold],
     forces: &'a [Vector3<f64>],
     list: ParameterList,
+    gravity: f64,
     within: Vector3<f64>,
     of_mean: Vector3<f64>,
 }
 
-impl Linear<'_> {
+impl Faces<'_> {
     /// The sensor, the face alignment, and the condition number of the scaled information.
     fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, FaceAlignment, f64)> {
         let (one, none) = (Matrix3::identity(), FaceScatter::default());
-        let (f, _) = self.normal(&SensorParameters::identity(), &one, &none);
-        let groups = information::undetermined(&f, &f.diagonal(), 0);
-        if !groups.is_empty() {
-            return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
-        }
-        let condition = ScaledInformation::of(&f).condition_number();
         let singular = || {
             Error::recording(InputError::new(
                 Refusal::FitFailed,
@@ -211,13 +200,19 @@ impl Linear<'_> {
                 "check the directions of the holds and the unit of the recording",
             ))
         };
+        let ideal = SensorParameters::identity();
+        let f = self.model(&one, &none).information_on_faces(&ideal).ok_or_else(singular)?;
+        let groups = information::undetermined(&f, &f.diagonal(), 0);
+        if !groups.is_empty() {
+            return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
+        }
+        let condition = ScaledInformation::of(&f).condition_number();
         let rough = self.fit(&one, &none).ok_or_else(singular)?.matrix;
         let degrees = face_degrees(self.forces, self.list.quantities(), 0);
-        let gravity = self.forces.first().map_or(0.0, Vector3::norm);
         let weights =
             self.holds.iter().zip(self.forces).map(|(hold, force)| self.weight(hold, force, &rough, &none));
-        let noise = noise_rad2(weights, &rough, gravity);
-        let (alignment, sensor) = align_faces(degrees, given_rad, (gravity, noise), |scatter| {
+        let noise = noise_rad2(weights, &rough, self.gravity);
+        let (alignment, sensor) = align_faces(degrees, given_rad, (self.gravity, noise), |scatter| {
             let sensor = self.fit(&rough, scatter)?;
             Some((self.chi2(&sensor, &rough, scatter)?, sensor))
         })
@@ -236,12 +231,13 @@ impl Linear<'_> {
         let list = ParameterList::new(3, model).with_terms(terms);
         let free = (3 * self.holds.len()).checked_sub(list.len() + FEWEST_FREE)? + FEWEST_FREE;
         let with = Self { list, ..self.clone() };
-        let (f, _) = with.normal(&SensorParameters::identity(), &sensor.matrix, scatter);
+        let f = with.model(&sensor.matrix, scatter).information_on_faces(&SensorParameters::identity())?;
         if !information::undetermined(&f, &f.diagonal(), 0).is_empty() {
             return None;
         }
         let found = with.fit(&sensor.matrix, scatter)?;
-        let covariance = information::covariance(&self.normal(sensor, &sensor.matrix, scatter).0)?;
+        let without = self.model(&sensor.matrix, scatter).information_on_faces(sensor)?;
+        let covariance = information::covariance(&without)?;
         Some(TermsFit {
             biases: found.bias.component_div(&Vector3::from_fn(|axis, _| covariance[(axis, axis)].sqrt())),
             coefficients: terms.last().map_or_else(Vector3::zeros, |term| *found.nonlinearity.of(*term)),
@@ -260,38 +256,17 @@ impl Linear<'_> {
         inverse_covariance(&noise_variance(hold, &self.within, &self.of_mean), s, &scatter.covariance(force))
     }
 
-    /// About a sensor.
-    fn normal(
-        &self,
-        at: &SensorParameters,
-        s: &Matrix3<f64>,
-        scatter: &FaceScatter,
-    ) -> (DMatrix<f64>, DVector<f64>) {
-        let size = self.list.len();
-        let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
-        for (hold, force) in self.holds.iter().zip(self.forces) {
-            let weight = self.weight(hold, force, s, scatter);
-            let columns: Vec<Vector3<f64>> =
-                self.list.quantities().iter().map(|quantity| quantity.derivative(at, force)).collect();
-            let mean = about(at, &hold.mean, force);
-            for i in 0..size {
-                let weighted = weight * columns[i];
-                g[i] += weighted.dot(&mean);
-                for j in 0..size {
-                    f[(i, j)] += weighted.dot(&columns[j]);
-                }
-            }
-        }
-        (f, g)
+    /// The least squares. `s`: the matrix by which tilts move the readings.
+    fn model(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> ImuModel<'static> {
+        let on_face = |(hold, force): (&Hold, &Vector3<f64>)| {
+            HoldData::on_face(hold.mean, self.weight(hold, force, s, scatter), *force)
+        };
+        let holds = self.holds.iter().zip(self.forces).map(on_face).collect();
+        ImuModel::of_accelerometer(self.list.of_accelerometer(), self.gravity, holds, None)
     }
 
     fn fit(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<SensorParameters> {
-        let mut at = SensorParameters::identity();
-        for _ in 0..self.list.rounds() {
-            let (f, g) = self.normal(&at, s, scatter);
-            at = self.list.sensor(&(information::covariance(&f)? * g));
-        }
-        Some(at)
+        self.model(s, scatter).sensor_on_faces()
     }
 
     fn chi2(&self, sensor: &SensorParameters, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<Chi2> {

@@ -4,4 +4,5 @@ pub(crate) mod angular_rate;
 pub(crate) mod earth_rate;
 pub(crate) mod gauss_newton;
 pub(crate) mod integration;
+mod on_faces;
 pub(crate) mod sphere_logarithm;
