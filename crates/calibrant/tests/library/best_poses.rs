@@ -188,7 +188,7 @@ fn check(count: u64) {
 
 #[test]
 fn calibrations_have_the_standard_deviations_that_the_poses_promise() {
-    check(100);
+    check(40);
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn all(drift: Vector3<f64>, in_order: bool, allowed: f64) -> (f64, f64, f64) {
     let every = || found.iter().flat_map(|(z, _)| z);
     let largest = every().fold(0.0_f64, |most, z| most.max(z.abs()));
     let squares = every().map(|z| z * z).sum::<f64>() / every().count() as f64;
-    let sd = found.iter().map(|(_, found)| found.sd()[2]).sum::<f64>() / 60.0;
+    let sd = found.iter().map(|(_, found)| found.sd()[2]).sum::<f64>() / 30.0;
     println!(
         "drift {:.3}, in order {in_order}, allowed {allowed}: largest {largest:.1}, z² {squares:.2}, sd {sd:.5}",
         drift.norm()
@@ -146,8 +146,8 @@ fn the_parameters_of_an_imu_are_within_their_uncertainty_with_a_drift() {
             let z = |k: usize| (found.values[k] - found.quantities[k].value(&imu)) / sd[k];
             ((0..sd.len()).map(z).map(|z| z * z).sum::<f64>() / sd.len() as f64, sd[0])
         };
-        let all: Vec<(f64, f64)> = (0..60).into_par_iter().map(one).collect();
-        let mean = |of: fn(&(f64, f64)) -> f64| all.iter().map(of).sum::<f64>() / 60.0;
+        let all: Vec<(f64, f64)> = (0..30).into_par_iter().map(one).collect();
+        let mean = |of: fn(&(f64, f64)) -> f64| all.iter().map(of).sum::<f64>() / 30.0;
         println!(
             "IMU, drift {drift_mps2}, allowed {allowed}: z² {:.2}, sd {:.5}",
             mean(|a| a.0),

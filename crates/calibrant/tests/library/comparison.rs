@@ -33,7 +33,7 @@ fn calibrated(sensor: &Sensor, truth: &SensorParameters, poses: usize, rng: &mut
 /// Shares of pairs whose p-value is below 5 %: of all parameters together, and of single quantities; and the same with the degrees of freedom unknown.
 fn rejected(number: u64, model: SensorModel, poses: [usize; 2]) -> [[f64; 2]; 2] {
     let sensor = Sensor { cross_axis_sd: Some(0.01), ..Sensor::triaxial(model) };
-    let pairs: Vec<[Comparison; 2]> = (0..800)
+    let pairs: Vec<[Comparison; 2]> = (0..400)
         .into_par_iter()
         .map(|pair| {
             let mut rng = stream(number, Purpose::Sensor, pair);
@@ -54,7 +54,7 @@ fn rejected(number: u64, model: SensorModel, poses: [usize; 2]) -> [[f64; 2]; 2]
 
 #[test]
 fn few_holds_reject_no_more_pairs_of_one_sensor_than_they_say() {
-    // of 800 pairs, 0.8 % is a standard deviation. One residual beside three, or three beside fifteen, are more uncertain than any
+    // of 400 pairs, 1.1 % is a standard deviation. One residual beside three, or three beside fifteen, are more uncertain than any
     // approximation allows for
     let cases = [
         (SensorModel::ScaleBias, [9, 9], 0.07),

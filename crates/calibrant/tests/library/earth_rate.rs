@@ -105,7 +105,7 @@ fn squares_within(z: &[f64]) -> (f64, f64) {
 const RATE_HZ: f64 = 200.0;
 
 fn scores(known: bool) -> Scores {
-    let count = 200_u64;
+    let count = 100_u64;
     let found: Vec<Scores> = (0..count)
         .into_par_iter()
         .map(|number| {
@@ -156,7 +156,7 @@ fn the_standard_deviations_of_the_gyroscope_are_right_wherever_on_the_earth() {
         assert!((0.8..1.2).contains(&squares) && within > 0.94, "{known} {squares} {within}");
         let (whole, less_certain) = (scores.whole, scores.less_certain);
         assert!(
-            (0.8..1.2).contains(&whole) && less_certain == if known { 0 } else { 200 },
+            (0.8..1.2).contains(&whole) && less_certain == if known { 0 } else { 100 },
             "{known} {whole} {less_certain}"
         );
         let (squares, within) = squares_within(&scores.others);

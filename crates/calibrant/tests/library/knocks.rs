@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Recordings of each kind.
-const RECORDINGS: u64 = 60;
+const RECORDINGS: u64 = 30;
 
 /// Simulates and calibrates a number of IMUs.
 fn calibrated(setup: &ByHand, count: u64) -> Vec<(ImuParameters, Calibration)> {

@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 
 /// Number of simulated sensors.
-const SENSORS: usize = 10_000;
+const SENSORS: usize = 3000;
 
 /// √n times the largest distance between the empirical distribution and the uniform one.
 fn kolmogorov(mut p: Vec<f64>) -> f64 {

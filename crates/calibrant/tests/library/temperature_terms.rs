@@ -112,7 +112,7 @@ fn off_in(
 }
 
 #[test]
-fn intervals_of_400_imus_with_linear_terms_cover_the_truth() {
+fn intervals_of_200_imus_with_linear_terms_cover_the_truth() {
     let model = ThermalModel {
         accelerometer_bias: 1,
         accelerometer_scale: 1,
@@ -120,20 +120,20 @@ fn intervals_of_400_imus_with_linear_terms_cover_the_truth() {
         gyroscope_scale: 1,
         ..ThermalModel::default()
     };
-    let off = off(model, 36, 400);
+    let off = off(model, 36, 200);
     assert!(off.is_empty(), "{off:#?}");
 }
 
 #[test]
-fn intervals_of_400_imus_with_quadratic_terms_cover_the_truth() {
-    let off = off(ALL_TO_2, 48, 400);
+fn intervals_of_200_imus_with_quadratic_terms_cover_the_truth() {
+    let off = off(ALL_TO_2, 48, 200);
     assert!(off.is_empty(), "{off:#?}");
 }
 
 /// On a turntable that warms up: three times each of six faces, and a turn there and back about each axis.
 /// Angles are exact within 0.1°.
 #[test]
-fn intervals_of_400_imus_turned_by_known_angles_cover_the_truth() {
+fn intervals_of_200_imus_turned_by_known_angles_cover_the_truth() {
     let model = ThermalModel { gyroscope_bias: 1, gyroscope_scale: 1, ..ThermalModel::default() };
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
     let faces: Vec<Vector3<f64>> = (0..3).flat_map(|_| axes).flat_map(|axis| [axis, -axis]).collect();
@@ -153,7 +153,7 @@ fn intervals_of_400_imus_turned_by_known_angles_cover_the_truth() {
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(faces);
     let warming = ramp(0);
-    let off = off_in(&setup, 400, &|truth, rng| simulate_table(truth, &steps, &warming, rng));
+    let off = off_in(&setup, 200, &|truth, rng| simulate_table(truth, &steps, &warming, rng));
     assert!(off.is_empty(), "{off:#?}");
 }
 

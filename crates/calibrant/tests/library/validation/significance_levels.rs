@@ -93,7 +93,7 @@ fn parameters_that_are_less_certain_than_stated_are_found_in_what_the_errors_hav
     let short = ImuSimulation::default();
     let long = ImuSimulation { poses: 120, hold_s: 1.5, turn_s: 1.5, ..short.clone() };
     let (of_short, of_long) = (bench(&short), bench(&long));
-    let found: Vec<(Validation, Validation)> = (0..60)
+    let found: Vec<(Validation, Validation)> = (0..30)
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(22, Purpose::Sensor, number);
@@ -121,7 +121,7 @@ fn parameters_that_are_less_certain_than_stated_are_found_in_what_the_errors_hav
         println!("{kind:?}: parameters' χ²/n {right:.2}, {wrong:.2}; too small {message}, {found}");
         assert!((0.7..1.2).contains(&right) && wrong > 2.0, "{kind:?}: {right} {wrong}");
         // nine numbers determine a variance roughly: P(χ²/9 > 2.6/4.2) = 0.77, with 2.6 the limit at 99.5 %
-        // and 4.2 the mean. Less 4 standard deviations of a share of 60
+        // and 4.2 the mean. Less 4 standard deviations of a share of 30
         assert!(message < 0.06 && found > 0.5, "{kind:?}: {message} {found}");
     }
 }
