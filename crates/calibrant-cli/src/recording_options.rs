@@ -12,10 +12,10 @@ pub(crate) struct RecordingOptions {
     /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
-    /// Unit of the readings, if the file does not state it: m/s2, g or mg of the accelerometer, rad/s, deg/s or mdps of the gyroscope, counts of both.
+    /// Unit of the readings, if the file does not state it: m/s2, mm/s2, g or mg of the accelerometer, rad/s, deg/s or mdps of the gyroscope, counts of both.
     #[arg(long, value_parser = any_unit)]
     unit: Option<ImuUnit>,
-    /// Unit of the accelerometer, if the file does not state it: m/s2, g, mg or counts.
+    /// Unit of the accelerometer, if the file does not state it: m/s2, mm/s2, g, mg or counts.
     #[arg(long, value_name = "UNIT", value_parser = accelerometer_unit)]
     accelerometer_unit: Option<ImuUnit>,
     /// Unit of the gyroscope, if the file does not state it: rad/s, deg/s, mdps or counts.
@@ -36,6 +36,9 @@ pub(crate) struct RecordingOptions {
     /// Sample times: even, or as-logged (default: even, if the logged times are steps of a coarse clock about even ones).
     #[arg(long, value_name = "TIMES", value_parser = times)]
     times: Option<SampleTimes>,
+    /// Each row is the mean of a hold: a table of averages, without times.
+    #[arg(long)]
+    rows_are_holds: bool,
     /// Topic of the IMU, in a bag with several IMUs.
     #[arg(long)]
     topic: Option<String>,
@@ -77,6 +80,7 @@ impl RecordingOptions {
             instance: self.instance.clone(),
             times: self.times,
             topic: self.topic.clone(),
+            rows_are_holds: self.rows_are_holds,
             budget: Some(budget()),
             ..ImuReadOptions::default()
         }

@@ -51,6 +51,7 @@ pub(crate) struct Reading {
     instance: Option<String>,
     times: Option<String>,
     topic: Option<String>,
+    rows_are_holds: bool,
     force: bool,
 }
 
@@ -99,6 +100,7 @@ impl Reading {
                 || "sample times are even or as-logged".into(),
             )?,
             topic: self.topic.clone(),
+            rows_are_holds: self.rows_are_holds,
             budget: Some(budget(self.force)),
             ..ImuReadOptions::default()
         })

@@ -1,6 +1,7 @@
 //! Tests of the program as its users see it: commands, files, messages, exit status.
 
 mod apply;
+mod averages;
 mod batch;
 mod batch_page;
 mod bench;

@@ -325,9 +325,13 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
     bench.write("columns.toml", bench.read("poses.toml") + "\n" + units);
 
     for (arguments, hint, option) in [
-        ("si.csv", "magnitudes around 9.8 suggest m/s²", "--accelerometer-unit m/s², g, mg or counts"),
-        ("g.csv", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g, mg or counts"),
-        ("bare.mat", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g, mg or counts"),
+        ("si.csv", "magnitudes around 9.8 suggest m/s²", "--accelerometer-unit m/s², mm/s², g, mg or counts"),
+        ("g.csv", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², mm/s², g, mg or counts"),
+        (
+            "bare.mat",
+            "magnitudes around 0.999 suggest g",
+            "--accelerometer-unit m/s², mm/s², g, mg or counts",
+        ),
         (
             "gyro.csv --sensor gyroscope",
             "may be rad/s, or deg/s of slow turns",
@@ -390,7 +394,7 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
         (
             "si.csv --unit furlongs",
             2,
-            "the accelerometer is in m/s², g, mg or counts, the gyroscope in rad/s",
+            "the accelerometer is in m/s², mm/s², g, mg or counts, the gyroscope in rad/s",
         ),
         ("si.csv --columns poses.toml", 2, "there is no [columns] section"),
     ];

@@ -2,7 +2,7 @@
 
 use super::check::checks;
 use super::parts::Phrase;
-use crate::number_format::{plain, short_time};
+use crate::number_format::{counted, plain, short_time};
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
 
 checks! {
@@ -127,6 +127,23 @@ checks! {
         100.0 * jitter
     );
 
+    /// Gaps were filled, so that all of the recording counts.
+    NoiseGapsFilled "noise-gaps-filled" Note {
+        /// Number of gaps.
+        gaps: usize,
+        /// Share of the samples.
+        share: f64,
+    }
+    decided "A gap is five usual sample intervals or longer, and not more than a tenth of the samples is missing."
+    remedy "Find the part of the data path that loses samples."
+    says format!(
+        "{}, {:.1} % of the samples, {} filled with noise like that before {}, so that all of the recording counts.",
+        counted(*gaps, "gap"),
+        100.0 * share,
+        if *gaps == 1 { "is" } else { "are" },
+        if *gaps == 1 { "it" } else { "them" }
+    );
+
     /// Gaps cut the hold into parts. The longest was examined.
     NoiseInParts "noise-in-parts" Warning {
         /// Number of parts.
@@ -134,7 +151,7 @@ checks! {
         /// Duration of the longest part, s.
         longest_s: f64,
     }
-    decided "A gap is longer than five usual sample intervals."
+    decided "Gaps are filled where not more than a tenth of the samples is missing; here it is more."
     remedy "Record without gaps."
     says format!(
         "gaps cut the hold into {parts} parts. The longest part, {}, was examined.",

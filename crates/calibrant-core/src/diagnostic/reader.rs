@@ -45,6 +45,19 @@ checks! {
         expected.symbol()
     );
 
+    /// The user gives another unit than the file states.
+    UnitOverruled "unit-overruled" Note {
+        /// The sensor.
+        sensor_kind: SensorKind,
+        /// The file's unit.
+        stated: &'static str,
+        /// The user's, which counts.
+        given: &'static str,
+    }
+    decided "The unit that the file states, by its format or a column's name, is compared with the given one."
+    remedy "Leave the option away, where the file is right."
+    says format!("the {sensor_kind} is in {stated} by the file, but read in {given}, as was said");
+
     /// Rows without a time or a reading were dropped.
     ValuesMissing "values-missing" Note {
         /// What is missing.

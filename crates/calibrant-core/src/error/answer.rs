@@ -54,6 +54,7 @@ options! {
     Records "records" "The database to which results are added.";
     Resume "resume" "Continue an earlier run: what is finished is not done again.";
     Sections "sections" "The faces and turns of a session.";
+    RowsAreHolds "rows_are_holds" "Each row of a recording is the mean of a hold.";
     Seconds "seconds" "How long a search may take.";
     Sensor "sensor" "Which sensor a file is of.";
     SensorFrom "sensor_from" "What the names of files say of their sensors.";

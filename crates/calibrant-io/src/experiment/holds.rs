@@ -189,7 +189,8 @@ impl HoldsPlan {
             return Err(refused(format!("holds.intervals_s[{}]", late + 1), message, help));
         }
         match &self.directions {
-            Some(directions) if directions.len() != intervals.len() => {
+            // without intervals each direction has a recording of its own
+            Some(directions) if self.intervals_s.is_some() && directions.len() != intervals.len() => {
                 let message = format!("{} directions for {} holds", directions.len(), intervals.len());
                 Err(refused("holds.directions", message, remedy("holds.directions")))
             }

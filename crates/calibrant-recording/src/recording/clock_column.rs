@@ -41,7 +41,9 @@ impl ClockColumn<'_> {
         findings: &mut Vec<Diagnostic>,
     ) -> Checked<Seconds> {
         let name = self.name;
-        let Some(unit) = self.unit else { return Err(which_unit(name, &ticks).into()) };
+        let Some(unit) = self.unit.or_else(|| since_1970(&ticks, self.origin)) else {
+            return Err(which_unit(name, &ticks).into());
+        };
         let per_second = unit.per_second().unwrap_or(1.0);
         let wraps_at = self.wraps_at.or_else(|| wraps_in_32_bits(&ticks, per_second));
         let (mut ticks, wraps) = unwrap(ticks, wraps_at);
@@ -115,22 +117,42 @@ pub(crate) fn unwrap(mut ticks: Vec<f64>, wraps_at: Option<f64>) -> (Vec<f64>, u
     (ticks, wraps)
 }
 
-/// The question about the unit of the time.
-fn which_unit(name: &str, ticks: &[f64]) -> InputError {
+/// The units of clocks.
+const UNITS: [TimeUnit; 4] =
+    [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
+
+/// The step between most samples, in ticks.
+fn median_step(ticks: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> =
         ticks.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
     let middle = steps.len() / 2;
-    let hint = if steps.is_empty() {
-        String::new()
-    } else {
-        let (_, step, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-        let plausible = |unit: &TimeUnit| {
-            unit.per_second().is_some_and(|per_second| (5.0..=5000.0).contains(&(per_second / *step)))
-        };
-        let units = [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
-        match units.iter().filter(|unit| plausible(unit)).collect::<Vec<_>>().as_slice() {
-            [one] => format!(": steps of {} suggest {}", plain(*step, 6), one.symbol()),
-            _ => format!(": steps of {} may be anything", plain(*step, 6)),
+    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Is this the step of a sensor, with this unit?
+fn is_plausible(step: f64, unit: TimeUnit) -> bool {
+    unit.per_second().is_some_and(|per_second| (5.0..=5000.0).contains(&(per_second / step)))
+}
+
+/// The unit of a clock that counts from 1970: one in which its times are of 2001 to 2039, and its steps those of a sensor.
+fn since_1970(ticks: &[f64], origin: i64) -> Option<TimeUnit> {
+    let first = origin as f64 + ticks.iter().copied().find(|t| t.is_finite())?;
+    let step = median_step(ticks)?;
+    let is_date = |unit: &TimeUnit| {
+        unit.per_second().is_some_and(|per_second| (1e9..2.2e9).contains(&(first / per_second)))
+    };
+    UNITS.into_iter().find(|unit| is_date(unit) && is_plausible(step, *unit))
+}
+
+/// The question about the unit of the time.
+fn which_unit(name: &str, ticks: &[f64]) -> InputError {
+    let hint = match median_step(ticks) {
+        None => String::new(),
+        Some(step) => {
+            match UNITS.iter().filter(|unit| is_plausible(step, **unit)).collect::<Vec<_>>().as_slice() {
+                [one] => format!(": steps of {} suggest {}", plain(step, 6), one.symbol()),
+                _ => format!(": steps of {} may be anything", plain(step, 6)),
+            }
         }
     };
     let is_number = name.parse::<usize>().is_ok();

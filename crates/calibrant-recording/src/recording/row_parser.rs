@@ -57,6 +57,8 @@ pub(crate) struct Layout {
     pub(crate) only: Option<(usize, String)>,
     /// Slots of readings, of which a few may be invalid samples.
     pub(crate) may_be_invalid: Range<usize>,
+    /// Have numbers a decimal comma?
+    pub(crate) decimal_comma: bool,
 }
 
 impl Layout {
@@ -109,6 +111,11 @@ impl<'l> RowReader<'l> {
             origin: None,
             invalid: (0, None),
         }
+    }
+
+    /// The separator of the fields.
+    pub(crate) fn delimiter(&self) -> Delimiter {
+        self.layout.delimiter
     }
 
     /// Examines the end of the text that holds the next lines.
@@ -180,7 +187,7 @@ impl<'l> RowReader<'l> {
         while let Some((offset, field, plain)) = row.next_number() {
             if let Some(Some(slot)) = layout.slots.get(fields).copied() {
                 let is_tick = slot == 0 && layout.ticks;
-                match if is_tick { self.tick(field) } else { plain.or_else(|| number(field)) } {
+                match if is_tick { self.tick(field) } else { plain.or_else(|| self.number(field)) } {
                     Some(value) if value.is_nan() => (),
                     Some(value) if is_tick && value.is_finite() => values[slot] = value,
                     Some(value) => match Sense::of(value, layout.may_be_invalid.contains(&slot)) {
@@ -227,10 +234,15 @@ impl<'l> RowReader<'l> {
         };
         let Some(ticks) = whole else {
             let origin = self.origin.unwrap_or(0);
-            return number(field).map(|value| if origin == 0 { value } else { value - origin as f64 });
+            return self.number(field).map(|value| if origin == 0 { value } else { value - origin as f64 });
         };
         let origin = *self.origin.get_or_insert(if ticks.unsigned_abs() > EXACT { ticks } else { 0 });
         Some((i128::from(ticks) - i128::from(origin)) as f64)
+    }
+
+    fn number(&self, field: &str) -> Option<f64> {
+        let with_point = || field.replacen(',', ".", 1).parse().ok();
+        number(field).or_else(|| with_point().filter(|_| self.layout.decimal_comma))
     }
 
     fn out_of_range(&self, field: &str, column: usize, line: Line<'_>, offset: usize) -> RowError {

@@ -15,6 +15,8 @@ pub(crate) struct Head<'t> {
     pub(crate) delimiter: Delimiter,
     /// The names of the columns; empty where there is no header.
     pub(crate) names: Vec<&'t str>,
+    /// Their units, where a row below the names has them.
+    pub(crate) units: Vec<&'t str>,
     /// The text after the header, or after the first row.
     pub(crate) rest: Lines<'t>,
 }
@@ -48,7 +50,10 @@ impl<'t> Head<'t> {
                 preamble.push(line);
                 continue;
             }
-            return Ok(Self::at(line, preamble, rest));
+            return Ok(match Table::below(line, &rest) {
+                Some(table) => Self::of(table, preamble),
+                None => Self::at(line, preamble, rest),
+            });
         }
         let (code, message) = match preamble.iter().any(|line| !line.is_void()) {
             _ if text.trim().is_empty() => (Refusal::FileEmpty, "the file is empty"),
@@ -66,7 +71,11 @@ impl<'t> Head<'t> {
         let delimiter = mixed(line, &rest).unwrap_or_else(|| delimiter_of(line.text));
         let names = fields(line, delimiter);
         if !names.iter().any(is_number) && names.iter().any(|name| !name.is_empty()) {
-            return Self { preamble, header: Some(line), first_row: None, delimiter, names, rest };
+            return Self {
+                header: Some(line),
+                names,
+                ..Self::without_names(preamble, None, delimiter, rest)
+            };
         }
         // the comment above the first row, if it has a name for each column
         let commented = preamble.last().copied().filter(|comment| comment.is_void()).and_then(|comment| {
@@ -75,14 +84,36 @@ impl<'t> Head<'t> {
             (found.len() == names.len() && names.len() > 3 && !found.iter().any(is_number))
                 .then_some((comment, found))
         });
+        let head = Self::without_names(preamble, Some(line), delimiter, rest);
         match commented {
-            Some((comment, names)) => {
-                Self { preamble, header: Some(comment), first_row: Some(line), delimiter, names, rest }
-            }
-            None => {
-                Self { preamble, header: None, first_row: Some(line), delimiter, names: Vec::new(), rest }
-            }
+            Some((comment, names)) => Self { header: Some(comment), names, ..head },
+            None => head,
         }
+    }
+
+    /// Of a table below other lines.
+    fn of(Table { above, header, units, row, rest }: Table<'t>, mut preamble: Vec<Line<'t>>) -> Self {
+        let Some(header) = header else {
+            preamble.extend(above);
+            return Self::at(row, preamble, rest);
+        };
+        let delimiter = delimiter_of(row.text);
+        preamble.extend(above);
+        Self {
+            header: Some(header),
+            names: fields(header, delimiter),
+            units: units.map_or_else(Vec::new, |units| fields(units, delimiter)),
+            ..Self::without_names(preamble, Some(row), delimiter, rest)
+        }
+    }
+
+    fn without_names(
+        preamble: Vec<Line<'t>>,
+        first_row: Option<Line<'t>>,
+        delimiter: Delimiter,
+        rest: Lines<'t>,
+    ) -> Self {
+        Self { preamble, header: None, first_row, delimiter, names: Vec::new(), units: Vec::new(), rest }
     }
 
     /// Number of the line with the names, or of the first row.
@@ -136,6 +167,65 @@ impl<'t> Head<'t> {
     pub(crate) fn has_separator_line(&self) -> bool {
         self.preamble.iter().any(|line| is_separator(line.text.trim_ascii()))
     }
+}
+
+/// The rows below a line that is neither their header nor one of them: titles, a banner, or a header with a row of units.
+struct Table<'t> {
+    /// The lines above, without the header.
+    above: Vec<Line<'t>>,
+    header: Option<Line<'t>>,
+    units: Option<Line<'t>>,
+    /// The first row, and what follows it.
+    row: Line<'t>,
+    rest: Lines<'t>,
+}
+
+impl<'t> Table<'t> {
+    /// Most lines above a table.
+    const MOST: usize = 60;
+
+    /// `None` where the next line continues the first, or no table follows.
+    fn below(first: Line<'t>, rest: &Lines<'t>) -> Option<Self> {
+        let count = |line: Line<'t>, like: Line<'t>| fields(line, delimiter_of(like.text)).len();
+        let next = rest.clone().find(|line| !line.is_void())?;
+        let is_as_long = |like| count(next, like).abs_diff(count(first, like)) <= 2;
+        let has_numbers = fields(next, delimiter_of(first.text)).iter().any(is_number);
+        if is_row(first) || has_numbers && [first, next].into_iter().any(is_as_long) {
+            return None;
+        }
+        let (mut above, mut rest) = (vec![first], rest.clone());
+        let row = loop {
+            let line = rest.next().filter(|_| above.len() < Self::MOST)?;
+            if line.text.trim_ascii().is_empty() {
+                continue;
+            }
+            let following = rest.clone().find(|line| !line.is_void());
+            let goes_on = |next: Line<'t>| is_row(next) && count(next, next) == count(line, line);
+            if is_row(line) && following.is_none_or(goes_on) {
+                break line;
+            }
+            above.push(line);
+        };
+        let is_of_words = |line: &Line<'t>| {
+            count(*line, row) == count(row, row)
+                && !fields(*line, delimiter_of(row.text)).iter().any(is_number)
+        };
+        let header = above.pop_if(|line| is_of_words(line));
+        let (header, units) = match (header, above.pop_if(|line| header.is_some() && is_of_words(line))) {
+            (units, Some(header)) => (Some(header), units),
+            (header, None) => (header, None),
+        };
+        // a header of another length is no banner: the rows are wrong
+        let is_header = delimiter_of(first.text) != Delimiter::Whitespace && count(first, first) > 2;
+        (header.is_some() || !is_header).then_some(Self { above, header, units, row, rest })
+    }
+}
+
+/// Does it hold numbers: three at least, and half of its fields?
+fn is_row(line: Line<'_>) -> bool {
+    let fields = fields(line, delimiter_of(line.text));
+    let numbers = fields.iter().filter(|field| is_number(field)).count();
+    numbers >= 3 && 2 * numbers >= fields.len()
 }
 
 /// Fields of a line, without the empty one after a delimiter at its end.
@@ -198,12 +288,13 @@ fn number_of_hz(text: &str) -> Option<f64> {
 }
 
 fn is_number(field: &&str) -> bool {
-    field.parse::<f64>().is_ok()
+    field.parse::<f64>().is_ok() || field.replacen(',', ".", 1).parse::<f64>().is_ok()
 }
 
 /// Is it `sep=,`, the line that states the delimiter for Excel?
 fn is_separator(line: &str) -> bool {
-    line.len() == 5 && line.starts_with("sep=")
+    let line = line.trim_matches('"');
+    (4..=5).contains(&line.len()) && line.starts_with("sep=")
 }
 
 /// `key:` or `key:,value`, as above the header of a DOT export.

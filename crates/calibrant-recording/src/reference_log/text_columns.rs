@@ -225,6 +225,7 @@ impl TextColumns {
     /// How the rows are to be read.
     pub(super) fn layout(&self, delimiter: Delimiter) -> Layout {
         Layout {
+            decimal_comma: false,
             delimiter,
             slots: self.slots.clone(),
             names: self.names.clone(),

@@ -47,6 +47,8 @@ fn is_same(one: &Path, other: &Path) -> bool {
 fn together(experiment: &Experiment, source: &Source) -> Result<()> {
     let has_turns = experiment.imu.as_ref().is_some_and(|imu| !imu.turns.is_empty());
     let what = match &experiment.plan {
+        // a recording for each direction
+        Plan::Holds(holds) if holds.directions.is_some() && experiment.imu.is_none() => return Ok(()),
         Plan::Holds(holds) if holds.intervals_s.is_some() => {
             "needs holds that are found, and holds.intervals_s gives them"
         }

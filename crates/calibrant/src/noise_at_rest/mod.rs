@@ -7,9 +7,10 @@ mod read;
 pub use options::NoiseOptions;
 pub use read::read_for_noise;
 
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::repeated_readings;
-use calibrant_core::noise::{Moments, Segment, SensorNoise};
+use calibrant_core::noise::{Moments, Segment, SensorNoise, filled};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use std::borrow::Cow;
 
@@ -48,7 +49,15 @@ pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAt
         Some((distinct, repeats)) => (Cow::Owned(distinct), repeats),
         None => (Cow::Borrowed(recording), Vec::new()),
     };
-    let recording = distinct.as_ref();
+    let mut whole = distinct;
+    let mut gaps: Vec<(SensorKind, Diagnostic)> = Vec::new();
+    for sensor_kind in SensorKind::ALL {
+        if let Some((without, found)) = whole.sensor(sensor_kind).and_then(filled) {
+            whole.to_mut()[sensor_kind] = Some(without);
+            gaps.push((sensor_kind, found.into()));
+        }
+    }
+    let recording = whole.as_ref();
     let is_asked = |sensor_kind: &SensorKind| options.sensor.is_none_or(|asked| asked == *sensor_kind);
     let there: Vec<(SensorKind, &Recording)> = SensorKind::ALL
         .into_iter()
@@ -79,6 +88,8 @@ pub fn noise(recording: &ImuRecording, options: &NoiseOptions) -> Result<NoiseAt
         }
         let repeats = repeats.iter().filter(|(of, _)| *of == sensor_kind);
         found.warnings.extend(repeats.flat_map(|(of, repeats)| repeated_readings(repeats, *of)));
+        let gaps = gaps.iter().filter(|(of, _)| *of == sensor_kind);
+        found.warnings.extend(gaps.map(|(_, gap)| gap.clone()));
         let moving = options.hold_s.and_then(|_| holds::moves(&holds, &found.segment));
         if let Some(moving) = moving {
             found.caveat = Some(moving.clone());

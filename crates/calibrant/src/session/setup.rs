@@ -5,12 +5,13 @@ use super::holds::with_holds;
 use super::problem::Problem;
 use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::estimate::{
     CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Stimulus, WhiteNoise,
+    recording_at,
 };
-use calibrant_core::motion::CommandedMotion;
-use calibrant_core::sensor::{ImuRecording, Sensor};
+use calibrant_core::motion::{CommandedMotion, Hold};
+use calibrant_core::sensor::{ImuRecording, Recording, Sensor, SensorKind};
 use nalgebra::Vector3;
 
 /// The commanded motion, or what is known of holds, rotations and turns.
@@ -49,15 +50,86 @@ impl<'e> Setup<'e> {
             return take_out_motion_outliers(accelerometer, command, recording).into_iter().collect();
         }
         let Some(holds) = self.holds_mut() else { return Vec::new() };
+        let given = holds.intervals_s.is_some().then(|| with_holds(holds, recording));
+        let is_of_means = |given: &HoldsSetup| {
+            given.found.as_ref().is_some_and(|found| found.iter().all(|hold| hold.samples() == 1))
+        };
+        if let Some(given) = given.filter(is_of_means) {
+            // rows that are means, among which no outlier is looked for
+            *holds = given;
+            return Vec::new();
+        }
         let outliers = take_out_outliers(recording);
         *holds = with_holds(holds, recording);
         outliers
+    }
+
+    /// Each row of this recording is a hold.
+    pub(crate) fn set_rows_as_holds(&mut self, recording: &ImuRecording) -> Result<()> {
+        let times = recording[SensorKind::Accelerometer].as_ref().map_or(&[][..], Recording::times_s);
+        match self {
+            Self::Holds(holds) | Self::Faces(Faces { holds, .. }) => {
+                holds.intervals_s = Some(times.iter().map(|&t| (t, t)).collect());
+                Ok(())
+            }
+            Self::Motion(_) | Self::Imu(..) => Err(Error::experiment(InputError::new(
+                Refusal::OptionsContradict,
+                format!(
+                    "{} is for an accelerometer that is held still: nothing moves between the rows",
+                    TaskOption::RowsAreHolds
+                ),
+                "calibrate the accelerometer alone, with kind = \"accelerometer\"; a gyroscope needs the movements between the holds",
+            ))),
+        }
+    }
+
+    /// One hold for each direction: the longest of each recording, where there are as many recordings as directions. To be called with all holds found.
+    pub(crate) fn one_hold_each(&mut self) -> Result<()> {
+        let Self::Faces(Faces { holds, directions, .. }) = self else { return Ok(()) };
+        let recordings = holds.further_from_s.len() + 1;
+        if recordings == 1 {
+            return Ok(());
+        }
+        let refuse =
+            |message, help| Err(Error::experiment(InputError::new(Refusal::HoldsInvalid, message, help)));
+        if recordings != directions.len() {
+            return refuse(
+                format!(
+                    "{recordings} recordings are calibrated together, and holds.directions has {}",
+                    directions.len()
+                ),
+                "give one recording for each direction, in their order",
+            );
+        }
+        let found = holds.found.clone().unwrap_or_default();
+        let longest = |recording: usize| {
+            let of_it =
+                found.iter().filter(|hold| recording_at(&holds.further_from_s, hold.start_s) == recording);
+            of_it.max_by(|one, other| one.duration_s().total_cmp(&other.duration_s())).cloned()
+        };
+        let chosen: Vec<Option<Hold>> = (0..recordings).map(longest).collect();
+        if let Some(missing) = chosen.iter().position(Option::is_none) {
+            return refuse(
+                format!("no hold was found in recording {} of {recordings}", missing + 1),
+                "hold the sensor still in each recording, longer than holds.minimum_hold_s",
+            );
+        }
+        let chosen: Vec<Hold> = chosen.into_iter().flatten().collect();
+        holds.intervals_s = Some(chosen.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
+        holds.found = Some(chosen);
+        Ok(())
     }
 
     /// The uncertainty of the sample rate of these recordings, and where each further one begins.
     pub(crate) fn set_recordings(&mut self, recorded: &Recorded) {
         if let Some(holds) = self.holds_mut() {
             holds.further_from_s.clone_from(&recorded.further_from_s);
+        }
+        if let Self::Faces(Faces { holds, .. }) = self
+            && !holds.further_from_s.is_empty()
+        {
+            // the intervals would be those of one recording
+            holds.intervals_s = None;
         }
         if let Self::Imu(_, setup) = self {
             setup.rate_sd = recorded.rate_sd;

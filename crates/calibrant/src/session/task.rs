@@ -28,6 +28,7 @@ pub(crate) struct Task<'e> {
     kind: Kind<'e>,
     reader: Reader<'e>,
     settings: CalibrationSettings,
+    rows_are_holds: bool,
 }
 
 impl<'e> Task<'e> {
@@ -36,6 +37,7 @@ impl<'e> Task<'e> {
             accelerometer: &experiment.sensor,
             kind,
             reader: Reader::of(experiment, options),
+            rows_are_holds: options.reading.rows_are_holds,
             settings: CalibrationSettings {
                 datasheet_prior: experiment.imu.is_none() && experiment.calibrate.prior == Prior::Datasheet,
                 ..CalibrationSettings::default()
@@ -59,6 +61,9 @@ impl<'e> Task<'e> {
         }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_recordings(&recorded);
+        if self.rows_are_holds {
+            setup.set_rows_as_holds(&recorded.recording)?;
+        }
         let mut before = self.kind.missing(&recorded.recording);
         before.extend(take_out_repeats(&mut recorded.recording));
         let knocks = match self.kind {
@@ -66,6 +71,7 @@ impl<'e> Task<'e> {
             _ => None,
         };
         before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
+        setup.one_hold_each()?;
         let mut outcome = self.calibrate(source, &recorded, &setup, options.report);
         if let Some((gyroscope, samples, at_rest)) = knocks {
             let cut = recorded.recording[SensorKind::Gyroscope].replace(gyroscope);
@@ -170,6 +176,9 @@ impl<'e> Task<'e> {
         let mut other = self.reader.read_other(source, &calibration.sensor_kinds())?;
         notes.extend(other.findings.iter().cloned());
         let mut setup = setup.of_other();
+        if self.rows_are_holds {
+            setup.set_rows_as_holds(&other.recording)?;
+        }
         let mut outliers = take_out_repeats(&mut other.recording);
         outliers.extend(setup.prepare(self.accelerometer, &mut other.recording));
         notes.extend(outliers.into_iter().map(in_file));

@@ -31,7 +31,7 @@ const CASES: &[(&str, &[&str])] = &[
     ),
     (
         "calibrate experiment.toml recording.csv --motion motion.csv --unit furlongs -o result",
-        &["invalid value 'furlongs' for '--unit <UNIT>'", "m/s², g, mg or counts"],
+        &["invalid value 'furlongs' for '--unit <UNIT>'", "m/s², mm/s², g, mg or counts"],
     ),
     ("study --sensors 0", &["0 is not in 1..="]),
     ("study static.toml -o result", &["a study needs a [motion] experiment, this one has [holds]"]),

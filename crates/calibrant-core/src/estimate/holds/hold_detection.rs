@@ -11,6 +11,7 @@ use crate::motion::{Hold, to_ms};
 use crate::sensor::{MeanReading, Recording, SensorKind, Spikes, gap_s, greater, lesser};
 use nalgebra::Vector3;
 use std::f64::consts::LOG10_2;
+use std::ops::Range;
 
 /// Longest window, s. It is else half the shortest hold. Rotations between holds must show.
 const LONGEST_WINDOW_S: f64 = 0.5;
@@ -76,7 +77,7 @@ pub fn find_clean_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hol
                 "the samples are {:.3} s apart: a hold of {minimum_s} s has fewer than 8 of them",
                 1.0 / rate
             ),
-            "is the time column in seconds? if so, give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
+            "is the time column in seconds? if so, give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s; where each row is the mean of a hold, say option `rows_are_holds`",
         )));
     }
     let (segments, window) = still_segments(recording, minimum_s, rate);
@@ -273,17 +274,22 @@ pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f6
     intervals_s.iter().enumerate().filter(outside).map(beyond).collect()
 }
 
-/// The holds between these (start, end) times in s.
+/// The holds between these (start, end) times in s. Where each has one sample, these are means.
 ///
 /// # Errors
 /// [`Error::Recording`] names an interval with fewer than two samples, or that overlaps another.
 pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Result<Vec<Hold>> {
     let mut holds: Vec<Hold> = Vec::with_capacity(intervals_s.len());
     let slack_s = ROUNDED_TIME_STEPS / recording.rate_hz();
-    for (k, &(start, stop)) in intervals_s.iter().enumerate() {
+    let samples = |&(start, stop): &(f64, f64)| {
         let first = recording.times_s.partition_point(|&t| t < start - slack_s);
-        let end = recording.times_s.partition_point(|&t| t <= stop + slack_s);
-        if end < first + 2 {
+        first..recording.times_s.partition_point(|&t| t <= stop + slack_s)
+    };
+    // rows that are means
+    let fewest = if intervals_s.iter().all(|interval| samples(interval).len() == 1) { 1 } else { 2 };
+    for (k, &(start, stop)) in intervals_s.iter().enumerate() {
+        let Range { start: first, end } = samples(&(start, stop));
+        if end < first + fewest {
             return Err(Error::recording(InputError::new(
                 Refusal::HoldsInvalid,
                 format!(

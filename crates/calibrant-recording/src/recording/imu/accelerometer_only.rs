@@ -5,10 +5,8 @@ use super::file::ImuFile;
 use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
-use super::unit::ColumnUnit;
 use super::{column_names, imu_tk};
 use crate::recording::text_header::Head;
-use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ColumnsIgnored, UnitUnexpected};
@@ -23,15 +21,15 @@ pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOption
     };
     let mut columns = match (format, head.names.is_empty()) {
         (FileFormat::Csv | FileFormat::ImuTk, true) => {
-            imu_tk::in_order(head, SensorKind::Accelerometer, only.axes)?
+            imu_tk::in_order(head, SensorKind::Accelerometer, only.axes, options)?
         }
         (FileFormat::Csv, false) => named(&head.names),
         _ => return Ok(None),
     };
     for column in &mut columns {
         // names in a comment are no header: without a unit the times are those of `t x y z`
-        if is_time(column) && head.first_row.is_some() && options.time_unit.is_none() {
-            column.unit = column.unit.or(Some(ColumnUnit::Time(TimeUnit::Second)));
+        if is_time(column) && head.first_row.is_some() {
+            column.unit = column.unit.or(imu_tk::in_seconds(head, options));
         }
     }
     Ok(laid_out(format, columns, only))

@@ -41,7 +41,7 @@ impl Samples {
             let reading = |row: usize| axes.map(|axis| axis.get(row).copied().unwrap_or(0.0));
             (0..rows).map(|row| Vector3::from(reading(row))).collect()
         });
-        let [times, .., temperatures, counts] = columns;
+        let [times, .., temperatures, counts, _] = columns;
         Ok(Self { times, counts, temperatures, sensor_kinds, rows, origin, ..Self::default() })
     }
 }

@@ -10,6 +10,8 @@ use std::fmt;
 pub enum ColumnMeaning {
     /// Sample times.
     Time,
+    /// Ticks since the whole second that the column of times has.
+    RestOfSecond,
     /// Another clock: it gives the times where no column of sample times says its unit.
     Clock,
     /// A number that counts samples, lost ones included.
@@ -36,6 +38,7 @@ impl fmt::Display for ColumnMeaning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Time => f.write_str("time"),
+            Self::RestOfSecond => f.write_str("time within the second"),
             Self::Clock => f.write_str("another clock"),
             Self::Counter => f.write_str("sample counter"),
             Self::Reading(sensor_kind, axis) => write!(f, "{sensor_kind} {axis}"),
@@ -61,7 +64,7 @@ impl ColumnMeaning {
             Self::Calendar => Some("the time of day is not needed"),
             Self::Clock => Some("the sample times are in another column"),
             Self::Other => Some("not known to be needed"),
-            Self::Time | Self::Counter | Self::Reading(..) | Self::Temperature => None,
+            Self::Time | Self::RestOfSecond | Self::Counter | Self::Reading(..) | Self::Temperature => None,
         }
     }
 }

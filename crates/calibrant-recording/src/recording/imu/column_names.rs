@@ -5,10 +5,11 @@
 //! | time | `t`, `time`, `timestamp`, `stamp` | `_s`, `_ms`, `_us`, `_ns` |
 //! | another clock | `millis`, `micros`, `ms`, `elapsed`, `rtcTime`, `TimeUS` | the name itself, or as of a time |
 //! | counter | `n_samples`, `sample`, `index`, `counter`, `packetcounter` | |
-//! | accelerometer | `ax`, `acc_x`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x` | `_mps2`, `_g`, `_mg`, `_counts` |
-//! | gyroscope | `gx`, `wx`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
+//! | accelerometer | `ax`, `acc_x`, `AcX`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x`, `accSmooth[0]` | `_mps2`, `_mmps2`, `_g`, `_mg`, `_counts` |
+//! | gyroscope | `gx`, `wx`, `GyX`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
 //! | temperature | `temp`, `temperature` | `_c` |
 //!
+//! `x (g)` and `x-axis (deg/s)` are of the sensor whose unit it is, and `G_X [mdps]` is a gyroscope's. An axis may be a number in brackets, from 0.
 //! Capitals do not matter, nor whether `_`, `.`, `-` or a space joins words. `linear_acceleration` is ROS'
 //! name of an accelerometer's reading, and Android's of one without gravity: the magnitude decides.
 
@@ -18,7 +19,17 @@ use crate::recording::time_unit::TimeUnit;
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// Names of a time.
-const TIME: &[&str] = &["t", "time", "timestamp", "stamp", "timestamps", "sampletime", "headerstamp"];
+const TIME: &[&str] = &[
+    "t",
+    "time",
+    "timestamp",
+    "timestampunix",
+    "stamp",
+    "timestamps",
+    "sampletime",
+    "timestampsample",
+    "headerstamp",
+];
 /// Names of another clock.
 const CLOCK: &[&str] = &[
     "clock",
@@ -39,7 +50,8 @@ const CLOCK: &[&str] = &[
     "utctime",
 ];
 /// Names before the unit of a clock, as in `TimeUS`.
-const BEFORE_UNIT: &[&str] = &["", "time", "timestamp", "elapsed", "uptime", "clock", "epoch", "unix"];
+const BEFORE_UNIT: &[&str] =
+    &["", "time", "timestamp", "elapsed", "uptime", "clock", "epoch", "epoc", "unix", "sample"];
 /// Names of a sample counter.
 const COUNTER: &[&str] = &[
     "nsamples",
@@ -54,14 +66,29 @@ const COUNTER: &[&str] = &[
     "seq",
 ];
 /// Names of an accelerometer.
-const ACCELEROMETER: &[&str] =
-    &["a", "acc", "accel", "accelerometer", "acceleration", "linearacceleration", "arss", "rawacc", "accraw"];
+const ACCELEROMETER: &[&str] = &[
+    "a",
+    "ac",
+    "acc",
+    "accadc",
+    "accsmooth",
+    "accel",
+    "accelln",
+    "accelerometer",
+    "acceleration",
+    "linearacceleration",
+    "arss",
+    "rawacc",
+    "accraw",
+];
 /// Names of a gyroscope.
 const GYROSCOPE: &[&str] = &[
     "g",
     "w",
+    "gy",
     "gyr",
     "gyro",
+    "gyroadc",
     "gyroscope",
     "omega",
     "angularvelocity",
@@ -82,13 +109,15 @@ const ORIENTATION: &[&str] = &["quat", "q", "orientation", "euler"];
 /// The column of this name.
 pub(crate) fn column(name: &str) -> ImuColumn {
     let (base, unit) = split_unit(name);
-    let meaning = meaning(&base);
+    // as Shimmer marks what it converted
+    let base = base.strip_suffix("_cal").unwrap_or(&base);
+    let meaning = meaning(base, unit.as_deref());
     // an ending that is no unit of such a column belongs to the name
     let unit = match (meaning, unit.as_deref()) {
         (ColumnMeaning::Time | ColumnMeaning::Clock, Some(unit)) => {
             TimeUnit::parse(unit).map(ColumnUnit::Time)
         }
-        (ColumnMeaning::Clock, None) => unit_in_name(&plain(&base)).map(ColumnUnit::Time),
+        (ColumnMeaning::Clock, None) => unit_in_name(&plain(base)).map(ColumnUnit::Time),
         (ColumnMeaning::Counter, _) => Some(ColumnUnit::Time(TimeUnit::Sample)),
         (ColumnMeaning::Reading(sensor_kind, _), Some(unit)) => {
             ImuUnit::parse(unit).filter(|unit| unit.suits(sensor_kind)).map(ColumnUnit::Reading)
@@ -115,6 +144,17 @@ fn is_celsius(unit: &str) -> bool {
 /// Name in lower case without its unit, and the unit: in brackets, or after the last `_`.
 fn split_unit(name: &str) -> (String, Option<String>) {
     let lower = name.trim().to_lowercase();
+    // `gyro_rad[0]` of PX4 is in rad/s
+    let axis = ["x", "y", "z"].into_iter().zip(["[0]", "[1]", "[2]"]);
+    if let Some((stem, axis)) =
+        axis.into_iter().find_map(|(axis, end)| Some((lower.strip_suffix(end)?, axis)))
+    {
+        let (base, unit) = match stem.strip_suffix("_rad") {
+            Some(base) => (base.to_owned(), Some("rad/s".to_owned())),
+            None => split_unit(stem),
+        };
+        return (format!("{base} {axis}"), unit);
+    }
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((base, rest)) = lower.split_once(open)
             && let Some(unit) = rest.strip_suffix(close)
@@ -135,7 +175,7 @@ fn split_unit(name: &str) -> (String, Option<String>) {
     (lower, None)
 }
 
-fn meaning(base: &str) -> ColumnMeaning {
+fn meaning(base: &str, unit: Option<&str>) -> ColumnMeaning {
     let plain = plain(base);
     if TIME.contains(&plain.as_str()) {
         return ColumnMeaning::Time;
@@ -151,8 +191,9 @@ fn meaning(base: &str) -> ColumnMeaning {
     }
     // `g_x` may be gravity, and `a_x` is no worse than `ax`; `gx` alone is a gyroscope's
     let ends = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z)];
+    let of_axis = plain.strip_suffix("axis").unwrap_or(&plain);
     let Some((stem, axis)) =
-        ends.into_iter().find_map(|(end, axis)| plain.strip_suffix(end).map(|stem| (stem, axis)))
+        ends.into_iter().find_map(|(end, axis)| of_axis.strip_suffix(end).map(|stem| (stem, axis)))
     else {
         return if ORIENTATION.iter().any(|word| plain == format!("{word}w")) || is_angle(&plain) {
             ColumnMeaning::Orientation
@@ -160,8 +201,11 @@ fn meaning(base: &str) -> ColumnMeaning {
             ColumnMeaning::Other
         };
     };
-    let is_gravity = stem == "g" && base.len() != plain.len();
-    if ACCELEROMETER.contains(&stem) {
+    let of_unit = unit.and_then(sensor_of_unit);
+    let is_gravity = stem == "g" && base.len() != plain.len() && of_unit != Some(SensorKind::Gyroscope);
+    if let (Some(sensor_kind), "") = (of_unit, stem) {
+        ColumnMeaning::Reading(sensor_kind, axis)
+    } else if ACCELEROMETER.contains(&stem) {
         ColumnMeaning::Reading(SensorKind::Accelerometer, axis)
     } else if GYROSCOPE.contains(&stem) && !is_gravity {
         ColumnMeaning::Reading(SensorKind::Gyroscope, axis)
@@ -174,6 +218,12 @@ fn meaning(base: &str) -> ColumnMeaning {
     } else {
         ColumnMeaning::Other
     }
+}
+
+/// The one sensor that has this unit.
+fn sensor_of_unit(unit: &str) -> Option<SensorKind> {
+    let unit = ImuUnit::parse(unit).filter(|unit| *unit != ImuUnit::Counts)?;
+    SensorKind::ALL.into_iter().find(|sensor_kind| unit.suits(*sensor_kind))
 }
 
 fn plain(base: &str) -> String {

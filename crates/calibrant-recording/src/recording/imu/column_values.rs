@@ -1,6 +1,7 @@
 //! The values of a file's used columns, in the units of the file, whatever its format.
 
 use super::column::ColumnMeaning;
+use super::sensor_rows::sensor_of;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
 use crate::recording::text_source::RowTaker;
@@ -10,14 +11,17 @@ use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Number of slots: time, three axes of each sensor, temperature, counter.
-pub(super) const SLOTS: usize = 9;
+/// Number of slots: time, three axes of each sensor, temperature, counter, ticks within the second.
+pub(super) const SLOTS: usize = 10;
 /// Slot of the time.
 pub(super) const TIME: usize = 0;
 /// Slot of the temperature.
 pub(super) const TEMPERATURE: usize = 7;
 /// Slot of the sample counter.
 pub(super) const COUNTER: usize = 8;
+
+/// Slot of the ticks since the whole second that the time is then in.
+pub(super) const REST: usize = 9;
 
 /// The slot of the values of a column of this meaning.
 pub(super) fn slot_of(meaning: ColumnMeaning) -> Option<usize> {
@@ -26,6 +30,7 @@ pub(super) fn slot_of(meaning: ColumnMeaning) -> Option<usize> {
         ColumnMeaning::Reading(sensor_kind, axis) => Some(slots_of(sensor_kind)[axis.index()]),
         ColumnMeaning::Temperature => Some(TEMPERATURE),
         ColumnMeaning::Counter => Some(COUNTER),
+        ColumnMeaning::RestOfSecond => Some(REST),
         _ => None,
     }
 }
@@ -114,12 +119,30 @@ pub(super) struct SampleReader<'l> {
     /// Has the layout a column for this slot?
     has: [bool; SLOTS],
     sensor_kinds: [bool; 2],
+    clock: SplitClock,
+    /// The column that names the sensor of each row.
+    sensor_column: Option<usize>,
+}
+
+/// A clock whose whole seconds have a column of their own.
+#[derive(Clone, Copy)]
+pub(super) struct SplitClock {
+    /// Ticks in a second.
+    pub(super) per_second: f64,
+    pub(super) first_second: Option<f64>,
 }
 
 impl<'l> SampleReader<'l> {
     /// No rows yet; `capacity` is a guess of how many there will be.
-    pub(super) fn new(layout: &'l Layout, capacity: usize) -> Self {
-        let has = std::array::from_fn(|slot| layout.slots.contains(&Some(slot)));
+    pub(super) fn new(
+        layout: &'l Layout,
+        (clock, sensor_column): (SplitClock, Option<usize>),
+        capacity: usize,
+    ) -> Self {
+        let is_read = |slot: usize| {
+            layout.slots.contains(&Some(slot)) || sensor_column.is_some() && READINGS.contains(&slot)
+        };
+        let has = std::array::from_fn(is_read);
         let sensor_kinds =
             SensorKind::ALL.map(|sensor_kind| slots_of(sensor_kind).iter().any(|&slot| has[slot]));
         let mut samples = Samples::default();
@@ -130,13 +153,14 @@ impl<'l> SampleReader<'l> {
             .iter_mut()
             .zip(sensor_kinds)
             .for_each(|(sensor_kind, is_used)| sensor_kind.reserve(room(is_used)));
-        Self { reader: RowReader::new(layout), samples, has, sensor_kinds }
+        Self { reader: RowReader::new(layout), samples, has, sensor_kinds, clock, sensor_column }
     }
 
     /// The values of all rows; an error where too many rows have invalid ones.
     pub(super) fn finish(mut self) -> Checked<Samples> {
         self.reader.check_invalid()?;
-        self.samples.origin = self.reader.origin.unwrap_or(0);
+        let of_seconds = self.clock.first_second.map(|first| (first * self.clock.per_second) as i64);
+        self.samples.origin = of_seconds.or(self.reader.origin).unwrap_or(0);
         self.samples.truncated = self.reader.truncated;
         Ok(self.samples)
     }
@@ -152,9 +176,31 @@ impl RowTaker for SampleReader<'_> {
             if !self.reader.read(line, &mut values)? {
                 continue;
             }
+            if let Some(column) = self.sensor_column {
+                let name = line.fields(self.reader.delimiter()).nth(column).map_or("", |(_, field)| field);
+                match sensor_of(name) {
+                    Some(SensorKind::Accelerometer) => {
+                        values[slots_of(SensorKind::Gyroscope)[0]..READINGS.end].fill(f64::NAN)
+                    }
+                    Some(SensorKind::Gyroscope) => {
+                        for (own, other) in slots_of(SensorKind::Gyroscope)
+                            .into_iter()
+                            .zip(slots_of(SensorKind::Accelerometer))
+                        {
+                            values[own] = std::mem::replace(&mut values[other], f64::NAN);
+                        }
+                    }
+                    None => continue,
+                }
+            }
             samples.lines.push(samples.rows, line.number);
             samples.rows += 1;
-            if self.has[TIME] {
+            if self.has[REST] {
+                let clock = &mut self.clock;
+                clock.first_second = clock.first_second.or(Some(values[TIME]).filter(|t| t.is_finite()));
+                let first = clock.first_second.unwrap_or(0.0);
+                samples.times.push((values[TIME] - first) * clock.per_second + values[REST]);
+            } else if self.has[TIME] {
                 samples.times.push(values[TIME]);
             }
             for sensor_kind in

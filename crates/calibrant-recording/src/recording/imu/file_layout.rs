@@ -1,7 +1,7 @@
 //! The layout of a file before its rows are read: its columns, their meaning, and the source of the times.
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::column_values::{COUNTER, TEMPERATURE, TIME, slot_of};
+use super::column_values::{READINGS, slot_of};
 use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::unit::ColumnUnit;
@@ -61,7 +61,7 @@ impl Draft {
         let mapping = &options.columns;
         if let Some(name) = &mapping.time {
             self.unuse(
-                &[ColumnMeaning::Time, ColumnMeaning::Counter],
+                &[ColumnMeaning::Time, ColumnMeaning::RestOfSecond, ColumnMeaning::Counter],
                 "another column is named in [columns]",
             );
             let unit = options.time_unit.map(ColumnUnit::Time);
@@ -215,8 +215,7 @@ impl Draft {
                 return refuse(Refusal::ColumnMissing, message, help);
             }
         }
-        let readings =
-            (0..slots.len()).any(|k| slots[k].is_some_and(|s| ![TIME, COUNTER, TEMPERATURE].contains(&s)));
+        let readings = slots.iter().flatten().any(|slot| READINGS.contains(slot));
         let of = |meaning| self.columns.iter().find(|column| column.meaning == meaning);
         let accelerometer =
             slot_of(ColumnMeaning::Reading(SensorKind::Accelerometer, Axis::X)).is_some_and(has);

@@ -6,6 +6,7 @@ use super::unit::ColumnUnit;
 use crate::recording::text_header::Head;
 use crate::recording::text_times::{DAY_NS, TextTime};
 use crate::recording::time_unit::TimeUnit;
+use crate::text::delimited::Delimiter;
 
 /// Number of rows that are looked at.
 const MOST: usize = 400;
@@ -48,6 +49,53 @@ impl<'t> FirstRows<'t> {
             field.parse().ok().or_else(of_text).unwrap_or(f64::NAN)
         };
         self.column(column).map(time).collect()
+    }
+
+    /// Have numbers a decimal comma? `1,234` alone may be a thousand.
+    pub(super) fn have_decimal_commas(&self, delimiter: Delimiter) -> bool {
+        let is_one = |field: &&str| {
+            let parts = field.split_once(',');
+            let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+            parts.is_some_and(|(whole, rest)| {
+                digits(whole.trim_start_matches('-')) && digits(rest) && rest.len() != 3
+            })
+        };
+        delimiter != Delimiter::Character(b',') && self.rows.iter().flatten().any(is_one)
+    }
+
+    /// Finds a clock of two columns: whole seconds, and the rest of them, as in `sec` and `nanosec`.
+    pub(super) fn find_split_clock(&self, draft: &mut Draft) {
+        const SECONDS: &[&str] = &["sec", "secs", "seconds", "second"];
+        const RESTS: [(&[&str], TimeUnit); 2] = [
+            (&["nanosec", "nanosecs", "nsec", "nsecs", "nanoseconds", "nanosecond"], TimeUnit::Nanosecond),
+            (&["usec", "usecs", "microsec", "microseconds", "microsecond"], TimeUnit::Microsecond),
+        ];
+        let lower: Vec<String> = draft.columns.iter().map(|column| column.name.to_lowercase()).collect();
+        let parts = |k: usize| lower[k].rsplit_once(['.', '_', '/', ' ']).unwrap_or(("", &lower[k]));
+        let rest_of = |seconds: usize| {
+            (0..lower.len()).find_map(|k| {
+                let (before, word) = parts(k);
+                let unit = RESTS.iter().find(|(names, _)| names.contains(&word))?.1;
+                (before == parts(seconds).0).then_some((k, unit))
+            })
+        };
+        let is_of_seconds = |k: &usize| SECONDS.contains(&parts(*k).1);
+        let Some((seconds, (rest, unit))) =
+            (0..lower.len()).filter(is_of_seconds).find_map(|k| Some((k, rest_of(k)?)))
+        else {
+            return;
+        };
+        let per_second = unit.per_second().unwrap_or(1.0);
+        let is_rest = |t: &f64| (0.0..per_second).contains(t);
+        if self.times(rest).iter().all(is_rest) && self.times(seconds).iter().all(|t| t.fract() == 0.0) {
+            for column in draft.columns.iter_mut().filter(|column| column.meaning == ColumnMeaning::Time) {
+                *column = ImuColumn::new(&column.name, ColumnMeaning::Clock, column.unit);
+            }
+            let unit = Some(ColumnUnit::Time(unit));
+            for (k, meaning) in [(seconds, ColumnMeaning::Time), (rest, ColumnMeaning::RestOfSecond)] {
+                draft.columns[k] = ImuColumn::new(&draft.columns[k].name, meaning, unit);
+            }
+        }
     }
 
     /// May a column of numbers be a clock or a counter? It only goes up, in most rows.

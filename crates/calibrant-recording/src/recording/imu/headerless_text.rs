@@ -8,8 +8,12 @@ use calibrant_core::error::{InputError, Refusal};
 pub(super) fn question(head: &Head<'_>) -> InputError {
     let columns = head.fields();
     let message = format!("{columns} columns without a header: nothing says what they hold");
+    let means = match columns {
+        3 => "; where each row is the mean of a hold, say option `rows_are_holds` too",
+        _ => "",
+    };
     let help = format!(
-        "begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps{}",
+        "begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps{}{means}",
         in_columns(head).map_or_else(String::new, |stated| format!("; or {stated}"))
     );
     InputError::new(Refusal::HeaderMissing, message, help).at_line(head.line())

@@ -41,6 +41,7 @@ mod instances;
 mod mcap;
 mod movella_dot;
 mod mt_manager;
+mod names_of_file;
 mod options;
 mod packet_times;
 #[cfg(feature = "parquet")]
@@ -53,6 +54,7 @@ mod read;
 mod reading_unit;
 mod recording_assembly;
 mod sample_clock;
+mod sensor_rows;
 mod two_files;
 mod unit;
 mod xsens;

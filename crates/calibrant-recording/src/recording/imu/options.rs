@@ -63,6 +63,8 @@ pub struct ImuReadOptions {
     pub instance: Option<String>,
     /// Topic of a bag that has more than one of `sensor_msgs/msg/Imu`.
     pub topic: Option<String>,
+    /// Each row is the mean of a hold. It then has no sample time.
+    pub rows_are_holds: bool,
     /// The recording is one of an accelerometer, or is read for its accelerometer alone.
     pub accelerometer_only: Option<AccelerometerOnly>,
     /// What a file may take that states more values than it has bytes for; `None` for [`Budget::USUAL`].
@@ -132,6 +134,7 @@ impl ImuReadOptions {
             rate_sd_ppm: self.rate_sd_ppm.or(other.rate_sd_ppm),
             instance: self.instance.or(other.instance),
             topic: self.topic.or(other.topic),
+            rows_are_holds: self.rows_are_holds || other.rows_are_holds,
             accelerometer_only: self.accelerometer_only.or(other.accelerometer_only),
             budget: self.budget.or(other.budget),
         }

@@ -2,18 +2,18 @@
 //! rows, the recording.
 
 use super::accelerometer_only::{only, plain};
-use super::column_values::{READINGS, SampleReader, Samples};
+use super::column_values::{READINGS, SampleReader, Samples, SplitClock};
 use super::file::ImuFile;
 use super::file_layout::Draft;
 use super::first_rows::FirstRows;
 use super::format::{FileFormat, LEAVE_AWAY};
 #[cfg(feature = "mcap")]
 use super::mcap;
-use super::options::ImuReadOptions;
+use super::options::{ColumnMapping, ImuReadOptions};
 #[cfg(feature = "parquet")]
 use super::parquet;
 use super::recording_assembly::assemble;
-use super::{csv, euroc, headerless_text, imu_tk, imucal, instances, movella_dot, mt_manager};
+use super::{csv, euroc, headerless_text, imu_tk, imucal, instances, movella_dot, mt_manager, sensor_rows};
 use crate::files::checksum::hex_sha256;
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::row_parser::Layout;
@@ -113,16 +113,22 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Sensor
         None => sniffed(&head, options)?,
     };
     let asked = asked.or(options.accelerometer_only.map(|_| SensorKind::Accelerometer));
-    if let Some(draft) = plain(&head, format, options)? {
+    let plain = if options.rows_are_holds { None } else { plain(&head, format, options)? };
+    if let Some(draft) = plain {
         return rows(draft, head, source, options);
     }
+    let is_unnamed = head.names.is_empty() && options.columns.is_empty();
     let draft = match format {
         FileFormat::MtManager => mt_manager::draft(&head),
         FileFormat::MovellaDot => movella_dot::draft(&head),
         FileFormat::Euroc => euroc::draft(&head),
         FileFormat::Imucal => imucal::draft(&head)?,
-        FileFormat::ImuTk => imu_tk::draft(&head, asked)?,
-        FileFormat::Csv if head.names.is_empty() && options.columns.is_empty() => {
+        FileFormat::Csv if is_unnamed && options.rows_are_holds && head.fields() == 3 => imu_tk::means(),
+        FileFormat::ImuTk | FileFormat::Csv if is_unnamed && options.rows_are_holds => {
+            return Err(headerless_text::question(&head).into());
+        }
+        FileFormat::ImuTk => imu_tk::draft(&head, asked, options)?,
+        FileFormat::Csv if is_unnamed => {
             return Err(headerless_text::question(&head).into());
         }
         FileFormat::Csv => csv::draft(&head, asked),
@@ -198,10 +204,18 @@ pub(super) fn rows(
     let first_rows = FirstRows::of(&head);
     if draft.format == FileFormat::Csv {
         first_rows.find_clocks(&mut draft);
+        first_rows.find_split_clock(&mut draft);
     }
+    let sensor_column = sensor_rows::find(&mut draft, &first_rows, options);
+    let shared = ColumnMapping { accelerometer: None, gyroscope: None, ..options.columns.clone() };
+    let of_rows = sensor_column.map(|_| ImuReadOptions { columns: shared, ..options.clone() });
+    let options = of_rows.as_ref().unwrap_or(options);
     draft.map(options).map_err(at_header)?;
     draft.set_time_unit(options).map_err(at_header)?;
-    let only = instances::chosen(&mut draft, &first_rows, options).map_err(at_header)?;
+    let only = match sensor_column {
+        Some(_) => None,
+        None => instances::chosen(&mut draft, &first_rows, options).map_err(at_header)?,
+    };
     let slots = draft.slots().map_err(at_header)?;
     let layout = Layout {
         delimiter: head.delimiter,
@@ -212,8 +226,11 @@ pub(super) fn rows(
         text_times: draft.has_text_times(),
         only,
         may_be_invalid: READINGS,
+        decimal_comma: first_rows.have_decimal_commas(head.delimiter),
     };
-    let mut reader = SampleReader::new(&layout, source.estimated_rows(&head));
+    let per_second = draft.time_unit().and_then(TimeUnit::per_second).unwrap_or(1.0);
+    let ticks = SplitClock { per_second, first_second: None };
+    let mut reader = SampleReader::new(&layout, (ticks, sensor_column), source.estimated_rows(&head));
     source.read_rows(head, &mut reader)?;
     let mut samples = reader.finish()?;
     samples.last_line = samples.last_line.or(Some(line));

@@ -25,7 +25,7 @@ const NO_GRAVITY_MPS2: f64 = 3.0;
 /// Magnitudes that are 1 within this share are in g.
 const ONE: f64 = 0.15;
 
-/// The unit of a sensor's columns: from the file; else from the user; else the usual one of a plain text, or
+/// The unit of a sensor's columns: from the file; from the user where the file is a container, of which some state what they do not hold; else from the user; else the usual one of a plain text, or
 /// counts, if the options allow it; else `None`.
 pub(super) fn stated_unit(
     draft: &Draft,
@@ -58,6 +58,7 @@ pub(super) fn stated_unit(
         return refuse(Refusal::UnitContradicted, message, format!("say {}", ImuUnit::choices(sensor_kind)));
     }
     match (stated, given) {
+        (Some(stated), Some(given)) if stated != given && !draft.format.is_text() => Ok(Some(given)),
         (Some(stated), Some(given)) if stated != given => {
             let message = format!(
                 "the {sensor_kind}'s columns are in {}, but the unit was given as {}",
@@ -109,6 +110,7 @@ pub(super) fn question(sensor_kind: SensorKind, readings: &[Vector3<f64>]) -> St
         SensorKind::Accelerometer if (1e3 * (1.0 - ONE)..=1e3 * (1.0 + ONE)).contains(&median) => {
             "suggest mg"
         }
+        SensorKind::Accelerometer if (9e3..=10.6e3).contains(&median) => "suggest mm/s²",
         SensorKind::Accelerometer => "do not tell",
     };
     let of = match sensor_kind {
@@ -147,7 +149,7 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
                 format!(
                     "the accelerometer is said to be in {unit}, but its magnitude is {shown} most of the time: is it in g?"
                 ),
-                "correct the unit: a column's name may end in _g, and accelerometer_unit = \"g\" in [columns] counts where the columns are named there",
+                "give the unit g; in a text a column's name may end in _g, or accelerometer_unit = \"g\" stands in [columns] beside the names of the columns",
             );
         }
     }

@@ -18,7 +18,7 @@ use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{
     ClockSource, LineTruncated, MissingValue, RowsRepeated, TemperatureDoubt, TemperatureDoubtful,
-    TemperatureGaps, TimesFromFirst, TimesRepeated, ValuesMissing,
+    TemperatureGaps, TimesFromFirst, TimesRepeated, UnitOverruled, ValuesMissing,
 };
 use calibrant_core::error::{Answer, Error, InputError, Refusal};
 use calibrant_core::number_format::counted;
@@ -52,8 +52,9 @@ pub(super) fn assemble(
         .iter()
         .map(|&sensor_kind| stated_unit(draft, options, sensor_kind))
         .collect::<Checked<Vec<_>>>()?;
+    findings.extend(overruled(draft, &sensor_kinds, &units));
     sample_clock::leave_no_clock(draft, samples, options);
-    let has_times = sample_clock::are_recorded(samples);
+    let has_times = sample_clock::are_recorded(samples) && !options.rows_are_holds;
     if has_times {
         findings.extend(sample_clock::put_in_order(draft, samples));
     }
@@ -144,6 +145,19 @@ fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<SensorKind>>
         return refuse(Refusal::SensorMissing, message, "were they recorded, and exported?");
     }
     Ok(sensor_kinds)
+}
+
+/// What there is to say of units that are not those of the file.
+fn overruled(draft: &Draft, sensor_kinds: &[SensorKind], units: &[Option<ImuUnit>]) -> Vec<Diagnostic> {
+    let stated = |kind| draft.column(ColumnMeaning::Reading(kind, calibrant_core::sensor::Axis::X))?.unit;
+    let of = |(&sensor_kind, unit): (&SensorKind, &Option<ImuUnit>)| match (stated(sensor_kind), unit) {
+        (Some(ColumnUnit::Reading(stated)), Some(given)) if stated != *given => {
+            let (stated, given) = (stated.symbol(), given.symbol());
+            Some(UnitOverruled { sensor_kind, stated, given }.into())
+        }
+        _ => None,
+    };
+    sensor_kinds.iter().zip(units).filter_map(of).collect()
 }
 
 /// One error with all questions.

@@ -14,7 +14,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ClockSource, ClockSourceKind, RateUnlikeTimes, RowsSorted, quoted};
 use calibrant_core::error::{Answer, InputError, Refusal, TaskOption};
 use calibrant_core::number_format::plain;
-use calibrant_core::sensor::SensorKind;
+use calibrant_core::sensor::{Axis, SensorKind};
 
 /// Key of a rate that a comment states.
 pub(super) const COMMENT: &str = "rate in a comment";
@@ -62,6 +62,12 @@ pub(super) fn times(
     options: &ImuReadOptions,
     findings: &mut Vec<Diagnostic>,
 ) -> Checked<Vec<f64>> {
+    if options.rows_are_holds {
+        for meaning in [ColumnMeaning::Time, ColumnMeaning::RestOfSecond, ColumnMeaning::Counter] {
+            draft.leave_aside(meaning, "each row is a hold");
+        }
+        return Ok((0..samples.rows).map(|row| row as f64).collect());
+    }
     let rate = rate(draft, options)?;
     let times = &samples.times;
     let has_counter = !samples.counts.is_empty();
@@ -113,7 +119,12 @@ fn question(draft: &Draft, is_empty: bool) -> InputError {
         _ => "the file has no sample times".to_owned(),
     };
     let rate = ", or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`";
-    let answer = Answer::new(TaskOption::RateHz, []).and(rate);
+    let has = |sensor_kind| draft.column(ColumnMeaning::Reading(sensor_kind, Axis::X)).is_some();
+    let means = match has(SensorKind::Accelerometer) && !has(SensorKind::Gyroscope) {
+        true => "; where each row is the mean of a hold, option `rows_are_holds`",
+        false => "",
+    };
+    let answer = Answer::new(TaskOption::RateHz, []).and(format!("{rate}{means}"));
     let message = format!("{empty}, and nothing in it says the sample rate");
     InputError::question(Refusal::RateUnknown, message, vec![answer])
 }

@@ -3,7 +3,7 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::read::{beginning, rows, with_checksum};
-use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
+use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, csv, imu_tk};
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::text::decoding::Checked;
@@ -91,16 +91,32 @@ fn both(accelerometer: Result<ImuFile>, gyroscope: Result<ImuFile>) -> Result<Im
 /// One file of a pair.
 fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKind) -> Checked<ImuFile> {
     let head = Head::find(source.text)?;
-    let mut draft = if head.names.is_empty() {
-        imu_tk::draft(&head, Some(sensor_kind))?
-    } else {
-        Draft::new(FileFormat::Csv, imu_tk::named(&head, sensor_kind))
+    // of [columns], what this file has
+    let own = {
+        let has = |name: &String| match head.names.is_empty() {
+            true => name.parse().is_ok_and(|number: usize| (1..=head.fields()).contains(&number)),
+            false => head.names.contains(&name.as_str()),
+        };
+        let sensor = |kind: SensorKind| {
+            let names =
+                options.columns.sensor(kind).filter(|names| kind == sensor_kind && names.iter().all(has));
+            names.cloned()
+        };
+        let column = |name: &Option<String>| name.clone().filter(has);
+        ColumnMapping {
+            time: column(&options.columns.time),
+            accelerometer: sensor(SensorKind::Accelerometer),
+            gyroscope: sensor(SensorKind::Gyroscope),
+            temperature: column(&options.columns.temperature),
+        }
+    };
+    let mut draft = match head.names.is_empty() {
+        true if own.sensor(sensor_kind).is_some() => csv::draft(&head, Some(sensor_kind)),
+        true => imu_tk::draft(&head, Some(sensor_kind), options)?,
+        false => Draft::new(FileFormat::Csv, imu_tk::named(&head, sensor_kind)),
     };
     draft.keep_only(sensor_kind);
-    // the columns of one file that holds both sensors do not apply; a time that this one has does
-    let time = options.columns.time.clone().filter(|name| head.names.contains(&name.as_str()));
-    let columns = ColumnMapping { time, ..ColumnMapping::default() };
-    let options = ImuReadOptions { columns, ..options.clone() };
+    let options = ImuReadOptions { columns: own, ..options.clone() };
     rows(draft, head, source, &options)
 }
 

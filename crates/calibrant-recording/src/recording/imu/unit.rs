@@ -11,6 +11,8 @@ pub(super) const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
 pub enum ImuUnit {
     /// Metres per second squared.
     MetrePerSecondSquared,
+    /// Millimetres per second squared; converted to m/s².
+    MillimetrePerSecondSquared,
     /// Standard gravity, 9.80665 m/s²; converted to m/s².
     StandardGravity,
     /// Thousandths of standard gravity; converted to m/s².
@@ -27,8 +29,9 @@ pub enum ImuUnit {
 
 impl ImuUnit {
     /// All units.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::MetrePerSecondSquared,
+        Self::MillimetrePerSecondSquared,
         Self::StandardGravity,
         Self::MilliGravity,
         Self::RadianPerSecond,
@@ -37,11 +40,12 @@ impl ImuUnit {
         Self::Counts,
     ];
 
-    /// As it is printed: `m/s²`, `g`, `mg`, `rad/s`, `deg/s`, `mdps` or `counts`.
+    /// As it is printed: `m/s²`, `mm/s²`, `g`, `mg`, `rad/s`, `deg/s`, `mdps` or `counts`.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
             Self::MetrePerSecondSquared => "m/s²",
+            Self::MillimetrePerSecondSquared => "mm/s²",
             Self::StandardGravity => "g",
             Self::MilliGravity => "mg",
             Self::RadianPerSecond => "rad/s",
@@ -51,7 +55,7 @@ impl ImuUnit {
         }
     }
 
-    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `g`, `mg`,
+    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `mm/s²`, `g`, `mg`,
     /// `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …
     ///
     /// # Examples
@@ -63,11 +67,12 @@ impl ImuUnit {
     /// ```
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
-        let plain: String = text.to_lowercase().chars().filter(|c| !" _^*·".contains(*c)).collect();
+        let plain: String = text.to_lowercase().chars().filter(|c| !" _^*·()".contains(*c)).collect();
         Some(match plain.as_str() {
             "m/s²" | "m/s2" | "mps2" | "ms2" | "ms-2" | "mpss" | "m/s/s" | "meterspersecondsquared" => {
                 Self::MetrePerSecondSquared
             }
+            "mm/s²" | "mm/s2" | "mmps2" | "mms2" | "mms-2" | "mm/s/s" => Self::MillimetrePerSecondSquared,
             "g" | "gs" | "gee" => Self::StandardGravity,
             "mg" | "millig" => Self::MilliGravity,
             "rad/s" | "radps" | "rads" | "rads-1" | "radpersecond" | "rad/sec" => Self::RadianPerSecond,
@@ -84,9 +89,10 @@ impl ImuUnit {
     #[must_use]
     pub fn suits(self, sensor_kind: SensorKind) -> bool {
         match self {
-            Self::MetrePerSecondSquared | Self::StandardGravity | Self::MilliGravity => {
-                sensor_kind == SensorKind::Accelerometer
-            }
+            Self::MetrePerSecondSquared
+            | Self::MillimetrePerSecondSquared
+            | Self::StandardGravity
+            | Self::MilliGravity => sensor_kind == SensorKind::Accelerometer,
             Self::RadianPerSecond | Self::DegreePerSecond | Self::MilliDegreePerSecond => {
                 sensor_kind == SensorKind::Gyroscope
             }
@@ -94,11 +100,11 @@ impl ImuUnit {
         }
     }
 
-    /// The units that this sensor's readings can have, in words: `m/s², g, mg or counts`.
+    /// The units that this sensor's readings can have, in words: `m/s², mm/s², g, mg or counts`.
     #[must_use]
     pub fn choices(sensor_kind: SensorKind) -> &'static str {
         match sensor_kind {
-            SensorKind::Accelerometer => "m/s², g, mg or counts",
+            SensorKind::Accelerometer => "m/s², mm/s², g, mg or counts",
             SensorKind::Gyroscope => "rad/s, deg/s, mdps or counts",
         }
     }
@@ -108,6 +114,7 @@ impl ImuUnit {
     pub fn reading(self) -> (ReadingUnit, f64) {
         match self {
             Self::MetrePerSecondSquared => (ReadingUnit::MetrePerSecondSquared, 1.0),
+            Self::MillimetrePerSecondSquared => (ReadingUnit::MetrePerSecondSquared, 1e-3),
             Self::StandardGravity => (ReadingUnit::MetrePerSecondSquared, STANDARD_GRAVITY_MPS2),
             Self::MilliGravity => (ReadingUnit::MetrePerSecondSquared, 1e-3 * STANDARD_GRAVITY_MPS2),
             Self::RadianPerSecond => (ReadingUnit::RadianPerSecond, 1.0),

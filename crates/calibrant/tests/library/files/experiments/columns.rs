@@ -48,7 +48,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "gauge = \"upper\"",
         "gauge = \"upper\"⏎[columns]⏎accelerometer_unit = \"deg/s\"",
-        r#"line 13, column 22: `columns.accelerometer_unit`: "deg/s" is not known here (one of "m/s²", "g", "mg", "counts")"#,
+        r#"line 13, column 22: `columns.accelerometer_unit`: "deg/s" is not known here (one of "m/s²", "mm/s²", "g", "mg", "counts")"#,
     ),
     (
         "gauge = \"upper\"",
@@ -105,6 +105,7 @@ topic = "/imu"
         times: Some(SampleTimes::AsLogged),
         instance: Some("0".into()),
         topic: Some("/imu".into()),
+        rows_are_holds: false,
         counts_unless_stated: [false; 2],
         accelerometer_only: None,
         budget: None,

@@ -83,7 +83,7 @@ const PAIRS: &[Pair] = &[
         "0 1 2\n1 2 3\n",
         "0 1 2 3\n1 2 3 4\n",
         counts,
-        "line 1: accelerometer: 3 columns where 4 are needed (without a header the columns are t x y z)",
+        "line 1: accelerometer: 3 columns where 4 are needed (without a header the columns are t x y z; where each row is the mean of a hold, say option `rows_are_holds`; or say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as rate_hz = 100, accelerometer = [\"1\", \"2\", \"3\"], accelerometer_unit = \"m/s²\")",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
@@ -96,7 +96,7 @@ const PAIRS: &[Pair] = &[
         "0 1 2 90\n1 2 1 80\n",
         plain,
         "accelerometer: the accelerometer's columns have no unit: magnitudes around 10.1 suggest m/s²; gyroscope: the gyroscope's columns have no unit: magnitudes up to 90 suggest deg/s \
-         (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
+         (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
 ];
 
@@ -183,7 +183,7 @@ const CASES: &[Case] = &[
     (
         "t_s,ax_mps2,ay_mps2,az_mps2\n0,1,0,0\n1,0,1,0.01\n2,0.02,0,1\n",
         plain,
-        "the accelerometer is said to be in m/s², but its magnitude is 1 most of the time: is it in g? (correct the unit: a column's name may end in _g, and accelerometer_unit = \"g\" in [columns] counts where the columns are named there)",
+        "the accelerometer is said to be in m/s², but its magnitude is 1 most of the time: is it in g? (give the unit g; in a text a column's name may end in _g, or accelerometer_unit = \"g\" stands in [columns] beside the names of the columns)",
     ),
     (
         "t_s,ax_mps2,ay_mps2,az_mps2\n0,33000,32000,36000\n1,33001,32000,36000\n2,33000,32001,36000\n",
@@ -194,22 +194,22 @@ const CASES: &[Case] = &[
     (
         "t_s,ax,ay,az\n0,0,0.1,9.8\n1,0,9.8,0.1\n2,9.8,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,0.1,1\n1,0,1,0.1\n2,1,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,16384\n1,0,16384,1\n2,16384,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,4.2\n1,0,4.2,1\n2,4.2,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,360\n1,0,360,1.5\n2,0,0,0\n",
@@ -239,7 +239,7 @@ const CASES: &[Case] = &[
     (
         "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,1,2,3,0,0,9.8\n1,1,360,3,0,0,9.8\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`)",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]: the sample rate in Hz, as it was measured, or as it was set; then how well it is known, option `rate_sd_ppm`)",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
@@ -316,7 +316,7 @@ const CASES: &[Case] = &[
     (
         "0 1 2\n1 2 3\n",
         || format(FileFormat::ImuTk),
-        "line 1: 3 columns where 4 are needed (without a header the columns are t x y z)",
+        "line 1: 3 columns where 4 are needed (without a header the columns are t x y z; where each row is the mean of a hold, say option `rows_are_holds`; or say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as rate_hz = 100, accelerometer = [\"1\", \"2\", \"3\"], accelerometer_unit = \"m/s²\")",
     ),
     // columns
     (
@@ -386,9 +386,9 @@ const CASES: &[Case] = &[
         "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
     ),
     (
-        "t_s;gx_radps;gy_radps;gz_radps\n0;1,5;2;3\n1;1;2;3\n",
+        "t_s;gx_radps;gy_radps;gz_radps\n0;1,500;2;3\n1;1;2;3\n",
         plain,
-        "line 2, column 3: \"1,5\" in column `gx_radps` is not a number (numbers need a decimal point, not a comma)",
+        "line 2, column 3: \"1,500\" in column `gx_radps` is not a number (numbers need a decimal point, not a comma)",
     ),
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,1,2,x\n1,1,2,3\n",

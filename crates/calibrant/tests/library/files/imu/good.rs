@@ -21,6 +21,7 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
     times: None,
     instance: None,
     topic: None,
+    rows_are_holds: false,
     accelerometer_only: None,
     budget: None,
 };

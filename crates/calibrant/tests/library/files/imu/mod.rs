@@ -6,6 +6,7 @@ mod clocks;
 mod good;
 mod host_times;
 mod invalid_samples;
+mod layouts;
 mod packets;
 mod parquet;
 mod pieces;

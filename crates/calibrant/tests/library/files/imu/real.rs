@@ -40,7 +40,7 @@ fn the_ferraris_session_of_imucal_asks_for_units_and_rate() {
         "the accelerometer's columns have no unit: magnitudes around 10.3",
         " suggest m/s²; the gyroscope's columns have no unit: magnitudes up to ",
         " suggest deg/s; the file has no sample times, and nothing in it says the sample rate",
-        "say option `accelerometer_unit` m/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]",
+        "say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]); option `gyroscope_unit` rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); option `rate_hz`, or rate_hz in [columns]",
     ] {
         assert!(question.contains(word), "{word}\n{question}");
     }
