@@ -69,9 +69,13 @@ fn what_cannot_be_calibrated_together_is_refused() {
         3,
         &["a.csv", "they would count twice"],
     );
-    bench.preset("faces", "faces.toml", &[]);
+    bench.preset(
+        "static-poses",
+        "given.toml",
+        &[("# intervals_s = [[0.0, 50.0]", "intervals_s = [[0.0, 50.0]")],
+    );
     bench.refuses(
-        "calibrate faces.toml a.csv b.csv --together -o joined",
+        "calibrate given.toml a.csv b.csv --together -o joined",
         2,
         &["--together needs holds that are found, and holds.intervals_s gives them"],
     );

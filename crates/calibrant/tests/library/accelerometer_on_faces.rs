@@ -67,7 +67,7 @@ fn run(
 /// Share of the 95 % intervals of biases, scale factors and cross-axis terms that cover the truth, and the mean square of z.
 fn coverage(number: u64, directions: &[Vector3<f64>], tilt_deg: f64, given: bool) -> [(f64, f64); 3] {
     let tilt_rad = tilt_deg.to_radians();
-    let all: Vec<Vec<f64>> = (0..200)
+    let all: Vec<Vec<f64>> = (0..400)
         .into_par_iter()
         .map(|sensor| {
             let mut rng = stream(number, Purpose::Sensor, sensor);
@@ -100,7 +100,7 @@ fn intervals_of_twelve_parameters_cover_the_truth() {
                     "{name}, {tilt_deg}°, given {given}, {kind}: {covered:.3} covered, z² {square:.2}"
                 );
                 println!("{line}");
-                // of 600 at least, 0.9 % is a standard deviation. The scatter of few faces is uncertain, and where tilts decide, what the
+                // of 1200 at least, 0.6 % is a standard deviation. The scatter of few faces is uncertain, and where tilts decide, what the
                 // magnitudes tell has too wide intervals (`known_faces`)
                 // and what opposite directions may share is in the matrix, and is not drawn here
                 let most = if *kind == "bias" { 0.998 } else { 1.0 };

@@ -77,6 +77,7 @@ const ACCELEROMETER: &[&str] = &[
     "accelerometer",
     "acceleration",
     "linearacceleration",
+    "totalacceleration",
     "arss",
     "rawacc",
     "accraw",
@@ -130,6 +131,13 @@ pub(crate) fn column(name: &str) -> ImuColumn {
         column.unused = Some("its name does not say °C: `temp_c` does, and [columns] temperature too".into());
     }
     column
+}
+
+/// The sensor of this name: `Accel`, `gyroscope`.
+pub(super) fn sensor_named(name: &str) -> Option<SensorKind> {
+    let plain = plain(&name.to_lowercase());
+    let names = [(SensorKind::Accelerometer, ACCELEROMETER), (SensorKind::Gyroscope, GYROSCOPE)];
+    names.into_iter().find(|(_, names)| names.contains(&plain.as_str())).map(|(sensor_kind, _)| sensor_kind)
 }
 
 /// Is it `ax`, `ay` or `az`, with or without a unit?

@@ -1,7 +1,7 @@
 //! The values of a file's used columns, in the units of the file, whatever its format.
 
 use super::column::ColumnMeaning;
-use super::sensor_rows::sensor_of;
+use super::column_names::sensor_named;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
 use crate::recording::text_source::RowTaker;
@@ -178,7 +178,7 @@ impl RowTaker for SampleReader<'_> {
             }
             if let Some(column) = self.sensor_column {
                 let name = line.fields(self.reader.delimiter()).nth(column).map_or("", |(_, field)| field);
-                match sensor_of(name) {
+                match sensor_named(name) {
                     Some(SensorKind::Accelerometer) => {
                         values[slots_of(SensorKind::Gyroscope)[0]..READINGS.end].fill(f64::NAN)
                     }

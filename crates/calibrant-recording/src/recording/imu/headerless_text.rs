@@ -13,7 +13,7 @@ pub(super) fn question(head: &Head<'_>) -> InputError {
         _ => "",
     };
     let help = format!(
-        "begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps{}{means}",
+        "begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps{means}{}",
         in_columns(head).map_or_else(String::new, |stated| format!("; or {stated}"))
     );
     InputError::new(Refusal::HeaderMissing, message, help).at_line(head.line())

@@ -1,28 +1,17 @@
 //! Rows of one sensor each: a column says which, and the axes of both share three columns.
 
 use super::column::{ColumnMeaning, ImuColumn};
+use super::column_names::sensor_named;
 use super::file_layout::Draft;
 use super::first_rows::FirstRows;
 use super::options::{ColumnMapping, ImuReadOptions};
 use calibrant_core::sensor::{Axis, SensorKind};
 
-/// What such a column holds of a sensor.
-const NAMES: [(SensorKind, &[&str]); 2] = [
-    (SensorKind::Accelerometer, &["a", "acc", "accel", "accelerometer", "acceleration", "totalacceleration"]),
-    (SensorKind::Gyroscope, &["g", "gyr", "gyro", "gyroscope", "angularvelocity", "rotationrate"]),
-];
-
-/// The sensor of this name.
-pub(super) fn sensor_of(name: &str) -> Option<SensorKind> {
-    let plain: String = name.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
-    NAMES.iter().find(|(_, names)| names.contains(&plain.as_str())).map(|(sensor_kind, _)| *sensor_kind)
-}
-
 /// The column that names the sensor of each row. The axes are then read as the accelerometer's, and moved. `None` where the rows are no such ones.
 pub(super) fn find(draft: &mut Draft, rows: &FirstRows<'_>, options: &ImuReadOptions) -> Option<usize> {
     let axes = axes(draft, &options.columns)?;
     let names_both = |column: &usize| {
-        let found: Vec<Option<SensorKind>> = rows.column(*column).map(sensor_of).collect();
+        let found: Vec<Option<SensorKind>> = rows.column(*column).map(sensor_named).collect();
         SensorKind::ALL.iter().all(|sensor_kind| found.contains(&Some(*sensor_kind)))
             && rows.column(*column).all(|field| field.parse::<f64>().is_err())
     };

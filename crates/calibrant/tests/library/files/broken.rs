@@ -142,7 +142,10 @@ const RECORDINGS: &[Case] = &[
         b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3,4\n2,1,2,3\n",
         "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
     ),
-    (b"0 1 2\n1 2 3\n", "line 1: 3 columns where 4 are needed (without a header the columns are t x y z)"),
+    (
+        b"0 1 2\n1 2 3\n",
+        r#"line 1: 3 columns where 4 are needed (without a header the columns are t x y z; where each row is the mean of a hold, say option `rows_are_holds`; or say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as rate_hz = 100, accelerometer = ["1", "2", "3"], accelerometer_unit = "m/s²")"#,
+    ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n1,inf,2,3\n2,1,2,3\n",
         r#"line 3, column 3: "inf" in column `ax` is out of range (is the unit right? is the file damaged?)"#,
