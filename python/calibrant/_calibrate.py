@@ -31,6 +31,7 @@ def calibrate(
     folds: int | None = None,
     sections: Path | None = None,
     together: Sequence[Any] = (),
+    rows_are_holds: bool = False,
     allow: Sequence[str] = (),
     accept: Path | None = None,
     sensor: str | None = None,
@@ -67,6 +68,8 @@ def calibrate(
         The list of faces and turns of a session of imucal.
     together : list of recordings
         Further recordings of the same sensors, calibrated together with the first.
+    rows_are_holds : bool
+        Each row of the recording is the mean of a hold of an accelerometer, as in a table of averages.
     allow : list of str
         Codes of diagnostics that do not count for the verdict.
     accept : path, optional
@@ -113,7 +116,7 @@ def calibrate(
     other = None if validate is None else _native.Source(as_readings(validate))
     options: dict[str, Any] = {
         "experiment_file": made._path or "",
-        "reading": reading,
+        "reading": {**reading, "rows_are_holds": rows_are_holds},
         "folds": folds,
         "accept": None if accept is None else os.fspath(accept),
         "allow": list(allow or ()),

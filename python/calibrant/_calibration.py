@@ -446,11 +446,11 @@ class Calibration:
         cls,
         path: Path,
         *,
-        format: Literal["calibrant", "kalibr", "imu_tk", "imucal", "c"] | None = None,
+        format: Literal["calibrant", "kalibr", "imu_tk", "imucal", "c", "openvins"] | None = None,
         unit: Literal["si", "counts"] | None = None,
         sensor: Literal["accelerometer", "gyroscope"] | None = None,
     ) -> Calibration:
-        """Read a calibration: ours, or one of Kalibr, imu_tk or imucal.
+        """Read a calibration: ours, or one of Kalibr, OpenVINS, imu_tk or imucal.
 
         Parameters
         ----------
@@ -485,13 +485,30 @@ class Calibration:
     def convert(
         self,
         path: Path,
-        format: Literal["calibrant", "kalibr", "imu_tk", "imucal", "c"] | None = None,
+        format: Literal[
+            "calibrant",
+            "kalibr",
+            "imu_tk",
+            "imucal",
+            "c",
+            "openvins",
+            "basalt",
+            "px4",
+            "ardupilot",
+            "imufusion",
+            "librealsense",
+        ]
+        | None = None,
         *,
         gauge: Literal["lower", "upper", "symmetric"] | None = None,
         sensor: Literal["accelerometer", "gyroscope"] | None = None,
         noise: Sequence[Path] = (),
+        drop: Sequence[Literal["cross-axis", "gyroscope-matrix", "gain-temperature", "g-sensitivity"]] = (),
         drop_g_sensitivity: bool = False,
         temperature_c: float | None = None,
+        rostopic: str | None = None,
+        update_rate: float | None = None,
+        into: bool = False,
     ) -> Converted:
         """Write it in the format of another program.
 
@@ -507,10 +524,18 @@ class Calibration:
             Write one sensor alone.
         noise : list of paths
             Noise densities: files ``noise.json``, or ``imu.yaml`` of Kalibr.
+        drop : list of str
+            Parts that are left out, because the format has no place for them. This changes the correction; the notes have the largest error.
         drop_g_sensitivity : bool
-            Leave out the gyroscope's g-sensitivity. This changes the correction.
+            The same as ``drop=["g-sensitivity"]``.
         temperature_c : float, optional
             Evaluate biases and gains at this temperature, °C, and leave out the terms of temperature.
+        rostopic : str, optional
+            The ROS topic of the IMU, for Kalibr and OpenVINS.
+        update_rate : float, optional
+            Rate of the readings, Hz, for Kalibr, OpenVINS and basalt; that of the noise or of the recording by default.
+        into : bool
+            ``path`` is a calibration of basalt that gets this IMU. Everything else in it stays.
 
         Returns
         -------
@@ -527,8 +552,11 @@ class Calibration:
             "gauge": gauge,
             "sensor": sensor,
             "noise": [os.fspath(of) for of in noise],
-            "drop_g_sensitivity": drop_g_sensitivity,
+            "drop": [*drop, *(["g-sensitivity"] if drop_g_sensitivity else [])],
             "temperature_c": temperature_c,
+            "rostopic": rostopic,
+            "update_rate": update_rate,
+            "into": into,
         }
         paths, notes = _native.convert_calibration(self._text, os.fspath(path), as_json(changes))
         return Converted(tuple(os.fspath(written) for written in paths), diagnostics(json.loads(notes)))

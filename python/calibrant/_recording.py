@@ -218,7 +218,7 @@ def read_recording(
     columns : dict, optional
         Names of columns, where their names do not tell: keys ``time``, ``accelerometer``, ``gyroscope`` (three names each) and ``temperature``.
     accelerometer_unit : str, optional
-        ``"m/s²"``, ``"g"``, ``"mg"`` or ``"counts"``, where the file does not say.
+        ``"m/s²"``, ``"mm/s²"``, ``"g"``, ``"mg"`` or ``"counts"``, where the file does not say.
     gyroscope_unit : str, optional
         ``"rad/s"``, ``"deg/s"``, ``"mdps"`` or ``"counts"``, where the file does not say.
     time_unit : str, optional
@@ -301,7 +301,7 @@ def recording(
     rate_sd_ppm : float, optional
         How well that rate, or the clock of the times, is known, ppm; 50 000 by default of a rate, 0 of times.
     accelerometer_unit : str
-        ``"m/s²"``, ``"g"``, ``"mg"`` or ``"counts"``.
+        ``"m/s²"``, ``"mm/s²"``, ``"g"``, ``"mg"`` or ``"counts"``.
     gyroscope_unit : str
         ``"rad/s"``, ``"deg/s"``, ``"mdps"`` or ``"counts"``.
     temperature_c : (n,) array, optional

@@ -208,3 +208,14 @@ def test_the_shares_of_a_budget_add_up(imu: cb.Recording) -> None:
     place = list(found).index("accelerometer.scale.x")
     # gravity is that of any place
     assert found.budget["gravity"][place] > 0.9
+
+
+def test_a_table_of_averages_is_calibrated(tmp_path: pathlib.Path) -> None:
+    simulated = cb.simulate(cb.Experiment.preset("static-poses"))
+    whole = cb.calibrate(simulated.recording, gravity_mps2=9.80665)
+    rows = [",".join(f"{mean:.7f}" for mean in hold["mean_mps2"]) for hold in whole.data["holds"]["table"]]
+    path = tmp_path / "averages.txt"
+    path.write_text("ax_mps2,ay_mps2,az_mps2\n" + "\n".join(rows) + "\n")
+    found = cb.calibrate(path, "static-poses", gravity_mps2=9.80665, rows_are_holds=True)
+    for name in ("accelerometer.bias.x", "accelerometer.scale.z"):
+        assert abs(found[name].value - whole[name].value) < whole[name].sd

@@ -5,7 +5,9 @@ use crate::console;
 use crate::diagnostics::{tell, tell_all};
 use crate::exit::Exit;
 use calibrant::diagnostic::settings::SettingUnused;
-use calibrant::io::{ResultPlaces, check_not_corrected, file_name, imu_tk_files, write_corrected_recording};
+use calibrant::io::{
+    ImuUnit, ResultPlaces, check_not_corrected, file_name, imu_tk_files, write_corrected_recording,
+};
 use calibrant::report::number_format;
 use calibrant::sensor::{CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, SensorKind};
 use calibrant::session::{Readings, Source};
@@ -14,7 +16,8 @@ use std::path::PathBuf;
 
 /// Correct a recording with a calibration. The result is specific force and angular rate, with their standard uncertainty.
 ///
-/// Writes CSV with the columns t_s,ax_mps2,…,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…. The uncertainty is that of the calibration. Its error is
+/// Writes CSV with the columns t_s,ax_mps2,…,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…, or in the units that --output-accelerometer-unit and
+/// --output-gyroscope-unit name (ax_g, gx_degps). The uncertainty is that of the calibration. Its error is
 /// the same in every sample, and does not average out. It does not include the noise of a sample.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -35,9 +38,29 @@ pub(crate) struct Arguments {
     /// Temperature of the recording, °C, for a calibration with temperature terms. It replaces that of the recording.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
+    /// Unit of the corrected accelerometer: m/s2, g or mg. Some programs take g, and check nothing.
+    #[arg(long, value_name = "UNIT", default_value = "m/s2", value_parser = force_unit)]
+    output_accelerometer_unit: ImuUnit,
+    /// Unit of the corrected gyroscope: rad/s, deg/s or mdps.
+    #[arg(long, value_name = "UNIT", default_value = "rad/s", value_parser = rate_unit)]
+    output_gyroscope_unit: ImuUnit,
     /// Where to write the corrected recording; `-` is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+}
+
+fn force_unit(text: &str) -> Result<ImuUnit, String> {
+    physical(text, SensorKind::Accelerometer, "m/s2, g or mg")
+}
+
+fn rate_unit(text: &str) -> Result<ImuUnit, String> {
+    physical(text, SensorKind::Gyroscope, "rad/s, deg/s or mdps")
+}
+
+/// A unit of corrected values.
+fn physical(text: &str, sensor_kind: SensorKind, units: &str) -> Result<ImuUnit, String> {
+    let unit = ImuUnit::parse(text).filter(|unit| unit.suits(sensor_kind) && *unit != ImuUnit::Counts);
+    unit.ok_or_else(|| format!("corrected values of the {sensor_kind} are in {units}"))
 }
 
 impl crate::run::Run for Arguments {
@@ -71,7 +94,8 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let Applied { corrected, notes } =
         calibrant::apply(&imu, &recording).map_err(|error| error.in_recording(&arguments.recording))?;
     tell_all(&notes);
-    write_corrected_recording(&arguments.output, &corrected, &file_name(&arguments.calibration))?;
+    let units = [arguments.output_accelerometer_unit, arguments.output_gyroscope_unit].into();
+    write_corrected_recording(&arguments.output, &corrected, &file_name(&arguments.calibration), units)?;
     console::print(&format!("{}: {}\n", console::name(&arguments.calibration), in_words(&imu)));
     for (sensor_kind, found) in
         [(SensorKind::Accelerometer, &corrected.accelerometer), (SensorKind::Gyroscope, &corrected.gyroscope)]

@@ -22,6 +22,22 @@ pub(crate) enum Format {
     Imucal,
     /// A C header with the correction (reading: only headers that calibrant wrote).
     C,
+    /// OpenVINS' kalibr_imu_chain.yaml, model kalibr.
+    #[value(name = "openvins")]
+    OpenVins,
+    /// basalt's JSON (written).
+    Basalt,
+    /// PX4's parameters, for QGroundControl (written).
+    Px4,
+    /// ArduPilot's parameters (written).
+    #[value(name = "ardupilot")]
+    ArduPilot,
+    /// imufusion's arrays, in Python (written).
+    #[value(name = "imufusion")]
+    ImuFusion,
+    /// librealsense's calibration.json (written).
+    #[value(name = "librealsense", alias = "realsense")]
+    LibRealSense,
 }
 
 impl From<Format> for ImuFormat {
@@ -32,6 +48,12 @@ impl From<Format> for ImuFormat {
             Format::ImuTk => Self::ImuTk,
             Format::Imucal => Self::Imucal,
             Format::C => Self::CHeader,
+            Format::OpenVins => Self::OpenVins,
+            Format::Basalt => Self::Basalt,
+            Format::Px4 => Self::Px4,
+            Format::ArduPilot => Self::ArduPilot,
+            Format::ImuFusion => Self::ImuFusion,
+            Format::LibRealSense => Self::LibRealSense,
         }
     }
 }

@@ -5,40 +5,64 @@ use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{ImuFormat, ResultPlaces, imu_tk_files, write_calibrated_imu};
-use calibrant::sensor::Gauge;
+use calibrant::io::{ImuFormat, ResultPlaces, edit_calibrated_imu, imu_tk_files, write_calibrated_imu};
+use calibrant::sensor::{Gauge, ImuPart};
 use calibrant::{Conversion, Error};
 use std::path::{Path, PathBuf};
 
-/// Convert a calibration between formats: calibrant JSON, Kalibr, imu_tk, imucal, C header.
+/// Convert a calibration between formats: calibrant JSON, Kalibr, OpenVINS, basalt, PX4, ArduPilot, imufusion, librealsense, imu_tk, imucal, C header.
 ///
-/// The correction stays the same to the last digits. The command reports what a format cannot store, and refuses where the correction would change. imu_tk has one
-/// file for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib. With --sensor, one sensor of an IMU is written alone.
+/// The correction stays the same to the last digits. The command reports what a format cannot store, and refuses where the correction would change, with the error
+/// that this would make; --drop leaves it out on purpose. imu_tk has one file for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib. With
+/// --sensor, one sensor of an IMU is written alone.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The calibration.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Output file. The extension gives the format: .json (calibrant), .yaml (Kalibr), .calib (imu_tk), .h (C).
-    #[arg(value_name = "OUT")]
-    output: PathBuf,
+    /// Output file. The extension gives the format: .json (calibrant), .yaml (Kalibr), .calib (imu_tk), .h (C), .params (PX4), .param (ArduPilot), .py (imufusion).
+    #[arg(value_name = "OUT", required_unless_present = "into")]
+    output: Option<PathBuf>,
     #[command(flatten)]
     reading: Reading,
     /// Format of OUT.
     #[arg(long, value_enum)]
     to: Option<Format>,
+    /// A calibration of basalt that gets this IMU, in place of OUT: its own keys are replaced, everything else in the file stays.
+    #[arg(long, value_name = "FILE", conflicts_with = "output")]
+    into: Option<PathBuf>,
     /// Rotate the true frame of both sensors into this gauge of the accelerometer.
     #[arg(long, value_enum)]
     gauge: Option<GaugeName>,
     /// Noise densities for OUT: the noise.json of `calibrant noise`, or an imu.yaml of Kalibr. Repeatable: a file adds what the earlier ones lack.
     #[arg(long, value_name = "FILE")]
     noise: Vec<PathBuf>,
-    /// Omit the gyroscope's g-sensitivity. This changes the correction.
-    #[arg(long)]
+    /// The ROS topic of the IMU, for Kalibr and OpenVINS.
+    #[arg(long, value_name = "TOPIC")]
+    rostopic: Option<String>,
+    /// Rate of the readings, Hz, for Kalibr, OpenVINS and basalt (default: that of the noise or of the calibrated recording).
+    #[arg(long, value_name = "HZ", value_parser = rate)]
+    update_rate: Option<f64>,
+    /// Omit parts that OUT has no place for: cross-axis (of the accelerometer), gyroscope-matrix (its gain and alignment), gain-temperature, g-sensitivity.
+    /// This changes the correction; the largest error is printed.
+    #[arg(long, value_name = "PART,…", value_delimiter = ',', value_parser = part)]
+    drop: Vec<ImuPart>,
+    /// The same as --drop g-sensitivity.
+    #[arg(long, hide = true)]
     drop_g_sensitivity: bool,
     /// Evaluate biases and gains at this temperature, °C, and omit the temperature terms.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
+}
+
+fn part(name: &str) -> Result<ImuPart, String> {
+    let all = || ImuPart::ALL.map(ImuPart::name).join(", ");
+    ImuPart::by_name(name).ok_or_else(|| format!("the parts are {}", all()))
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| "a rate in Hz, greater than 0".into())
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -65,11 +89,13 @@ impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let is_pair = |path: &Path| path.extension().is_some_and(|extension| extension == "calib");
         let pair = |path: &Path, is_pair: bool| is_pair.then(|| imu_tk_files(path)).into_iter().flatten();
-        let writes_pair = is_pair(&self.output) || matches!(self.to, Some(Format::ImuTk));
+        let output = self.output.iter();
+        let writes_pair = |path: &Path| is_pair(path) || matches!(self.to, Some(Format::ImuTk));
         let inputs = std::iter::once(&self.input).chain(&self.noise).cloned();
         ResultPlaces {
             directory: None,
-            results: pair(&self.output, writes_pair).chain([self.output.clone()]).collect(),
+            // the file of --into is no result: it is there before, and changed on purpose
+            results: output.flat_map(|path| pair(path, writes_pair(path)).chain([path.clone()])).collect(),
             inputs: inputs.chain(pair(&self.input, is_pair(&self.input))).collect(),
         }
     }
@@ -79,39 +105,55 @@ impl crate::run::Run for Arguments {
     }
 }
 
+impl Arguments {
+    /// The format that is written.
+    fn format(&self) -> calibrant::Result<ImuFormat> {
+        let refuse = |path: &Path, message: &str, help: String| {
+            let input_error = InputError::new(Refusal::FormatUnknown, message, help);
+            Err(Error::Experiment(Box::new(input_error.in_file(path))))
+        };
+        match (self.to.map(ImuFormat::from), &self.into, &self.output) {
+            (Some(ImuFormat::Basalt) | None, Some(_), _) => Ok(ImuFormat::Basalt),
+            (Some(_), Some(into), _) => refuse(
+                into,
+                "--into is for files of basalt",
+                "give OUT, the file to write, in its place".into(),
+            ),
+            (Some(format), None, _) => Ok(format),
+            (None, None, output) => {
+                let output = output.as_deref().unwrap_or(Path::new(""));
+                let message = "the extension does not tell the format to write";
+                let help = || format!("say it with --to: {}", ImuFormat::names(false));
+                ImuFormat::of_extension(output).map_or_else(|| refuse(output, message, help()), Ok)
+            }
+        }
+    }
+}
+
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let format = match arguments.to {
-        Some(format) => format.into(),
-        None => ImuFormat::of_extension(&arguments.output).ok_or_else(|| {
-            let input_error = InputError::new(
-                Refusal::FormatUnknown,
-                "the extension does not tell the format to write",
-                "say it with --to: calibrant, kalibr, imu_tk, imucal, c",
-            );
-            Error::Experiment(Box::new(input_error.in_file(&arguments.output)))
-        })?,
-    };
+    let format = arguments.format()?;
     let mut file = arguments.reading.read(&arguments.input)?;
     let read =
         format!("{} ({}): {}\n", console::name(&arguments.input), file.format.title(), in_words(&file.imu));
+    let felt = arguments.drop_g_sensitivity.then_some(ImuPart::GSensitivity);
     let conversion = Conversion {
         path: Some(arguments.input.clone()),
         noise: arguments.noise.clone(),
-        drop_g_sensitivity: arguments.drop_g_sensitivity,
+        drop: arguments.drop.iter().copied().chain(felt).collect(),
         sensor: arguments.reading.sensor_kind(),
         temperature_c: arguments.temperature,
         gauge: arguments.gauge.map(Gauge::from),
+        rostopic: arguments.rostopic.clone(),
+        update_rate_hz: arguments.update_rate,
     };
     tell_all(&conversion.change(&mut file)?);
-    let written = write_calibrated_imu(&arguments.output, &file, format)?;
+    let written = match (&arguments.into, &arguments.output) {
+        (Some(into), _) => edit_calibrated_imu(into, &file)?,
+        (None, output) => write_calibrated_imu(output.as_deref().unwrap_or(Path::new("")), &file, format)?,
+    };
     console::print(&read);
     tell_all(&written.warnings);
     let files: Vec<_> = written.files.iter().map(|path| console::name(path)).collect();
-    console::print(&format!(
-        "{} ({}), true frame: {}\n",
-        files.join(" and "),
-        format.title(),
-        file.imu.frame
-    ));
+    console::print(&format!("{} ({}), true frame: {}\n", files.join(" and "), format.title(), written.frame));
     Ok(Exit::DONE)
 }

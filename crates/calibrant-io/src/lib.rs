@@ -33,8 +33,8 @@ mod truth;
 pub use calibrant_recording::*;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ConvertedFile, ImuCore, ImuFormat, ImuNoise, RawUnits, WrittenImu,
-    calibrated_imu_texts, imu_tk_files, parse_calibrated_imu, parse_estimates, read_calibrated_imu,
-    read_kalibr_noise, read_measured_noise, write_calibrated_imu,
+    calibrated_imu_texts, edit_calibrated_imu, imu_tk_files, parse_calibrated_imu, parse_estimates,
+    read_calibrated_imu, read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
 pub use experiment::presets::{PRESETS, Preset, preset};
 pub use experiment::{

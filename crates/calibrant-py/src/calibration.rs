@@ -9,11 +9,11 @@ use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::{Comparison, Place};
 use calibrant::io::{
     CalibratedImuFile, ComparisonFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts,
-    parse_calibrated_imu, read_calibrated_imu, to_json, write_calibrated_imu,
+    edit_calibrated_imu, parse_calibrated_imu, read_calibrated_imu, to_json, write_calibrated_imu,
 };
 use calibrant::report::comparison_sheet;
 use calibrant::sensor::{
-    CalibratedImu, Gauge, ImuCorrection, ImuRecording, Recording, SensorKind, WORKING_C,
+    CalibratedImu, Gauge, ImuCorrection, ImuPart, ImuRecording, Recording, SensorKind, WORKING_C,
 };
 use calibrant::{Conversion, Error, Result};
 use nalgebra::{Matrix3, Vector3};
@@ -54,7 +54,10 @@ struct Changes {
     format: Option<String>,
     gauge: Option<String>,
     noise: Vec<PathBuf>,
-    drop_g_sensitivity: bool,
+    drop: Vec<String>,
+    rostopic: Option<String>,
+    update_rate: Option<f64>,
+    into: bool,
     sensor: Option<String>,
     temperature_c: Option<f64>,
 }
@@ -68,7 +71,9 @@ impl Changes {
         Ok(Conversion {
             path: None,
             noise: self.noise,
-            drop_g_sensitivity: self.drop_g_sensitivity,
+            drop: self.drop.iter().map(|name| part(name)).collect::<Result<_>>()?,
+            rostopic: self.rostopic,
+            update_rate_hz: self.update_rate,
             sensor: self.sensor.as_deref().map(sensor).transpose()?,
             temperature_c: self.temperature_c,
             gauge: self.gauge.as_deref().map(gauge).transpose()?,
@@ -85,17 +90,13 @@ fn sensor(name: &str) -> Result<SensorKind> {
 }
 
 fn format(name: &str) -> Result<ImuFormat> {
-    match name {
-        "calibrant" => Ok(ImuFormat::CalibrantJson),
-        "kalibr" => Ok(ImuFormat::Kalibr),
-        "imu_tk" => Ok(ImuFormat::ImuTk),
-        "imucal" => Ok(ImuFormat::Imucal),
-        "c" => Ok(ImuFormat::CHeader),
-        other => Err(invalid(
-            format!("`format` is {other:?}"),
-            "the formats are calibrant, kalibr, imu_tk, imucal and c",
-        )),
-    }
+    let help = || format!("the formats are {}", ImuFormat::names(false));
+    ImuFormat::by_name(name).ok_or_else(|| invalid(format!("`format` is {name:?}"), help()))
+}
+
+fn part(name: &str) -> Result<ImuPart> {
+    let help = || format!("the parts are {}", ImuPart::ALL.map(ImuPart::name).join(", "));
+    ImuPart::by_name(name).ok_or_else(|| invalid(format!("`drop` has {name:?}"), help()))
 }
 
 fn gauge(name: &str) -> Result<Gauge> {
@@ -135,21 +136,29 @@ pub(crate) fn convert_calibration(
 ) -> PyResult<(Vec<PathBuf>, String)> {
     let read = || -> Result<_> {
         let options: Changes = parsed(options)?;
-        Ok((options.format.as_deref().map(format).transpose()?, options.conversion()?))
+        let written_as = options.format.as_deref().map(format).transpose()?;
+        Ok((
+            if options.into { Some(ImuFormat::Basalt) } else { written_as },
+            options.into,
+            options.conversion()?,
+        ))
     };
-    let (written_as, conversion) = read().map_err(|error| raised(py, &error))?;
+    let (written_as, into, conversion) = read().map_err(|error| raised(py, &error))?;
     run(py, move || {
         let written_as = match written_as {
             Some(written_as) => written_as,
             None => ImuFormat::of_extension(&path).ok_or_else(|| {
                 let message = "the ending of the path does not tell the format to write";
-                let help = "say `format=` calibrant, kalibr, imu_tk, imucal or c";
+                let help = format!("say `format=` {}", ImuFormat::names(false));
                 Error::experiment(InputError::new(Refusal::FormatUnknown, message, help).in_file(&path))
             })?,
         };
         let mut file = of_json(&text)?;
         let mut notes = conversion.change(&mut file)?;
-        let written = write_calibrated_imu(&path, &file, written_as)?;
+        let written = match into {
+            true => edit_calibrated_imu(&path, &file)?,
+            false => write_calibrated_imu(&path, &file, written_as)?,
+        };
         notes.extend(written.warnings);
         Ok((written.files, json!(notes).to_string()))
     })

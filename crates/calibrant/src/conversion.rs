@@ -1,11 +1,12 @@
 //! What is changed of a calibration before it is written in another format.
 
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::correction::{GSensitivityOmitted, TemperatureFixed};
+use calibrant_core::diagnostic::Phrase;
+use calibrant_core::diagnostic::correction::{PartsOmitted, TemperatureFixed};
 use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
 use calibrant_core::diagnostic::settings::SettingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{CalibratedImu, Gauge, SensorKind};
+use calibrant_core::sensor::{CalibratedImu, Gauge, ImuPart, ReadingUnit, SensorKind};
 use calibrant_io::{CalibratedImuFile, ImuNoise, read_kalibr_noise, read_measured_noise};
 use std::path::PathBuf;
 
@@ -30,14 +31,18 @@ pub struct Conversion {
     pub path: Option<PathBuf>,
     /// Files with noise densities: `noise.json`, or an `imu.yaml` of Kalibr. A file adds what the earlier ones lack.
     pub noise: Vec<PathBuf>,
-    /// Is the gyroscope's g-sensitivity left out? This changes the correction.
-    pub drop_g_sensitivity: bool,
+    /// The parts that are left out. This changes the correction.
+    pub drop: Vec<ImuPart>,
     /// The sensor that is written alone.
     pub sensor: Option<SensorKind>,
     /// The temperature at which the terms of temperature are evaluated, °C.
     pub temperature_c: Option<f64>,
     /// The gauge of the accelerometer into which the true frame of both sensors is turned.
     pub gauge: Option<Gauge>,
+    /// The ROS topic of the IMU.
+    pub rostopic: Option<String>,
+    /// The rate of its readings, Hz; that of the noise or of the recording by default.
+    pub update_rate_hz: Option<f64>,
 }
 
 impl Conversion {
@@ -51,12 +56,33 @@ impl Conversion {
             notes.append(&mut noise.findings);
             file.noise = Some(noise);
         }
-        if self.drop_g_sensitivity {
-            notes.extend(g_sensitivity_omitted(&file.imu).map(Diagnostic::from));
-            file.imu = file.imu.without_g_sensitivity();
+        if self.rostopic.is_some() || self.update_rate_hz.is_some() {
+            let given = ImuNoise {
+                rostopic: self.rostopic.clone(),
+                update_rate_hz: self.update_rate_hz,
+                ..ImuNoise::default()
+            };
+            file.noise = Some(given.or(file.noise.take().unwrap_or_default()));
         }
-        if let Some(sensor_kind) = self.sensor {
-            file.imu = self.only(&file.imu, sensor_kind)?;
+        let whole = self.in_frame(&file.imu)?;
+        let is_felt = !self.drop.contains(&ImuPart::GSensitivity);
+        if self.sensor == Some(SensorKind::Gyroscope)
+            && is_felt
+            && ImuPart::GSensitivity.is_of(SensorKind::Gyroscope, &whole)
+        {
+            return self.refuse(
+                "the gyroscope's g-sensitivity takes the accelerometer's readings, and the correction would be another without them",
+                "leave it out on purpose with option `drop` g-sensitivity",
+            );
+        }
+        file.imu = self.drop.iter().fold(whole.clone(), |imu, part| imu.without(*part));
+        if self.drop.contains(&ImuPart::GyroscopeMatrix)
+            && whole.unit(SensorKind::Gyroscope) == Some(ReadingUnit::Counts)
+        {
+            return self.refuse(
+                "the readings of the gyroscope are counts, and have no rate without its gain",
+                "keep gyroscope-matrix in option `drop` away",
+            );
         }
         match self.temperature_c {
             Some(temperature_c) if file.imu.follows_temperature() => {
@@ -72,10 +98,42 @@ impl Conversion {
             }
             None => {}
         }
-        if let Some(gauge) = self.gauge {
-            file.imu = file.imu.in_gauge(gauge)?;
-        }
+        notes.extend(self.omitted(&whole, &file.imu));
         Ok(notes)
+    }
+
+    /// The sensors that are written, in the frame in which they are written.
+    fn in_frame(&self, imu: &CalibratedImu) -> Result<CalibratedImu> {
+        let imu = match self.sensor {
+            Some(sensor_kind) if imu.unit(sensor_kind).is_none() => {
+                return self.refuse(
+                    &format!("the calibration has no {sensor_kind}"),
+                    "choose the other with option `sensor`, or leave it away",
+                );
+            }
+            Some(sensor_kind) => imu.only(sensor_kind),
+            None => imu.clone(),
+        };
+        self.gauge.map_or(Ok(imu.clone()), |gauge| imu.in_gauge(gauge))
+    }
+
+    /// What is left out of each sensor, with the error that this makes.
+    fn omitted(&self, before: &CalibratedImu, after: &CalibratedImu) -> Vec<Diagnostic> {
+        let of = |sensor_kind: SensorKind| {
+            let error = before.parameters.omission_error(&after.parameters, sensor_kind);
+            let mut parts = self.drop.clone();
+            parts.dedup();
+            parts.retain(|part| part.is_of(sensor_kind, before));
+            let mut parts: Vec<_> = parts.into_iter().map(|part| part.title().to_owned()).collect();
+            if before.follows_temperature() && !after.follows_temperature() {
+                parts.push("what temperature does".into());
+            }
+            (error.largest > 0.0 && !parts.is_empty()).then(|| {
+                let over = Phrase(error.over);
+                PartsOmitted { sensor_kind, parts, largest_error: error.largest, over }.into()
+            })
+        };
+        before.units.present().filter_map(|(sensor_kind, _)| of(sensor_kind)).collect()
     }
 
     /// The noise densities of all files.
@@ -92,33 +150,9 @@ impl Conversion {
         Ok(all)
     }
 
-    /// One sensor of the calibration alone.
-    fn only(&self, imu: &CalibratedImu, sensor_kind: SensorKind) -> Result<CalibratedImu> {
-        let refuse = |message: &str, help: &str| {
-            let mut input_error = InputError::new(Refusal::SensorMissing, message, help);
-            input_error.file = self.path.clone();
-            Err(Error::experiment(input_error))
-        };
-        if imu.unit(sensor_kind).is_none() {
-            return refuse(
-                &format!("the calibration has no {sensor_kind}"),
-                "choose the other with option `sensor`, or leave it away",
-            );
-        }
-        let feels = imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0);
-        if sensor_kind == SensorKind::Gyroscope && feels {
-            return refuse(
-                "the gyroscope's g-sensitivity takes the accelerometer's readings, and the correction would be another without them",
-                "leave it out on purpose with option `drop_g_sensitivity`",
-            );
-        }
-        Ok(imu.only(sensor_kind))
+    fn refuse<T>(&self, message: &str, help: &str) -> Result<T> {
+        let mut input_error = InputError::new(Refusal::SensorMissing, message, help);
+        input_error.file = self.path.clone();
+        Err(Error::experiment(input_error))
     }
-}
-
-/// How large the error is without the g-sensitivity, where there is one.
-fn g_sensitivity_omitted(imu: &CalibratedImu) -> Option<GSensitivityOmitted> {
-    let largest = imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
-    let unit = imu.unit(SensorKind::Gyroscope).map_or("", |unit| unit.symbol());
-    (largest > 0.0).then_some(GSensitivityOmitted { error: 9.80665 * largest, unit })
 }

@@ -58,7 +58,10 @@ fn what_a_format_cannot_carry_is_refused_or_said() {
     );
     let message =
         bench.run("convert shimmer.json imu.calib --drop-g-sensitivity --gauge upper").done().stderr;
-    assert!(message.contains("warning: the g-sensitivity is omitted"), "{message}");
+    assert!(
+        message.contains("warning: gyroscope: the g-sensitivity is omitted. Corrected values err by up to "),
+        "{message}"
+    );
     assert!(bench.read("imu_acc.calib").contains("# readings in: counts"));
     assert!(bench.read("imu_gyro.calib").contains("# sensor: gyroscope"));
     let done = bench.run("convert imu.calib pair.json").done();
@@ -145,6 +148,57 @@ fn apply_writes_true_values_with_their_uncertainty() {
         3,
         &["counts.csv: the readings of the accelerometer are in counts"],
     );
+}
+
+#[test]
+fn apply_writes_the_units_that_other_programs_take() {
+    let bench = calibrated();
+    bench.run("apply out/calibration.json sim/recording.csv -o si.csv").done();
+    bench.run("apply out/calibration.json sim/recording.csv -o g.csv --output-accelerometer-unit g").done();
+    let [si, g] = ["si.csv", "g.csv"].map(|name| bench.read(name));
+    assert!(g.starts_with("t_s,ax_g,ay_g,az_g,ax_sd_g,ay_sd_g,az_sd_g\n"), "{g:.80}");
+    let row = |text: &str| -> Vec<f64> {
+        text.lines().nth(1).expect("a row").split(',').map(|v| v.parse().expect("a number")).collect()
+    };
+    for (si, g) in row(&si).iter().zip(row(&g)).skip(1) {
+        assert_eq!(*si / 9.80665, g);
+    }
+    bench.refuses("apply out/calibration.json g.csv -o x.csv", 3, &["has been corrected already"]);
+    bench.refuses(
+        "apply out/calibration.json sim/recording.csv -o x.csv --output-gyroscope-unit g",
+        2,
+        &["corrected values of the gyroscope are in rad/s, deg/s or mdps"],
+    );
+}
+
+/// One calibration for an autopilot, for basalt and for OpenVINS.
+#[test]
+fn other_programs_take_what_is_left_of_a_calibration() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o made").done();
+    let convert = "convert made/truth.json";
+    let says = "PX4's parameters has no place for the accelerometer's cross-axis sensitivity (up to";
+    bench.refuses(&format!("{convert} imu.params"), 2, &[says, "--drop cross-axis,gyroscope-matrix"]);
+    let drop = "--drop cross-axis,gyroscope-matrix,g-sensitivity";
+    let message = bench.run(&format!("{convert} imu.params {drop}")).done().stderr;
+    assert!(
+        message.contains("cross-axis sensitivity is omitted. Corrected values err by up to "),
+        "{message}"
+    );
+    assert!(bench.read("imu.params").contains("1\t1\tCAL_ACC0_XSCALE\t"));
+    bench.run(&format!("{convert} imu.param {drop}")).done();
+    assert!(bench.read("imu.param").contains("\nINS_GYROFFS_Z,"));
+    bench.write("basalt.json", "{\"value0\": {\"resolution\": []}}");
+    bench.run(&format!("{convert} --into basalt.json --drop g-sensitivity")).done();
+    assert!(bench.json("basalt.json")["value0"]["calib_gyro_bias"].is_array());
+    bench.refuses(&format!("{convert} --into basalt.json --to px4"), 2, &["--into is for files of basalt"]);
+    bench.run(&format!("{convert} imu.yaml --to openvins --update-rate 200 --rostopic /imu")).done();
+    bench.run("convert imu.yaml back.json").done();
+    let table = bench.run("compare made/truth.json back.json --json").done().json();
+    for row in table["quantities"].as_array().expect("rows") {
+        assert!(row["difference"].as_f64().expect("the same units").abs() < 1e-9, "{row}");
+    }
 }
 
 /// Two files of imu_tk that were swapped, and calibrations of different sensors.

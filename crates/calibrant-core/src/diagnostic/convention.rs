@@ -42,20 +42,30 @@ checks! {
         format: &'static str,
         /// What it needs.
         fields: Vec<String>,
+        /// How to give it.
+        how: Phrase,
     }
-    decided "The programs that read the format stop without it."
-    remedy "Complete the file by hand, or give an imu.yaml that has the densities with option `noise`."
-    says format!(
-        "{format} needs {} as well: give an imu.yaml with the densities with option `noise`, or complete the file by hand",
-        fields.join(", ")
-    );
+    decided "The programs that read the format stop without it, or do not use the file."
+    remedy "Complete the file by hand, or give what is missing as the sentence says."
+    says format!("{format} needs {} as well: {}, or complete the file by hand", fields.join(", "), how.0);
 
     /// The true frame of a calibration is not that of the format.
-    FrameTurned "frame-turned" Warning {}
+    FrameTurned "frame-turned" Warning {
+        /// The format.
+        format: &'static str,
+        /// The angle by which the frame is turned into the format's, °; none where the file holds the rotation.
+        angle_deg: Option<f64>,
+    }
     decided "The accelerometer's matrix is not lower triangular."
     remedy "Rotate the frame: option `gauge` lower."
-    says "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; option `gauge` lower makes \
-        it the identity";
+    says match angle_deg {
+        Some(angle_deg) => format!(
+            "the true frame is turned by {}° into that of {format}, which has x along the accelerometer's x axis (option `gauge` lower): poses of cameras refer to it",
+            plain(*angle_deg, 3)
+        ),
+        None => "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; option `gauge` lower \
+            makes it the identity".into(),
+    };
 
     /// The noise of two sensors was measured at different rates, and a format has one rate.
     RatesDiffer "rates-differ" Warning {

@@ -1,7 +1,8 @@
 //! Checks of the correction of readings with a calibration.
 
 use super::check::checks;
-use crate::number_format::{counted, short};
+use super::parts::Phrase;
+use crate::number_format::{counted, plain, short};
 use crate::sensor::SensorKind;
 
 checks! {
@@ -51,16 +52,29 @@ checks! {
         short(*time_s)
     );
 
-    /// The g-sensitivity of a calibration is omitted.
-    GSensitivityOmitted "g-sensitivity-omitted" Warning {
-        /// Largest error of a reading at 1 g.
-        error: f64,
-        /// Symbol of its unit.
-        unit: &'static str,
+    /// Parts of a calibration are omitted.
+    PartsOmitted "parts-omitted" Warning {
+        sensor_kind: SensorKind,
+        /// What is omitted.
+        parts: Vec<String>,
+        /// Largest error of an axis of a corrected value, m/s² or rad/s.
+        largest_error: f64,
+        /// The stimuli and temperatures over which it is the largest.
+        over: Phrase,
     }
-    decided "Somebody asks for it, and it is not zero."
-    remedy "Keep it, in a format that has it."
-    says format!("the g-sensitivity is omitted. Readings of the gyroscope have errors up to {error:.2e} {unit} at 1 g.");
+    decided "Somebody asks for it, or for one temperature, and they are not zero. The error is the largest over all directions, and over the temperatures of the calibration."
+    remedy "Keep them, in a format that has them."
+    says format!(
+        "{}: {} omitted. Corrected values err by up to {} {}{}.",
+        sensor_kind,
+        match parts.as_slice() {
+            [one] => format!("{one} is"),
+            parts => format!("{} are", parts.join(", ")),
+        },
+        plain(*largest_error, 3),
+        sensor_kind.stimulus_unit().symbol(),
+        over.0
+    );
 
     /// A calibration is fixed at a temperature.
     TemperatureFixed "temperature-fixed" Note {

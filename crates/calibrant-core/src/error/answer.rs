@@ -33,7 +33,7 @@ options! {
     AccelerometerUnit "accelerometer_unit" "Unit of the accelerometer's readings.";
     Add "add" "Number of poses to add to those of earlier calibrations.";
     Columns "columns" "A file that says what the columns of a recording hold.";
-    DropGSensitivity "drop_g_sensitivity" "Leave out the g-sensitivity on purpose.";
+    Drop "drop" "Leave out parts of a calibration on purpose.";
     Folds "folds" "The number of parts of the recording that validate it.";
     Force "force" "Do it in spite of its size, or replace what is there.";
     Format "format" "The format of a recording.";
@@ -45,6 +45,7 @@ options! {
     GyroscopeUnit "gyroscope_unit" "Unit of the gyroscope's readings.";
     Hold "hold" "The interval in which the sensor is held still.";
     Instance "instance" "Which sensor to read of a file with the rows of several.";
+    Into "into" "The file of another program whose calibration is replaced.";
     Motion "motion" "The commanded motion, or the log of the machine.";
     Noise "noise" "A file with noise densities.";
     Poses "poses" "The directions of holds.";
@@ -53,8 +54,9 @@ options! {
     Reach "reach" "Standard deviations that a design should reach.";
     Records "records" "The database to which results are added.";
     Resume "resume" "Continue an earlier run: what is finished is not done again.";
-    Sections "sections" "The faces and turns of a session.";
+    Rostopic "rostopic" "The ROS topic of the IMU.";
     RowsAreHolds "rows_are_holds" "Each row of a recording is the mean of a hold.";
+    Sections "sections" "The faces and turns of a session.";
     Seconds "seconds" "How long a search may take.";
     Sensor "sensor" "Which sensor a file is of.";
     SensorFrom "sensor_from" "What the names of files say of their sensors.";
@@ -65,6 +67,7 @@ options! {
     Together "together" "The recordings are of one sensor, and are fitted together.";
     Topic "topic" "The topic of a bag.";
     Unit "unit" "Unit of the readings.";
+    UpdateRate "update_rate" "The rate of the readings that a program gets, Hz.";
     Validate "validate" "A second recording, which validates the result.";
     ValidateGyroscope "validate_gyroscope" "The file of the gyroscope of the second recording.";
     ValidateMotion "validate_motion" "The log of the machine during the second recording.";

@@ -351,18 +351,6 @@ impl CalibratedImu {
             && (self.covariance.is_some() || self.quantities.is_empty() || self.quantities.iter().any(listed))
     }
 
-    /// The same IMU without g-sensitivity, as if it were known to be zero.
-    #[must_use]
-    pub fn without_g_sensitivity(&self) -> Self {
-        let kept: Vec<usize> = (0..self.quantities.len())
-            .filter(|&k| !matches!(self.quantities[k], ImuQuantity::GSensitivity(..)))
-            .collect();
-        let mut imu = self.clone();
-        imu.parameters.g_sensitivity = Matrix3::zeros();
-        imu.restrict(&kept);
-        imu
-    }
-
     /// One sensor alone; the gyroscope keeps its g-sensitivity.
     #[must_use]
     pub fn only(&self, sensor_kind: SensorKind) -> Self {

@@ -42,4 +42,6 @@ pub struct WrittenImu {
     pub files: Vec<PathBuf>,
     /// What the format cannot carry.
     pub warnings: Vec<Diagnostic>,
+    /// The true frame of what is written, in words.
+    pub frame: String,
 }

@@ -2,6 +2,7 @@
 
 use super::words::invalid;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
+use calibrant_core::sensor::ImuPart;
 use calibrant_recording::text::decoding::Checked;
 use std::path::Path;
 
@@ -18,13 +19,37 @@ pub enum ImuFormat {
     Imucal,
     /// A C header with the correction ready to apply.
     CHeader,
+    /// OpenVINS' `kalibr_imu_chain.yaml`.
+    OpenVins,
+    /// basalt's JSON.
+    Basalt,
+    /// PX4's parameters, as QGroundControl loads them.
+    Px4,
+    /// ArduPilot's parameters.
+    ArduPilot,
+    /// imufusion's arrays, in Python.
+    ImuFusion,
+    /// librealsense's `calibration.json`.
+    LibRealSense,
 }
 
 impl ImuFormat {
     /// All formats.
-    pub const ALL: [Self; 5] = [Self::CalibrantJson, Self::Kalibr, Self::ImuTk, Self::Imucal, Self::CHeader];
+    pub const ALL: [Self; 11] = [
+        Self::CalibrantJson,
+        Self::Kalibr,
+        Self::ImuTk,
+        Self::Imucal,
+        Self::CHeader,
+        Self::OpenVins,
+        Self::Basalt,
+        Self::Px4,
+        Self::ArduPilot,
+        Self::ImuFusion,
+        Self::LibRealSense,
+    ];
 
-    /// Its name on the command line: `calibrant`, `kalibr`, `imu_tk`, `imucal`, `c`.
+    /// Its name on the command line: `calibrant`, `kalibr`, `imu_tk`, `imucal`, `c`, `openvins`, `basalt`, `px4`, `ardupilot`, `imufusion`, `librealsense`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,6 +58,12 @@ impl ImuFormat {
             Self::ImuTk => "imu_tk",
             Self::Imucal => "imucal",
             Self::CHeader => "c",
+            Self::OpenVins => "openvins",
+            Self::Basalt => "basalt",
+            Self::Px4 => "px4",
+            Self::ArduPilot => "ardupilot",
+            Self::ImuFusion => "imufusion",
+            Self::LibRealSense => "librealsense",
         }
     }
 
@@ -45,6 +76,12 @@ impl ImuFormat {
             Self::ImuTk => "imu_tk's .calib",
             Self::Imucal => "imucal's JSON",
             Self::CHeader => "a C header",
+            Self::OpenVins => "OpenVINS' kalibr_imu_chain.yaml",
+            Self::Basalt => "basalt's JSON",
+            Self::Px4 => "PX4's parameters",
+            Self::ArduPilot => "ArduPilot's parameters",
+            Self::ImuFusion => "imufusion's arrays",
+            Self::LibRealSense => "librealsense's calibration.json",
         }
     }
 
@@ -52,6 +89,43 @@ impl ImuFormat {
     #[must_use]
     pub fn by_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+
+    /// The names of all formats, or of those that are read.
+    #[must_use]
+    pub fn names(read_only: bool) -> String {
+        let names = Self::ALL.into_iter().filter(|format| !read_only || format.is_read());
+        names.map(Self::name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Is it read, too?
+    #[must_use]
+    pub fn is_read(self) -> bool {
+        !matches!(self, Self::Basalt | Self::Px4 | Self::ArduPilot | Self::ImuFusion | Self::LibRealSense)
+    }
+
+    /// The parts of a calibration that it has no place for.
+    pub(super) fn lacks(self) -> &'static [ImuPart] {
+        match self {
+            Self::ImuTk | Self::Basalt | Self::ImuFusion | Self::LibRealSense => &[ImuPart::GSensitivity],
+            Self::Px4 | Self::ArduPilot => &ImuPart::ALL,
+            _ => &[],
+        }
+    }
+
+    /// Has it a place for what temperature does?
+    pub(super) fn follows_temperature(self) -> bool {
+        matches!(self, Self::CalibrantJson | Self::CHeader | Self::Px4 | Self::ArduPilot)
+    }
+
+    /// Is it of readings in m/s² and rad/s alone?
+    pub(super) fn is_physical(self) -> bool {
+        !self.is_read() && self != Self::ImuFusion || self == Self::OpenVins
+    }
+
+    /// Is its true frame that of the accelerometer, whose matrix is lower triangular?
+    pub(super) fn is_lower(self) -> bool {
+        matches!(self, Self::OpenVins | Self::Basalt)
     }
 
     /// The format in which a file of this name is written; `.json` is ours.
@@ -62,6 +136,9 @@ impl ImuFormat {
             "yaml" | "yml" => Some(Self::Kalibr),
             "calib" => Some(Self::ImuTk),
             "h" | "hpp" => Some(Self::CHeader),
+            "params" => Some(Self::Px4),
+            "param" | "parm" => Some(Self::ArduPilot),
+            "py" => Some(Self::ImuFusion),
             _ => None,
         }
     }
@@ -80,6 +157,9 @@ impl ImuFormat {
         if has("CALIBRANT_REAL") || has("#ifndef") {
             return Ok(Self::CHeader);
         }
+        if has("R_IMUtoGYRO:") {
+            return Ok(Self::OpenVins);
+        }
         if ["accelerometers:", "gyroscopes:", "_noise_density:", "T_i_b:", "C_gyro_i:"].into_iter().any(has) {
             return Ok(Self::Kalibr);
         }
@@ -87,8 +167,8 @@ impl ImuFormat {
         if numbers && !first.is_empty() {
             return Ok(Self::ImuTk);
         }
-        let formats = ["calibrant", "kalibr", "imu_tk", "imucal", "c"];
-        let help = format!("name its format with {}: {}", TaskOption::From, formats.join(", "));
+        let formats = Self::ALL.into_iter().filter(|format| format.is_read()).map(Self::name);
+        let help = format!("name its format with {}: {}", TaskOption::From, Self::names(true));
         let message = "this is no calibration in a format that is known";
         let error = InputError::new(Refusal::CalibrationInvalid, message, help);
         Err(error.answered_by(TaskOption::From, formats).into())

@@ -11,7 +11,7 @@
 //! # References
 //! `tedaldi2014`, `imu_tk`
 
-use super::words::{input_error, invalid, singular, unit_named, written_by};
+use super::words::{invalid, singular, unit_named, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
 use calibrant_core::diagnostic::Phrase;
 use calibrant_core::diagnostic::convention::FormatSupposed;
@@ -190,13 +190,6 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(SensorKind, String)>> {
     let imu = &file.imu;
-    if imu.unit(SensorKind::Gyroscope).is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
-        return Err(input_error(
-            Refusal::ConversionImpossible,
-            "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",
-            "choose another format, write the accelerometer alone with option `sensor` accelerometer, or leave it out on purpose with option `drop_g_sensitivity`",
-        ));
-    }
     let there =
         SensorKind::ALL.into_iter().filter_map(|sensor_kind| Some((sensor_kind, imu.unit(sensor_kind)?)));
     there.map(|(sensor_kind, unit)| Ok((sensor_kind, text(imu, sensor_kind, unit)?))).collect()

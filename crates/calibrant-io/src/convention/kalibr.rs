@@ -21,6 +21,7 @@ use super::file::LARGEST;
 use super::imu_noise::ImuNoise;
 use super::kalibr_keys::refuse_unknown_numbers;
 use super::words::{input_error, invalid, singular, unit_named, written_by};
+use super::yaml::{self, beside, line, matrix};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use calibrant_core::diagnostic::convention::{
     FormatLoses, FormatNeeds, FormatSupposed, FrameTurned, LeverArmIgnored,
@@ -35,7 +36,6 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::Path;
 
 /// The remedy for a broken file.
@@ -309,7 +309,7 @@ fn rotation(c: &Matrix3<f64>, field: &str) -> Checked<()> {
 }
 
 /// `L` and `Q` of `S = L Q`: lower triangular with positive diagonal, and a rotation.
-fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, Matrix3<f64>)> {
+pub(super) fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, Matrix3<f64>)> {
     if s.determinant() < 0.0 {
         return Err(input_error(
             Refusal::ConversionImpossible,
@@ -343,39 +343,23 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         line(&mut out, "  - ", &entries);
     }
     line(&mut out, "  - ", &[0.0, 0.0, 0.0, 1.0]);
-    let mut absent = Vec::new();
-    for (name, value) in noise.fields() {
-        match value {
-            Some(value) => put(&mut out, format_args!("  {name}: {}\n", number(value))),
-            None => {
-                let known = match noise.limit(name) {
-                    Some(limit) => format!("not determined, at most {}", number(limit)),
-                    None => "not known".into(),
-                };
-                put(&mut out, format_args!("  # {name}: {known}, and Kalibr needs it\n"));
-                absent.push(name);
-            }
-        }
-    }
-    if let Some(topic) = &noise.rostopic {
-        put(&mut out, format_args!("  rostopic: {}\n", quoted(topic)));
-    }
+    let mut absent = yaml::noise(&mut out, &noise, "Kalibr");
     out.push_str("  accelerometers:\n");
-    matrix(&mut out, "M", &m_a);
-    if let Some(gyroscope_unit) = imu.unit(SensorKind::Gyroscope) {
+    matrix(&mut out, "    M", &m_a);
+    if imu.unit(SensorKind::Gyroscope).is_some() {
         let (m_g, c_gyro_b) = factors(&imu.parameters[SensorKind::Gyroscope].matrix, SensorKind::Gyroscope)?;
         out.push_str("  gyroscopes:\n");
-        matrix(&mut out, "A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
-        matrix(&mut out, "C_gyro_i", &(c_gyro_b * c_i_b.transpose()));
-        matrix(&mut out, "M", &m_g);
-        beside(&mut out, imu, Some(gyroscope_unit));
+        matrix(&mut out, "    A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
+        matrix(&mut out, "    C_gyro_i", &(c_gyro_b * c_i_b.transpose()));
+        matrix(&mut out, "    M", &m_g);
+        beside(&mut out, imu);
     } else {
-        absent.push("a gyroscope");
-        beside(&mut out, imu, None);
+        absent.push("a gyroscope".into());
+        beside(&mut out, imu);
     }
     out.push_str("  model: scale-misalignment\n  time_offset: 0.0\n");
     if c_i_b != Matrix3::identity() {
-        warnings.push(FrameTurned {}.into());
+        warnings.push(FrameTurned { format: "Kalibr", angle_deg: None }.into());
     }
     let format = ImuFormat::Kalibr.title();
     let mut loses = |what| warnings.push(FormatLoses { format, what, is_beside: true }.into());
@@ -388,71 +372,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         loses("readings in counts");
     }
     if !absent.is_empty() {
-        let fields = absent.into_iter().map(str::to_owned).collect();
-        warnings.push(FormatNeeds { format: "Kalibr", fields }.into());
+        warnings.push(FormatNeeds { format: "Kalibr", fields: absent, how: yaml::how() }.into());
     }
     Ok(out)
-}
-
-fn beside(out: &mut String, imu: &CalibratedImu, gyroscope_unit: Option<ReadingUnit>) {
-    out.push_str("  calibrant: # not read by Kalibr\n");
-    for (sensor_kind, unit) in [
-        (SensorKind::Accelerometer, imu.unit(SensorKind::Accelerometer)),
-        (SensorKind::Gyroscope, gyroscope_unit),
-    ] {
-        if let Some(unit) = unit {
-            put(out, format_args!("    {sensor_kind}_unit: {}\n", unit.symbol()));
-            if imu.has_bias(sensor_kind) {
-                let bias: Vec<f64> = imu.parameters.sensor(sensor_kind).bias.iter().copied().collect();
-                line(out, &format!("    {sensor_kind}_bias: "), &bias);
-            }
-        }
-    }
-    put(out, format_args!("    frame: {}\n", quoted(&imu.frame)));
-}
-
-fn matrix(out: &mut String, name: &str, matrix: &Matrix3<f64>) {
-    put(out, format_args!("    {name}:\n"));
-    for row in matrix.row_iter() {
-        line(out, "    - ", &row.iter().copied().collect::<Vec<_>>());
-    }
-}
-
-fn line(out: &mut String, before: &str, values: &[f64]) {
-    let values: Vec<_> = values.iter().map(|&value| number(value)).collect();
-    put(out, format_args!("{before}[{}]\n", values.join(", ")));
-}
-
-fn put(out: &mut String, text: std::fmt::Arguments<'_>) {
-    // writing into memory does not fail
-    let _ = out.write_fmt(text);
-}
-
-/// A number in a form that YAML 1.1 takes, too: with a point, and a sign in the exponent. YAML 1.1 reads
-/// `1e-7` as a word.
-fn number(value: f64) -> String {
-    let text = format!("{value:?}");
-    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
-    let point = if mantissa.contains('.') { "" } else { ".0" };
-    let sign = if exponent.starts_with('-') { "" } else { "+" };
-    format!("{mantissa}{point}e{sign}{exponent}")
-}
-
-/// A word in double quotes, with JSON's escapes, which are also YAML's.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::number;
-
-    #[test]
-    fn numbers_are_numbers_in_every_yaml() {
-        for (value, text) in
-            [(1e-7, "1.0e-7"), (1.5e-9, "1.5e-9"), (1e20, "1.0e+20"), (-0.25, "-0.25"), (3.0, "3.0")]
-        {
-            assert_eq!(number(value), text);
-        }
-    }
 }

@@ -2,7 +2,8 @@
 
 use super::file::{CalibratedImuFile, LARGEST};
 use super::options::ConventionOptions;
-use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
+use super::words::invalid;
+use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, openvins, usable_calibration};
 use calibrant_core::diagnostic::convention::UnitGiven;
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::SensorKind;
@@ -74,6 +75,11 @@ fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile
         ImuFormat::ImuTk => imu_tk::read(text, options)?,
         ImuFormat::Imucal => imucal::read(text, options)?,
         ImuFormat::CHeader => c_header::read(text)?,
+        ImuFormat::OpenVins => openvins::read(text)?,
+        written => {
+            let message = format!("{} is written and not read", written.title());
+            return Err(invalid(message, &format!("give one of {}", ImuFormat::names(true))));
+        }
     };
     usable_calibration::usable(&file.imu)?;
     for sensor_kind in SensorKind::ALL {

@@ -1,15 +1,15 @@
 //! Writes a calibration in any format.
 
-use super::file::{CalibratedImuFile, WrittenImu};
-use super::words::input_error;
-use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
-use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::convention::{FormatLoses, ResponseStraightened};
-use calibrant_core::error::{Error, Refusal, Result};
-use calibrant_core::motion::Gravity;
+use super::file::{CalibratedImuFile, LARGEST, WrittenImu};
+use super::prepared::Prepared;
+use super::{
+    ImuFormat, ardupilot, basalt, c_header, calibrant_json, imu_tk, imucal, imufusion, kalibr, librealsense,
+    openvins, px4,
+};
+use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::SensorKind;
 use calibrant_recording::files::atomic_output::write_text;
-use calibrant_recording::text::decoding::Checked;
+use calibrant_recording::text::decoding::{self, Checked};
 use std::path::Path;
 
 /// Writes a calibration of an IMU in a format.
@@ -20,7 +20,7 @@ use std::path::Path;
 /// [`Error::Experiment`] with the reason where the format cannot carry the correction. [`Error::Output`]
 /// where a file cannot be written.
 pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFormat) -> Result<WrittenImu> {
-    let (texts, warnings) = text_of(file, format).map_err(Error::Experiment)?;
+    let (texts, prepared) = text_of(file, format).map_err(Error::Experiment)?;
     let mut files = Vec::new();
     for (sensor_kind, text) in &texts {
         let place = match sensor_kind {
@@ -30,7 +30,20 @@ pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFo
         write_text(&place, text)?;
         files.push(place);
     }
-    Ok(WrittenImu { files, warnings })
+    Ok(prepared.written(files))
+}
+
+/// Writes a calibration into an existing file of basalt: its own keys are replaced, all other bytes stay.
+///
+/// # Errors
+/// As [`write_calibrated_imu`]; and where the file cannot be read, or is none of basalt.
+pub fn edit_calibrated_imu(path: &Path, file: &CalibratedImuFile) -> Result<WrittenImu> {
+    let prepared = Prepared::of(file, ImuFormat::Basalt).map_err(Error::Experiment)?;
+    let text = decoding::parsed(path, (LARGEST, "the calibration"), |bytes| {
+        basalt::edited(decoding::as_text(bytes)?, &prepared.file)
+    })?;
+    write_text(path, &text)?;
+    Ok(prepared.written(vec![path.to_path_buf()]))
 }
 
 /// The text that [`write_calibrated_imu`] writes: one for each file, with the sensor where a file is of one sensor.
@@ -44,48 +57,27 @@ pub fn calibrated_imu_texts(
     text_of(file, format).map(|(texts, _)| texts).map_err(Error::Experiment)
 }
 
-type Texts = (Vec<(Option<SensorKind>, String)>, Vec<Diagnostic>);
+type Texts = Vec<(Option<SensorKind>, String)>;
 
-fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
-    usable_calibration::usable(&file.imu)?;
-    let mut warnings: Vec<Diagnostic> = Vec::new();
-    let loses = |what| FormatLoses { format: format.title(), what, is_beside: false }.into();
-    if format != ImuFormat::CalibrantJson && file.imu.covariance.is_some() {
-        warnings.push(loses("the covariance"));
-    }
-    if file.imu.follows_temperature() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
-        return Err(input_error(
-            Refusal::ConversionImpossible,
-            format!(
-                "{} has no place for what temperature does to bias and gain, and the correction would be another without it",
-                format.title()
-            ),
-            "choose another format, or take the values at one temperature with option `temperature` CELSIUS",
-        ));
-    }
-    let bends = &file.imu.parameters[SensorKind::Accelerometer].nonlinearity;
-    if !bends.is_none() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
-        let of_axis = |axis: usize| {
-            [1.0, -1.0].map(|sign| bends.bend(axis, sign * Gravity::SOMEWHERE.magnitude_mps2).abs())
-        };
-        let largest_mps2 = (0..3).flat_map(of_axis).fold(0.0, f64::max);
-        warnings.push(ResponseStraightened { format: format.title(), largest_mps2 }.into());
-    }
+/// The text of each file, and what is written in it.
+fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<(Texts, Prepared)> {
+    let mut prepared = Prepared::of(file, format)?;
+    let Prepared { file, warnings } = &mut prepared;
     let one = |text: String| vec![(None, text)];
     let texts = match format {
         ImuFormat::CalibrantJson => one(calibrant_json::write(file)),
-        ImuFormat::Kalibr => one(kalibr::write(file, &mut warnings)?),
+        ImuFormat::Kalibr => one(kalibr::write(file, warnings)?),
         ImuFormat::ImuTk => {
             imu_tk::write(file)?.into_iter().map(|(sensor_kind, text)| (Some(sensor_kind), text)).collect()
         }
         ImuFormat::Imucal => one(imucal::write(file)?),
         ImuFormat::CHeader => one(c_header::write(file)?),
+        ImuFormat::OpenVins => one(openvins::write(file, warnings)?),
+        ImuFormat::Basalt => one(basalt::write(file, warnings)?),
+        ImuFormat::Px4 => one(px4::write(file, warnings)?),
+        ImuFormat::ArduPilot => one(ardupilot::write(file)?),
+        ImuFormat::ImuFusion => one(imufusion::write(file)?),
+        ImuFormat::LibRealSense => one(librealsense::write(file)?),
     };
-    if let Some(noise) = &file.noise {
-        warnings.extend(match format {
-            ImuFormat::CalibrantJson | ImuFormat::Kalibr => noise.of_rates(),
-            _ => Some(loses("the noise densities")),
-        });
-    }
-    Ok((texts, warnings))
+    Ok((texts, prepared))
 }

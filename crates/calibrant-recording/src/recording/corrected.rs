@@ -3,12 +3,13 @@
 use crate::files::atomic_output::write_entered;
 use crate::files::manifest;
 use crate::files::standard_input::open_input;
+use crate::recording::imu::ImuUnit;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{Axis, CorrectedRecording, CorrectedSensor, SensorKind};
+use calibrant_core::sensor::{Axis, CorrectedRecording, CorrectedSensor, PerSensor, SensorKind};
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 
-/// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`.
+/// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`, or in other units of specific force and rate.
 ///
 /// A sensor that is not there has no columns, nor has an uncertainty that is not known. `sd` is the standard
 /// uncertainty of the correction. It is the same error in every sample and does not average out. It does not
@@ -22,6 +23,7 @@ pub fn write_corrected_recording(
     path: &Path,
     recording: &CorrectedRecording<'_>,
     calibration: &str,
+    units: PerSensor<ImuUnit>,
 ) -> Result<()> {
     let sensor_kinds: Vec<_> = [
         (SensorKind::Accelerometer, &recording.accelerometer),
@@ -34,7 +36,7 @@ pub fn write_corrected_recording(
     write_entered(path, Some(calibration), |out| {
         write!(out, "t_s")?;
         for (sensor_kind, corrected) in &sensor_kinds {
-            header(out, *sensor_kind, corrected)?;
+            header(out, *sensor_kind, units[*sensor_kind], corrected)?;
         }
         writeln!(out)?;
         let mut next = vec![0; sensor_kinds.len()];
@@ -45,9 +47,9 @@ pub fn write_corrected_recording(
                 .filter_map(|((_, corrected), &k)| corrected.times_s.get(k).copied());
             let Some(time) = times.reduce(f64::min) else { return Ok(()) };
             write!(out, "{time:?}")?;
-            for ((_, corrected), k) in sensor_kinds.iter().zip(&mut next) {
+            for ((sensor_kind, corrected), k) in sensor_kinds.iter().zip(&mut next) {
                 let here = corrected.times_s.get(*k).is_some_and(|t| t - time <= same_s);
-                row(out, corrected, here.then_some(*k))?;
+                row(out, corrected, units[*sensor_kind], here.then_some(*k))?;
                 *k += usize::from(here);
             }
             writeln!(out)?;
@@ -81,7 +83,7 @@ fn has_uncertainties(path: &Path) -> io::Result<bool> {
     BufReader::new(open_input(path)?.take(LONGEST)).read_until(b'\n', &mut line)?;
     let line = String::from_utf8_lossy(&line);
     let mut columns = line.trim_end().split(',');
-    Ok(columns.any(|name| ["ax_sd_mps2", "gx_sd_radps"].contains(&name)))
+    Ok(columns.any(|name| name.starts_with("ax_sd_") || name.starts_with("gx_sd_")))
 }
 
 /// Times closer than this share of the sample interval count as one: those of two files may differ in the
@@ -96,8 +98,13 @@ fn step(times_s: &[f64]) -> f64 {
     }
 }
 
-fn header(out: &mut dyn Write, sensor_kind: SensorKind, corrected: &CorrectedSensor<'_>) -> io::Result<()> {
-    let (letter, unit) = (&sensor_kind.name()[..1], sensor_kind.stimulus_unit().suffix());
+fn header(
+    out: &mut dyn Write,
+    sensor_kind: SensorKind,
+    unit: ImuUnit,
+    corrected: &CorrectedSensor<'_>,
+) -> io::Result<()> {
+    let (letter, unit) = (&sensor_kind.name()[..1], unit.suffix());
     for axis in Axis::ALL {
         write!(out, ",{letter}{axis}_{unit}")?;
     }
@@ -109,10 +116,16 @@ fn header(out: &mut dyn Write, sensor_kind: SensorKind, corrected: &CorrectedSen
     Ok(())
 }
 
-fn row(out: &mut dyn Write, corrected: &CorrectedSensor<'_>, sample: Option<usize>) -> io::Result<()> {
+fn row(
+    out: &mut dyn Write,
+    corrected: &CorrectedSensor<'_>,
+    unit: ImuUnit,
+    sample: Option<usize>,
+) -> io::Result<()> {
+    let (_, size) = unit.reading();
     for vectors in [Some(&corrected.values), corrected.sd.as_ref()].into_iter().flatten() {
         match sample.and_then(|k| vectors.get(k)) {
-            Some(values) => values.iter().try_for_each(|value| write!(out, ",{value:?}"))?,
+            Some(values) => values.iter().try_for_each(|value| write!(out, ",{:?}", value / size))?,
             None => write!(out, ",,,")?,
         }
     }

@@ -100,6 +100,20 @@ impl ImuUnit {
         }
     }
 
+    /// As the name of a column ends: `mps2`, `g`, `mg`, `radps`, `degps`, `mdps` or `counts`.
+    #[must_use]
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::MetrePerSecondSquared => "mps2",
+            Self::MillimetrePerSecondSquared => "mmps2",
+            Self::RadianPerSecond => "radps",
+            Self::DegreePerSecond => "degps",
+            Self::StandardGravity | Self::MilliGravity | Self::MilliDegreePerSecond | Self::Counts => {
+                self.symbol()
+            }
+        }
+    }
+
     /// The units that this sensor's readings can have, in words: `m/s², mm/s², g, mg or counts`.
     #[must_use]
     pub fn choices(sensor_kind: SensorKind) -> &'static str {

@@ -2,7 +2,7 @@
 //! against drawn calibrations.
 
 use super::conventions::{SI, imu};
-use calibrant::io::write_corrected_recording;
+use calibrant::io::{ImuUnit, write_corrected_recording};
 use calibrant::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuRecording, ReadingUnit, Recording, SensorKind,
 };
@@ -84,7 +84,8 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
     let corrected = ImuCorrection::of(&imu).expect("regular").apply(&recording).expect("both");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("corrected.csv");
-    write_corrected_recording(&path, &corrected, "imu.json").expect("written");
+    let units = [ImuUnit::MetrePerSecondSquared, ImuUnit::RadianPerSecond].into();
+    write_corrected_recording(&path, &corrected, "imu.json", units).expect("written");
     let text = std::fs::read_to_string(&path).expect("readable");
     let refused = calibrant::io::check_not_corrected(&path).expect_err("corrected").to_string();
     assert!(refused.contains("corrected already, with imu.json"), "{refused}");

@@ -3,6 +3,7 @@
 
 mod broken;
 mod c_header;
+mod exports;
 mod nonlinearity;
 mod round_trips;
 mod temperature;

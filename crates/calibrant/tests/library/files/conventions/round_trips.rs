@@ -11,13 +11,17 @@ use calibrant::nalgebra::Vector3;
 use calibrant::sensor::{Gauge, ImuQuantity, ReadingUnit, SensorKind};
 use proptest::prelude::*;
 
+/// The formats that are read and take any true frame.
+const OWN_FRAME: [ImuFormat; 5] =
+    [ImuFormat::CalibrantJson, ImuFormat::Kalibr, ImuFormat::ImuTk, ImuFormat::Imucal, ImuFormat::CHeader];
+
 #[test]
 fn the_correction_of_a_thousand_readings_stays_through_every_convention() {
     for unit in [SI, COUNTS, [ReadingUnit::MetrePerSecondSquared, ReadingUnit::Counts]] {
         for g_sensitivity in [true, false] {
             let before = imu(unit, g_sensitivity);
             let readings = readings(&before, 1000, 1);
-            for format in ImuFormat::ALL {
+            for format in OWN_FRAME {
                 if format == ImuFormat::ImuTk && g_sensitivity {
                     continue; // refused: see warnings
                 }

@@ -5,13 +5,13 @@ use super::{COUNTS, SI, file, imu, largest_difference, readings, there_and_back}
 use calibrant::io::{
     ConventionOptions, ImuFormat, calibrated_imu_texts, parse_calibrated_imu, write_calibrated_imu,
 };
-use calibrant::sensor::{CalibratedImu, ImuCorrection, ImuQuantity, ReadingUnit, ThermalPart};
+use calibrant::sensor::{CalibratedImu, ImuCorrection, ImuPart, ImuQuantity, ReadingUnit, ThermalPart};
 use nalgebra::DMatrix;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
 /// The IMU of the other tests with terms of every kind, and their covariance.
-fn warm(unit: [ReadingUnit; 2]) -> CalibratedImu {
+pub(super) fn warm(unit: [ReadingUnit; 2]) -> CalibratedImu {
     let mut imu = imu(unit, true);
     imu.parameters.thermal.reference_c = 31.5;
     imu.parameters.thermal.range_c = Some([-12.25, 58.0]);
@@ -125,7 +125,7 @@ fn c_takes_the_temperature(imu: &CalibratedImu) {
 
 #[test]
 fn formats_without_a_place_for_it_refuse_it_and_take_one_temperature() {
-    let imu = warm(SI).without_g_sensitivity();
+    let imu = warm(SI).without(ImuPart::GSensitivity);
     for format in [ImuFormat::Kalibr, ImuFormat::ImuTk, ImuFormat::Imucal] {
         let message = calibrated_imu_texts(&file(imu.clone()), format).expect_err("refused").to_string();
         assert!(message.contains("no place for what temperature does"), "{message}");

@@ -45,7 +45,7 @@ fn what_is_lost_is_said() {
 fn what_would_change_the_correction_is_refused() {
     let message = refusal(imu(SI, true), ImuFormat::ImuTk);
     assert!(message.contains("no place for the gyroscope's g-sensitivity"), "{message}");
-    assert!(message.contains("option `drop_g_sensitivity`"), "{message}");
+    assert!(message.contains("option `drop` g-sensitivity"), "{message}");
     let message = refusal(alone(&imu(SI, false), SensorKind::Gyroscope), ImuFormat::Kalibr);
     assert!(message.contains("no place for a gyroscope alone"), "{message}");
     let message = refusal(alone(&imu(SI, false), SensorKind::Accelerometer), ImuFormat::Imucal);
