@@ -71,7 +71,7 @@ impl ImuPart {
         match self {
             Self::CrossAxis => "cross-axis sensitivity",
             Self::GyroscopeMatrix => "gain and alignment",
-            Self::GainTemperature => "what temperature does to the gain",
+            Self::GainTemperature => "gain over temperature",
             Self::GSensitivity => "the g-sensitivity",
         }
     }

@@ -6,7 +6,7 @@
 //! force in the IMU's frame; Kalibr's `A` takes it in the gyroscope's.
 //!
 //! Biases are states of the filter. Their first guesses are keys of another file, `estimator_config.yaml`, and stand in comments. Our own
-//! key `calibrant` has them, too. The file is read by OpenCV, and its first line is a must.
+//! key `calibrant` has them, too. The file is read by OpenCV, which wants its first line, and lists deeper than their keys.
 
 use super::arrays::{Rows, matrix3, vector3};
 use super::file::CalibratedImuFile;
@@ -14,7 +14,7 @@ use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
 use super::kalibr::factors;
 use super::words::{input_error, invalid, unit_named, written_by};
-use super::yaml::{self, beside, line, matrix, number, put};
+use super::yaml::{self, beside, line, number, put};
 use calibrant_core::diagnostic::convention::{FormatLoses, FormatNeeds, FormatSupposed};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::Refusal;
@@ -39,15 +39,15 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     let (t_w, r_imu_to_gyro) = factors(&p[SensorKind::Gyroscope].matrix, SensorKind::Gyroscope)?;
     let mut out = format!("%YAML:1.0\n# {}: true to raw, y_a = Ta a + b_a\nimu0:\n  T_i_b:\n", written_by());
     for row in 0..4 {
-        line(&mut out, "  - ", &[0, 1, 2, 3].map(|column| f64::from(u8::from(row == column))));
+        line(&mut out, "    - ", &[0, 1, 2, 3].map(|column| f64::from(u8::from(row == column))));
     }
     let absent = yaml::noise(&mut out, &file.noise.clone().unwrap_or_default(), "OpenVINS");
     out.push_str("  time_offset: 0.0\n  model: \"kalibr\"\n");
-    matrix(&mut out, "  Tw", &t_w);
-    matrix(&mut out, "  R_IMUtoGYRO", &r_imu_to_gyro);
-    matrix(&mut out, "  Ta", &p[SensorKind::Accelerometer].matrix);
-    matrix(&mut out, "  R_IMUtoACC", &Matrix3::identity());
-    matrix(&mut out, "  Tg", &p.g_sensitivity);
+    matrix(&mut out, "Tw", &t_w);
+    matrix(&mut out, "R_IMUtoGYRO", &r_imu_to_gyro);
+    matrix(&mut out, "Ta", &p[SensorKind::Accelerometer].matrix);
+    matrix(&mut out, "R_IMUtoACC", &Matrix3::identity());
+    matrix(&mut out, "Tg", &p.g_sensitivity);
     beside(&mut out, imu);
     out.push_str("# OpenVINS estimates the biases. Its first guesses are keys of estimator_config.yaml:\n");
     for (key, kind) in
@@ -62,6 +62,14 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         warnings.push(FormatNeeds { format: "OpenVINS", fields: absent, how: yaml::how() }.into());
     }
     Ok(out)
+}
+
+/// A matrix row by row. OpenCV wants the rows deeper than their key; other YAML does not.
+fn matrix(out: &mut String, key: &str, matrix: &Matrix3<f64>) {
+    put(out, format_args!("  {key}:\n"));
+    for row in matrix.row_iter() {
+        line(out, "    - ", &row.iter().copied().collect::<Vec<_>>());
+    }
 }
 
 #[derive(Deserialize)]

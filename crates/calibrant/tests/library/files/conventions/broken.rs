@@ -262,9 +262,9 @@ fn openvins() {
         &[
             ("model: \"kalibr\"", "model: \"rpng\"", "its model is not `kalibr`"),
             ("  Tg:\n", "  Th:\n", "missing field `Tg`"),
-            ("  Ta:\n  - [", "  Ta:\n  - [0.5, ", "`Ta` is not 3 × 3"),
-            ("  R_IMUtoGYRO:\n  - [", "  R_IMUtoGYRO:\n  - [1", "`R_IMUtoGYRO` is not a rotation"),
-            (", 0.0, 0.0]\n  - [-", ", 0.1, 0.0]\n  - [-", "lower triangular"),
+            ("  Ta:\n    - [", "  Ta:\n    - [0.5, ", "`Ta` is not 3 × 3"),
+            ("  R_IMUtoGYRO:\n    - [", "  R_IMUtoGYRO:\n    - [1", "`R_IMUtoGYRO` is not a rotation"),
+            (", 0.0, 0.0]\n    - [-", ", 0.1, 0.0]\n    - [-", "lower triangular"),
         ],
     );
     let error = parse_calibrated_imu(
