@@ -25,6 +25,9 @@ impl AtRest {
     /// The result, of which nothing is judged.
     pub(super) fn calibration(self) -> Calibration {
         let Self { quantities, imu, mut uncertainty, holds, .. } = self;
+        // means alone show no noise of a sample
+        let shows_noise = holds.holds.iter().any(|result| result.hold.samples() > 1);
+        let noise_estimate = self.fit.noise_estimate.filter(|_| shows_noise);
         let slope = uncertainty.add_gravity(&quantities, &imu, &holds.gravity);
         Calibration {
             status: self.status,
@@ -40,7 +43,7 @@ impl AtRest {
             quantities,
             imu,
             units: self.units,
-            fit: self.fit,
+            fit: FitStatistics { noise_estimate, ..self.fit },
             recovered: Recovered::Holds(holds),
             gyroscope: None,
             changes: Vec::new(),

@@ -3,12 +3,11 @@
 //! A gap of m samples lies on the line between the means of the m samples before and behind it, with the deviations of those before about their mean in
 //! reverse order. So the white noise and what correlates it stay as they are, and a random walk goes on behind the gap from where it was.
 
+use super::segment::GAP;
 use crate::diagnostic::noise::NoiseGapsFilled;
 use crate::sensor::Recording;
 use nalgebra::Vector3;
 
-/// A time step is a gap from this many usual steps on.
-const GAP: f64 = 5.0;
 /// Largest share of the samples that may be filled.
 const MOST: f64 = 0.1;
 
@@ -20,9 +19,7 @@ pub fn filled(recording: &Recording) -> Option<(Recording, NoiseGapsFilled)> {
     if !times.array_windows().any(|[one, next]| next - one > (GAP - 1.0) * mean_step) {
         return None;
     }
-    let mut steps: Vec<f64> = times.array_windows().map(|[one, next]| next - one).collect();
-    let middle = steps.len() / 2;
-    let step = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let step = recording.rate_hz().recip();
     let (mut all_times, mut all) = (Vec::with_capacity(times.len()), Vec::with_capacity(times.len()));
     let (mut gaps, mut added) = (0, 0);
     for k in 0..times.len() {

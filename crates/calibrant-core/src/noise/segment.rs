@@ -5,7 +5,7 @@ use crate::sensor::{Recording, missing, rate_hz};
 use std::ops::Range;
 
 /// A time step is a gap from this many usual steps on,
-const GAP: f64 = 5.0;
+pub(super) const GAP: f64 = 5.0;
 /// Largest share of missing samples between gaps. Above it, each missing sample is a gap.
 const MISSING: f64 = 0.1;
 /// A step of this many usual ones is a gap where many samples are missing: one sample is missing there.

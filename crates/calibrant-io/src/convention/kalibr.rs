@@ -345,13 +345,13 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     line(&mut out, "  - ", &[0.0, 0.0, 0.0, 1.0]);
     let mut absent = yaml::noise(&mut out, &noise, "Kalibr");
     out.push_str("  accelerometers:\n");
-    matrix(&mut out, "    M", &m_a);
+    matrix(&mut out, ("    M", "    - "), &m_a);
     if imu.unit(SensorKind::Gyroscope).is_some() {
         let (m_g, c_gyro_b) = factors(&imu.parameters[SensorKind::Gyroscope].matrix, SensorKind::Gyroscope)?;
         out.push_str("  gyroscopes:\n");
-        matrix(&mut out, "    A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
-        matrix(&mut out, "    C_gyro_i", &(c_gyro_b * c_i_b.transpose()));
-        matrix(&mut out, "    M", &m_g);
+        matrix(&mut out, ("    A", "    - "), &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
+        matrix(&mut out, ("    C_gyro_i", "    - "), &(c_gyro_b * c_i_b.transpose()));
+        matrix(&mut out, ("    M", "    - "), &m_g);
         beside(&mut out, imu);
     } else {
         absent.push("a gyroscope".into());

@@ -14,7 +14,7 @@ use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
 use super::kalibr::factors;
 use super::words::{input_error, invalid, unit_named, written_by};
-use super::yaml::{self, beside, line, number, put};
+use super::yaml::{self, beside, line, matrix, number, put};
 use calibrant_core::diagnostic::convention::{FormatLoses, FormatNeeds, FormatSupposed};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::Refusal;
@@ -29,6 +29,9 @@ use std::collections::BTreeMap;
 /// The remedy for a broken file.
 const HELP: &str = "give a kalibr_imu_chain.yaml as OpenVINS reads it, with the model `kalibr`";
 
+/// A row begins so: deeper than its key, as OpenCV wants it.
+const ROW: &str = "    - ";
+
 pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) -> Checked<String> {
     let imu = &file.imu;
     let p = &imu.parameters;
@@ -39,15 +42,15 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     let (t_w, r_imu_to_gyro) = factors(&p[SensorKind::Gyroscope].matrix, SensorKind::Gyroscope)?;
     let mut out = format!("%YAML:1.0\n# {}: true to raw, y_a = Ta a + b_a\nimu0:\n  T_i_b:\n", written_by());
     for row in 0..4 {
-        line(&mut out, "    - ", &[0, 1, 2, 3].map(|column| f64::from(u8::from(row == column))));
+        line(&mut out, ROW, &[0, 1, 2, 3].map(|column| f64::from(u8::from(row == column))));
     }
     let absent = yaml::noise(&mut out, &file.noise.clone().unwrap_or_default(), "OpenVINS");
     out.push_str("  time_offset: 0.0\n  model: \"kalibr\"\n");
-    matrix(&mut out, "Tw", &t_w);
-    matrix(&mut out, "R_IMUtoGYRO", &r_imu_to_gyro);
-    matrix(&mut out, "Ta", &p[SensorKind::Accelerometer].matrix);
-    matrix(&mut out, "R_IMUtoACC", &Matrix3::identity());
-    matrix(&mut out, "Tg", &p.g_sensitivity);
+    matrix(&mut out, ("  Tw", ROW), &t_w);
+    matrix(&mut out, ("  R_IMUtoGYRO", ROW), &r_imu_to_gyro);
+    matrix(&mut out, ("  Ta", ROW), &p[SensorKind::Accelerometer].matrix);
+    matrix(&mut out, ("  R_IMUtoACC", ROW), &Matrix3::identity());
+    matrix(&mut out, ("  Tg", ROW), &p.g_sensitivity);
     beside(&mut out, imu);
     out.push_str("# OpenVINS estimates the biases. Its first guesses are keys of estimator_config.yaml:\n");
     for (key, kind) in
@@ -62,14 +65,6 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         warnings.push(FormatNeeds { format: "OpenVINS", fields: absent, how: yaml::how() }.into());
     }
     Ok(out)
-}
-
-/// A matrix row by row. OpenCV wants the rows deeper than their key; other YAML does not.
-fn matrix(out: &mut String, key: &str, matrix: &Matrix3<f64>) {
-    put(out, format_args!("  {key}:\n"));
-    for row in matrix.row_iter() {
-        line(out, "    - ", &row.iter().copied().collect::<Vec<_>>());
-    }
 }
 
 #[derive(Deserialize)]

@@ -53,12 +53,11 @@ pub(super) fn beside(out: &mut String, imu: &CalibratedImu) {
     put(out, format_args!("    frame: {}\n", quoted(&imu.frame)));
 }
 
-/// A matrix under a key with its indentation, row by row.
-pub(super) fn matrix(out: &mut String, key: &str, matrix: &Matrix3<f64>) {
+/// A matrix under a key, whose rows begin like this.
+pub(super) fn matrix(out: &mut String, (key, before): (&str, &str), matrix: &Matrix3<f64>) {
     put(out, format_args!("{key}:\n"));
-    let indentation = &key[..key.len() - key.trim_start().len()];
     for row in matrix.row_iter() {
-        line(out, &format!("{indentation}- "), &row.iter().copied().collect::<Vec<_>>());
+        line(out, before, &row.iter().copied().collect::<Vec<_>>());
     }
 }
 

@@ -122,7 +122,7 @@ const UNITS: [TimeUnit; 4] =
     [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
 
 /// The step between most samples, in ticks.
-fn median_step(ticks: &[f64]) -> Option<f64> {
+pub(crate) fn median_step(ticks: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> =
         ticks.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
     let middle = steps.len() / 2;

@@ -20,3 +20,11 @@ pub(crate) fn with_holds(setup: &HoldsSetup, recording: &ImuRecording) -> HoldsS
     };
     HoldsSetup { found, ..setup.clone() }
 }
+
+/// Are the given holds one sample each: rows that are means? The first tells: the estimator refuses some of one sample and some of more.
+pub(crate) fn are_means(setup: &HoldsSetup, recording: &ImuRecording) -> bool {
+    let first = setup.intervals_s.as_ref().and_then(|given| given.get(..1));
+    let accelerometer = recording[SensorKind::Accelerometer].as_ref();
+    let held = first.zip(accelerometer).and_then(|(first, of)| holds_between(of, first).ok());
+    held.is_some_and(|held| held[0].samples() == 1)
+}

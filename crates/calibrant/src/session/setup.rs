@@ -1,7 +1,7 @@
 //! What is known of the motion in one recording.
 
 use super::clean::{take_out_motion_outliers, take_out_outliers};
-use super::holds::with_holds;
+use super::holds::{are_means, with_holds};
 use super::problem::Problem;
 use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
@@ -50,16 +50,8 @@ impl<'e> Setup<'e> {
             return take_out_motion_outliers(accelerometer, command, recording).into_iter().collect();
         }
         let Some(holds) = self.holds_mut() else { return Vec::new() };
-        let given = holds.intervals_s.is_some().then(|| with_holds(holds, recording));
-        let is_of_means = |given: &HoldsSetup| {
-            given.found.as_ref().is_some_and(|found| found.iter().all(|hold| hold.samples() == 1))
-        };
-        if let Some(given) = given.filter(is_of_means) {
-            // rows that are means, among which no outlier is looked for
-            *holds = given;
-            return Vec::new();
-        }
-        let outliers = take_out_outliers(recording);
+        // among means no outlier is looked for
+        let outliers = if are_means(holds, recording) { Vec::new() } else { take_out_outliers(recording) };
         *holds = with_holds(holds, recording);
         outliers
     }

@@ -119,24 +119,18 @@ pub(super) struct SampleReader<'l> {
     /// Has the layout a column for this slot?
     has: [bool; SLOTS],
     sensor_kinds: [bool; 2],
-    clock: SplitClock,
+    /// Ticks in a second, and the first second, of a clock whose whole seconds have a column of their own.
+    per_second: f64,
+    first_second: Option<f64>,
     /// The column that names the sensor of each row.
     sensor_column: Option<usize>,
-}
-
-/// A clock whose whole seconds have a column of their own.
-#[derive(Clone, Copy)]
-pub(super) struct SplitClock {
-    /// Ticks in a second.
-    pub(super) per_second: f64,
-    pub(super) first_second: Option<f64>,
 }
 
 impl<'l> SampleReader<'l> {
     /// No rows yet; `capacity` is a guess of how many there will be.
     pub(super) fn new(
         layout: &'l Layout,
-        (clock, sensor_column): (SplitClock, Option<usize>),
+        (per_second, sensor_column): (f64, Option<usize>),
         capacity: usize,
     ) -> Self {
         let is_read = |slot: usize| {
@@ -153,17 +147,32 @@ impl<'l> SampleReader<'l> {
             .iter_mut()
             .zip(sensor_kinds)
             .for_each(|(sensor_kind, is_used)| sensor_kind.reserve(room(is_used)));
-        Self { reader: RowReader::new(layout), samples, has, sensor_kinds, clock, sensor_column }
+        Self {
+            reader: RowReader::new(layout),
+            samples,
+            has,
+            sensor_kinds,
+            per_second,
+            first_second: None,
+            sensor_column,
+        }
     }
 
     /// The values of all rows; an error where too many rows have invalid ones.
     pub(super) fn finish(mut self) -> Checked<Samples> {
         self.reader.check_invalid()?;
-        let of_seconds = self.clock.first_second.map(|first| (first * self.clock.per_second) as i64);
+        let of_seconds = self.first_second.map(|first| (first * self.per_second) as i64);
         self.samples.origin = of_seconds.or(self.reader.origin).unwrap_or(0);
         self.samples.truncated = self.reader.truncated;
         Ok(self.samples)
     }
+}
+
+/// Moves a reading that stands in the slots of the accelerometer to those of its sensor; the other has none.
+fn move_to(sensor_kind: SensorKind, values: &mut [f64; SLOTS]) {
+    let reading = slots_of(SensorKind::Accelerometer).map(|slot| values[slot]);
+    values[READINGS].fill(f64::NAN);
+    slots_of(sensor_kind).into_iter().zip(reading).for_each(|(slot, value)| values[slot] = value);
 }
 
 impl RowTaker for SampleReader<'_> {
@@ -178,28 +187,15 @@ impl RowTaker for SampleReader<'_> {
             }
             if let Some(column) = self.sensor_column {
                 let name = line.fields(self.reader.delimiter()).nth(column).map_or("", |(_, field)| field);
-                match sensor_named(name) {
-                    Some(SensorKind::Accelerometer) => {
-                        values[slots_of(SensorKind::Gyroscope)[0]..READINGS.end].fill(f64::NAN)
-                    }
-                    Some(SensorKind::Gyroscope) => {
-                        for (own, other) in slots_of(SensorKind::Gyroscope)
-                            .into_iter()
-                            .zip(slots_of(SensorKind::Accelerometer))
-                        {
-                            values[own] = std::mem::replace(&mut values[other], f64::NAN);
-                        }
-                    }
-                    None => continue,
-                }
+                let Some(sensor_kind) = sensor_named(name) else { continue };
+                move_to(sensor_kind, &mut values);
             }
             samples.lines.push(samples.rows, line.number);
             samples.rows += 1;
             if self.has[REST] {
-                let clock = &mut self.clock;
-                clock.first_second = clock.first_second.or(Some(values[TIME]).filter(|t| t.is_finite()));
-                let first = clock.first_second.unwrap_or(0.0);
-                samples.times.push((values[TIME] - first) * clock.per_second + values[REST]);
+                self.first_second = self.first_second.or(Some(values[TIME]).filter(|t| t.is_finite()));
+                let seconds = values[TIME] - self.first_second.unwrap_or(0.0);
+                samples.times.push(seconds * self.per_second + values[REST]);
             } else if self.has[TIME] {
                 samples.times.push(values[TIME]);
             }

@@ -9,6 +9,7 @@ use super::headerless_text;
 use super::names_of_file::columns;
 use super::options::ImuReadOptions;
 use super::unit::ColumnUnit;
+use crate::recording::clock_column::median_step;
 use crate::recording::text_header::Head;
 use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::Checked;
@@ -110,8 +111,6 @@ pub(super) fn in_seconds(head: &Head<'_>, options: &ImuReadOptions) -> Option<Co
     /// Longest step between samples, s.
     const LONGEST_S: f64 = 0.9;
     let rows = FirstRows::of(head);
-    let mut steps: Vec<f64> = rows.times(0).array_windows().map(|[one, next]| next - one).collect();
-    let middle = steps.len() / 2;
-    let is_far = rows.are_enough() && *steps.select_nth_unstable_by(middle, f64::total_cmp).1 > LONGEST_S;
+    let is_far = rows.are_enough() && median_step(&rows.times(0)).is_some_and(|step| step > LONGEST_S);
     (options.time_unit.is_none() && !is_far).then_some(ColumnUnit::Time(TimeUnit::Second))
 }

@@ -18,14 +18,12 @@ pub(super) fn columns(head: &Head<'_>) -> Vec<ImuColumn> {
     let prefix = shared_prefix(&head.names);
     let mut found: Vec<ImuColumn> =
         (0..head.names.len()).map(|k| of_name(head.names[k], head.units.get(k), prefix)).collect();
-    if prefix
-        .is_some_and(|prefix| found.iter().any(|column| is_time(column) && column.name.starts_with(prefix)))
-    {
-        let of_others = found
-            .iter_mut()
-            .filter(|column| is_time(column) && !column.name.starts_with(prefix.unwrap_or_default()));
-        of_others
-            .for_each(|column| *column = ImuColumn::new(&column.name, ColumnMeaning::Clock, column.unit));
+    // of several stamps the sensor's own
+    let is_own = |column: &ImuColumn| prefix.is_some_and(|prefix| column.name.starts_with(prefix));
+    if found.iter().any(|column| is_time(column) && is_own(column)) {
+        for other in found.iter_mut().filter(|column| is_time(column) && !is_own(column)) {
+            *other = ImuColumn::new(&other.name, ColumnMeaning::Clock, other.unit);
+        }
     }
     beside_an_accelerometer(&mut found);
     found

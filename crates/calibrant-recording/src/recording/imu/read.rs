@@ -2,7 +2,7 @@
 //! rows, the recording.
 
 use super::accelerometer_only::{only, plain};
-use super::column_values::{READINGS, SampleReader, Samples, SplitClock};
+use super::column_values::{READINGS, SampleReader, Samples};
 use super::file::ImuFile;
 use super::file_layout::Draft;
 use super::first_rows::FirstRows;
@@ -207,8 +207,11 @@ pub(super) fn rows(
         first_rows.find_split_clock(&mut draft);
     }
     let sensor_column = sensor_rows::find(&mut draft, &first_rows, options);
-    let shared = ColumnMapping { accelerometer: None, gyroscope: None, ..options.columns.clone() };
-    let of_rows = sensor_column.map(|_| ImuReadOptions { columns: shared, ..options.clone() });
+    let of_rows = sensor_column.map(|_| {
+        // both sensors' axes are known
+        let columns = ColumnMapping { accelerometer: None, gyroscope: None, ..options.columns.clone() };
+        ImuReadOptions { columns, ..options.clone() }
+    });
     let options = of_rows.as_ref().unwrap_or(options);
     draft.map(options).map_err(at_header)?;
     draft.set_time_unit(options).map_err(at_header)?;
@@ -229,8 +232,7 @@ pub(super) fn rows(
         decimal_comma: first_rows.have_decimal_commas(head.delimiter),
     };
     let per_second = draft.time_unit().and_then(TimeUnit::per_second).unwrap_or(1.0);
-    let ticks = SplitClock { per_second, first_second: None };
-    let mut reader = SampleReader::new(&layout, (ticks, sensor_column), source.estimated_rows(&head));
+    let mut reader = SampleReader::new(&layout, (per_second, sensor_column), source.estimated_rows(&head));
     source.read_rows(head, &mut reader)?;
     let mut samples = reader.finish()?;
     samples.last_line = samples.last_line.or(Some(line));

@@ -112,7 +112,7 @@ pub(super) fn assemble(
         findings.push(Diagnostic::from(LineTruncated {}).at_line(samples.truncated));
     }
     recording.temperature_c = temperature(draft, &times, &kept, samples, &recording, &mut findings);
-    examine(&recording, &sensor_kinds, &maps, is_plain, &mut findings);
+    examine(&recording, &sensor_kinds, &maps, is_plain || options.rows_are_holds, &mut findings);
     if is_plain {
         findings = findings.into_iter().map(|finding| finding.about(None)).collect();
     }
@@ -360,7 +360,7 @@ fn examine(
     recording: &ImuRecording,
     sensor_kinds: &[SensorKind],
     lines: &[LineMap],
-    is_plain: bool,
+    has_no_clock: bool,
     findings: &mut Vec<Diagnostic>,
 ) {
     let sensors: Vec<_> = sensor_kinds
@@ -372,7 +372,7 @@ fn examine(
     for (k, ((sensor_kind, sensor), lines)) in sensors.iter().enumerate() {
         if k == 0 || !shared {
             let rate = sensor.rate_hz();
-            if k == 0 && !is_plain {
+            if k == 0 && !has_no_clock {
                 recording_quality::clock(rate, findings);
             }
             let from = findings.len();

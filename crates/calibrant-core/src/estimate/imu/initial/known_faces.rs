@@ -161,7 +161,8 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
 /// The warning about a face with few samples.
 fn brief(number: usize, hold: &Hold) -> Option<Diagnostic> {
     let brief = Diagnostic::from(FaceBrief { hold: HoldSpan::of(number, hold), samples: hold.samples() });
-    (hold.samples() < FEWEST_SAMPLES).then_some(brief)
+    // one is a mean
+    (2..FEWEST_SAMPLES).contains(&hold.samples()).then_some(brief)
 }
 
 /// The faces with the largest residuals. If only two faces determine the direction of an axis, both are named.

@@ -3,6 +3,7 @@
 use calibrant::io::{CalibratedImuFile, ImuFormat, calibrated_imu_texts};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// Corrects readings of both sensors at a temperature.
 pub(super) fn corrected(
@@ -10,18 +11,20 @@ pub(super) fn corrected(
     format: ImuFormat,
 ) -> impl Fn(&[Vector3<f64>; 2], f64) -> [Vector3<f64>; 2] + use<> {
     let text = calibrated_imu_texts(file, format).expect("carried").remove(0).1;
+    let json: Value = serde_json::from_str(&text).unwrap_or_default();
+    let parameters = parameters(&text);
     move |raw, celsius| match format {
         ImuFormat::OpenVins => openvins(&text, raw),
         ImuFormat::ImuFusion => imufusion(&text, raw),
-        ImuFormat::Basalt => basalt(&text, raw),
-        ImuFormat::LibRealSense => librealsense(&text, raw),
-        ImuFormat::Px4 => px4(&text, raw, celsius),
-        ImuFormat::ArduPilot => ardupilot(&text, raw, celsius),
+        ImuFormat::Basalt => basalt(&json, raw),
+        ImuFormat::LibRealSense => librealsense(&json, raw),
+        ImuFormat::Px4 => px4(&parameters, raw, celsius),
+        ImuFormat::ArduPilot => ardupilot(&parameters, raw, celsius),
         other => panic!("{} has tests of its own", other.name()),
     }
 }
 
-/// The numbers of a text after a word, as many as are asked for.
+/// The first numbers behind a word in a text.
 fn numbers<const N: usize>(text: &str, after: &str) -> [f64; N] {
     let (_, text) = text.split_once(after).unwrap_or_else(|| panic!("{after}: {text}"));
     let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "+-.".contains(c)));
@@ -56,8 +59,8 @@ fn list(value: &Value) -> Vec<f64> {
 }
 
 /// `calib_bias.hpp`.
-fn basalt(text: &str, raw: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
-    let value = &serde_json::from_str::<Value>(text).expect("JSON")["value0"];
+fn basalt(json: &Value, raw: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
+    let value = &json["value0"];
     let [a, g] = ["calib_accel_bias", "calib_gyro_bias"].map(|key| list(&value[key]));
     let scale_a = Matrix3::new(a[3], 0.0, 0.0, a[4], a[6], 0.0, a[5], a[7], a[8]);
     let scale_g = Matrix3::from_column_slice(&g[3..12]);
@@ -68,27 +71,32 @@ fn basalt(text: &str, raw: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
 }
 
 /// `rs-imu-calibration.py`: `np.dot(m, X[:3]) - X[3]` for a row `m`.
-fn librealsense(text: &str, raw: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
-    let imu = &serde_json::from_str::<Value>(text).expect("JSON")["imus"][0];
+fn librealsense(json: &Value, raw: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
+    let imu = &json["imus"][0];
     [("accelerometer", raw[0]), ("gyroscope", raw[1])].map(|(sensor, raw)| {
         let x = Matrix3::from_row_slice(&list(&imu[sensor]["scale_and_alignment"]));
         (raw.transpose() * x).transpose() - Vector3::from_vec(list(&imu[sensor]["bias"]))
     })
 }
 
-/// The value of a parameter, of 32 bits; zero where it is not in the file.
-fn parameter(text: &str, name: &str, separator: char) -> f64 {
-    let mut lines = text.lines().map(|line| line.split(separator).collect::<Vec<_>>());
-    let found = lines.find_map(|words| {
-        let at = words.iter().position(|word| *word == name)?;
-        words[at + 1].parse::<f32>().ok()
+/// The parameters of a file, of 32 bits: a name, and the value behind it.
+fn parameters(text: &str) -> BTreeMap<String, f64> {
+    let pairs = text.lines().filter_map(|line| {
+        let words: Vec<&str> = line.split(['\t', ',']).collect();
+        let at = words.iter().position(|word| word.contains('_'))?;
+        Some((words[at].to_owned(), f64::from(words.get(at + 1)?.parse::<f32>().ok()?)))
     });
-    f64::from(found.unwrap_or_default())
+    pairs.collect()
+}
+
+/// A parameter; zero where it is not in the file.
+fn value(parameters: &BTreeMap<String, f64>, name: &str) -> f64 {
+    parameters.get(name).copied().unwrap_or_default()
 }
 
 /// `Accelerometer.hpp`, `Gyroscope.hpp`, `TemperatureCompensation.cpp`.
-fn px4(text: &str, raw: &[Vector3<f64>; 2], celsius: f64) -> [Vector3<f64>; 2] {
-    let value = |name: &str| parameter(text, name, '\t');
+fn px4(parameters: &BTreeMap<String, f64>, raw: &[Vector3<f64>; 2], celsius: f64) -> [Vector3<f64>; 2] {
+    let value = |name: &str| value(parameters, name);
     let offset = |sensor: &str, letter: &str, axis: usize| {
         let of = |name: &str| value(&format!("TC_{letter}0_{name}"));
         let delta = celsius.clamp(of("TMIN"), of("TMAX").max(of("TMIN"))) - of("TREF");
@@ -104,8 +112,8 @@ fn px4(text: &str, raw: &[Vector3<f64>; 2], celsius: f64) -> [Vector3<f64>; 2] {
 }
 
 /// `AP_InertialSensor_tempcal.cpp`, `AP_InertialSensor_Backend.cpp`.
-fn ardupilot(text: &str, raw: &[Vector3<f64>; 2], celsius: f64) -> [Vector3<f64>; 2] {
-    let value = |name: &str| parameter(text, name, ',');
+fn ardupilot(parameters: &BTreeMap<String, f64>, raw: &[Vector3<f64>; 2], celsius: f64) -> [Vector3<f64>; 2] {
+    let value = |name: &str| value(parameters, name);
     let bias = |sensor: &str, axis: &str| {
         let polynomial = |celsius: f64| {
             let (low, high) = (value("INS_TCAL1_TMIN"), value("INS_TCAL1_TMAX"));
