@@ -59,7 +59,8 @@ fn rate_unit(text: &str) -> Result<ImuUnit, String> {
 
 /// A unit of corrected values.
 fn physical(text: &str, sensor_kind: SensorKind, units: &str) -> Result<ImuUnit, String> {
-    let unit = ImuUnit::parse(text).filter(|unit| unit.suits(sensor_kind) && *unit != ImuUnit::Counts);
+    let unit = ImuUnit::parse(text)
+        .filter(|unit| unit.suits(sensor_kind) && *unit != ImuUnit::Counts && unit.sensitivity().is_none());
     unit.ok_or_else(|| format!("corrected values of the {sensor_kind} are in {units}"))
 }
 

@@ -12,7 +12,7 @@ pub(crate) use arguments::Arguments;
 
 use crate::exit::Exit;
 use calibrant::batch::{RESULT_FILES, folder_names};
-use calibrant::io::{Experiment, ResultPlaces};
+use calibrant::io::ResultPlaces;
 use std::path::PathBuf;
 use std::sync::PoisonError;
 
@@ -57,7 +57,7 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let experiment = Experiment::read(&arguments.experiment)?;
+    let experiment = arguments.settings.read(&arguments.experiment)?;
     unused::warn(arguments, &experiment);
     let batch = job::batch(arguments, &experiment)?;
     match batch.sources() {

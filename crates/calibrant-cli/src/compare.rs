@@ -63,6 +63,6 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
     let names = [(&name_a, &a), (&name_b, &b)].map(|(name, imu)| format!("{name} ({})", in_words(imu)));
     let file = ComparisonFile { comparison: &comparison, a: &name_a, b: &name_b };
-    console::result(arguments.json, || to_json(&file), &comparison_sheet(&comparison, names), None, &[]);
+    console::result(arguments.json, || to_json(&file), &comparison_sheet(&comparison, names), None, &[])?;
     Ok(Exit::DONE)
 }

@@ -33,19 +33,22 @@ pub(crate) fn sheet<'a>(json: bool, as_json: impl FnOnce() -> String, sheet: imp
     json_or(json, as_json, || sheet().text(width::get()));
 }
 
-/// Prints a result to stdout as wide as the terminal is: its sheet, a sentence on it, and the files that people open. Or its JSON, where that is asked for.
+/// Prints a result to stdout as wide as the terminal is: its sheet, a sentence on it, and the files that people open. Or its JSON, where that is asked for. The figures are files, where
+/// that is asked for.
 pub(crate) fn result(
     json: bool,
     as_json: impl FnOnce() -> String,
     sheet: &Sheet<'_>,
     sentence: Option<&str>,
     files: &[PathBuf],
-) {
+) -> calibrant::Result<()> {
+    crate::figures::write(sheet)?;
     json_or(json, as_json, || sheet.text(width::get()) + &sentence.map_or_else(String::new, paragraph));
     if !json && !files.is_empty() {
         let files: String = files.iter().map(|file| format!("\n{}", name(file))).collect();
         print_lines(&(files + "\n"));
     }
+    Ok(())
 }
 
 /// Does it print sheets?

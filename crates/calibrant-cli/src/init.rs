@@ -6,7 +6,7 @@ use crate::console;
 use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, PRESETS, ResultPlaces, nearest, preset, write_text};
+use calibrant::io::{DATASHEETS, Datasheet, Experiment, PRESETS, ResultPlaces, nearest, preset, write_text};
 use next_steps::NextSteps;
 use std::path::PathBuf;
 
@@ -16,11 +16,15 @@ pub(crate) struct Arguments {
     /// The preset. --list shows all of them.
     #[arg(default_value = "report")]
     preset: String,
+    /// Sensor whose datasheet gives noise, ranges and sensitivity: adis16470, adxl355, bmi088, bmi270, icm-20948, icm-42688-p, lsm6dsv16x, mpu-6050, mpu-9250
+    /// or mti-3.
+    #[arg(long, value_name = "NAME", value_parser = datasheet)]
+    sensor: Option<&'static Datasheet>,
     /// Where to write it (default: stdout).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// List the presets, each with what it is for.
-    #[arg(long, conflicts_with_all = ["preset", "output"])]
+    #[arg(long, conflicts_with_all = ["preset", "sensor", "output"])]
     list: bool,
 }
 
@@ -50,11 +54,12 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             format!("{hint}choose one of {}", names.join(", ")),
         );
     };
+    let text = arguments.sensor.map_or_else(|| text.to_owned(), |sensor| sensor.in_experiment(text));
     match &arguments.output {
-        None => console::print_always(text),
+        None => console::print_always(&text),
         Some(path) => {
-            write_text(path, text)?;
-            let next = NextSteps::of(&Experiment::parse(text, None)?, path);
+            write_text(path, &text)?;
+            let next = NextSteps::of(&Experiment::parse(&text, None)?, path);
             console::print(&format!("wrote {}. Edit it, then run{}:\n", console::name(path), next.needs));
             console::print_lines(&next.lines());
         }
@@ -66,4 +71,18 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 fn list() -> String {
     let width = PRESETS.iter().map(|preset| preset.name.len()).max().unwrap_or(0);
     PRESETS.iter().map(|preset| format!("{:width$}  {}\n", preset.name, preset.summary)).collect()
+}
+
+fn names() -> Vec<String> {
+    DATASHEETS.iter().map(|datasheet| datasheet.name.to_lowercase()).collect()
+}
+
+fn datasheet(name: &str) -> Result<&'static Datasheet, String> {
+    let others = || {
+        format!(
+            "the datasheets at hand are {}; of another sensor write noise_ug_per_rthz, noise_mdps_per_rthz and noise_bandwidth_hz into the file",
+            names().join(", ")
+        )
+    };
+    Datasheet::of(name).ok_or_else(others)
 }

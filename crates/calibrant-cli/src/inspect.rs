@@ -1,14 +1,16 @@
 //! `calibrant inspect`: shows what a recording contains, and how good a calibration from it can be; or the joints of a machine.
 
 mod machine;
+mod output;
 mod reference_log;
 
-use crate::console;
 use crate::diagnostics::judge;
 use crate::exit::Exit;
 use crate::recording_options::RecordingOptions;
 use calibrant::inspection::recording_sheet;
-use calibrant::io::{InspectionFile, file_name, inspect, read_imu_pair, read_imu_recording, to_json};
+use calibrant::io::{
+    InspectionFile, ResultPlaces, file_name, inspect, read_imu_pair, read_imu_recording, to_json,
+};
 use std::path::{Path, PathBuf};
 
 /// Show what a recording, a log of a machine's motion, or a machine (.urdf) contains, before you calibrate from it.
@@ -33,9 +35,8 @@ pub(crate) struct Arguments {
     columns: Option<PathBuf>,
     #[command(flatten)]
     machine: machine::Options,
-    /// Print JSON instead of text.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    output: output::Output,
 }
 
 impl Arguments {
@@ -46,6 +47,17 @@ impl Arguments {
 }
 
 impl crate::run::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        ResultPlaces {
+            results: self.output.report.iter().cloned().collect(),
+            inputs: std::iter::once(self.file.as_path())
+                .chain(self.second())
+                .map(Path::to_path_buf)
+                .collect(),
+            ..ResultPlaces::default()
+        }
+    }
+
     fn run(&self) -> calibrant::Result<Exit> {
         run(self)
     }
@@ -53,7 +65,7 @@ impl crate::run::Run for Arguments {
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if machine::is_machine(&arguments.file) {
-        return arguments.machine.inspect(&arguments.file, arguments.json);
+        return arguments.machine.inspect(&arguments.file, &arguments.output);
     }
     arguments.machine.refuse_for_recording()?;
     let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
@@ -61,7 +73,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,
         None => match read_imu_recording(&arguments.file, &options) {
             Err(_) if reference_log::is_one(&arguments.file, &options) => {
-                return reference_log::run(&arguments.file, &options, arguments.json);
+                return reference_log::run(&arguments.file, &options, &arguments.output);
             }
             file => file?,
         },
@@ -71,10 +83,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let mut inspection = inspect(&file);
     // the same, with the names of their files
     inspection.findings.splice(..of_reader.len(), of_reader);
-    judge(&mut inspection.findings, arguments.json);
+    judge(&mut inspection.findings, arguments.output.json);
     let paths = std::iter::once(arguments.file.as_path()).chain(arguments.second());
     let names: Vec<String> = paths.map(|path| path.display().to_string()).collect();
     let found = InspectionFile { file: &file, inspection: &inspection };
-    console::sheet(arguments.json, || to_json(&found), || recording_sheet(&file, &inspection, &names));
+    arguments.output.show(|| to_json(&found), &recording_sheet(&file, &inspection, &names))?;
     Ok(Exit::DONE)
 }

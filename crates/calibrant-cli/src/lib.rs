@@ -11,7 +11,9 @@ mod convert;
 mod design;
 mod diagnostics;
 mod exit;
+mod experiment_settings;
 mod explain;
+mod figures;
 mod init;
 mod inspect;
 mod interruption;
@@ -50,6 +52,9 @@ use std::ffi::OsString;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Also write the figures of the report into this directory: figure-01.svg, with what it shows in figure-01.csv, and so on.
+    #[arg(long, global = true, value_name = "DIR")]
+    figures: Option<std::path::PathBuf>,
     /// Number of threads (default: all cores). Results do not depend on it.
     #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -127,6 +132,7 @@ pub fn main(arguments: Vec<OsString>) -> u8 {
         Command::Completions(arguments) => arguments,
         Command::Man(arguments) => arguments,
     };
+    figures::set(cli.figures);
     let done = set_threads(cli.threads).and_then(|()| run(command, cli.force));
     let exit = done.unwrap_or_else(|error| {
         console::error(&error);
@@ -163,7 +169,8 @@ fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
 
 /// Takes the places of the results, then runs the command. Tells results of an earlier run that it leaves.
 fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
-    let places = command.places();
+    let mut places = command.places();
+    places.results.extend(figures::places());
     if places.has_standard_output() {
         console::leave_stdout();
     }

@@ -70,7 +70,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         write_json(&directory.join("noise.json"), &result)?;
         write_text(page, &sheet.html())?;
     }
-    console::result(arguments.json, || to_json(&result), &sheet, None, page.as_slice());
+    console::result(arguments.json, || to_json(&result), &sheet, None, page.as_slice())?;
     Ok(Exit::DONE)
 }
 

@@ -21,6 +21,12 @@ pub(crate) struct RecordingOptions {
     /// Unit of the gyroscope, if the file does not state it: rad/s, deg/s, mdps or counts.
     #[arg(long, value_name = "UNIT", value_parser = gyroscope_unit)]
     gyroscope_unit: Option<ImuUnit>,
+    /// Sensitivity of the accelerometer, if its readings are counts: they are calibrated in m/s² then. Other units: --accelerometer-unit "0.061 mg/LSB".
+    #[arg(long, value_name = "COUNTS", conflicts_with_all = ["unit", "accelerometer_unit"])]
+    accelerometer_lsb_per_g: Option<f64>,
+    /// Sensitivity of the gyroscope, if its readings are counts: they are calibrated in rad/s then. Other units: --gyroscope-unit "8.75 mdps/LSB".
+    #[arg(long, value_name = "COUNTS", conflicts_with_all = ["unit", "gyroscope_unit"])]
+    gyroscope_lsb_per_dps: Option<f64>,
     /// Unit of the time column, if its name does not state it: s, ms, us or ns; samples for a counter.
     #[arg(long, value_name = "UNIT", value_parser = time_unit)]
     time_unit: Option<TimeUnit>,
@@ -47,7 +53,7 @@ pub(crate) struct RecordingOptions {
 impl RecordingOptions {
     /// The options, as the readers take them. --unit is that of each sensor that can have it.
     pub(crate) fn options(&self) -> calibrant::Result<ImuReadOptions> {
-        SensorKind::ALL.into_iter().try_fold(self.plain(), |options, sensor_kind| match self.unit {
+        SensorKind::ALL.into_iter().try_fold(self.plain()?, |options, sensor_kind| match self.unit {
             Some(unit) if unit.suits(sensor_kind) => with_unit(options, sensor_kind, unit),
             _ => Ok(options),
         })
@@ -60,21 +66,25 @@ impl RecordingOptions {
 
     /// The same, for the readings of this sensor: --unit must be one of its units, and says nothing of the other sensor.
     pub(crate) fn options_of(&self, sensor_kind: SensorKind) -> calibrant::Result<ImuReadOptions> {
-        let Some(unit) = self.unit else { return Ok(self.plain()) };
+        let Some(unit) = self.unit else { return self.plain() };
         if !unit.suits(sensor_kind) {
             let message = format!("--unit {} is no unit of the {sensor_kind}", unit.symbol());
             return Err(usage(&message, &format!("its readings are in {}", ImuUnit::choices(sensor_kind))));
         }
-        with_unit(self.plain(), sensor_kind, unit)
+        with_unit(self.plain()?, sensor_kind, unit)
     }
 
     /// The options but --unit.
-    fn plain(&self) -> ImuReadOptions {
-        ImuReadOptions {
+    fn plain(&self) -> calibrant::Result<ImuReadOptions> {
+        Ok(ImuReadOptions {
             format: self.format,
             time_unit: self.time_unit,
-            accelerometer_unit: self.accelerometer_unit,
-            gyroscope_unit: self.gyroscope_unit,
+            accelerometer_unit: self
+                .accelerometer_unit
+                .or(sensitivity(self.accelerometer_lsb_per_g, ImuUnit::StandardGravity)?),
+            gyroscope_unit: self
+                .gyroscope_unit
+                .or(sensitivity(self.gyroscope_lsb_per_dps, ImuUnit::DegreePerSecond)?),
             rate_hz: self.rate_hz,
             rate_sd_ppm: self.rate_sd_ppm,
             instance: self.instance.clone(),
@@ -83,13 +93,22 @@ impl RecordingOptions {
             rows_are_holds: self.rows_are_holds,
             budget: Some(budget()),
             ..ImuReadOptions::default()
-        }
+        })
     }
 
     /// The same options, completed from `[columns]` of an experiment file.
     pub(crate) fn with_columns(&self, experiment: Option<&Path>) -> calibrant::Result<ImuReadOptions> {
         completed(self.options()?, experiment)
     }
+}
+
+/// Counts of this sensitivity, where it is given.
+fn sensitivity(counts: Option<f64>, per: ImuUnit) -> calibrant::Result<Option<ImuUnit>> {
+    let none = |counts: f64| {
+        let message = format!("{counts} LSB per {} is no sensitivity", per.symbol());
+        usage(&message, "give the number of the datasheet, for the range in which it was recorded")
+    };
+    counts.map(|counts| ImuUnit::of_counts(counts, per).ok_or_else(|| none(counts))).transpose()
 }
 
 /// Options, completed from `[columns]` of an experiment file.

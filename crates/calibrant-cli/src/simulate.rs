@@ -8,7 +8,7 @@ use crate::budget::budget;
 use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use calibrant::io::{Experiment, ResultPlaces, read_poses};
+use calibrant::io::{ResultPlaces, read_poses};
 use calibrant::session::MotionSource;
 use calibrant::{SimulationOptions, simulate};
 
@@ -33,7 +33,7 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let experiment = Experiment::read(&arguments.experiment)?;
+    let experiment = arguments.settings.read(&arguments.experiment)?;
     let options = SimulationOptions {
         seed: arguments.seed,
         recording: arguments.recording.into(),

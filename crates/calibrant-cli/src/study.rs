@@ -25,6 +25,8 @@ const DEFAULT: &str = "report";
 pub(crate) struct Arguments {
     /// The experiment file (default: the preset report; see `calibrant init`).
     experiment: Option<PathBuf>,
+    #[command(flatten)]
+    settings: crate::experiment_settings::Settings,
     /// The initial motion of every sensor (default: a random one for each).
     #[arg(long, value_name = "CSV")]
     motion: Option<PathBuf>,
@@ -62,7 +64,7 @@ impl crate::run::Run for Arguments {
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = match &arguments.experiment {
-        Some(path) => Experiment::read(path)?,
+        Some(path) => arguments.settings.read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
     };
     let studies = match experiment.plan {
@@ -81,7 +83,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     let sheet = study_sheet(&studies, &about);
     write_text(&report, &sheet.html())?;
-    console::result(arguments.json, || to_json(&StudyFile { studies: &studies }), &sheet, None, &[report]);
+    console::result(arguments.json, || to_json(&StudyFile { studies: &studies }), &sheet, None, &[report])?;
     Ok(Exit::DONE)
 }
 

@@ -36,6 +36,7 @@ pub use convention::{
     calibrated_imu_texts, edit_calibrated_imu, imu_tk_files, parse_calibrated_imu, parse_estimates,
     read_calibrated_imu, read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
+pub use experiment::datasheets::{DATASHEETS, Datasheet};
 pub use experiment::presets::{PRESETS, Preset, preset};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Dwells, Experiment, ExperimentFile, HoldsPlan, ImuPlan,

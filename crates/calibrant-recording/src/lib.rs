@@ -38,9 +38,9 @@ pub use recording::named_sensor::sensor_named_in;
 pub use recording::stated_rate;
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TYPED_RATE_SD_PPM, TimeUnit, USUAL_RATE_SD_PPM,
-    imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,
-    read_imu_sensor, write_imu_recording, write_recording,
+    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, Sensitivity, TYPED_RATE_SD_PPM, TimeUnit,
+    USUAL_RATE_SD_PPM, imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair,
+    read_imu_recording, read_imu_sensor, write_imu_recording, write_recording,
 };
 pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,

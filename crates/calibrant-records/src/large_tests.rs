@@ -61,6 +61,7 @@ fn record(k: usize, with_gyroscope: bool) -> Record {
                 with_gyroscope.then_some(ReadingUnit::RadianPerSecond),
             ]
             .into(),
+            counts_per_unit: Default::default(),
             quantities,
             covariance: Some(&root * root.transpose()),
             degrees_of_freedom: None,

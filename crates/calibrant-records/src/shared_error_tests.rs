@@ -23,6 +23,7 @@ fn on_machine(gain: f64) -> CalibratedImu {
     CalibratedImu {
         parameters,
         units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
+        counts_per_unit: Default::default(),
         quantities,
         covariance: Some(DMatrix::identity(size, size) * 1e-10 + &shared * shared.transpose()),
         degrees_of_freedom: None,

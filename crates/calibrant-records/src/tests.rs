@@ -23,6 +23,7 @@ pub(super) fn imu(k: usize) -> CalibratedImu {
     CalibratedImu {
         parameters,
         units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::Counts)].into(),
+        counts_per_unit: Default::default(),
         quantities,
         covariance: Some(&root * root.transpose()),
         degrees_of_freedom: Some(CovarianceDegrees {

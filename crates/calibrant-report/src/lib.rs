@@ -21,6 +21,7 @@ mod sheet;
 #[cfg(feature = "study")]
 mod study;
 mod sweep;
+mod timeline;
 mod trajectory;
 mod validation;
 
@@ -34,6 +35,7 @@ pub use calibration::calibration_sheet;
 pub use comparison::comparison_sheet;
 pub use design::{design_sheet, gap_in_words};
 pub use evaluation::evaluation_sheet;
+pub use figure::FigureFiles;
 pub use machine::machine_sheet;
 pub use noise::noise_sheet;
 pub use poses::{pose_evaluation_sheet, pose_in_words, pose_sheet};
@@ -44,5 +46,6 @@ pub use sheet::{
 #[cfg(feature = "study")]
 pub use study::study_sheet;
 pub use sweep::sweep_sheet;
+pub use timeline::timeline_section;
 pub use trajectory::{trajectory_evaluation_sheet, trajectory_sheet, trajectory_sweep_sheet};
 pub use validation::validation_sentences;

@@ -161,15 +161,9 @@ fn true_sensor(parameters: &Value, in_gauge: bool) -> Result<ImuParameters, Box<
         sensors: [sensor(SensorKind::Accelerometer)?, sensor(SensorKind::Gyroscope)?].into(),
         ..ImuParameters::identity()
     };
-    let imu = CalibratedImu {
-        parameters,
-        units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)].into(),
-        quantities: ImuQuantity::full_list(true, true, false),
-        covariance: None,
-        degrees_of_freedom: None,
-        shared: None,
-        frame: "that of MuJoCo".into(),
-    };
+    let units = [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)];
+    let quantities = ImuQuantity::full_list(true, true, false);
+    let imu = CalibratedImu::new(parameters, units, quantities, "that of MuJoCo");
     Ok(if in_gauge { imu.in_gauge(MountingPrior::GAUGE)?.parameters } else { parameters })
 }
 

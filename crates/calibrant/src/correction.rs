@@ -70,7 +70,8 @@ pub fn apply<'a>(imu: &CalibratedImu, recording: &'a ImuRecording) -> Result<App
     Ok(Applied { corrected, notes })
 }
 
-/// Reads the recording that a calibration is to correct. A calibration in counts needs no unit of the file: it corrects counts.
+/// Reads the recording that a calibration is to correct. A calibration in counts needs no unit of the file: it corrects counts. So does one of counts
+/// with a known sensitivity, which makes readings of them.
 ///
 /// # Errors
 /// [`Error::Recording`] as [`read_imu_recording`](calibrant_io::read_imu_recording), and where a calibrated sensor has columns that cannot be used.
@@ -81,16 +82,24 @@ pub fn read_for_correction(
 ) -> Result<ImuFile> {
     let options = ImuReadOptions {
         // a sensor without calibration is ignored, whatever its unit
-        counts_unless_stated: SensorKind::ALL
-            .map(|sensor_kind| imu.unit(sensor_kind).is_none_or(|unit| unit == ReadingUnit::Counts)),
+        counts_unless_stated: SensorKind::ALL.map(|kind| {
+            imu.unit(kind).is_none_or(|unit| unit == ReadingUnit::Counts)
+                || imu.counts_per_unit[kind].is_some()
+        }),
         ..reading.clone()
     };
-    let file = match alone(imu) {
+    let mut file = match alone(imu) {
         Some(sensor_kind) => source.read_sensor(sensor_kind, &options),
         None => source.read_imu(&options),
     }?;
     for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
         check_usable(&file, sensor_kind).map_err(|error| error.in_recording(source.path()))?;
+    }
+    for (sensor_kind, counts) in imu.counts_per_unit.present() {
+        let of_counts = file.recording[sensor_kind].as_mut().filter(|of| of.unit() == ReadingUnit::Counts);
+        if let Some(recording) = of_counts {
+            *recording = recording.mapped(sensor_kind.stimulus_unit(), |reading| reading / *counts);
+        }
     }
     Ok(file)
 }

@@ -140,10 +140,8 @@
 //!
 //! # let mut parameters = calibrant::sensor::ImuParameters::identity();
 //! # parameters[SensorKind::Accelerometer].bias.x = 0.1;
-//! # let imu = calibrant::sensor::CalibratedImu {
-//! #     parameters, units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(), quantities: vec![],
-//! #     covariance: None, degrees_of_freedom: None, shared: None, frame: String::new(),
-//! # };
+//! # let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
+//! # let imu = calibrant::sensor::CalibratedImu::new(parameters, units, vec![], "");
 //! # let (t, y) = (vec![0.0, 0.01], vec![Vector3::new(0.3, 0.0, 9.8); 2]);
 //! // imu: io::read_calibrated_imu reads it from a file of any program
 //! let recording = ImuRecording::from(Recording::new(t, y, 3, ReadingUnit::MetrePerSecondSquared)?);

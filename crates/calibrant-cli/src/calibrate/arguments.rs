@@ -15,6 +15,8 @@ use std::sync::Mutex;
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
     pub(super) experiment: PathBuf,
+    #[command(flatten)]
+    pub(super) settings: crate::experiment_settings::Settings,
     /// Recordings: CSV with the header t_s,ax,ay,az, text with columns t x y z, or any file that `calibrant inspect` reads.
     #[arg(required = true)]
     pub(super) recordings: Vec<PathBuf>,

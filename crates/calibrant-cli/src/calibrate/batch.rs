@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exi
     about.findings.extend(interrupted.iter().map(Diagnostic::without_file));
     let sheet = batch_sheet(&page, &about);
     write_text(&page_path, &sheet.html())?;
-    console::result(arguments.json, || results.json(), &sheet, None, &[]);
+    console::result(arguments.json, || results.json(), &sheet, None, &[])?;
     if !arguments.json {
         let failed = results.failed();
         console::print(&format!(

@@ -4,7 +4,10 @@ use super::arguments::Arguments;
 use crate::console;
 use crate::diagnostics::{rules, tell_all};
 use crate::exit::Exit;
+use calibrant::Error;
 use calibrant::batch::Batch;
+use calibrant::diagnostic::Severity;
+use calibrant::io::write_text;
 use calibrant::session::Source;
 
 /// Calibrates from the recording and shows the result.
@@ -19,13 +22,13 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit
             let written = arguments.residuals.as_ref().map(|path| outcome.residuals().write(path));
             let residuals = arguments.residuals.iter().filter(|_| matches!(written, Some(Ok(()))));
             let files: Vec<_> = std::iter::once(arguments.main_result()).chain(residuals.cloned()).collect();
-            console::result(arguments.json, || outcome.json(), &outcome.sheet(), None, &files);
-            match written {
-                Some(Err(error)) => {
+            let shown = console::result(arguments.json, || outcome.json(), &outcome.sheet(), None, &files);
+            match written.unwrap_or(Ok(())).and(shown) {
+                Err(error) => {
                     console::error(&error);
                     Exit::of(&error)
                 }
-                _ => rules().exit_of(&outcome.verdict()),
+                Ok(()) => rules().exit_of(&outcome.verdict()),
             }
         }
         Err(error) => {
@@ -33,7 +36,22 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit
                 Some(_) => console::error(&error),
                 None => console::error_in(&error, source.path()),
             }
+            write_page(arguments, batch, source, &error);
             Exit::of(&error)
         }
+    }
+}
+
+/// Writes the page about the error, where there is a recording to show, and says so.
+fn write_page(arguments: &Arguments, batch: &Batch, source: &Source, error: &Error) {
+    let page = (!arguments.no_report).then(|| batch.session().failure_html(source, error)).flatten();
+    let path = arguments.output.join("report.html");
+    if let Some(page) = page
+        && write_text(&path, &page).is_ok()
+    {
+        console::told(
+            Severity::Note,
+            &format!("the recording, and what is at rest in it: {}", console::name(&path)),
+        );
     }
 }

@@ -20,6 +20,8 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// The experiment file, with a [motion], [holds] or [machine] (see `calibrant init`).
     pub(super) experiment: PathBuf,
+    #[command(flatten)]
+    pub(super) settings: crate::experiment_settings::Settings,
     /// An earlier calibration.json of this sensor. The design starts at its estimate, and uses its information. Repeatable: the information adds up, and the last file gives the estimate.
     /// Of a machine it gives geometry, mount, delays and noise.
     #[arg(long, value_name = "JSON")]

@@ -40,7 +40,7 @@ pub(super) fn run(
     let sheet = evaluation_sheet(&assessment, &about);
     let page = arguments.output.join("evaluation.html");
     write_text(&page, &sheet.html())?;
-    console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
+    console::result(arguments.json, || to_json(&file), &sheet, None, &[page])?;
     undetermined_by(&path.display().to_string(), &assessment.evaluation.undetermined).for_each(tell);
     let is_fit = assessment.evaluation.covariance.is_some() && assessment.violations().is_empty();
     let optimum = match &assessment.optimum {

@@ -5,13 +5,13 @@ use crate::budget::budget;
 use crate::diagnostics::tell_all;
 use crate::{console, interruption};
 use calibrant::design::{Design, DesignProblem};
-use calibrant::io::{Experiment, Plan, Prior, read_calibration};
+use calibrant::io::{Plan, Prior, read_calibration};
 use calibrant::report::{About, gap_in_words, number_format};
 use calibrant::{DesignChoice, DesignPlan};
 
 /// Reads the experiment and the earlier calibrations.
 pub(super) fn prepare(arguments: &Arguments) -> calibrant::Result<DesignPlan> {
-    let experiment = Experiment::read(&arguments.experiment)?;
+    let experiment = arguments.settings.read(&arguments.experiment)?;
     // of a machine another part of the file counts
     let earlier = match experiment.plan {
         Plan::Machine(_) => Vec::new(),

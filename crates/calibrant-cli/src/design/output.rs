@@ -28,7 +28,7 @@ pub(super) fn finish(
         &design_sheet(design, &About::default()),
         reached.map(|(_, sentence)| sentence),
         &["motion.csv", "report.html"].map(|name| arguments.output.join(name)),
-    );
+    )?;
     Ok(exit_of(job, design))
 }
 

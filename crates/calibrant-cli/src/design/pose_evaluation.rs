@@ -32,6 +32,6 @@ pub(super) fn run(arguments: &Arguments, job: &DesignPlan, recording: &Path) -> 
     let page = output.join("evaluation.html");
     let sheet = pose_evaluation_sheet(&evaluation, &directions, &problem, unit, &about);
     write_text(&page, &sheet.html())?;
-    console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
+    console::result(arguments.json, || to_json(&file), &sheet, None, &[page])?;
     Ok(Exit::DONE)
 }

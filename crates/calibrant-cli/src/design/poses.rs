@@ -55,7 +55,7 @@ fn design(arguments: &Arguments, job: &DesignPlan, problem: &PoseProblem) -> cal
     let sheet = pose_sheet(&design, problem, unit, &about);
     write_text(&output.join("report.html"), &sheet.html())?;
     let files = ["poses.csv", "report.html"].map(|name| output.join(name));
-    console::result(arguments.json, || to_json(&file), &sheet, sentence.as_deref(), &files);
+    console::result(arguments.json, || to_json(&file), &sheet, sentence.as_deref(), &files)?;
     if design.interrupted {
         tell(SearchInterrupted { are_poses: true });
         return Ok(Exit::NOT_IDENTIFIABLE);

@@ -40,7 +40,7 @@ pub(super) fn run(
     write_text(&arguments.output.join("report.html"), &sheet.html())?;
     tell_all(&sweep_remarks(&swept));
     let files = ["sweep.csv", "report.html"].map(|name| arguments.output.join(name));
-    console::result(arguments.json, || to_json(&file), &sheet, None, &files);
+    console::result(arguments.json, || to_json(&file), &sheet, None, &files)?;
     let good = |point: &calibrant::design::SweepPoint| {
         point.outcome.as_ref().is_ok_and(|design| design.optimal.covariance.is_some())
     };

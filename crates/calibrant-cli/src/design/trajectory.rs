@@ -102,7 +102,7 @@ fn judge(
     );
     let page = output.join("evaluation.html");
     write_text(&page, &sheet.html())?;
-    console::result(arguments.json, || to_json(&file), &sheet, None, &[page]);
+    console::result(arguments.json, || to_json(&file), &sheet, None, &[page])?;
     let is_kept = evaluation.is_proved() && evaluation.covariance.is_some();
     Ok(if is_kept { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
 }

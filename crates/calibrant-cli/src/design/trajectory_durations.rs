@@ -37,7 +37,7 @@ pub(super) fn sweep(
     let sheet = trajectory_sweep_sheet(&swept, &about);
     write_text(&output.join("report.html"), &sheet.html())?;
     let files = ["sweep.csv", "report.html"].map(|name| output.join(name));
-    console::result(arguments.json, || to_json(&file), &sheet, None, &files);
+    console::result(arguments.json, || to_json(&file), &sheet, None, &files)?;
     let good = swept.points.iter().any(|point| point.outcome.is_ok());
     Ok(if good { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
 }

@@ -37,7 +37,7 @@ pub(super) fn finish(
     files.push(page);
     let file = plan.file(&design, &problem, goals);
     let sentence = reached.map(|(_, sentence)| sentence);
-    console::result(arguments.json, || to_json(&file), &sheet, sentence, &files);
+    console::result(arguments.json, || to_json(&file), &sheet, sentence, &files)?;
     tell_all(&plan.remarks(&design));
     // however the search ended: the limits of what it found are proved
     Ok(if design.optimal.covariance.is_some() { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })

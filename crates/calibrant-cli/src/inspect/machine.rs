@@ -1,6 +1,6 @@
 //! The joints of a machine.
 
-use crate::console;
+use super::output::Output;
 use crate::diagnostics::tell;
 use crate::exit::Exit;
 use calibrant::diagnostic::Phrase;
@@ -42,18 +42,14 @@ impl Options {
     }
 
     /// Prints the joints between base and tip.
-    pub(super) fn inspect(&self, file: &Path, json: bool) -> calibrant::Result<Exit> {
+    pub(super) fn inspect(&self, file: &Path, output: &Output) -> calibrant::Result<Exit> {
         let machine = Urdf::read(file)?;
         let chain = machine.chain(self.base.as_deref(), self.tip.as_deref())?;
         let meshes =
             if self.packages.is_empty() { Vec::new() } else { machine.missing_meshes(&self.packages) };
         meshes.iter().for_each(|mesh: &MissingMesh| tell(MeshMissing { mesh: Phrase(mesh.to_string()) }));
         let found = MachineFile { machine: &machine, chain: &chain, meshes: &meshes };
-        console::sheet(
-            json,
-            || to_json(&found),
-            || chain_sheet(&machine, &chain, &file.display().to_string()),
-        );
+        output.show(|| to_json(&found), &chain_sheet(&machine, &chain, &file.display().to_string()))?;
         Ok(Exit::DONE)
     }
 }

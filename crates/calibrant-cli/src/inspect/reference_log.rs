@@ -1,6 +1,6 @@
 //! What a log of a machine's motion contains.
 
-use crate::console;
+use super::output::Output;
 use crate::diagnostics::judge;
 use crate::exit::Exit;
 use calibrant::inspection::log_sheet;
@@ -16,14 +16,14 @@ pub(super) fn is_one(path: &Path, options: &ImuReadOptions) -> bool {
 }
 
 /// Prints what a log contains.
-pub(super) fn run(path: &Path, options: &ImuReadOptions, as_json: bool) -> calibrant::Result<Exit> {
+pub(super) fn run(path: &Path, options: &ImuReadOptions, output: &Output) -> calibrant::Result<Exit> {
     let mut file = read_reference_log(path, &of_log(options))?;
     file.findings = file.findings.into_iter().map(|found| found.in_file(file_name(path))).collect();
-    judge(&mut file.findings, as_json);
+    judge(&mut file.findings, output.json);
     let inspection = inspect_reference_log(&file);
     let found = ReferenceInspectionFile { file: &file, inspection: &inspection };
     let name = path.display().to_string();
-    console::sheet(as_json, || to_json(&found), || log_sheet(&file, &inspection, &name));
+    output.show(|| to_json(&found), &log_sheet(&file, &inspection, &name))?;
     Ok(Exit::DONE)
 }
 

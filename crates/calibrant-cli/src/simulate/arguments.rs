@@ -28,6 +28,8 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
     pub(super) experiment: PathBuf,
+    #[command(flatten)]
+    pub(super) settings: crate::experiment_settings::Settings,
     /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: a random motion; a shuttle at the limits, where a random one would say less than the datasheet). On a machine: a log of its joints or poses.
     #[arg(long, value_name = "CSV")]
     pub(super) motion: Option<PathBuf>,

@@ -82,3 +82,32 @@ fn a_name_with_blanks_is_quoted() {
     let command = r"calibrant design 'my stage/it'\''s.toml' -o best";
     assert!(outcome.printed().contains(command), "{}", outcome.stdout);
 }
+
+#[test]
+fn a_key_is_set_on_the_command_line() {
+    let bench = Bench::new();
+    bench.run("init imu --sensor bmi088 -o imu.toml").done();
+    let text = bench.read("imu.toml");
+    assert!(
+        text.contains("noise_ug_per_rthz = 190.0") && text.contains("# gyroscope_lsb_per_dps = 16.384"),
+        "{text}"
+    );
+    bench.run("simulate imu.toml --set holds.poses=14 --set sensor.model=scale-bias -o made").done();
+    // fourteen holds of five seconds, and what lies between them
+    let seconds = bench.read("made/recording.csv").lines().count() as f64 / 100.0;
+    assert!((70.0..120.0).contains(&seconds), "{seconds}");
+    bench
+        .run("calibrate imu.toml made/recording.csv --set holds.minimum_hold_s=2.0 --no-report -o out")
+        .done();
+    for (setting, says) in [
+        ("holds.posse=7", "did you mean `poses`?"),
+        ("holds.poses=-7", "`holds.poses`"),
+        ("holds.poses", "sets no key"),
+    ] {
+        let command = format!("simulate imu.toml --set {setting} -o other");
+        bench.refuses(&command, 2, &[says]);
+        let said = bench.run(&command).stderr;
+        assert!(!said.contains("imu.toml:"), "it is not in the file: {said}");
+    }
+    bench.refuses("init imu --sensor lsm9ds1", 2, &["the datasheets at hand are bmi088"]);
+}

@@ -43,6 +43,7 @@ mod residuals;
 mod rest;
 mod resume;
 mod schemas;
+mod sensitivity;
 mod sensor_change;
 mod sensor_names;
 mod simulate;

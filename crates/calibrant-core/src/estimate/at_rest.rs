@@ -43,6 +43,7 @@ impl AtRest {
             quantities,
             imu,
             units: self.units,
+            counts_per_unit: PerSensor::default(),
             fit: FitStatistics { noise_estimate, ..self.fit },
             recovered: Recovered::Holds(holds),
             gyroscope: None,

@@ -155,15 +155,9 @@ impl Comparison {
     /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind};
     /// use nalgebra::DMatrix;
     /// let quantities = ImuQuantity::full_list(true, false, false)[..6].to_vec(); // bias and scale factors
-    /// let a = CalibratedImu {
-    ///     parameters: ImuParameters::identity(),
-    ///     units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
-    ///     quantities,
-    ///     covariance: Some(DMatrix::identity(6, 6) * 1e-6),
-    ///     degrees_of_freedom: None,
-    ///     shared: None,
-    ///     frame: String::new(),
-    /// };
+    /// let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
+    /// let mut a = CalibratedImu::new(ImuParameters::identity(), units, quantities, "");
+    /// a.covariance = Some(DMatrix::identity(6, 6) * 1e-6);
     /// let mut b = a.clone();
     /// b.parameters[SensorKind::Accelerometer].bias.x = 0.004;
     /// let comparison = Comparison::of(&a, &b);

@@ -64,8 +64,8 @@ pub use effective_degrees::degrees_of_sum;
 pub use gravity_error::{gravity_source, shared_gravity, tells_its_place};
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
-    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
-    find_clean_holds, find_holds, holds_between, holds_lost_to_filter,
+    Coverage, ExpectedCalibration, HoldsSetup, RefusedRest, clipped_holds, coverage, expected_calibration,
+    find_clean_holds, find_holds, holds_between, holds_lost_to_filter, refused_rests,
 };
 pub use imu::{
     ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,

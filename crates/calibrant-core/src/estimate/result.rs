@@ -49,6 +49,8 @@ pub struct Calibration {
     pub imu: ImuParameters,
     /// Unit of each sensor's readings; `None` where it was not calibrated.
     pub units: PerSensor<Option<ReadingUnit>>,
+    /// The sensitivity by which counts became readings in these units, counts per m/s² or rad/s; `None` where they were not counts, or stayed counts.
+    pub counts_per_unit: PerSensor<Option<f64>>,
     /// How well the model fits the data.
     pub fit: FitStatistics,
     /// The motion or the holds, estimated with the parameters.
@@ -212,6 +214,7 @@ impl Calibration {
         CalibratedImu {
             parameters: self.imu,
             units: self.units,
+            counts_per_unit: self.counts_per_unit,
             quantities: self.quantities.clone(),
             covariance: Some(self.covariance.clone()),
             degrees_of_freedom: self.degrees_behind(),

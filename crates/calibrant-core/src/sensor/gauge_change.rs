@@ -287,13 +287,8 @@ pub(super) mod tests {
             0.01 * f64::from(((7 * i + 3 * j) % 11) as u8) + f64::from(u8::from(i == j))
         });
         CalibratedImu {
-            parameters,
-            units: [Some(ReadingUnit::Counts), Some(ReadingUnit::Counts)].into(),
-            quantities,
             covariance: Some(&root * root.transpose()),
-            degrees_of_freedom: None,
-            shared: None,
-            frame: String::new(),
+            ..CalibratedImu::new(parameters, [Some(ReadingUnit::Counts); 2], quantities, "")
         }
     }
 

@@ -297,6 +297,9 @@ pub struct CalibratedImu {
     pub parameters: ImuParameters,
     /// Unit of each sensor's readings; `None` where it was not calibrated.
     pub units: PerSensor<Option<ReadingUnit>>,
+    /// The sensitivity of each sensor whose raw readings are counts: those per m/s² or rad/s, by which they are readings in [`units`](Self::units). `None` where the
+    /// readings were not counts, or are calibrated as counts.
+    pub counts_per_unit: PerSensor<Option<f64>>,
     /// The quantities of the covariance, in its order. Without a covariance, the quantities that are known.
     pub quantities: Vec<ImuQuantity>,
     /// Covariance of these quantities; `None` where it is not known.
@@ -322,6 +325,7 @@ impl CalibratedImu {
         Self {
             parameters,
             units,
+            counts_per_unit: PerSensor::default(),
             quantities,
             covariance: None,
             degrees_of_freedom: None,
@@ -359,6 +363,7 @@ impl CalibratedImu {
         let mut imu = self.clone();
         for without in SensorKind::ALL.into_iter().filter(|of| *of != sensor_kind) {
             imu.units[without] = None;
+            imu.counts_per_unit[without] = None;
             imu.parameters[without] = SensorParameters::identity();
             imu.parameters.thermal[without] = Default::default();
         }

@@ -84,6 +84,10 @@ json_object! {
     SensorOf<'_> as of {
         /// Unit of its readings.
         reading_unit: of.unit,
+        /// Sensitivity, where raw readings are counts: by it they are readings in m/s².
+        counts_per_mps2: if_some(of.counts(SensorKind::Accelerometer)),
+        /// The same for rad/s.
+        counts_per_radps: if_some(of.counts(SensorKind::Gyroscope)),
         bias: with_ending(of.unit.suffix(), per_axis(&of.of.imu.parameters.sensor(of.sensor_kind).bias, of.of.axes)),
         /// `matrix`, or `matrix_counts_per_mps2`, `matrix_counts_per_radps` for readings in counts; and `g_sensitivity_radps_per_mps2` or
         /// `g_sensitivity_counts_per_mps2` of a gyroscope.
@@ -96,6 +100,10 @@ json_object! {
 }
 
 impl SensorOf<'_> {
+    fn counts(&self, sensor_kind: SensorKind) -> Option<f64> {
+        self.of.imu.counts_per_unit[sensor_kind].filter(|_| sensor_kind == self.sensor_kind)
+    }
+
     fn matrices(&self) -> Vec<(&'static str, Vec<Vec<f64>>)> {
         let imu = &self.of.imu.parameters;
         let name = match (self.unit, self.sensor_kind) {

@@ -17,6 +17,7 @@ mod gauge_change;
 mod imu;
 mod imu_correction;
 mod imu_json;
+mod in_counts;
 mod interpolation;
 mod nonlinearity;
 mod omission;

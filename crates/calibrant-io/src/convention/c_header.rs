@@ -19,7 +19,8 @@ use nalgebra::Matrix3;
 use std::fmt::Write;
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
-    let imu = &file.imu;
+    // firmware has the counts of its sensor
+    let imu = &file.imu.in_counts();
     let correction = ImuCorrection::of(imu).map_err(|error| invalid(error.to_string(), ""))?;
     let mut out = format!(
         "/* Correction of an IMU, raw to true; {}.\n *\n * frame: {}\n",

@@ -14,8 +14,8 @@ use calibrant_core::estimate::shared_gravity;
 use calibrant_core::form::block;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{
-    CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, NonlinearTerm, Quantity, ReadingUnit,
-    SensorKind, SensorParameters, SharedErrors, correction_name,
+    CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, NonlinearTerm, PerSensor, Quantity,
+    ReadingUnit, SensorKind, SensorParameters, SharedErrors, correction_name,
 };
 use calibrant_recording::text::decoding::Checked;
 use nalgebra::{DMatrix, Matrix3};
@@ -60,6 +60,8 @@ struct HoldsCore {
 #[serde(default)]
 struct SensorCore {
     reading_unit: String,
+    counts_per_mps2: Option<f64>,
+    counts_per_radps: Option<f64>,
     bias_mps2: Option<Vec<f64>>,
     bias_radps: Option<Vec<f64>>,
     bias_counts: Option<Vec<f64>>,
@@ -108,10 +110,12 @@ impl ImuCore {
         check_direction("direction", &self.direction.ok_or_else(|| missing("direction"))?)?;
         let mut parameters = ImuParameters::identity();
         let mut units = [None, None];
+        let mut counts_per_unit = PerSensor::default();
         for (sensor_kind, fields) in
             [(SensorKind::Accelerometer, self.accelerometer), (SensorKind::Gyroscope, self.gyroscope)]
         {
             let Some(fields) = fields else { continue };
+            counts_per_unit[sensor_kind] = fields.sensitivity(sensor_kind)?;
             let (unit, sensor, g_sensitivity) = fields.into_sensor(sensor_kind)?;
             match sensor_kind {
                 SensorKind::Accelerometer => {
@@ -128,6 +132,7 @@ impl ImuCore {
         }
         let mut imu =
             CalibratedImu::new(parameters, units, vec![], self.frame.ok_or_else(|| missing("frame"))?);
+        imu.counts_per_unit = counts_per_unit;
         let listed = self.parameters.ok_or_else(|| missing("parameters"))?;
         let names: Vec<_> = listed.iter().filter_map(|parameter| parameter.name.clone()).collect();
         let symmetric = self.gauge.as_deref() == Some(Gauge::Symmetric.name());
@@ -228,6 +233,22 @@ fn check_sd(imu: &CalibratedImu, stated: &[Option<f64>]) -> Checked<()> {
 }
 
 impl SensorCore {
+    /// Counts per m/s² or rad/s of the raw readings.
+    fn sensitivity(&self, sensor_kind: SensorKind) -> Checked<Option<f64>> {
+        let (name, stated) = match sensor_kind {
+            SensorKind::Accelerometer => ("counts_per_mps2", self.counts_per_mps2),
+            SensorKind::Gyroscope => ("counts_per_radps", self.counts_per_radps),
+        };
+        let is_of_counts = unit_named(&self.reading_unit, sensor_kind) == Some(ReadingUnit::Counts);
+        match stated {
+            Some(counts) if is_of_counts || counts.is_nan() || counts <= 0.0 => Err(invalid(
+                format!("`{sensor_kind}.{name}` is {counts}, of readings in {}", self.reading_unit),
+                "it is a number above 0, of readings in m/s² or rad/s: correct or remove it",
+            )),
+            stated => Ok(stated),
+        }
+    }
+
     fn into_sensor(self, sensor_kind: SensorKind) -> Checked<(ReadingUnit, SensorParameters, Matrix3<f64>)> {
         let unit = unit_named(&self.reading_unit, sensor_kind).ok_or_else(|| {
             invalid(

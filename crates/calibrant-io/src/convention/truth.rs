@@ -54,20 +54,11 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         let counts = of(sensor_kind).any(|(value, _)| value.unit.starts_with(ReadingUnit::Counts.symbol()));
         Some(if counts { ReadingUnit::Counts } else { sensor_kind.stimulus_unit() })
     };
-    let mut imu = CalibratedImu {
-        parameters: ImuParameters::identity(),
-        units: PerSensor::from_fn(unit),
-        quantities: Vec::new(),
-        covariance: None,
-        degrees_of_freedom: None,
-        shared: None,
-        frame: match &file.gauge {
-            Some(gauge) => {
-                format!("fixed by the {gauge} gauge of the accelerometer, with a positive diagonal")
-            }
-            None => "that of the simulation".into(),
-        },
+    let frame = match &file.gauge {
+        Some(gauge) => format!("fixed by the {gauge} gauge of the accelerometer, with a positive diagonal"),
+        None => "that of the simulation".into(),
     };
+    let mut imu = CalibratedImu::new(ImuParameters::identity(), PerSensor::from_fn(unit), Vec::new(), frame);
     // quantities that are not listed are zero
     let calibrated: Vec<SensorKind> = imu.units.present().map(|(sensor_kind, _)| sensor_kind).collect();
     for sensor_kind in &calibrated {

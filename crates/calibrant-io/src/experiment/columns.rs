@@ -2,7 +2,7 @@
 
 use super::fault::unknown_word;
 use super::number::Within;
-use super::ranges::{FileRate, RateSd};
+use super::ranges::{AccelerometerGain, FileRate, GyroscopeGain, RateSd, SensitivityPerDps, SensitivityPerG};
 use super::refused_key::refused;
 use super::remedies::{COLUMN, remedy};
 use calibrant_core::error::Result;
@@ -34,6 +34,14 @@ pub struct ColumnsSection {
     pub gyroscope: Option<Vec<String>>,
     /// Their unit.
     pub gyroscope_unit: Option<String>,
+    /// Sensitivity of the accelerometer's counts, per g.
+    pub accelerometer_lsb_per_g: Option<Within<SensitivityPerG>>,
+    /// The same per m/s².
+    pub accelerometer_lsb_per_mps2: Option<Within<AccelerometerGain>>,
+    /// Sensitivity of the gyroscope's counts, per deg/s.
+    pub gyroscope_lsb_per_dps: Option<Within<SensitivityPerDps>>,
+    /// The same per rad/s.
+    pub gyroscope_lsb_per_radps: Option<Within<GyroscopeGain>>,
     /// Name of the column of temperatures.
     pub temperature: Option<String>,
     /// Which sensor, of a file with the rows of several.
@@ -52,21 +60,38 @@ impl ColumnsSection {
             temperature: column("columns.temperature", self.temperature.as_ref())?,
         };
         no_column_twice(&columns)?;
-        let unit = |key, text: Option<&String>, sensor_kind| {
-            text.map(|text| unit(key, text, sensor_kind)).transpose()
-        };
         Ok(ImuReadOptions {
             format: self.format,
             time_unit: self.time_unit,
             accelerometer_unit: unit(
-                "columns.accelerometer_unit",
-                self.accelerometer_unit.as_ref(),
-                SensorKind::Accelerometer,
+                ("columns.accelerometer_unit", self.accelerometer_unit.as_ref(), SensorKind::Accelerometer),
+                [
+                    (
+                        "columns.accelerometer_lsb_per_g",
+                        self.accelerometer_lsb_per_g.map(f64::from),
+                        ImuUnit::StandardGravity,
+                    ),
+                    (
+                        "columns.accelerometer_lsb_per_mps2",
+                        self.accelerometer_lsb_per_mps2.map(f64::from),
+                        ImuUnit::MetrePerSecondSquared,
+                    ),
+                ],
             )?,
             gyroscope_unit: unit(
-                "columns.gyroscope_unit",
-                self.gyroscope_unit.as_ref(),
-                SensorKind::Gyroscope,
+                ("columns.gyroscope_unit", self.gyroscope_unit.as_ref(), SensorKind::Gyroscope),
+                [
+                    (
+                        "columns.gyroscope_lsb_per_dps",
+                        self.gyroscope_lsb_per_dps.map(f64::from),
+                        ImuUnit::DegreePerSecond,
+                    ),
+                    (
+                        "columns.gyroscope_lsb_per_radps",
+                        self.gyroscope_lsb_per_radps.map(f64::from),
+                        ImuUnit::RadianPerSecond,
+                    ),
+                ],
             )?,
             rate_hz: self.rate_hz.map(f64::from),
             rate_sd_ppm: self.rate_sd_ppm.map(f64::from),
@@ -96,7 +121,27 @@ fn three(key: &str, names: Option<&Vec<String>>) -> Result<Option<[String; 3]>> 
     three.map(Some).map_err(|_| refused(key, format!("{count} columns for 3 axes"), remedy(key)))
 }
 
-fn unit(key: &str, text: &str, sensor_kind: SensorKind) -> Result<ImuUnit> {
+/// The unit of a sensor's columns: by its name, or counts of a sensitivity.
+fn unit(
+    (key, text, sensor_kind): (&str, Option<&String>, SensorKind),
+    sensitivities: [(&str, Option<f64>, ImuUnit); 2],
+) -> Result<Option<ImuUnit>> {
+    let named = text.map(|text| unit_named(key, text, sensor_kind)).transpose()?;
+    let mut given = named.filter(|unit| *unit != ImuUnit::Counts).map(|unit| (key, unit));
+    for (key, counts, per) in sensitivities {
+        let Some(unit) = counts.and_then(|counts| ImuUnit::of_counts(counts, per)) else { continue };
+        if let Some((other, _)) = given.replace((key, unit)) {
+            return Err(refused(
+                key,
+                format!("`{other}` says the unit of the same columns"),
+                "keep one of the two",
+            ));
+        }
+    }
+    Ok(given.map(|(_, unit)| unit).or(named))
+}
+
+fn unit_named(key: &str, text: &str, sensor_kind: SensorKind) -> Result<ImuUnit> {
     if let Some(unit) = ImuUnit::parse(text).filter(|unit| unit.suits(sensor_kind)) {
         return Ok(unit);
     }

@@ -20,13 +20,15 @@ pub(super) struct Document<'a> {
     text: &'a str,
     file: Option<&'a Path>,
     root: DeValue<'a>,
+    /// The keys that were set beside the text.
+    set: Vec<String>,
 }
 
 impl<'a> Document<'a> {
     /// Parses a text. `file` serves only for its name in errors.
     pub(super) fn parse(text: &'a str, file: Option<&'a Path>) -> Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut document = Self { text, file, root: DeValue::Table(DeTable::new()) };
+        let mut document = Self { text, file, root: DeValue::Table(DeTable::new()), set: Vec::new() };
         if text.len() as u64 > LARGEST {
             let (message, help) =
                 ("the experiment file is larger than 1 MiB", "this is hardly the file that you mean");
@@ -35,6 +37,16 @@ impl<'a> Document<'a> {
         let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
         document.root = DeValue::Table(table.into_inner());
         Ok(document)
+    }
+
+    /// Gives keys other values than the text has; each [`Setting`] is a TOML of its own.
+    pub(super) fn set(&mut self, settings: &'a [Setting]) -> Result<()> {
+        for Setting(text) in settings {
+            let table = DeTable::parse(text).map_err(|error| no_setting(text, error.message()))?;
+            let key = merge(&mut self.root, table.into_inner()).ok_or_else(|| no_setting(text, "no key"))?;
+            self.set.push(key);
+        }
+        Ok(())
     }
 
     /// The directory of the file.
@@ -74,6 +86,9 @@ impl<'a> Document<'a> {
         match error {
             Error::Experiment(input_error) if input_error.line.is_none() => {
                 let key = input_error.key.as_deref().unwrap_or_default();
+                if self.set.iter().any(|set| key.starts_with(set.as_str())) {
+                    return Error::experiment(InputError { file: None, ..*input_error });
+                }
                 let span = place(&self.root, key, input_error.code == Refusal::KeyUnknown).unwrap_or(0..0);
                 self.refuse(span, *input_error)
             }
@@ -104,6 +119,46 @@ impl<'a> Document<'a> {
         };
         self.refuse(span, input_error)
     }
+}
+
+/// `section.key = value`, as TOML.
+pub(super) struct Setting(String);
+
+impl Setting {
+    /// Of a text in which words need no quotes.
+    pub(super) fn new(text: &str) -> Self {
+        let word = text.split_once('=').filter(|(_, value)| !value.contains(['"', '\'', '\n', '\\']));
+        Self(match (DeTable::parse(text), word) {
+            (Err(_), Some((key, value))) => format!("{key} = \"{}\"", value.trim()),
+            _ => text.to_owned(),
+        })
+    }
+}
+
+fn no_setting(text: &str, why: &str) -> Error {
+    let message = format!("`{text}` sets no key: {}", why.replace('\n', " "));
+    let help = "write section.key=value, with the value as in the file: holds.poses=36";
+    Error::experiment(InputError::new(Refusal::SyntaxInvalid, message, help))
+}
+
+/// Puts the values of one table into another. The key of the last one, with those around it.
+fn merge<'a>(into: &mut DeValue<'a>, table: DeTable<'a>) -> Option<String> {
+    let DeValue::Table(into) = into else { return None };
+    let mut last = None;
+    for (name, mut value) in table {
+        let key = name.get_ref().to_string();
+        let there = into.get_mut(key.as_str()).filter(|there| there.get_ref().is_table());
+        last = match (there, value.get_mut()) {
+            (Some(there), DeValue::Table(inner)) => {
+                merge(there.get_mut(), std::mem::take(inner)).map(|inner| format!("{key}.{inner}"))
+            }
+            _ => {
+                into.insert(name, value);
+                Some(key)
+            }
+        };
+    }
+    last
 }
 
 /// The bytes of the value of this key, or of the innermost value around it; of the key itself where it is not

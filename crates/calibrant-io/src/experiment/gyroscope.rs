@@ -2,9 +2,11 @@
 
 use super::HoldsPlan;
 use super::direction::Direction;
+use super::noise_density::{RADPS_PER_MDPS, of_sample};
 use super::number::{Either, PerAxis, Within};
 use super::ranges::{
-    GyroscopeGain, NoiseCounts, NoiseRadps, PriorSd, RangeDegps, RangeRadps, Time, TurnAngle, TurnSd, Value,
+    GyroscopeGain, NoiseBandwidth, NoiseCounts, NoiseMdps, NoiseRadps, PriorSd, RangeDegps, RangeRadps, Time,
+    TurnAngle, TurnSd, Value,
 };
 use super::refused_key::refused;
 use super::remedies::remedy;
@@ -33,6 +35,10 @@ pub struct GyroscopeSection {
     pub noise_radps: Option<PerAxis<NoiseRadps>>,
     /// Noise of one sample, counts.
     pub noise_counts: Option<PerAxis<NoiseCounts>>,
+    /// Noise density of the datasheet, mdps/√Hz: the noise of one sample by its bandwidth.
+    pub noise_mdps_per_rthz: Option<PerAxis<NoiseMdps>>,
+    /// Bandwidth of that noise.
+    pub noise_bandwidth_hz: Option<Within<NoiseBandwidth>>,
     /// Largest rate that the sensor can report.
     pub range_radps: Option<PerAxis<RangeRadps>>,
     /// The same in deg/s.
@@ -166,12 +172,23 @@ impl GyroscopeSection {
             let help = "write unit = \"counts\" in [gyroscope], or leave this key away";
             return Err(refused(*key, "readings in rad/s or deg/s have no counts", help));
         }
-        if is_counts && self.noise_radps.is_some() {
-            return Err(refused("gyroscope.noise_radps", "the readings are counts", "noise_counts = …"));
+        let density = per_axis("gyroscope.noise_mdps_per_rthz", self.noise_mdps_per_rthz.as_ref(), 3)?;
+        let physical = [
+            ("gyroscope.noise_radps", self.noise_radps.is_some()),
+            ("gyroscope.noise_mdps_per_rthz", density.is_some()),
+        ];
+        if let Some((key, _)) = physical.iter().find(|(_, is_there)| is_counts && *is_there) {
+            return Err(refused(*key, "the readings are counts", "noise_counts = …"));
         }
+        let by_density = of_sample(
+            ("gyroscope.noise_mdps_per_rthz", density),
+            ("gyroscope.noise_bandwidth_hz", self.noise_bandwidth_hz.map(f64::from)),
+            RADPS_PER_MDPS,
+            &physical[..1],
+        )?;
         let noise = match is_counts {
             true => per_axis("gyroscope.noise_counts", self.noise_counts.as_ref(), 3)?,
-            false => per_axis("gyroscope.noise_radps", self.noise_radps.as_ref(), 3)?,
+            false => per_axis("gyroscope.noise_radps", self.noise_radps.as_ref(), 3)?.or(by_density),
         };
         let angle = self.turn_angle_deg.map(|angle| turned_by("gyroscope.turn_angle_deg", angle));
         Ok(ImuPlan {

@@ -12,6 +12,7 @@
 mod accept;
 mod calibrate;
 mod columns;
+pub(crate) mod datasheets;
 mod design;
 mod direction;
 mod document;
@@ -35,6 +36,7 @@ mod machine_source;
 mod machine_world;
 mod motion;
 mod motion_gravity;
+mod noise_density;
 mod number;
 mod plan;
 mod pose_problem;

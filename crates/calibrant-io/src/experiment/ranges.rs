@@ -35,6 +35,16 @@ ranges! {
     pub struct AccelerometerGain: Bounds::above(0.0, 1e12, "counts/(m/s²)");
     /// Nominal gain of a gyroscope.
     pub struct GyroscopeGain: Bounds::above(0.0, 1e12, "counts/(rad/s)");
+    /// Noise density of an accelerometer.
+    pub struct NoiseUg: Bounds::from(1e-2, 1e9, "µg/√Hz");
+    /// Noise density of a gyroscope.
+    pub struct NoiseMdps: Bounds::from(1e-4, 1e7, "mdps/√Hz");
+    /// Bandwidth of the noise.
+    pub struct NoiseBandwidth: Bounds::from(1e-3, 1e6, "Hz");
+    /// Sensitivity of an accelerometer.
+    pub struct SensitivityPerG: Bounds::above(0.0, 1e12, "LSB/g");
+    /// Sensitivity of a gyroscope.
+    pub struct SensitivityPerDps: Bounds::above(0.0, 1e12, "LSB/(deg/s)");
     /// Nominal offset.
     pub struct Offset: Bounds::from(-1e12, 1e12, "counts");
     /// A limit of an acceleration.

@@ -2,7 +2,7 @@
 
 use super::accept::{AcceptSection, acceptance_limits};
 use super::columns::ColumnsSection;
-use super::document::{Document, LARGEST};
+use super::document::{Document, LARGEST, Setting};
 use super::file::ExperimentFile;
 use super::gyroscope::GyroscopeSection;
 use super::number::Count;
@@ -319,6 +319,31 @@ impl Experiment {
         Ok(Self { source, ..Self::parse(&text, Some(path))? })
     }
 
+    /// Reads an experiment file with other values of some keys: `holds.poses=36`, the value as in the file. The origin is then that of the content, since it is no more
+    /// that of the file.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read). The TOML of a setting is invalid, or sets no key.
+    ///
+    /// # Examples
+    /// ```no_run
+    /// use calibrant_io::Experiment;
+    /// let longer = Experiment::read_with("imu.toml".as_ref(), &["holds.hold_s=8.0".into()])?;
+    /// # Ok::<(), calibrant_core::Error>(())
+    /// ```
+    pub fn read_with(path: &Path, settings: &[String]) -> Result<Self> {
+        if settings.is_empty() {
+            return Self::read(path);
+        }
+        let text = decoding::read_text(path, LARGEST, "the experiment file").map_err(Error::Experiment)?;
+        let settings: Vec<Setting> = settings.iter().map(|setting| Setting::new(setting)).collect();
+        let mut document = Document::parse(&text, Some(path))?;
+        document.set(&settings)?;
+        let experiment = Self::of(&document, HashedFile::of_bytes("", b""))?;
+        let content = HashedFile { file: file_name(path), ..experiment.content() };
+        Ok(Self { source: content, ..experiment })
+    }
+
     /// Reads the text of an experiment file. `file` serves only for its name in errors.
     ///
     /// # Errors
@@ -339,7 +364,11 @@ impl Experiment {
         let document = Document::parse(text, file)?;
         let source =
             HashedFile::of_bytes(file.map_or_else(|| "experiment".into(), file_name), text.as_bytes());
-        let form = ExperimentFile::of(&document)?;
+        Self::of(&document, source)
+    }
+
+    fn of(document: &Document<'_>, source: HashedFile) -> Result<Self> {
+        let form = ExperimentFile::of(document)?;
         form.made(source, document.directory()).map_err(|error| document.placed(error))
     }
 }

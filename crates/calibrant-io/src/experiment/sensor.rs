@@ -1,9 +1,11 @@
 //! `[sensor]`: the datasheet of the accelerometer.
 
 use super::fault::unknown_word;
+use super::noise_density::{MPS2_PER_UG, of_sample};
 use super::number::{Count, Either, PerAxis, Within};
 use super::ranges::{
-    Acceleration, AccelerometerGain, BiasSpread, NoiseCounts, NoiseMps2, Offset, RelativeSpread,
+    Acceleration, AccelerometerGain, BiasSpread, NoiseBandwidth, NoiseCounts, NoiseMps2, NoiseUg, Offset,
+    RelativeSpread,
 };
 use super::refused_key::refused;
 use calibrant_core::error::Result;
@@ -31,6 +33,10 @@ pub struct SensorSection {
     pub noise_mps2: Option<PerAxis<NoiseMps2>>,
     /// Noise of one sample, counts.
     pub noise_counts: Option<PerAxis<NoiseCounts>>,
+    /// Noise density of the datasheet, µg/√Hz: the noise of one sample by its bandwidth.
+    pub noise_ug_per_rthz: Option<PerAxis<NoiseUg>>,
+    /// Bandwidth of that noise.
+    pub noise_bandwidth_hz: Option<Within<NoiseBandwidth>>,
     /// Spread of the bias.
     pub bias_sd_mps2: Option<PerAxis<BiasSpread>>,
     /// Spread of the scale factors, relative.
@@ -134,6 +140,17 @@ impl SensorSection {
             let message = "the noise is given twice, in counts and in m/s²";
             return Err(refused("sensor.noise_counts", message, "keep one of the two"));
         }
+        let noise_mps2 = per_axis("sensor.noise_mps2", self.noise_mps2.as_ref(), axes)?;
+        let density = per_axis("sensor.noise_ug_per_rthz", self.noise_ug_per_rthz.as_ref(), axes)?;
+        let by_density_mps2 = of_sample(
+            ("sensor.noise_ug_per_rthz", density),
+            ("sensor.noise_bandwidth_hz", self.noise_bandwidth_hz.map(f64::from)),
+            MPS2_PER_UG,
+            &[
+                ("sensor.noise_mps2", noise_mps2.is_some()),
+                ("sensor.noise_counts", self.noise_counts.is_some()),
+            ],
+        )?;
         let gain = per_axis("sensor.gain_counts_per_mps2", self.gain_counts_per_mps2.as_ref(), axes)?;
         let offset = per_axis("sensor.offset_counts", self.offset_counts.as_ref(), axes)?;
         let in_si = unit != ReadingUnit::Counts;
@@ -143,7 +160,7 @@ impl SensorSection {
             unit,
             gain: if in_si { Some(Vector3::repeat(1.0)) } else { gain },
             offset: if in_si { Some(Vector3::zeros()) } else { offset },
-            noise_mps2: per_axis("sensor.noise_mps2", self.noise_mps2.as_ref(), axes)?,
+            noise_mps2: noise_mps2.or(by_density_mps2),
             noise_counts: per_axis("sensor.noise_counts", self.noise_counts.as_ref(), axes)?,
             bias_sd_mps2: per_axis("sensor.bias_sd_mps2", self.bias_sd_mps2.as_ref(), axes)?,
             scale_sd: per_axis("sensor.scale_sd", self.scale_sd.as_ref(), axes)?,

@@ -25,9 +25,6 @@ use serde::Serialize;
 
 /// Gravity that is assumed, m/s²: the location changes a prediction by less than one per cent.
 const GRAVITY_MPS2: f64 = 9.806_65;
-/// Shortest stationary interval that counts as a hold, s.
-const MINIMUM_HOLD_S: f64 = 1.0;
-
 /// The content of a recording.
 #[derive(Debug, Clone)]
 pub struct Inspection {
@@ -39,6 +36,11 @@ pub struct Inspection {
     pub spikes: Vec<(SensorKind, Spikes)>,
     /// The holds of the accelerometer. `None` without an accelerometer, or where the search was impossible.
     pub holds: Option<HoldsInspection>,
+}
+
+impl Inspection {
+    /// Duration of the shortest hold that is looked for, s.
+    pub const MINIMUM_HOLD_S: f64 = 1.0;
 }
 
 /// Sampling and values of one sensor.
@@ -144,7 +146,7 @@ impl HoldsInspection {
         accelerometer: &Recording,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
-        let holds = find_clean_imu_holds(recording, MINIMUM_HOLD_S)?;
+        let holds = find_clean_imu_holds(recording, Inspection::MINIMUM_HOLD_S)?;
         let clipped = clipped_holds(accelerometer, &holds);
         let sound: Vec<Hold> = holds
             .iter()
@@ -165,13 +167,12 @@ impl HoldsInspection {
             Some(axis.check(*sensor_kind, recording.sensor(*sensor_kind)?.unit()).into())
         }));
         let expected = expected_calibration(&sound, unit, GRAVITY_MPS2, Gauge::Upper);
-        let swapped = expected.is_err().then(|| swapped_sensors(recording, MINIMUM_HOLD_S)).flatten();
+        let swapped =
+            expected.is_err().then(|| swapped_sensors(recording, Inspection::MINIMUM_HOLD_S)).flatten();
         findings.extend(expected.as_ref().err().map(undetermined));
-        findings.extend(
-            swapped.map(Diagnostic::from).or_else(|| {
-                holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S).map(Diagnostic::from)
-            }),
-        );
+        findings.extend(swapped.map(Diagnostic::from).or_else(|| {
+            holds_lost_to_filter(accelerometer, &holds, Inspection::MINIMUM_HOLD_S).map(Diagnostic::from)
+        }));
         let offset = match &expected {
             Ok(expected) => Some(expected.like.bias),
             // readings in counts have an offset that is unknown without the calibration
@@ -278,7 +279,7 @@ json_object! {
     HoldsInspection as of {
         /// Number of holds.
         count: of.holds.len(),
-        minimum_hold_s: MINIMUM_HOLD_S,
+        minimum_hold_s: Inspection::MINIMUM_HOLD_S,
         /// The holds, in the order of time.
         table: of.holds.iter().zip(&of.clipped).map(|(hold, clipped)| HoldOf { hold, clipped: *clipped }).collect::<Vec<_>>(),
         /// The widest part of the sphere without a direction, and its middle.

@@ -113,13 +113,13 @@ mod tests {
                 quantity.add_to(&mut parameters, 1e-3 * k as f64 * (1.0 + years));
             }
             CalibratedImu {
-                parameters,
-                units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
-                quantities,
                 covariance: Some(DMatrix::identity(size, size) * 1e-8),
-                degrees_of_freedom: None,
-                shared: None,
-                frame: String::new(),
+                ..CalibratedImu::new(
+                    parameters,
+                    [Some(ReadingUnit::MetrePerSecondSquared), None],
+                    quantities,
+                    "",
+                )
             }
         };
         let years = [0.0, 1.0, 2.5];
@@ -163,13 +163,8 @@ mod tests {
             |k: usize| if matches!(quantities[k], ImuQuantity::Thermal(..)) { 1e-12 } else { 1e-8 };
         let covariance = DMatrix::from_fn(size, size, |i, j| if i == j { variance(i) } else { 0.0 });
         CalibratedImu {
-            parameters,
-            units: [Some(ReadingUnit::MetrePerSecondSquared), None].into(),
-            quantities,
             covariance: Some(covariance),
-            degrees_of_freedom: None,
-            shared: None,
-            frame: String::new(),
+            ..CalibratedImu::new(parameters, [Some(ReadingUnit::MetrePerSecondSquared), None], quantities, "")
         }
     }
 

@@ -9,10 +9,10 @@ use rayon::prelude::*;
 /// A figure: panels that belong together.
 #[derive(Debug)]
 pub(crate) struct Figure {
-    title: String,
+    pub(super) title: String,
     caption: String,
-    panels: Vec<Panel>,
-    columns: usize,
+    pub(super) panels: Vec<Panel>,
+    pub(super) columns: usize,
 }
 
 impl Figure {
@@ -32,21 +32,26 @@ impl Figure {
     }
 
     fn legend(&self) -> String {
+        let entries: String = self.signs().iter().map(|(sign, label)| entry(sign, label)).collect();
+        format!("<ul class=\"legend\">{entries}</ul>")
+    }
+
+    /// The lines of the legend, each once: the sign of a series or a shaded interval, and its label.
+    pub(super) fn signs(&self) -> Vec<(String, String)> {
         let mut seen: Vec<&Series> = Vec::new();
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
             if !series.label.is_empty() && seen.iter().all(|other| other.label != series.label) {
                 seen.push(series);
             }
         }
-        let mut entries: Vec<String> =
-            seen.iter().map(|series| entry(&svg::key(series), &series.label)).collect();
+        let mut signs: Vec<_> = seen.iter().map(|series| (svg::key(series), series.label.clone())).collect();
         for shade in self.panels.iter().flat_map(|panel| &panel.shades) {
-            let entry = entry(&svg::shade_key(shade.colour), shade.label);
-            if !entries.contains(&entry) {
-                entries.push(entry);
+            let sign = (svg::shade_key(shade.colour), shade.label.to_owned());
+            if !signs.contains(&sign) {
+                signs.push(sign);
             }
         }
-        format!("<ul class=\"legend\">{}</ul>", entries.concat())
+        signs
     }
 }
 

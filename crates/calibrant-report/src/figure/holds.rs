@@ -5,8 +5,9 @@ use super::panel::{Panel, Series, Shade};
 use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_core::estimate::{HoldCalibration, HoldResult};
-use calibrant_core::sensor::Recording;
+use calibrant_core::estimate::{HoldCalibration, HoldResult, RefusedRest};
+use calibrant_core::motion::Hold;
+use calibrant_core::sensor::{Recording, SensorKind};
 
 /// The recording of each axis with the holds shaded.
 pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording) -> Figure {
@@ -17,6 +18,30 @@ pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording)
     };
     let is_finite = |shade: &Shade| shade.from.is_finite() && shade.to.is_finite();
     let shades: Vec<Shade> = holds.holds.iter().map(shade).filter(is_finite).collect();
+    timeline("The recording and its holds", shades, recording)
+}
+
+/// The readings of each axis, with what is at rest shaded: holds, and what is none.
+pub(crate) fn rest_and_motion(
+    of: SensorKind,
+    holds: &[Hold],
+    refused: &[RefusedRest],
+    recording: &Recording,
+) -> Figure {
+    let hold =
+        |hold: &Hold| Shade { label: "hold", colour: colour::GREEN, from: hold.start_s, to: hold.end_s };
+    let rest = |rest: &RefusedRest| {
+        let (label, colour) = match rest.is_short {
+            true => ("at rest, too short for a hold", colour::ORANGE),
+            false => ("at rest, not steady", colour::VERMILLION),
+        };
+        Shade { label, colour, from: rest.start_s, to: rest.end_s }
+    };
+    let shades = holds.iter().map(hold).chain(refused.iter().map(rest)).collect();
+    timeline(&format!("The {of} over time"), shades, recording)
+}
+
+fn timeline(title: &str, shades: Vec<Shade>, recording: &Recording) -> Figure {
     let label = format!("reading ({})", recording.unit().symbol());
     let panels = Panel::by_axis(recording.active_axes(), "time (s)", &label, |axis, panel| {
         let values = recording.readings().iter().map(|reading| reading[axis.index()]);
@@ -31,7 +56,7 @@ pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording)
             "The smallest and the largest reading of each pixel column are drawn.",
         )],
     );
-    Figure::new("The recording and its holds", panels, caption)
+    Figure::new(title, panels, caption)
 }
 
 /// Corrected magnitude less gravity of each hold, beside its expected scatter.

@@ -16,6 +16,7 @@ mod device;
 mod drawing;
 mod durations;
 mod ellipse;
+mod files;
 mod frame;
 mod gyroscope_in_holds;
 mod histogram;
@@ -55,9 +56,10 @@ pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;
 pub(super) use durations::duration_curves;
 pub(super) use ellipse::confidence_ellipses;
+pub use files::FigureFiles;
 pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};
-pub(super) use holds::{hold_residuals, recording_overview};
+pub(super) use holds::{hold_residuals, recording_overview, rest_and_motion};
 pub(super) use machine::{
     PLAYER_SCRIPT, Scene, correction_bars, joint_figure, player, residual_coherence, residual_densities,
     residuals_and_speed, sensor_on_tip, three_views,

@@ -7,7 +7,7 @@ use super::scale::{Scale, number};
 use crate::html::escape;
 
 /// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
-const WIDTH: f64 = 400.0;
+pub(super) const WIDTH: f64 = 400.0;
 const HEIGHT: f64 = 270.0;
 const SQUARE_HEIGHT: f64 = 400.0;
 /// Makes a map nearly a square, beside the bar of its colours.
@@ -20,13 +20,18 @@ const DIGIT: f64 = 6.7;
 const AXIS: &str = "#424a53";
 const GRID: &str = "#e3e7eb";
 
-/// The panel as an SVG that takes the width of its column.
-pub(super) fn svg(panel: &Panel) -> String {
-    let height = match panel.map {
+/// Height of a panel in SVG units.
+pub(super) fn height(panel: &Panel) -> f64 {
+    match panel.map {
         Some(_) => MAP_HEIGHT,
         None if panel.square => SQUARE_HEIGHT,
         None => HEIGHT,
-    };
+    }
+}
+
+/// The panel as an SVG that takes the width of its column.
+pub(super) fn svg(panel: &Panel) -> String {
+    let height = height(panel);
     let Some([x, y]) = panel.axes() else {
         return nothing(panel, height);
     };

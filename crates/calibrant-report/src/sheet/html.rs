@@ -2,8 +2,9 @@
 
 use super::cell::Cell;
 use super::document::{Grade, Sheet, SheetVerdict};
-use super::section::{Piece, Section};
+use super::section::{Piece, Plot, Section};
 use super::table::{Shown, Table};
+use crate::figure::FigureFiles;
 use crate::html::{escape, facts, list, page, paragraph};
 use rayon::prelude::*;
 
@@ -24,6 +25,26 @@ impl Sheet<'_> {
         }
         let verdict = self.verdict.as_ref().map_or_else(String::new, verdict);
         page(&self.title, &verdict, &sections, &self.footer)
+    }
+}
+
+impl Sheet<'_> {
+    /// The figures of the page as files, in their order. Tables that look like figures have none.
+    #[must_use]
+    pub fn figures(&self) -> Vec<FigureFiles> {
+        let shown = self.sections.iter().filter(|section| section.shown.on_page());
+        let pieces: Vec<&Piece<'_>> =
+            shown.flat_map(|section| &section.pieces).map(|(_, piece)| piece).collect();
+        pieces.into_par_iter().flat_map(plots).filter_map(|plot| Some((plot.0)()?.files())).collect()
+    }
+}
+
+/// The figures of a piece.
+fn plots<'p, 'a>(piece: &'p Piece<'a>) -> Vec<&'p Plot<'a>> {
+    match piece {
+        Piece::Figure(plot) => vec![plot],
+        Piece::Folded(_, pieces) => pieces.iter().flat_map(plots).collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -53,6 +74,7 @@ fn html(piece: &Piece<'_>) -> String {
             }
         },
         Piece::Drawn(drawing) => (drawing.0)(),
+        Piece::Figure(plot) => (plot.0)().map_or_else(String::new, |figure| figure.html()),
         Piece::Folded(summary, pieces) => {
             let within: String = pieces.iter().map(html).collect();
             format!("<details><summary>{}</summary>{within}</details>", escape(summary))

@@ -17,12 +17,23 @@ pub(super) enum Piece<'a> {
     Tables(Vec<Table>),
     /// What only a page can show, as HTML, made when it is printed: a figure, a matrix.
     Drawn(Drawing<'a>),
+    /// A figure, drawn when a page is printed or its files are asked for.
+    Figure(Plot<'a>),
     /// Pieces that a page shows on demand, under this summary.
     Folded(String, Vec<Piece<'a>>),
 }
 
 /// HTML that is made when a page is printed.
 pub(super) struct Drawing<'a>(pub(super) Box<dyn Fn() -> String + Send + Sync + 'a>);
+
+/// A figure that is made when it is needed; `None` where there is nothing to draw.
+pub(super) struct Plot<'a>(pub(super) Box<dyn Fn() -> Option<Figure> + Send + Sync + 'a>);
+
+impl fmt::Debug for Plot<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str("Plot")
+    }
+}
 
 impl fmt::Debug for Drawing<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -140,7 +151,7 @@ impl<'a> Section<'a> {
 
     /// A figure, drawn when a page is printed; `None` where there is nothing to draw.
     pub(crate) fn figure(&mut self, figure: impl Fn() -> Option<Figure> + Send + Sync + 'a) {
-        self.drawn(move || figure().map_or_else(String::new, |figure| figure.html()));
+        self.push(Shown::OnPage, Piece::Figure(Plot(Box::new(figure))));
     }
 
     /// A table of pages alone, under a heading of its own.

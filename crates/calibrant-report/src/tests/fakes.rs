@@ -125,6 +125,7 @@ fn calibrated(
         datasheet_prior: false,
         imu: ImuParameters::identity().with(SensorKind::Accelerometer, estimate),
         units: PerSensor::only(SensorKind::Accelerometer, recording.unit()),
+        counts_per_unit: PerSensor::default(),
         fit: FitStatistics {
             chi2: degrees_of_freedom as f64 * 1.013,
             degrees_of_freedom,
@@ -219,6 +220,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         datasheet_prior: false,
         imu: ImuParameters::identity().with(SensorKind::Accelerometer, truth),
         units: PerSensor::only(SensorKind::Accelerometer, ReadingUnit::Counts),
+        counts_per_unit: PerSensor::default(),
         fit: FitStatistics {
             chi2: 28.0,
             degrees_of_freedom: count.saturating_sub(10),

@@ -4,18 +4,25 @@ use super::columns;
 use super::holds::hold_sections;
 use super::noticed::noticed;
 use super::sampling::sampling_line;
+use calibrant_core::estimate::refused_rests;
+use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{Axis, SensorKind};
 use calibrant_io::{FileFormat, ImuColumn, ImuFile, Inspection, SensorInspection};
 use calibrant_report::number_format::{count, short};
-use calibrant_report::{Cell, Section, Sheet, Table};
+use calibrant_report::{Cell, Section, Sheet, Table, timeline_section};
 
 /// A recording as a sheet: its columns, sampling, ranges, what was noticed, its holds, and what to expect of a calibration. `names`: what the
 /// file is called, and that of the gyroscope of a pair.
 #[must_use]
-pub fn recording_sheet(file: &ImuFile, inspection: &Inspection, names: &[String]) -> Sheet<'static> {
+pub fn recording_sheet<'a>(file: &'a ImuFile, inspection: &'a Inspection, names: &[String]) -> Sheet<'a> {
     let mut sections = files(file, names);
     sections.push(readings(file, inspection));
     sections.push(noticed(&inspection.findings, file.second.is_some()));
+    let holds: &[Hold] = inspection.holds.as_ref().map_or(&[], |found| &found.holds);
+    let accelerometer = file.recording.sensor(SensorKind::Accelerometer);
+    let refused =
+        accelerometer.map_or_else(Vec::new, |of| refused_rests(of, holds, Inspection::MINIMUM_HOLD_S));
+    sections.push(timeline_section(&file.recording, holds, refused));
     match &inspection.holds {
         Some(found) => sections.extend(hold_sections(found, inspection)),
         None if file.recording[SensorKind::Accelerometer].is_some() => {}
@@ -29,7 +36,7 @@ pub fn recording_sheet(file: &ImuFile, inspection: &Inspection, names: &[String]
 }
 
 /// Each file with its columns.
-fn files(file: &ImuFile, names: &[String]) -> Vec<Section<'static>> {
+fn files<'a>(file: &ImuFile, names: &[String]) -> Vec<Section<'a>> {
     let of_second = file.second.as_ref().map_or(0, |second| second.columns);
     let (first, second) = file.columns.split_at(file.columns.len() - of_second);
     let formats = [(file.format, file.rows, first)].into_iter();

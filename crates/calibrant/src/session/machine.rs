@@ -97,6 +97,7 @@ impl<'e> MachineTask<'e> {
         let mut calibration = calibrated(&problem, settings, source)?;
         calibration.sensors.warnings.splice(0..0, moved.outliers.iter().cloned());
         let Experiment { sensor: accelerometer, imu, calibrate, .. } = self.experiment;
+        calibration.sensors.counts_per_unit = moved.recorded.counts_per_unit;
         calibration.sensors.datasheet_prior = calibrate.prior == Prior::Datasheet;
         let beyond = beyond_datasheets(accelerometer, imu.as_ref(), &calibration);
         calibration.sensors.warnings.extend(beyond);

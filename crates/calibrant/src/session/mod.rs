@@ -45,6 +45,7 @@ mod acceptance;
 mod calibrated;
 mod clean;
 mod duplicates;
+mod failure;
 mod figures;
 mod holds;
 mod kind;

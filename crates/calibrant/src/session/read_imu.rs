@@ -33,6 +33,11 @@ impl<'e> ImuReader<'e> {
         }
     }
 
+    /// What is said of the recordings.
+    pub(crate) fn options(&self) -> &ImuReadOptions {
+        &self.options
+    }
+
     /// Reads the recording to calibrate from.
     pub(crate) fn read(&self, source: &Source) -> Result<Recorded> {
         Recorded::imu_from(source, &self.options)

@@ -6,7 +6,7 @@ use super::recorded::Recorded;
 use super::source::Source;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
-use calibrant_io::{Experiment, ImuReadOptions};
+use calibrant_io::{Experiment, ImuFile, ImuReadOptions};
 
 /// How the recordings are read.
 pub(crate) enum Reader<'e> {
@@ -37,6 +37,14 @@ impl<'e> Reader<'e> {
         match self {
             Self::Accelerometer(options) => Recorded::accelerometer_from(source, options),
             Self::Imu(reader) => reader.read(source),
+        }
+    }
+
+    /// The file or files of a recording as they are read.
+    pub(crate) fn file(&self, source: &Source) -> Result<ImuFile> {
+        match self {
+            Self::Accelerometer(options) => source.recording.read(options),
+            Self::Imu(reader) => source.read_imu(reader.options()),
         }
     }
 

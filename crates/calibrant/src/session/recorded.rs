@@ -6,7 +6,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::holds::RecordingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{HoldResult, recording_at};
-use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
+use calibrant_core::sensor::{ImuRecording, PerSensor, Recording, SensorKind};
 use calibrant_io::{FileFormat, ImuFile, ImuReadOptions, Input, Origin, UtcTime};
 
 /// The samples of one sensor or of both, and where they come from.
@@ -19,6 +19,8 @@ pub(crate) struct Recorded {
     pub(crate) findings: Vec<Diagnostic>,
     /// Relative standard deviation of the sample rate, if that is nominal; 0 if a clock was recorded.
     pub(crate) rate_sd: f64,
+    /// The sensitivity by which counts became readings.
+    pub(crate) counts_per_unit: PerSensor<Option<f64>>,
     /// The time from which the times count, ns, where they count from their first and the file has another.
     pub(crate) counted_from_ns: Option<i128>,
     /// SHA-256 of each file.
@@ -42,18 +44,21 @@ impl Recorded {
     pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
         let file = source.recording.read(options)?;
         let findings = findings_of(&file, source);
+        let counts_per_unit = file.counts_per_unit();
         let ImuFile { recording, sha256, counted_from_ns, .. } = file;
-        Ok(Self { recording, findings, counted_from_ns, sha256, ..Self::default() })
+        Ok(Self { recording, findings, counts_per_unit, counted_from_ns, sha256, ..Self::default() })
     }
 
     /// Reads an IMU from its file or its two files.
     pub(crate) fn imu_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
         let file = source.read_imu(options)?;
         let findings = findings_of(&file, source);
+        let counts_per_unit = file.counts_per_unit();
         let ImuFile { recording, format, sha256, counted_from_ns, rate_sd_ppm, .. } = file;
         let rate_sd = 1e-6 * rate_sd_ppm.unwrap_or(0.0);
         let format = Some(format);
-        Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, ..Self::default() })
+        let of_clock = Self { rate_sd, counted_from_ns, ..Self::default() };
+        Ok(Self { recording, format, findings, counts_per_unit, sha256, ..of_clock })
     }
 
     /// The accelerometer's samples.

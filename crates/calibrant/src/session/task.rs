@@ -89,6 +89,7 @@ impl<'e> Task<'e> {
             }
         }
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
+        calibration.counts_per_unit = recorded.counts_per_unit;
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(recorded.unused(calibration.hold_results()));
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));

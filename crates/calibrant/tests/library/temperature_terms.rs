@@ -164,15 +164,8 @@ fn the_correction_of_each_sample_is_that_at_its_temperature() {
     let truth = draw(&ALL_TO_2, &mut rng);
     let quiet = ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 0.0, ..ramp(4) };
     let recording = simulate_imu(&truth, &quiet, &mut rng);
-    let imu = CalibratedImu {
-        parameters: truth,
-        units: [Some(quiet.accelerometer_unit), Some(quiet.gyroscope_unit)].into(),
-        quantities: Vec::new(),
-        covariance: None,
-        degrees_of_freedom: None,
-        shared: None,
-        frame: String::new(),
-    };
+    let units = [Some(quiet.accelerometer_unit), Some(quiet.gyroscope_unit)];
+    let imu = CalibratedImu::new(truth, units, Vec::new(), "");
     let corrected = ImuCorrection::of(&imu).and_then(|of| of.apply(&recording)).expect("regular");
     let temperature = recording.temperature_c.as_ref().expect("simulated");
     for (sensor_kind, found) in [

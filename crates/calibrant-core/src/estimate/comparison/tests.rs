@@ -76,6 +76,7 @@ fn imu() -> CalibratedImu {
     CalibratedImu {
         parameters,
         units: [Some(ReadingUnit::MetrePerSecondSquared), Some(ReadingUnit::RadianPerSecond)].into(),
+        counts_per_unit: Default::default(),
         quantities,
         covariance: Some(&root * root.transpose()),
         degrees_of_freedom: None,

@@ -135,6 +135,7 @@ fn assemble(
         datasheet_prior: context.settings.datasheet_prior,
         imu: ImuParameters::identity().with(SensorKind::Accelerometer, sensor),
         units: PerSensor::only(SensorKind::Accelerometer, problem.sensor.unit),
+        counts_per_unit: PerSensor::default(),
         fit,
         recovered: Recovered::Motion(RecoveredMotion {
             motion,

@@ -127,6 +127,7 @@ fn sensors(
         datasheet_prior: false,
         imu,
         units,
+        counts_per_unit: PerSensor::default(),
         fit,
         recovered: Recovered::OnMachine(found),
         gyroscope: None,

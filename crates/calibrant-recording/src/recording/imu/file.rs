@@ -2,9 +2,10 @@
 
 use super::column::ImuColumn;
 use super::format::FileFormat;
+use super::unit::ColumnUnit;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::json_object;
-use calibrant_core::sensor::ImuRecording;
+use calibrant_core::sensor::{ImuRecording, PerSensor};
 
 /// A recording of an IMU as it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +42,18 @@ impl ImuFile {
         let second = self.second.iter().flat_map(|second| &second.findings);
         let of_second = second.map(|found| found.clone().in_file(gyroscope.unwrap_or(name)));
         self.findings.iter().map(|found| found.clone().in_file(name)).chain(of_second).collect()
+    }
+
+    /// The sensitivity by which counts of each sensor became readings, counts per m/s² or rad/s.
+    #[must_use]
+    pub fn counts_per_unit(&self) -> PerSensor<Option<f64>> {
+        let of_columns = self.columns.iter().filter_map(|column| match column.unit {
+            Some(ColumnUnit::Reading(unit)) if column.unused.is_none() => unit.sensitivity(),
+            _ => None,
+        });
+        let mut counts = PerSensor::default();
+        of_columns.for_each(|of| counts[of.sensor_kind()] = Some(of.counts_per_unit()));
+        counts
     }
 }
 

@@ -4,7 +4,8 @@
 use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
-use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
+use super::sensitivity::{STANDARD_GRAVITY_MPS2, Sensitivity};
+use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::row_parser::Sense;
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::{InputError, Refusal, TaskOption};
@@ -22,6 +23,8 @@ const FASTEST_RADPS: f64 = 1000.0;
 const COUNTS: f64 = 2500.0;
 /// Gravity was removed from a sensor that reads less than this, m/s², half of the time.
 const NO_GRAVITY_MPS2: f64 = 3.0;
+/// Magnitudes of a sensor that mostly rests, g; the ranges of a sensor differ by a factor of two.
+const ONE_AT_REST: std::ops::RangeInclusive<f64> = 0.7..=1.4;
 /// Magnitudes that are 1 within this share are in g.
 const ONE: f64 = 0.15;
 
@@ -58,6 +61,7 @@ pub(super) fn stated_unit(
         return refuse(Refusal::UnitContradicted, message, format!("say {}", ImuUnit::choices(sensor_kind)));
     }
     match (stated, given) {
+        (Some(ImuUnit::Counts), Some(given)) if given.sensitivity().is_some() => Ok(Some(given)),
         (Some(stated), Some(given)) if stated != given && !draft.format.is_text() => Ok(Some(given)),
         (Some(stated), Some(given)) if stated != given => {
             let message = format!(
@@ -95,13 +99,16 @@ fn contradiction(draft: &Draft, message: String, help: String) -> Box<InputError
     InputError { line: draft.line, ..InputError::new(Refusal::UnitContradicted, message, help) }.into()
 }
 
+/// What whole numbers suggest.
+pub(super) const COUNTS_HINT: &str = "suggest counts";
+
 /// The question where the unit is not known, with what the readings suggest.
 pub(super) fn question(sensor_kind: SensorKind, readings: &[Vector3<f64>]) -> String {
     let largest = readings.iter().map(|y| y.amax()).fold(0.0, f64::max);
     let whole = readings.iter().all(|y| y.iter().all(|value| value.fract() == 0.0));
     let median = median_magnitude(readings);
     let hint = match sensor_kind {
-        _ if whole && largest > COUNTS => "suggest counts",
+        _ if whole && largest > COUNTS => COUNTS_HINT,
         SensorKind::Gyroscope if largest > FAST_DEGPS => "suggest mdps",
         SensorKind::Gyroscope if largest > FAST_RADPS => "suggest deg/s",
         SensorKind::Gyroscope => "may be rad/s, or deg/s of slow turns",
@@ -139,6 +146,9 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
     }
     let factor = stated.reading().1;
     let median = median_magnitude(recording.readings());
+    if let Some(sensitivity) = stated.sensitivity() {
+        return check_sensitivity(sensitivity, median / STANDARD_GRAVITY_MPS2);
+    }
     let (shown, unit) = (plain(round(median / factor), 6), stated.symbol());
     if stated == ImuUnit::MetrePerSecondSquared && (median - 1.0).abs() <= ONE {
         let near = |y: &Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
@@ -172,6 +182,22 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         );
     }
     Ok(())
+}
+
+/// Returns an error for a sensitivity by which the accelerometer shows another gravity: most are those of another range.
+fn check_sensitivity(sensitivity: Sensitivity, median_g: f64) -> Checked<()> {
+    if ONE_AT_REST.contains(&median_g) {
+        return Ok(());
+    }
+    let message = format!(
+        "with {sensitivity} the accelerometer's magnitude is {} g half of the time",
+        plain(round(median_g), 6)
+    );
+    let help = format!(
+        "give the sensitivity of the range in which it was recorded: near {} the magnitude is 1 g",
+        sensitivity.times(median_g)
+    );
+    refuse(Refusal::UnitImplausible, message, help)
 }
 
 /// Returns an error for a gyroscope in rad/s that reads faster rates than any has, in more samples than a few bad ones.

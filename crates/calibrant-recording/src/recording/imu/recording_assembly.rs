@@ -5,7 +5,7 @@ use super::column_values::Samples;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::packet_times::Packets;
-use super::reading_unit::{check_gravity, check_rates, question, stated_unit, unit_option};
+use super::reading_unit::{COUNTS_HINT, check_gravity, check_rates, question, stated_unit, unit_option};
 use super::sample_clock;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::clock_column::backwards;
@@ -151,6 +151,7 @@ fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<SensorKind>>
 fn overruled(draft: &Draft, sensor_kinds: &[SensorKind], units: &[Option<ImuUnit>]) -> Vec<Diagnostic> {
     let stated = |kind| draft.column(ColumnMeaning::Reading(kind, calibrant_core::sensor::Axis::X))?.unit;
     let of = |(&sensor_kind, unit): (&SensorKind, &Option<ImuUnit>)| match (stated(sensor_kind), unit) {
+        (Some(ColumnUnit::Reading(ImuUnit::Counts)), Some(ImuUnit::CountsOf(_))) => None,
         (Some(ColumnUnit::Reading(stated)), Some(given)) if stated != *given => {
             let (stated, given) = (stated.symbol(), given.symbol());
             Some(UnitOverruled { sensor_kind, stated, given }.into())
@@ -170,10 +171,18 @@ fn ask(
     let (mut questions, mut answers, mut more) = (Vec::new(), Vec::new(), String::new());
     for (&sensor_kind, _) in sensor_kinds.iter().zip(units).filter(|(_, unit)| unit.is_none()) {
         let raw = raw(sensor_kind, samples);
-        questions.push(question(sensor_kind, &raw));
+        let question = question(sensor_kind, &raw);
+        let sensitivity = match (question.ends_with(COUNTS_HINT), sensor_kind) {
+            (false, _) => "",
+            (true, SensorKind::Accelerometer) => {
+                "; counts of a sensitivity, as 16384 LSB/g, are read in m/s²"
+            }
+            (true, SensorKind::Gyroscope) => "; counts of a sensitivity, as 131 LSB/dps, are read in rad/s",
+        };
+        questions.push(question);
         let units = ImuUnit::ALL.into_iter().filter(|unit| unit.suits(sensor_kind)).map(ImuUnit::symbol);
         let answer = Answer::new(unit_option(sensor_kind), units);
-        answers.push(answer.and(format!(" ({sensor_kind}_unit in [columns])")));
+        answers.push(answer.and(format!(" ({sensor_kind}_unit in [columns]{sensitivity})")));
     }
     if let Some(clock) = clock {
         questions.push(clock.message);

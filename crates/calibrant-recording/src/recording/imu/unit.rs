@@ -1,10 +1,8 @@
 //! The units in which files give readings.
 
+use super::sensitivity::{STANDARD_GRAVITY_MPS2, Sensitivity};
 use crate::recording::time_unit::TimeUnit;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
-
-/// Standard gravity, m/s²: what a reading of 1 g means.
-pub(super) const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
 
 /// Unit of an accelerometer's or a gyroscope's readings as a file gives them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,10 +23,12 @@ pub enum ImuUnit {
     MilliDegreePerSecond,
     /// Raw counts of the analogue-to-digital converter, of either sensor.
     Counts,
+    /// Raw counts of a known sensitivity; converted to m/s² or rad/s.
+    CountsOf(Sensitivity),
 }
 
 impl ImuUnit {
-    /// All units.
+    /// All units; counts of a known sensitivity are counts.
     pub const ALL: [Self; 8] = [
         Self::MetrePerSecondSquared,
         Self::MillimetrePerSecondSquared,
@@ -51,12 +51,12 @@ impl ImuUnit {
             Self::RadianPerSecond => "rad/s",
             Self::DegreePerSecond => "deg/s",
             Self::MilliDegreePerSecond => "mdps",
-            Self::Counts => "counts",
+            Self::Counts | Self::CountsOf(_) => "counts",
         }
     }
 
     /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `mm/s²`, `g`, `mg`,
-    /// `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …
+    /// `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …; or a sensitivity as datasheets have it, `16384 LSB/g`, `8.75 mdps/LSB`.
     ///
     /// # Examples
     /// ```
@@ -80,9 +80,33 @@ impl ImuUnit {
                 Self::DegreePerSecond
             }
             "mdps" | "mdeg/s" | "mdegps" | "m°/s" => Self::MilliDegreePerSecond,
-            "counts" | "count" | "cnt" | "lsb" | "raw" | "adc" => Self::Counts,
-            _ => return None,
+            "counts" | "count" | "cnt" | "lsb" | "raw" | "adc" | "digit" | "digits" => Self::Counts,
+            _ => return sensitivity(&plain).map(Self::CountsOf),
         })
+    }
+
+    /// Counts of which this number is one of another unit; `None` where that is no sensitivity.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant_recording::ImuUnit;
+    /// assert_eq!(ImuUnit::of_counts(131.0, ImuUnit::DegreePerSecond), ImuUnit::parse("131 LSB/dps"));
+    /// assert_eq!(ImuUnit::of_counts(0.0, ImuUnit::DegreePerSecond), None);
+    /// ```
+    #[must_use]
+    pub fn of_counts(number: f64, of: Self) -> Option<Self> {
+        let (reading_unit, size) = of.reading();
+        let sensor_kind = SensorKind::ALL.into_iter().find(|kind| kind.stimulus_unit() == reading_unit)?;
+        Sensitivity::new(sensor_kind, number / size).map(Self::CountsOf)
+    }
+
+    /// The sensitivity, where it is known.
+    #[must_use]
+    pub fn sensitivity(self) -> Option<Sensitivity> {
+        match self {
+            Self::CountsOf(sensitivity) => Some(sensitivity),
+            _ => None,
+        }
     }
 
     /// Can this sensor's readings have it?
@@ -97,6 +121,7 @@ impl ImuUnit {
                 sensor_kind == SensorKind::Gyroscope
             }
             Self::Counts => true,
+            Self::CountsOf(sensitivity) => sensitivity.sensor_kind() == sensor_kind,
         }
     }
 
@@ -108,9 +133,11 @@ impl ImuUnit {
             Self::MillimetrePerSecondSquared => "mmps2",
             Self::RadianPerSecond => "radps",
             Self::DegreePerSecond => "degps",
-            Self::StandardGravity | Self::MilliGravity | Self::MilliDegreePerSecond | Self::Counts => {
-                self.symbol()
-            }
+            Self::StandardGravity
+            | Self::MilliGravity
+            | Self::MilliDegreePerSecond
+            | Self::Counts
+            | Self::CountsOf(_) => self.symbol(),
         }
     }
 
@@ -118,8 +145,8 @@ impl ImuUnit {
     #[must_use]
     pub fn choices(sensor_kind: SensorKind) -> &'static str {
         match sensor_kind {
-            SensorKind::Accelerometer => "m/s², mm/s², g, mg or counts",
-            SensorKind::Gyroscope => "rad/s, deg/s, mdps or counts",
+            SensorKind::Accelerometer => "m/s², mm/s², g, mg or counts, also of a sensitivity (16384 LSB/g)",
+            SensorKind::Gyroscope => "rad/s, deg/s, mdps or counts, also of a sensitivity (131 LSB/dps)",
         }
     }
 
@@ -135,8 +162,21 @@ impl ImuUnit {
             Self::DegreePerSecond => (ReadingUnit::RadianPerSecond, std::f64::consts::PI / 180.0),
             Self::MilliDegreePerSecond => (ReadingUnit::RadianPerSecond, std::f64::consts::PI / 180e3),
             Self::Counts => (ReadingUnit::Counts, 1.0),
+            Self::CountsOf(of) => (of.sensor_kind().stimulus_unit(), 1.0 / of.counts_per_unit()),
         }
     }
+}
+
+/// `16384lsb/g`, `131counts/dps`, `0.061mg/lsb`: lower case, without blanks and brackets.
+fn sensitivity(plain: &str) -> Option<Sensitivity> {
+    let (number, of) = plain.split_at(plain.find(|c: char| !c.is_ascii_digit() && c != '.')?);
+    let is_counts = |text| ImuUnit::parse(text) == Some(ImuUnit::Counts);
+    let (number, unit) = match (number.parse::<f64>().ok()?, of.split_once('/'), of.rsplit_once('/')) {
+        (number, Some((counts, unit)), _) if is_counts(counts) => (number, unit),
+        (number, _, Some((unit, counts))) if is_counts(counts) => (1.0 / number, unit),
+        _ => return None,
+    };
+    ImuUnit::of_counts(number, ImuUnit::parse(unit)?)?.sensitivity()
 }
 
 impl From<ReadingUnit> for ImuUnit {
@@ -168,6 +208,31 @@ impl ColumnUnit {
             Self::Reading(unit) => unit.symbol(),
             Self::Time(unit) => unit.symbol(),
             Self::Celsius => "°C",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sensitivities_are_read_as_datasheets_have_them() {
+        let written = |text| Some(ImuUnit::parse(text)?.sensitivity()?.to_string());
+        for (text, expected) in [
+            ("16384 LSB/g", "16384 LSB/g"),
+            ("0.061 mg/LSB", "16393.4 LSB/g"),
+            ("1670.7 counts/(m/s²)", "16384 LSB/g"),
+            ("131 LSB/dps", "131 LSB/dps"),
+            ("16.4 LSB/(°/s)", "16.4 LSB/dps"),
+            ("8.75 mdps/digit", "114.286 LSB/dps"),
+            ("0.0305 deg/s/LSB", "32.7869 LSB/dps"),
+        ] {
+            assert_eq!(written(text).as_deref(), Some(expected), "{text}");
+        }
+        for text in ["16384", "16384 LSB", "0 LSB/g", "LSB/g", "16384 LSB/LSB", "1 g/dps", "1.2.3 LSB/g", "/"]
+        {
+            assert_eq!(written(text), None, "{text}");
         }
     }
 }

@@ -71,7 +71,7 @@ fn block(piece: &Piece<'_>, width: usize) -> Option<(bool, String)> {
                 .collect();
             (!tables.is_empty()).then(|| (false, tables.join("\n")))
         }
-        Piece::Drawn(_) | Piece::Folded(..) => None,
+        Piece::Drawn(_) | Piece::Figure(_) | Piece::Folded(..) => None,
     }
 }
 

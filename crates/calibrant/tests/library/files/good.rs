@@ -3,8 +3,8 @@
 use calibrant::design::SurfaceSettings;
 use calibrant::estimate::{Gyroscope, ImuSetup};
 use calibrant::io::{
-    CriterionLetter, Experiment, ExperimentFile, HashedFile, HoldsPlan, MotionPlan, NoisyVariant, PRESETS,
-    Plan, Preset, Prior, ScaleBy, experiment_keys, preset,
+    CriterionLetter, DATASHEETS, Datasheet, Experiment, ExperimentFile, HashedFile, HoldsPlan, ImuUnit,
+    MotionPlan, NoisyVariant, PRESETS, Plan, Preset, Prior, ScaleBy, experiment_keys, preset,
 };
 use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, MotionClock, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
@@ -43,8 +43,10 @@ fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
                 let lines = text.lines().enumerate().map(|(i, line)| if i == at { key } else { line });
                 Experiment::parse(&lines.collect::<Vec<_>>().join("\n"), None)
             };
-            // a height belongs to a latitude, an uncertainty to a value
-            let alone = !key.starts_with("height_m") && !key.starts_with("gravity_sd_mps2");
+            // a height belongs to a latitude, an uncertainty to a value, a noise density to its bandwidth
+            let in_company =
+                ["height_m", "gravity_sd_mps2", "noise_ug_per", "noise_mdps_per", "noise_bandwidth"];
+            let alone = !in_company.iter().any(|of| key.starts_with(of));
             match with(key) {
                 Ok(_) => assert!(alone, "{name}: {key}"),
                 Err(error) => {
@@ -299,6 +301,29 @@ fn a_preset_that_is_written_again_is_the_same_experiment() {
         built.source = parse(text).source;
         assert_eq!(built, parse(text));
     }
+}
+
+#[test]
+fn the_datasheets_fit_every_preset() {
+    for (sensor, Preset { name, text, .. }) in
+        DATASHEETS.iter().flat_map(|of| PRESETS.iter().map(move |preset| (of, preset)))
+    {
+        let text = sensor.in_experiment(text);
+        let experiment = parse(&text);
+        let noise = experiment.sensor.noise_mps2.expect("by its density");
+        assert!(
+            (noise.x / (sensor.noise_ug_per_rthz * 9.80665e-6 * 50_f64.sqrt()) - 1.0).abs() < 1e-12,
+            "{name}"
+        );
+        assert!(experiment.sensor.range_mps2.is_some());
+        let is_of_counts = sensor.ranges_g[0].1 > 0.0;
+        assert_eq!(text.contains("accelerometer_lsb_per_g = "), is_of_counts, "{name} {}", sensor.name);
+        let with_counts = text.replace("# accelerometer_lsb_per_g", "accelerometer_lsb_per_g");
+        let unit = parse(&with_counts).columns.accelerometer_unit;
+        assert_eq!(unit.and_then(ImuUnit::sensitivity).is_some(), is_of_counts, "{name}");
+    }
+    assert_eq!(Datasheet::of("ICM42688").map(|of| of.name), Some("ICM-42688-P"));
+    assert_eq!(Datasheet::of("mpu"), None, "two of them begin so");
 }
 
 #[test]

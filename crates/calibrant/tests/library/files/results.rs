@@ -134,6 +134,7 @@ fn calibration(
         datasheet_prior: true,
         imu: ImuParameters::identity().with(SensorKind::Accelerometer, parameters),
         units: PerSensor::only(SensorKind::Accelerometer, sensor.unit),
+        counts_per_unit: PerSensor::default(),
         fit: FitStatistics {
             chi2: 5.5,
             degrees_of_freedom: 4,

@@ -1,7 +1,7 @@
 //! Tests of the C header, compiled and run where there is a C compiler.
 
-use super::{COUNTS, file, imu, readings};
-use calibrant::io::{ImuFormat, write_calibrated_imu};
+use super::{COUNTS, SI, file, imu, readings};
+use calibrant::io::{ImuFormat, calibrated_imu_texts, write_calibrated_imu};
 use calibrant::sensor::{CalibratedImu, ImuCorrection};
 use nalgebra::Vector3;
 use std::io::Write;
@@ -89,5 +89,19 @@ fn it_compiles_without_warnings_and_corrects_as_we_do() {
 fn single_precision_is_good_for_its_digits() {
     if let Some(difference) = largest_difference_in_c(&imu(COUNTS, true), &["-DCALIBRANT_REAL=float"]) {
         assert!(difference < 1e-4 && difference > 1e-9, "{difference:e}");
+    }
+}
+
+#[test]
+fn it_takes_the_counts_of_a_known_sensitivity() {
+    let mut imu = imu(SI, true);
+    imu.counts_per_unit = [Some(1670.7), Some(7505.7)].into();
+    let raw = imu.in_counts();
+    let header =
+        |imu: &CalibratedImu| calibrated_imu_texts(&file(imu.clone()), ImuFormat::CHeader).expect("text");
+    assert_eq!(header(&imu), header(&raw));
+    let scaled = readings(&raw, 100, 3);
+    for ([a, g], [a_raw, g_raw]) in readings(&imu, 100, 3).iter().zip(&scaled) {
+        assert!((a * 1670.7 - a_raw).amax() < 1e-9 && (g * 7505.7 - g_raw).amax() < 1e-9);
     }
 }

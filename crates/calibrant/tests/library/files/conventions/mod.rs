@@ -54,14 +54,10 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
     let root = DMatrix::from_fn(n, n, |i, j| {
         if i == j { 1e-3 } else { 1e-5 * f64::from(u8::try_from((3 * i + 5 * j) % 7).expect("small")) }
     });
+    let frame = "the plate's: x along its long edge; z \"up\" # */ ";
     CalibratedImu {
-        parameters,
-        units: [Some(unit[0]), Some(unit[1])].into(),
-        quantities,
         covariance: Some(&root * root.transpose()),
-        degrees_of_freedom: None,
-        shared: None,
-        frame: "the plate's: x along its long edge; z \"up\" # */ ".into(),
+        ..CalibratedImu::new(parameters, unit.map(Some), quantities, frame)
     }
 }
 

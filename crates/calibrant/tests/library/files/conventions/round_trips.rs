@@ -62,6 +62,9 @@ fn calibrant_json_keeps_everything_to_the_bit() {
     for gauge in [None, Some(Gauge::Lower), Some(Gauge::Upper), Some(Gauge::Symmetric)] {
         for unit in [SI, COUNTS] {
             let mut imu = imu(unit, true);
+            if unit == SI {
+                imu.counts_per_unit = [Some(1670.7), None].into();
+            }
             if let Some(gauge) = gauge {
                 imu = imu.in_gauge(gauge).expect("regular");
             }

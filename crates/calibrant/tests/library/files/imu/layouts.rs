@@ -35,7 +35,7 @@ fn times(by: f64, values: [f64; 3]) -> [f64; 3] {
 }
 
 /// Are these the readings, at even times?
-fn assert_read(name: &str, file: &ImuFile) {
+fn assert_read(name: &str, file: &ImuFile, within: f64) {
     let whole = |sensor_kind: SensorKind| -> &Recording {
         file.recording
             .sensor(sensor_kind)
@@ -47,7 +47,7 @@ fn assert_read(name: &str, file: &ImuFile) {
         for (k, reading) in found.readings().iter().enumerate() {
             let (_, a, w) = row(k);
             let expected = Vector3::from(if sensor_kind == SensorKind::Accelerometer { a } else { w });
-            assert!((reading - expected).amax() < 2e-3, "{name}, {sensor_kind} {k}: {reading} {expected}");
+            assert!((reading - expected).amax() < within, "{name}, {sensor_kind} {k}: {reading} {expected}");
         }
         let steps = found.times_s().windows(2).map(|pair| pair[1] - pair[0]);
         assert!(
@@ -60,132 +60,313 @@ fn assert_read(name: &str, file: &ImuFile) {
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-#[test]
-fn each_logger_is_read_as_it_is() {
-    let (plain, epoch) = (ImuReadOptions::default, 1_718_030_736.0_f64);
-    let both = |a, g| ImuReadOptions {
-        accelerometer_unit: Some(a),
-        gyroscope_unit: Some(g),
-        ..ImuReadOptions::default()
+/// A program that writes recordings.
+struct Logger {
+    name: &'static str,
+    /// Its file, and that of the gyroscope where each sensor has one.
+    files: Vec<String>,
+    /// What is typed to read it: options of the command line, or `[columns]`.
+    typed: &'static str,
+    /// Largest error of a reading that its digits make, m/s² and rad/s.
+    within: f64,
+}
+
+const SI: &str = "--accelerometer-unit m/s2 --gyroscope-unit rad/s";
+const EPOCH_S: f64 = 1_718_030_736.0;
+
+/// A logger whose file has these lines above rows like this.
+fn logger(
+    name: &'static str,
+    typed: &'static str,
+    above: &str,
+    row_of: impl Fn(f64, [f64; 3], [f64; 3]) -> String,
+) -> Logger {
+    Logger { name, files: vec![text(above, row_of)], typed, within: 2e-3 }
+}
+
+/// In g and deg/s.
+fn in_g(a: [f64; 3], w: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+    (times(1.0 / G, a), times(DEGREES, w))
+}
+
+fn nanoseconds(from: i64, t: f64) -> i64 {
+    from + (1e7 * (100.0 * t).round()) as i64
+}
+
+fn loggers() -> Vec<Logger> {
+    let si = |a: [f64; 3], w: [f64; 3]| format!("{},{}", cells(&a, ","), cells(&w, ","));
+    let degrees = |a, w| {
+        let (a, w) = in_g(a, w);
+        format!("{},{}", cells(&a, ","), cells(&w, ","))
     };
-    let si = || both(ImuUnit::MetrePerSecondSquared, ImuUnit::RadianPerSecond);
-    let in_si = |t: f64, a: [f64; 3], w: [f64; 3]| (t, cells(&a, ","), cells(&w, ","));
-    let layouts: Vec<(&str, String, ImuReadOptions)> = vec![
-        (
-            "a title, an empty line, a header with units",
-            text(
-                "STEVAL-MKI197V1 (LSM6DSOX)\n\nt [ms]\tA_X [mg]\tA_Y [mg]\tA_Z [mg]\tG_X [mdps]\tG_Y [mdps]\tG_Z [mdps]\n",
-                |t, a, w| {
-                    let (a, w) = (times(1e3 / G, a), times(1e3 * DEGREES, w));
-                    format!("{:.0}\t{}\t{}", 1e3 * t, cells(&a, "\t"), cells(&w, "\t"))
-                },
-            ),
-            plain(),
-        ),
-        (
-            "a line with the delimiter, a row of units, a word before each name and one behind it",
-            text(
-                "\"sep=\t\"\nS_40AC_Timestamp_Unix_CAL\tS_40AC_Accel_LN_X_CAL\tS_40AC_Accel_LN_Y_CAL\tS_40AC_Accel_LN_Z_CAL\tS_40AC_Gyro_X_CAL\tS_40AC_Gyro_Y_CAL\tS_40AC_Gyro_Z_CAL\t\nms\tm/(s^2)\tm/(s^2)\tm/(s^2)\tdeg/s\tdeg/s\tdeg/s\t\n",
-                |t, a, w| {
-                    let w = times(DEGREES, w);
-                    format!("{:.0}\t{}\t{}\t", 1e3 * (epoch + t), cells(&a, "\t"), cells(&w, "\t"))
-                },
-            ),
-            plain(),
-        ),
-        (
-            "a prefix that the six names share, and two stamps",
-            text(
-                "%time,field.header.seq,field.header.stamp,field.angular_velocity.x,field.angular_velocity.y,field.angular_velocity.z,field.linear_acceleration.x,field.linear_acceleration.y,field.linear_acceleration.z\n",
-                |t, a, w| {
-                    let ns = 1_718_030_736_768_428_032 + (1e7 * (100.0 * t).round()) as i64;
-                    format!("{},{:.0},{ns},{},{}", ns + 400_000, 100.0 * t, cells(&w, ","), cells(&a, ","))
-                },
-            ),
-            si(),
-        ),
-        (
-            "Kalibr's",
-            text("timestamp,omega_x,omega_y,omega_z,alpha_x,alpha_y,alpha_z\n", |t, a, w| {
-                let ns = 1_385_030_208_736_607_488 + (1e7 * (100.0 * t).round()) as i64;
-                format!("{ns},{},{}", cells(&w, ","), cells(&a, ","))
-            }),
-            plain(),
-        ),
-        (
-            "PX4's",
-            text(
-                "timestamp,gyro_rad[0],gyro_rad[1],gyro_rad[2],gyro_integral_dt,accelerometer_timestamp_relative,accelerometer_m_s2[0],accelerometer_m_s2[1],accelerometer_m_s2[2]\n",
-                |t, a, w| {
-                    format!("{:.0},{},10000,0,{}", 2_170_001.0 + 1e6 * t, cells(&w, ","), cells(&a, ","))
-                },
-            ),
-            ImuReadOptions { time_unit: Some(TimeUnit::Microsecond), ..plain() },
-        ),
-        (
-            "a_x beside g_x",
-            text("count,a_x,a_y,a_z,g_x,g_y,g_z\n", |t, a, w| {
-                let (a, w) = (times(1.0 / G, a), times(DEGREES, w));
-                format!("{:.0},{},{}", 100.0 * t, cells(&a, ","), cells(&w, ","))
-            }),
-            ImuReadOptions {
-                rate_hz: Some(100.0),
-                ..both(ImuUnit::StandardGravity, ImuUnit::DegreePerSecond)
+    let mut loggers = vec![
+        logger(
+            "Arduino sketch with the library of Jeff Rowberg (MPU-6050), counts at ±2 g and ±250 °/s",
+            "--accelerometer-lsb-per-g 16384 --gyroscope-lsb-per-dps 131 --time-unit ms",
+            "t,AcX,AcY,AcZ,GyX,GyY,GyZ\n",
+            |t, a, w| {
+                let (a, w) = in_g(a, w);
+                let counts = |values: [f64; 3], by: f64| {
+                    times(by, values).map(|value| format!("{value:.0}")).join(",")
+                };
+                format!("{:.0},{},{}", 1e3 * t, counts(a, 16384.0), counts(w, 131.0))
             },
         ),
-        (
-            "a decimal comma",
-            text("time_ms;ax_g;ay_g;az_g;gx_dps;gy_dps;gz_dps\n", |t, a, w| {
-                let (a, w) = (times(1.0 / G, a), times(DEGREES, w));
+        logger(
+            "Arduino sketch that prints a banner and no header, s, m/s², rad/s",
+            "[columns]\ntime = \"1\"\ntime_unit = \"s\"\naccelerometer = [\"2\", \"3\", \"4\"]\naccelerometer_unit = \"m/s²\"\ngyroscope = [\"5\", \"6\", \"7\"]\ngyroscope_unit = \"rad/s\"",
+            "Initializing I2C devices...\nMPU6050 connection successful\n",
+            |t, a, w| format!("{t:.2},{}", si(a, w)),
+        ),
+        logger(
+            "OpenLog Artemis",
+            "",
+            "rtcDate,rtcTime,aX,aY,aZ,gX,gY,gZ,imu_degC,output_Hz,\n",
+            |t, a, w| {
+                let (a, w) = in_g(times(1e3, a), w);
+                format!(
+                    "03/05/2024,13:35:{:05.2},{},{},31.2,100.0,",
+                    38.0 + t,
+                    cells(&a, ","),
+                    cells(&w, ",")
+                )
+            },
+        ),
+        logger(
+            "x-IMU3, NGIMU",
+            "",
+            "Time (s),Gyroscope X (deg/s),Gyroscope Y (deg/s),Gyroscope Z (deg/s),Accelerometer X (g),Accelerometer Y (g),Accelerometer Z (g)\n",
+            |t, a, w| {
+                let (a, w) = in_g(a, w);
+                format!("{t:.6},{},{}", cells(&w, ","), cells(&a, ","))
+            },
+        ),
+        logger(
+            "Shimmer Consensys",
+            "",
+            "\"sep=\t\"\nS_40AC_Timestamp_Unix_CAL\tS_40AC_Accel_LN_X_CAL\tS_40AC_Accel_LN_Y_CAL\tS_40AC_Accel_LN_Z_CAL\tS_40AC_Gyro_X_CAL\tS_40AC_Gyro_Y_CAL\tS_40AC_Gyro_Z_CAL\t\nms\tm/(s^2)\tm/(s^2)\tm/(s^2)\tdeg/s\tdeg/s\tdeg/s\t\n",
+            |t, a, w| {
+                format!(
+                    "{:.0}\t{}\t{}\t",
+                    1e3 * (EPOCH_S + t),
+                    cells(&a, "\t"),
+                    cells(&times(DEGREES, w), "\t")
+                )
+            },
+        ),
+        logger(
+            "ST Unico, MEMS Studio",
+            "",
+            "STEVAL-MKI197V1 (LSM6DSOX)\n\nt [ms]\tA_X [mg]\tA_Y [mg]\tA_Z [mg]\tG_X [mdps]\tG_Y [mdps]\tG_Z [mdps]\n",
+            |t, a, w| {
+                let (a, w) = in_g(times(1e3, a), times(1e3, w));
+                format!("{:.0}\t{}\t{}", 1e3 * t, cells(&a, "\t"), cells(&w, "\t"))
+            },
+        ),
+        logger(
+            "PicoQuake",
+            "--accelerometer-unit g --gyroscope-unit deg/s --rate-hz 100",
+            "# PLab PicoQuake Data\ncount,a_x,a_y,a_z,g_x,g_y,g_z\n",
+            |t, a, w| format!("{:.0},{}", 100.0 * t, degrees(a, w)),
+        ),
+        logger(
+            "phyphox",
+            "",
+            "\"Time (s)\",\"Acceleration x (m/s^2)\",\"Acceleration y (m/s^2)\",\"Acceleration z (m/s^2)\",\"Absolute acceleration (m/s^2)\",\"Gyroscope x (rad/s)\",\"Gyroscope y (rad/s)\",\"Gyroscope z (rad/s)\",\"Absolute (rad/s)\"\n",
+            |t, a, w| {
+                let all: Vec<String> = [&[t][..], &a, &[G], &w, &[0.1]]
+                    .concat()
+                    .iter()
+                    .map(|value| format!("{value:.9E}"))
+                    .collect();
+                all.join(",")
+            },
+        ),
+        logger(
+            "ROS 1, rostopic echo -p",
+            SI,
+            "%time,field.header.seq,field.header.stamp,field.angular_velocity.x,field.angular_velocity.y,field.angular_velocity.z,field.linear_acceleration.x,field.linear_acceleration.y,field.linear_acceleration.z\n",
+            |t, a, w| {
+                let ns = nanoseconds(1_718_030_736_768_428_032, t);
+                format!("{},{:.0},{ns},{}", ns + 400_000, 100.0 * t, si(w, a))
+            },
+        ),
+        logger(
+            "ROS 2, messages in columns",
+            SI,
+            "header.stamp.sec,header.stamp.nanosec,ax,ay,az,gx,gy,gz\n",
+            |t, a, w| {
+                let t = t + 0.5;
+                format!("{:.0},{:.0},{}", EPOCH_S + t.floor(), 1e9 * t.fract(), si(a, w))
+            },
+        ),
+        logger(
+            "Kalibr's CSV",
+            "",
+            "timestamp,omega_x,omega_y,omega_z,alpha_x,alpha_y,alpha_z\n",
+            |t, a, w| format!("{},{}", nanoseconds(1_385_030_208_736_607_488, t), si(w, a)),
+        ),
+        logger(
+            "PX4, ulog2csv -m sensor_combined",
+            "--time-unit us",
+            "timestamp,gyro_rad[0],gyro_rad[1],gyro_rad[2],gyro_integral_dt,accelerometer_timestamp_relative,accelerometer_m_s2[0],accelerometer_m_s2[1],accelerometer_m_s2[2]\n",
+            |t, a, w| format!("{:.0},{},10000,0,{}", 2_170_001.0 + 1e6 * t, cells(&w, ","), cells(&a, ",")),
+        ),
+        logger(
+            "ArduPilot, mavlogdump.py --format csv --types IMU",
+            "--instance 0 --accelerometer-unit m/s2 --gyroscope-unit rad/s",
+            "TimeUS,I,GyrX,GyrY,GyrZ,AccX,AccY,AccZ,T\n",
+            |t, a, w| {
+                let at = |number: i32| format!("{:.0},{number},{},38.5", 65_645_398.0 + 1e6 * t, si(w, a));
+                format!("{}\n{}", at(0), at(1))
+            },
+        ),
+        logger(
+            "a spreadsheet with a decimal comma",
+            "",
+            "time_ms;ax_g;ay_g;az_g;gx_dps;gy_dps;gz_dps\n",
+            |t, a, w| {
+                let (a, w) = in_g(a, w);
                 format!("{:.0};{};{}", 1e3 * t, cells(&a, ";"), cells(&w, ";")).replace('.', ",")
-            }),
-            plain(),
-        ),
-        (
-            "AcX and GyX, ms since 1970",
-            text("t,AcX,AcY,AcZ,GyX,GyY,GyZ\n", |t, a, w| {
-                let (t, a, w) = in_si(t, a, w);
-                format!("{:.0},{a},{w}", 1e3 * (epoch + t))
-            }),
-            si(),
-        ),
-        (
-            "seconds and nanoseconds in two columns",
-            text("header.stamp.sec,header.stamp.nanosec,ax,ay,az,gx,gy,gz\n", |t, a, w| {
-                let (t, a, w) = in_si(t + 0.5, a, w);
-                format!("{:.0},{:.0},{a},{w}", epoch + t.floor(), 1e9 * t.fract())
-            }),
-            si(),
-        ),
-        (
-            "a banner, then rows",
-            text("Initializing I2C devices...\nMPU6050 connection successful\n", |t, a, w| {
-                format!("{t:.2},{},{}", cells(&a, ","), cells(&w, ","))
-            }),
-            ImuReadOptions {
-                time_unit: Some(TimeUnit::Second),
-                columns: calibrant::io::ColumnMapping {
-                    time: Some("1".into()),
-                    accelerometer: Some(["2", "3", "4"].map(Into::into)),
-                    gyroscope: Some(["5", "6", "7"].map(Into::into)),
-                    temperature: None,
-                },
-                ..si()
             },
         ),
-        (
-            "mm/s²",
-            text("t_s,ax,ay,az,gx,gy,gz\n", |t, a, w| {
-                format!("{t:.2},{},{}", cells(&times(1e3, a), ","), cells(&w, ","))
-            }),
-            both(ImuUnit::MillimetrePerSecondSquared, ImuUnit::RadianPerSecond),
+        logger(
+            "a table in mm/s²",
+            "--accelerometer-unit mm/s2 --gyroscope-unit rad/s",
+            "t_s,ax,ay,az,gx,gy,gz\n",
+            |t, a, w| format!("{t:.2},{}", si(times(1e3, a), w)),
         ),
+        Logger {
+            within: 1e-2,
+            ..logger(
+                "Betaflight, blackbox_decode; 2048 counts are 1 g",
+                "--accelerometer-unit \"2048 LSB/g\" --gyroscope-unit deg/s",
+                "loopIteration, time (us), gyroADC[0], gyroADC[1], gyroADC[2], accSmooth[0], accSmooth[1], accSmooth[2], motor[0], flightModeFlags (flags)\n",
+                |t, a, w| {
+                    let (a, w) = in_g(times(2048.0, a), w);
+                    let whole = |values: [f64; 3]| values.map(|value| format!("{value:.0}")).join(", ");
+                    format!(
+                        "{:.0}, {:.0}, {}, {}, 1000, ANGLE_MODE",
+                        3200.0 * t,
+                        55_158_008.0 + 1e6 * t,
+                        whole(w),
+                        whole(a)
+                    )
+                },
+            )
+        },
     ];
-    for (name, text, options) in layouts {
-        let file =
-            parse_imu_recording(text.as_bytes(), &options).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_read(name, &file);
+    let pair =
+        |name, typed, above: [&str; 2], row_of: &dyn Fn(f64, [f64; 3]) -> String, by: [f64; 2]| Logger {
+            name,
+            files: vec![
+                text(above[0], |t, a, _| row_of(t, times(by[0], a))),
+                text(above[1], |t, _, w| row_of(t, times(by[1], w))),
+            ],
+            typed,
+            within: 2e-3,
+        };
+    let metawear =
+        |unit: &str| format!("epoc (ms),elapsed (s),x-axis ({unit}),y-axis ({unit}),z-axis ({unit})\n");
+    loggers.push(pair(
+        "MetaWear, a file for each sensor",
+        "",
+        [&metawear("g"), &metawear("deg/s")],
+        &|t, values| format!("{:.0},{t:.3},{}", 1_709_670_938_420.0 + 1e3 * t, cells(&values, ",")),
+        [1.0 / G, DEGREES],
+    ));
+    loggers.push(pair(
+        "Sensor Logger (phone), TotalAcceleration.csv --gyroscope Gyroscope.csv",
+        SI,
+        ["time,seconds_elapsed,z,y,x\n"; 2],
+        &|t, [x, y, z]| {
+            format!("{},{t:.6},{}", nanoseconds(1_718_030_736_872_695_300, t), cells(&[z, y, x], ","))
+        },
+        [1.0, 1.0],
+    ));
+    loggers
+}
+
+/// The options of a command line, or `[columns]`, as the library takes them.
+fn typed(text: &str) -> ImuReadOptions {
+    if text.starts_with("[columns]") {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), text).expect("written");
+        return calibrant::io::read_columns(file.path()).unwrap_or_else(|error| panic!("{error}"));
     }
+    let mut options = ImuReadOptions::default();
+    for option in text.split("--").skip(1) {
+        let (name, value) = option.trim().split_once(' ').expect("a value");
+        let value = value.trim_matches('"');
+        let number = || value.parse().expect("a number");
+        let unit = || Some(ImuUnit::parse(value).expect("a unit"));
+        match name {
+            "accelerometer-unit" => options.accelerometer_unit = unit(),
+            "gyroscope-unit" => options.gyroscope_unit = unit(),
+            "accelerometer-lsb-per-g" => {
+                options.accelerometer_unit = ImuUnit::of_counts(number(), ImuUnit::StandardGravity)
+            }
+            "gyroscope-lsb-per-dps" => {
+                options.gyroscope_unit = ImuUnit::of_counts(number(), ImuUnit::DegreePerSecond)
+            }
+            "time-unit" => options.time_unit = TimeUnit::parse(value),
+            "rate-hz" => options.rate_hz = Some(number()),
+            "instance" => options.instance = Some(value.into()),
+            other => panic!("--{other}"),
+        }
+    }
+    options
+}
+
+#[test]
+fn each_logger_is_read_by_what_the_guide_says() {
+    for Logger { name, files, typed: text, within } in loggers() {
+        let options = typed(text);
+        let file = match &files[..] {
+            [one] => parse_imu_recording(one.as_bytes(), &options),
+            [one, other] => parse_imu_pair(one.as_bytes(), other.as_bytes(), &options),
+            _ => unreachable!("one file or two"),
+        };
+        let file = file.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_read(name, &file, within);
+    }
+}
+
+/// The guide is made of these tests. To write it anew, set `CALIBRANT_WRITE_GUIDE`.
+#[test]
+fn the_guide_of_loggers_says_what_is_tested() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/loggers.md");
+    let guide = guide();
+    if std::env::var_os("CALIBRANT_WRITE_GUIDE").is_some() {
+        std::fs::write(&path, &guide).expect("written");
+    }
+    let found = std::fs::read_to_string(&path).expect("the guide");
+    assert!(
+        found == guide,
+        "docs/loggers.md is not that of the tests: CALIBRANT_WRITE_GUIDE=1 cargo test --test library loggers"
+    );
+}
+
+fn guide() -> String {
+    let mut guide = "# Loggers\n\nWhat to type to read the files of each logger, beside `calibrant calibrate imu.toml FILE -o result`, `inspect`, `noise` or `apply`. The tests read each of them so.\n\
+        Where nothing is to be typed, the file says everything. Sensitivities are those of the range in which was recorded.\n\
+        What other files need, `inspect` asks for; [files and conventions](files-and-conventions.md#recordings) says how names, units and clocks are read.\n"
+        .to_owned();
+    for Logger { name, files, typed, .. } in loggers() {
+        guide += &format!("\n## {name}\n\n");
+        for file in &files {
+            let first: Vec<&str> = file.lines().take(4).collect();
+            guide += &format!("```text\n{}\n```\n\n", first.join("\n").replace('\t', " → ").trim_end());
+        }
+        guide += &match typed {
+            "" => "Nothing.\n".to_owned(),
+            columns if columns.starts_with('[') => {
+                format!("In the experiment file:\n\n```toml\n{columns}\n```\n")
+            }
+            options => format!("`{options}`\n"),
+        };
+    }
+    guide
 }
 
 /// `x-axis (g)` says its sensor by the unit; `[columns]` counts for each file of a pair.
@@ -202,7 +383,7 @@ fn each_file_of_a_pair_has_its_own_columns() {
     let read = |a: &str, w: &str, options: &ImuReadOptions| {
         parse_imu_pair(a.as_bytes(), w.as_bytes(), options).unwrap_or_else(|error| panic!("{error}"))
     };
-    assert_read("units", &read(&a, &w, &ImuReadOptions::default()));
+    assert_read("units", &read(&a, &w, &ImuReadOptions::default()), 2e-3);
     // the same names in both
     let plain = |text: &str, unit: &str| text.replace(&format!("-axis ({unit})"), "");
     let names = || Some(["x", "y", "z"].map(Into::into));
@@ -217,7 +398,7 @@ fn each_file_of_a_pair_has_its_own_columns() {
         gyroscope_unit: Some(ImuUnit::DegreePerSecond),
         ..ImuReadOptions::default()
     };
-    assert_read("x, y, z", &read(&plain(&a, "g"), &plain(&w, "deg/s"), &options));
+    assert_read("x, y, z", &read(&plain(&a, "g"), &plain(&w, "deg/s"), &options), 2e-3);
 }
 
 /// A row of one sensor each, with names and without.
@@ -236,7 +417,7 @@ fn a_column_may_name_the_sensor_of_each_row() {
     let read = |text: &str, options: &ImuReadOptions| {
         parse_imu_recording(text.as_bytes(), options).unwrap_or_else(|error| panic!("{error}"))
     };
-    assert_read("named", &read(&named, &units));
+    assert_read("named", &read(&named, &units), 2e-3);
     let axes = || Some(["4", "5", "6"].map(Into::into));
     let columns = calibrant::io::ColumnMapping {
         time: Some("3".into()),
@@ -244,7 +425,7 @@ fn a_column_may_name_the_sensor_of_each_row() {
         gyroscope: axes(),
         temperature: None,
     };
-    assert_read("numbers", &read(&text("", rows), &ImuReadOptions { columns, ..units }));
+    assert_read("numbers", &read(&text("", rows), &ImuReadOptions { columns, ..units }), 2e-3);
 }
 
 /// What a type says of the unit may be wrong: a lidar's messages hold g.

@@ -1,0 +1,106 @@
+//! Raw counts of a sensor whose datasheet states its sensitivity: from a sketch's output to the firmware.
+
+use crate::bench::Bench;
+use serde_json::Value;
+
+const PER_G: f64 = 16384.0;
+const PER_DPS: f64 = 131.0;
+
+/// A bench with a simulated recording, and `counts.csv` with the same in whole counts, as a sketch prints them.
+fn counts() -> Bench {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o made").done();
+    let text = bench.read("made/recording.csv");
+    let rows = text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
+    let row = |line: &str| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+        let counts = |k: usize| match k {
+            1..=3 => cells[k] / 9.80665 * PER_G,
+            _ => cells[k].to_degrees() * PER_DPS,
+        };
+        let counts: Vec<String> = (1..7).map(|k| format!("{:.0}", counts(k))).collect();
+        format!("{:.0},{}\n", cells[0] * 1e3, counts.join(","))
+    };
+    bench.write("counts.csv", "ms,AcX,AcY,AcZ,GyX,GyY,GyZ\n".to_owned() + &rows.map(row).collect::<String>());
+    bench
+}
+
+/// The numbers below a list of keys.
+fn number(of: &Value, keys: &[&str]) -> f64 {
+    keys.iter().fold(of, |of, key| &of[key]).as_f64().expect("a number")
+}
+
+#[test]
+fn counts_of_a_known_sensitivity_are_calibrated_in_physical_units() {
+    let bench = counts();
+    bench.run("calibrate imu.toml made/recording.csv --no-report -o si").done();
+    let given = "--accelerometer-lsb-per-g 16384 --gyroscope-lsb-per-dps 131";
+    bench.run(&format!("calibrate imu.toml counts.csv {given} --no-report -o raw")).done();
+    let (si, raw) = (bench.json("si/calibration.json"), bench.json("raw/calibration.json"));
+    assert_eq!(raw["accelerometer"]["reading_unit"], "m/s²");
+    assert!((number(&raw, &["accelerometer", "counts_per_mps2"]) - PER_G / 9.80665).abs() < 1e-9);
+    assert!((number(&raw, &["gyroscope", "counts_per_radps"]) - PER_DPS.to_degrees()).abs() < 1e-9);
+    for (one, other) in
+        si["parameters"].as_array().expect("a list").iter().zip(raw["parameters"].as_array().expect("a list"))
+    {
+        let off = (number(one, &["value"]) - number(other, &["value"])) / number(one, &["sd"]);
+        assert!(off.abs() < 1.0, "{}: {off}", one["name"]);
+    }
+
+    // an experiment file says the same, in the words of datasheets too
+    for (accelerometer, gyroscope) in [
+        ("accelerometer_lsb_per_g = 16384.0", "gyroscope_lsb_per_radps = 7505.747116"),
+        ("accelerometer_unit = \"0.06103515625 mg/LSB\"", "gyroscope_unit = \"131 LSB/(°/s)\""),
+    ] {
+        bench.preset(
+            "imu",
+            "said.toml",
+            &[("[columns]", &format!("[columns]\n{accelerometer}\n{gyroscope}"))],
+        );
+        bench.run("calibrate said.toml counts.csv --no-report -o said").done();
+        let said = bench.json("said/calibration.json");
+        let (one, other) = (&said["accelerometer"]["bias_mps2"], &raw["accelerometer"]["bias_mps2"]);
+        assert!((one[0].as_f64().expect("a number") - other[0].as_f64().expect("a number")).abs() < 1e-9);
+    }
+    bench.preset(
+        "imu",
+        "twice.toml",
+        &[("[columns]", "[columns]\naccelerometer_lsb_per_g = 16384.0\naccelerometer_unit = \"g\"")],
+    );
+    bench.refuses(
+        "calibrate twice.toml counts.csv -o out",
+        2,
+        &["columns.accelerometer_lsb_per_g", "keep one of the two"],
+    );
+
+    // counts are corrected without a word of their unit, and C takes them
+    bench.run("apply raw/calibration.json counts.csv -o corrected.csv").done();
+    bench.run("apply raw/calibration.json made/recording.csv -o of_si.csv").done();
+    let rows = |name: &str| -> Vec<Vec<f64>> {
+        let text = bench.read(name);
+        let cells = |line: &str| line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+        text.lines().skip(1).map(cells).collect()
+    };
+    for (one, other) in rows("corrected.csv").iter().zip(&rows("of_si.csv")).step_by(997) {
+        let off = one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+        assert!(off < 0.6 * 9.80665 / PER_G, "half a count: {off}");
+    }
+    bench.run("convert raw/calibration.json --to c -o imu.h").done();
+    let header = bench.read("imu.h");
+    assert!(header.contains("accelerometer: readings in counts"), "{header}");
+    bench.run("convert raw/calibration.json --to kalibr -o imu.yaml").done();
+    bench.run("convert imu.h --to calibrant -o back.json").done();
+    let back = bench.json("back.json");
+    let gain = &back["accelerometer"]["matrix_counts_per_mps2"][0][0];
+    let (gain, scale) = (gain.as_f64().expect("a number"), &raw["accelerometer"]["matrix"][0][0]);
+    let expected = scale.as_f64().expect("a number") * PER_G / 9.80665;
+    assert!((gain / expected - 1.0).abs() < 1e-12, "{gain} {expected}");
+
+    // the sensitivity of another range
+    bench.refuses(
+        "calibrate imu.toml counts.csv --accelerometer-lsb-per-g 8192 --gyroscope-lsb-per-dps 131 -o out",
+        3,
+        &["with 8192 LSB/g the accelerometer's magnitude is 2 g", "near 16384 LSB/g"],
+    );
+}
