@@ -204,7 +204,7 @@ const CASES: &[Case] = &[
     (
         "t_s,ax,ay,az\n0,0,1,16384\n1,0,16384,1\n2,16384,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say option `accelerometer_unit` m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]; counts of a sensitivity, as 16384 LSB/g, are read in m/s²))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,4.2\n1,0,4.2,1\n2,4.2,0,0\n",
@@ -286,7 +286,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx,gy,gz\n0,0,0,1\n1,0,1,0\n",
         || units(ImuUnit::Counts, ImuUnit::StandardGravity),
-        "g is no unit of the gyroscope (say rad/s, deg/s, mdps or counts)",
+        "g is no unit of the gyroscope (say rad/s, deg/s, mdps or counts, also of a sensitivity (131 LSB/dps))",
     ),
     (
         "t_s,gx_radps,gy_degps,gz_radps\n0,0,0,1\n1,0,1,0\n",

@@ -120,7 +120,7 @@ fn loggers() -> Vec<Logger> {
         ),
         logger(
             "OpenLog Artemis",
-            "",
+            "--accelerometer-unit mg --gyroscope-unit deg/s",
             "rtcDate,rtcTime,aX,aY,aZ,gX,gY,gZ,imu_degC,output_Hz,\n",
             |t, a, w| {
                 let (a, w) = in_g(times(1e3, a), w);
