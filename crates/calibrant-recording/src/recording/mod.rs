@@ -1,4 +1,4 @@
-//! Recordings: text in many dialects and two binary formats, checked row by row and as a whole.
+//! Recordings: text in many dialects, and binary formats of loggers and robots, checked row by row and as a whole.
 //!
 //! One reader (`imu/`) serves accelerometers and whole IMUs. [`ImuReadOptions::accelerometer_only`] is for
 //! experiments with one accelerometer. They also have plain texts, whose unit is that of the experiment:
@@ -15,6 +15,7 @@
 //! The time to read a file grows as its length does. A row of an accelerometer takes about 45 bytes of memory,
 //! that of an IMU about 70. The text is read in pieces, unless its lines end with CR alone.
 
+pub(crate) mod autopilot;
 #[cfg(feature = "mcap")]
 pub(crate) mod cdr;
 pub(crate) mod chunked_reader;

@@ -1,5 +1,6 @@
 //! The formats of recordings, and how the content of a file shows its format.
 
+use crate::recording::autopilot::{dataflash, ulog};
 use crate::recording::text_header::Head;
 use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
@@ -29,6 +30,11 @@ pub enum FileFormat {
     Mcap,
     /// Apache Parquet, columns named as in CSV.
     Parquet,
+    /// Log of PX4, ULog.
+    Ulog,
+    /// Log of ArduPilot, DataFlash.
+    #[serde(rename = "dataflash")]
+    DataFlash,
     /// Columns in memory, named as in CSV.
     #[serde(skip)]
     Columns,
@@ -36,7 +42,7 @@ pub enum FileFormat {
 
 impl FileFormat {
     /// All formats of files.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::MtManager,
         Self::MovellaDot,
         Self::Euroc,
@@ -45,9 +51,12 @@ impl FileFormat {
         Self::Csv,
         Self::Mcap,
         Self::Parquet,
+        Self::Ulog,
+        Self::DataFlash,
     ];
 
-    /// As the option `format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `parquet`.
+    /// As the option `format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `parquet`, `ulog`,
+    /// `dataflash`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -59,6 +68,8 @@ impl FileFormat {
             Self::Csv => "csv",
             Self::Mcap => "mcap",
             Self::Parquet => "parquet",
+            Self::Ulog => "ulog",
+            Self::DataFlash => "dataflash",
             Self::Columns => "columns",
         }
     }
@@ -75,6 +86,8 @@ impl FileFormat {
             Self::Csv => "CSV",
             Self::Mcap => "ROS 2 bag (MCAP)",
             Self::Parquet => "Parquet",
+            Self::Ulog => "log of PX4 (ULog)",
+            Self::DataFlash => "log of ArduPilot (DataFlash)",
             Self::Columns => "columns in memory",
         }
     }
@@ -88,18 +101,18 @@ impl FileFormat {
     /// Is it text?
     #[must_use]
     pub fn is_text(self) -> bool {
-        !matches!(self, Self::Mcap | Self::Parquet | Self::Columns)
+        !matches!(self, Self::Mcap | Self::Parquet | Self::Ulog | Self::DataFlash | Self::Columns)
     }
 
     /// The binary format that begins with these bytes.
     pub(super) fn of_magic(bytes: &[u8]) -> Option<Self> {
-        if bytes.starts_with(b"\x89MCAP0\r\n") {
-            Some(Self::Mcap)
-        } else if bytes.starts_with(b"PAR1") {
-            Some(Self::Parquet)
-        } else {
-            None
-        }
+        let magics: [(&[u8], Self); 4] = [
+            (b"\x89MCAP0\r\n", Self::Mcap),
+            (b"PAR1", Self::Parquet),
+            (ulog::MAGIC, Self::Ulog),
+            (dataflash::MAGIC, Self::DataFlash),
+        ];
+        magics.into_iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, format)| format)
     }
 
     /// The format of a text that begins like this.

@@ -8,6 +8,7 @@
 //! | imu_tk | four columns of numbers, `t x y z`; two files | s | asked for |
 //! | imucal | `n_samples,gyr_x,…` | counter; the rate is asked for | asked for |
 //! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
+//! | logs of PX4 and ArduPilot | their first bytes | `timestamp_sample`, `SampleUS`, … µs | m/s², rad/s |
 //! | a table in memory ([`imu_from_columns`]) | – | by name | by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //! | plain text | `t_s,ax,ay,az`, or `t x y z`, read for the accelerometer alone | s | by name, or the experiment's |
@@ -19,6 +20,8 @@
 //! it.
 
 mod accelerometer_only;
+mod autopilot;
+mod autopilot_source;
 mod binary_columns;
 mod column;
 mod column_names;

@@ -1,6 +1,7 @@
 //! Tests of recordings of a whole IMU: every format, every question, every message.
 
 mod accelerometer_only;
+mod autopilots;
 mod broken;
 mod clocks;
 mod good;
