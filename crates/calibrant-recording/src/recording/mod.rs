@@ -17,10 +17,15 @@
 
 pub(crate) mod autopilot;
 #[cfg(feature = "mcap")]
-pub(crate) mod cdr;
+pub(crate) mod bag;
+#[cfg(feature = "mcap")]
+pub(crate) mod bag_file;
+pub(crate) mod bag_kind;
 pub(crate) mod chunked_reader;
 pub(crate) mod clock_column;
 pub(crate) mod corrected;
+#[cfg(feature = "mcap")]
+mod db3;
 pub(crate) mod ferraris_sections;
 mod glued_axes;
 mod imu;
@@ -29,7 +34,7 @@ mod lost_sign;
 #[cfg(feature = "mcap")]
 mod mcap_chunk;
 #[cfg(feature = "mcap")]
-pub(crate) mod mcap_container;
+mod mcap_container;
 #[cfg(feature = "mcap")]
 mod mcap_footer;
 #[cfg(feature = "mcap")]
@@ -39,8 +44,14 @@ mod mcap_records;
 pub(crate) mod named_sensor;
 pub(crate) mod recording_quality;
 mod recording_writer;
+#[cfg(feature = "mcap")]
+pub(crate) mod ros_message;
+#[cfg(feature = "mcap")]
+mod rosbag;
 pub(crate) mod row_parser;
 mod size;
+#[cfg(feature = "mcap")]
+mod sqlite;
 pub mod stated_rate;
 pub(crate) mod tally;
 pub(crate) mod text_header;

@@ -18,7 +18,8 @@ pub fn refuse<T>(code: Refusal, message: impl Into<String>, help: impl Into<Stri
 /// The error where this build lacks a reader.
 #[cfg(any(test, not(all(feature = "mcap", feature = "parquet"))))]
 pub fn without<T>(feature: &str) -> Checked<T> {
-    let message = format!("this build of calibrant does not read {feature} files");
+    let files = if feature == "mcap" { "bags of ROS (MCAP, .db3, .bag)" } else { "Parquet" };
+    let message = format!("this build of calibrant does not read {files}");
     refuse(Refusal::FormatUnsupported, message, install_with(feature))
 }
 
@@ -121,13 +122,6 @@ pub fn as_text(bytes: &[u8]) -> Checked<&str> {
             Refusal::EncodingUnknown,
             "the text is encoded in UTF-16",
             "save it as UTF-8 (or plain ASCII)",
-        );
-    }
-    if bytes.starts_with(b"#ROSBAG V") {
-        return refuse(
-            Refusal::FormatUnsupported,
-            "this is a bag of ROS 1, which is not read",
-            "convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR",
         );
     }
     if let Some((version, array)) = of_matlab(bytes) {

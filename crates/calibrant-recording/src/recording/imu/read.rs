@@ -2,13 +2,13 @@
 //! rows, the recording.
 
 use super::accelerometer_only::{only, plain};
+#[cfg(feature = "mcap")]
+use super::bag;
 use super::column_values::{READINGS, SampleReader, Samples};
 use super::file::ImuFile;
 use super::file_layout::Draft;
 use super::first_rows::FirstRows;
 use super::format::{FileFormat, LEAVE_AWAY};
-#[cfg(feature = "mcap")]
-use super::mcap;
 use super::options::{ColumnMapping, ImuReadOptions};
 #[cfg(feature = "parquet")]
 use super::parquet;
@@ -164,12 +164,12 @@ fn read_messages(read: impl FnOnce() -> Checked<OfMessages>, options: &ImuReadOp
 }
 
 #[cfg(feature = "mcap")]
-fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<OfMessages> {
-    mcap::read(bytes, options)
+fn read_bag(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<OfMessages> {
+    bag::read(format, bytes, options)
 }
 
 #[cfg(not(feature = "mcap"))]
-fn read_mcap(_: &[u8], _: &ImuReadOptions) -> Checked<OfMessages> {
+fn read_bag(_: FileFormat, _: &[u8], _: &ImuReadOptions) -> Checked<OfMessages> {
     without("mcap")
 }
 
@@ -192,7 +192,9 @@ fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
 fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     match format {
         FileFormat::Parquet => read_parquet(bytes, options),
-        FileFormat::Mcap => read_messages(|| read_mcap(bytes, options), options),
+        FileFormat::Mcap | FileFormat::Db3 | FileFormat::Rosbag => {
+            read_messages(|| read_bag(format, bytes, options), options)
+        }
         _ => {
             let mut file = read_messages(|| autopilot::read(format, bytes, options), options)?;
             // every sensor has rows of its own
