@@ -51,6 +51,9 @@ pub(super) fn read<'t, M>(bytes: &[u8], types: &'t [MessageType<M>]) -> Checked<
             None => return Err(damaged("a record does not say what it is").into()),
         }
     }
+    if reader.connections.is_empty() {
+        return Err(damaged("it ends before any message").into());
+    }
     if !rest.is_empty() {
         reader.bag.unread = Some(LogPassedOver { bytes: rest.len(), places: 1 }.into());
     }
@@ -156,6 +159,6 @@ fn damaged(why: &str) -> InputError {
     InputError::new(
         Refusal::FileDamaged,
         format!("the bag is damaged: {why}"),
-        "copy it again, or try `rosbag fix` and `rosbag reindex`",
+        "copy it again, or try `rosbag reindex FILE.bag`",
     )
 }

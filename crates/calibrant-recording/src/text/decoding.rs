@@ -124,6 +124,23 @@ pub fn as_text(bytes: &[u8]) -> Checked<&str> {
             "save it as UTF-8 (or plain ASCII)",
         );
     }
+    if bytes.starts_with(b"H Product:Blackbox") {
+        return refuse(
+            Refusal::FormatUnsupported,
+            "this is a blackbox log of Betaflight or INAV, which is not read",
+            "decode it: `blackbox_decode FILE`, and give the .csv",
+        );
+    }
+    // the second byte of a text may be a P, but its first is no control character
+    if let [block, b'P', ..] = bytes
+        && (1..9).contains(block)
+    {
+        return refuse(
+            Refusal::FormatUnsupported,
+            "this is a C3D file of motion capture, which is not read",
+            "save its analog channels as CSV: in Python `pandas.DataFrame(ezc3d.c3d('FILE')['data']['analogs'][0].T, columns=[…]).to_csv('log.csv', index=False)`",
+        );
+    }
     if let Some((version, array)) = of_matlab(bytes) {
         return refuse(
             Refusal::FormatUnsupported,

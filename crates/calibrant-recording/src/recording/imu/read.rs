@@ -227,6 +227,10 @@ pub(super) fn rows(
         first_rows.find_clocks(&mut draft);
         first_rows.find_split_clock(&mut draft);
     }
+    if let Some(name) = &options.columns.rest_of_second {
+        let place = draft.columns.iter().position(|column| column.name == *name);
+        draft.rest_unit = place.map(|column| first_rows.unit_of_rest(column));
+    }
     let sensor_column = sensor_rows::find(&mut draft, &first_rows, options);
     let of_rows = sensor_column.map(|_| {
         // both sensors' axes are known

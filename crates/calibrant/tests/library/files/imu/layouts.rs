@@ -169,6 +169,7 @@ fn each_logger_is_read_as_it_is() {
                     accelerometer: Some(["2", "3", "4"].map(Into::into)),
                     gyroscope: Some(["5", "6", "7"].map(Into::into)),
                     temperature: None,
+                    rest_of_second: None,
                 },
                 ..si()
             },
@@ -212,6 +213,7 @@ fn each_file_of_a_pair_has_its_own_columns() {
             accelerometer: names(),
             gyroscope: names(),
             temperature: None,
+            rest_of_second: None,
         },
         accelerometer_unit: Some(ImuUnit::StandardGravity),
         gyroscope_unit: Some(ImuUnit::DegreePerSecond),
@@ -243,6 +245,7 @@ fn a_column_may_name_the_sensor_of_each_row() {
         accelerometer: axes(),
         gyroscope: axes(),
         temperature: None,
+        rest_of_second: None,
     };
     assert_read("numbers", &read(&text("", rows), &ImuReadOptions { columns, ..units }));
 }

@@ -8,10 +8,12 @@ mod good;
 mod host_times;
 mod invalid_samples;
 mod layouts;
+mod other_bags;
 mod packets;
 mod parquet;
 mod pieces;
 mod real;
+mod remedies;
 pub(super) mod ros_bag;
 mod separate_rows;
 
