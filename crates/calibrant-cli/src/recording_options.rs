@@ -9,7 +9,7 @@ use std::path::Path;
 
 #[derive(clap::Args, Clone)]
 pub(crate) struct RecordingOptions {
-    /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
+    /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap, parquet, ulog or dataflash (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
     /// Unit of the readings, if the file does not state it: m/s2, mm/s2, g or mg of the accelerometer, rad/s, deg/s or mdps of the gyroscope, counts of both.

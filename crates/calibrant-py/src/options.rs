@@ -58,10 +58,17 @@ pub(crate) struct Reading {
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct Columns {
-    time: Option<String>,
+    time: Option<TimeColumns>,
     accelerometer: Option<[String; 3]>,
     gyroscope: Option<[String; 3]>,
     temperature: Option<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged, expecting = "the name of a column, or [whole seconds, rest of the second]")]
+enum TimeColumns {
+    One(String),
+    Two([String; 2]),
 }
 
 impl Reading {
@@ -73,12 +80,18 @@ impl Reading {
             chosen(name, text, read, choices)
         };
         let of = self.columns.clone();
+        let (time, rest_of_second) = match of.time {
+            None => (None, None),
+            Some(TimeColumns::One(time)) => (Some(time), None),
+            Some(TimeColumns::Two([seconds, rest])) => (Some(seconds), Some(rest)),
+        };
         Ok(ImuReadOptions {
             format: chosen("format", &self.format, FileFormat::parse, || {
                 format!("the formats are {}", FileFormat::ALL.map(FileFormat::name).join(", "))
             })?,
             columns: ColumnMapping {
-                time: of.time,
+                time,
+                rest_of_second,
                 accelerometer: of.accelerometer,
                 gyroscope: of.gyroscope,
                 temperature: of.temperature,

@@ -214,15 +214,12 @@ fn a_sensor_that_ends_before_the_other_or_pauses_is_named() {
 }
 
 #[test]
-fn a_bag_of_ros_1_is_called_so() {
+fn a_bag_of_ros_1_that_was_cut_off_is_called_so() {
     let bench = imu();
     bench.write("imu.bag", b"#ROSBAG V2.0\nE\0\0\0\x0c\0\0\0chunk_count");
-    bench.refuses(
-        "apply truth.json imu.bag -o x.csv",
-        3,
-        &["imu.bag: this is a bag of ROS 1", "rosbags-convert"],
-    );
-    bench.refuses("inspect imu.bag", 3, &["imu.bag: this is a bag of ROS 1", "rosbags-convert"]);
+    let said = ["imu.bag: the bag is damaged: it ends before any message", "rosbag reindex FILE.bag"];
+    bench.refuses("apply truth.json imu.bag -o x.csv", 3, &said);
+    bench.refuses("inspect imu.bag", 3, &said);
 }
 
 /// A truth.json that `simulate` would not write.

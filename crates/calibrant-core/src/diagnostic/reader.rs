@@ -153,6 +153,52 @@ checks! {
         false => format!("{bytes} bytes follow the end of the bag: they are not read"),
     };
 
+    /// A log has the readings of an IMU more than once, or in a topic of several.
+    MessagesChosen "messages-chosen" Note {
+        /// What was read.
+        taken: String,
+        /// What else there is.
+        others: Vec<String>,
+    }
+    decided "Raw readings of 10 Hz at least come before corrected ones, and these before slower ones."
+    remedy "Say option `topic` or option `instance` for another."
+    says format!(
+        "the readings are those of {taken}{}",
+        match others.is_empty() {
+            true => String::new(),
+            false => format!("; option `topic` or option `instance` reads another: {}", others.join(", ")),
+        }
+    );
+
+    /// The readings of a log were corrected before they were logged.
+    CorrectedOnBoard "corrected-on-board" Warning {
+        /// Their topics.
+        topics: String,
+        /// What was done to them.
+        how: Phrase,
+    }
+    decided "The topic and the version of the autopilot say so."
+    remedy "Log raw readings, or use the result for readings that are corrected alike."
+    says format!(
+        "the readings of {topics} are not raw: {}; a calibration of them has the errors that are left, and is for readings corrected alike",
+        how.0
+    );
+
+    /// A part of a log cannot be read.
+    LogPassedOver "log-passed-over" Warning {
+        /// Number of bytes.
+        bytes: usize,
+        /// Number of places.
+        places: usize,
+    }
+    decided "Bytes are no message. Reading goes on where one begins again."
+    remedy "Copy the log again, or look for gaps."
+    says format!(
+        "{} at {} of the log are no messages, and were passed over",
+        counted(*bytes, "byte"),
+        counted(*places, "place")
+    );
+
     /// Rows or messages were not in the order of their times. They were sorted.
     RowsSorted "rows-sorted" Note {
         /// How many come after a later one.

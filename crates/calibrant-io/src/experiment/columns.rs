@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 pub struct ColumnsSection {
     /// The format.
     pub format: Option<FileFormat>,
-    /// Name of the column of times.
-    pub time: Option<String>,
+    /// Name of the column of times, or of the two of whole seconds and of what is to be added.
+    pub time: Option<TimeColumns>,
     /// Unit of the times.
     pub time_unit: Option<TimeUnit>,
     /// Even times, or the logged ones.
@@ -50,11 +50,32 @@ pub struct ColumnsSection {
     pub topic: Option<String>,
 }
 
+/// The columns of times.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "the name of a column, or [whole seconds, rest of the second]")]
+pub enum TimeColumns {
+    /// One of times.
+    One(String),
+    /// Whole seconds, and what is to be added.
+    Two([String; 2]),
+}
+
+impl TimeColumns {
+    fn names(&self) -> [Option<&String>; 2] {
+        match self {
+            Self::One(time) => [Some(time), None],
+            Self::Two([seconds, rest]) => [Some(seconds), Some(rest)],
+        }
+    }
+}
+
 impl ColumnsSection {
     /// The options of a reader.
     pub(super) fn options(&self) -> Result<ImuReadOptions> {
+        let [time, rest_of_second] = self.time.as_ref().map_or([None, None], TimeColumns::names);
         let columns = ColumnMapping {
-            time: column("columns.time", self.time.as_ref())?,
+            time: column("columns.time", time)?,
+            rest_of_second: column("columns.time", rest_of_second)?,
             accelerometer: three("columns.accelerometer", self.accelerometer.as_ref())?,
             gyroscope: three("columns.gyroscope", self.gyroscope.as_ref())?,
             temperature: column("columns.temperature", self.temperature.as_ref())?,
@@ -157,7 +178,8 @@ fn no_column_twice(columns: &ColumnMapping) -> Result<()> {
     let sensor_kinds = SensorKind::ALL.into_iter().flat_map(|sensor_kind| {
         columns.sensor(sensor_kind).into_iter().flatten().map(move |name| (sensor_kind.name(), name))
     });
-    let singles = [("time", &columns.time), ("temperature", &columns.temperature)];
+    let singles =
+        [("time", &columns.time), ("time", &columns.rest_of_second), ("temperature", &columns.temperature)];
     let singles = singles.into_iter().filter_map(|(key, name)| Some((key, name.as_ref()?)));
     for (key, name) in singles.chain(sensor_kinds) {
         if seen.contains(&name.as_str()) {

@@ -79,7 +79,7 @@ pub(crate) fn records(chunk: &[u8], is_whole: bool, most: u64) -> Result<Cow<'_,
 }
 
 /// What can be unpacked, one byte more than the length at most.
-fn unpacked<'a>(decoder: std::io::Result<impl Read>, length: u64) -> Cow<'a, [u8]> {
+pub(super) fn unpacked<'a>(decoder: std::io::Result<impl Read>, length: u64) -> Cow<'a, [u8]> {
     let mut records = Vec::new();
     // an error leaves what was unpacked before it, and so the length tells
     let _ = decoder.and_then(|decoder| decoder.take(length.saturating_add(1)).read_to_end(&mut records));

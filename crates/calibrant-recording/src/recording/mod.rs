@@ -1,4 +1,4 @@
-//! Recordings: text in many dialects and two binary formats, checked row by row and as a whole.
+//! Recordings: text in many dialects, and binary formats of loggers and robots, checked row by row and as a whole.
 //!
 //! One reader (`imu/`) serves accelerometers and whole IMUs. [`ImuReadOptions::accelerometer_only`] is for
 //! experiments with one accelerometer. They also have plain texts, whose unit is that of the experiment:
@@ -15,11 +15,17 @@
 //! The time to read a file grows as its length does. A row of an accelerometer takes about 45 bytes of memory,
 //! that of an IMU about 70. The text is read in pieces, unless its lines end with CR alone.
 
+pub(crate) mod autopilot;
 #[cfg(feature = "mcap")]
-pub(crate) mod cdr;
+pub(crate) mod bag;
+#[cfg(feature = "mcap")]
+pub(crate) mod bag_file;
+pub(crate) mod bag_kind;
 pub(crate) mod chunked_reader;
 pub(crate) mod clock_column;
 pub(crate) mod corrected;
+#[cfg(feature = "mcap")]
+mod db3;
 pub(crate) mod ferraris_sections;
 mod glued_axes;
 mod imu;
@@ -28,7 +34,7 @@ mod lost_sign;
 #[cfg(feature = "mcap")]
 mod mcap_chunk;
 #[cfg(feature = "mcap")]
-pub(crate) mod mcap_container;
+mod mcap_container;
 #[cfg(feature = "mcap")]
 mod mcap_footer;
 #[cfg(feature = "mcap")]
@@ -38,8 +44,14 @@ mod mcap_records;
 pub(crate) mod named_sensor;
 pub(crate) mod recording_quality;
 mod recording_writer;
+#[cfg(feature = "mcap")]
+pub(crate) mod ros_message;
+#[cfg(feature = "mcap")]
+mod rosbag;
 pub(crate) mod row_parser;
 mod size;
+#[cfg(feature = "mcap")]
+mod sqlite;
 pub mod stated_rate;
 pub(crate) mod tally;
 pub(crate) mod text_header;

@@ -15,13 +15,18 @@ pub enum ReferenceFormat {
     Poses,
     /// ROS 2 bag in an MCAP container.
     Mcap,
+    /// ROS 2 bag in an SQLite database.
+    Db3,
+    /// ROS 1 bag.
+    Rosbag,
 }
 
 impl ReferenceFormat {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Joints, Self::Rtde, Self::Tum, Self::Euroc, Self::Poses, Self::Mcap];
+    pub const ALL: [Self; 8] =
+        [Self::Joints, Self::Rtde, Self::Tum, Self::Euroc, Self::Poses, Self::Mcap, Self::Db3, Self::Rosbag];
 
-    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses` or `mcap`.
+    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses`, `mcap`, `db3` or `rosbag`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -31,6 +36,8 @@ impl ReferenceFormat {
             Self::Euroc => "euroc",
             Self::Poses => "poses",
             Self::Mcap => "mcap",
+            Self::Db3 => "db3",
+            Self::Rosbag => "rosbag",
         }
     }
 
@@ -44,6 +51,8 @@ impl ReferenceFormat {
             Self::Euroc => "EuRoC ground truth",
             Self::Poses => "CSV of poses",
             Self::Mcap => "ROS 2 bag (MCAP)",
+            Self::Db3 => "ROS 2 bag (SQLite)",
+            Self::Rosbag => "ROS 1 bag",
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Reads the log of a motion in a ROS 2 bag.
+//! Reads the log of a motion in a bag of ROS.
 //!
 //! Times are `header.stamp`, when the machine was there, not when the recorder received the message. A topic of
 //! `TFMessage` holds the poses of many frames: each is a log of its own, `/tf:tool0`, and serves where it is asked
@@ -11,15 +11,16 @@ use super::log_assembly::assemble;
 use super::messages::{JointState, Message, Pose, TYPES};
 use super::rows::Rows;
 use crate::recording::TimeUnit;
-use crate::recording::mcap_container::{Bag, Topics};
+use crate::recording::bag::Topics;
+use crate::recording::bag_file;
 use crate::recording::mcap_order::{Logged, by_log_time};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::Refusal;
 use std::collections::BTreeMap;
 
-pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFile> {
-    let bag = Bag::read(bytes, TYPES)?;
-    let (cut, unread) = (bag.cut("a motion")?, bag.unread());
+pub(super) fn read(format: ReferenceFormat, bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFile> {
+    let mut bag = bag_file::read(bytes, TYPES)?;
+    let (cut, unread) = (bag.cut("a motion")?, bag.unread.take());
     let messages = by_frame(bag.topics(), topic).one(topic, "log of a motion")?;
     let (messages, sorted) = by_log_time(messages, Message::stamp_ns);
     let number = messages.len();
@@ -40,13 +41,7 @@ pub(super) fn read(bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFil
         }
         false => of_joints(&joints),
     };
-    let mut file = assemble(
-        ReferenceFormat::Mcap,
-        content,
-        ("header.stamp", Some(TimeUnit::Nanosecond)),
-        rows,
-        Vec::new(),
-    )?;
+    let mut file = assemble(format, content, ("header.stamp", Some(TimeUnit::Nanosecond)), rows, Vec::new())?;
     let times_s = file.log.times_s();
     let duration_s = times_s.last().zip(times_s.first()).map_or(0.0, |(last, first)| last - first);
     file.findings.extend(sorted);

@@ -1,4 +1,4 @@
-//! The messages of ROS 2 that say where a machine is.
+//! The messages of ROS that say where a machine is.
 //!
 //! ```text
 //! JointState        header; name: list of texts; position, velocity, effort: lists of f64
@@ -9,8 +9,8 @@
 //! ```
 //! A header is a time stamp, sec i32 and nanosec u32, and a text, `frame_id`. All vectors are f64.
 
-use crate::recording::cdr::{CdrReader, Unreadable};
-use crate::recording::mcap_container::MessageType;
+use crate::recording::bag::MessageType;
+use crate::recording::ros_message::{RosMessage, Unreadable};
 
 /// A message.
 pub(super) enum Message {
@@ -54,13 +54,12 @@ pub(super) const TYPES: &[MessageType<Message>] = &[
     MessageType { name: "tf2_msgs/msg/TFMessage", read: transforms },
 ];
 
-fn joint_state(bytes: &[u8]) -> Result<Message, Unreadable> {
-    let mut reader = CdrReader::new(bytes)?;
+fn joint_state(reader: &mut RosMessage<'_>) -> Result<Message, Unreadable> {
     let stamp_ns = reader.stamp_ns()?;
     reader.text()?;
-    let names = reader.list(CdrReader::text)?;
-    let positions = reader.list(CdrReader::f64)?;
-    let velocities = reader.list(CdrReader::f64)?;
+    let names = reader.list(RosMessage::text)?;
+    let positions = reader.list(RosMessage::f64)?;
+    let velocities = reader.list(RosMessage::f64)?;
     // either list may be empty
     for (list, why) in [
         (&positions, "it has another number of positions than of names"),
@@ -73,30 +72,29 @@ fn joint_state(bytes: &[u8]) -> Result<Message, Unreadable> {
     Ok(Message::Joints(JointState { stamp_ns, names, positions, velocities }))
 }
 
-fn pose_stamped(bytes: &[u8]) -> Result<Message, Unreadable> {
-    let mut reader = CdrReader::new(bytes)?;
+fn pose_stamped(reader: &mut RosMessage<'_>) -> Result<Message, Unreadable> {
     let stamp_ns = reader.stamp_ns()?;
     reader.text()?;
-    Ok(Message::Pose(Pose { stamp_ns, values: values(&mut reader)? }))
+    Ok(Message::Pose(Pose { stamp_ns, values: values(reader)? }))
 }
 
-fn transform_stamped(bytes: &[u8]) -> Result<Message, Unreadable> {
-    Ok(Message::Pose(transform(&mut CdrReader::new(bytes)?)?.1))
+fn transform_stamped(reader: &mut RosMessage<'_>) -> Result<Message, Unreadable> {
+    Ok(Message::Pose(transform(reader)?.1))
 }
 
-fn transforms(bytes: &[u8]) -> Result<Message, Unreadable> {
-    Ok(Message::Transforms(CdrReader::new(bytes)?.list(transform)?))
+fn transforms(reader: &mut RosMessage<'_>) -> Result<Message, Unreadable> {
+    Ok(Message::Transforms(reader.list(transform)?))
 }
 
 /// The name of the frame, and its pose.
-fn transform(reader: &mut CdrReader<'_>) -> Result<(String, Pose), Unreadable> {
+fn transform(reader: &mut RosMessage<'_>) -> Result<(String, Pose), Unreadable> {
     let stamp_ns = reader.stamp_ns()?;
     reader.text()?;
     let frame = reader.text()?;
     Ok((frame, Pose { stamp_ns, values: values(reader)? }))
 }
 
-fn values(reader: &mut CdrReader<'_>) -> Result<[f64; 7], Unreadable> {
+fn values(reader: &mut RosMessage<'_>) -> Result<[f64; 7], Unreadable> {
     let [px, py, pz, x, y, z, w] = reader.numbers()?;
     Ok([px, py, pz, w, x, y, z])
 }

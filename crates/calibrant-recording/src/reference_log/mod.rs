@@ -7,7 +7,7 @@
 //! | EuRoC | `#timestamp,p_RS_R_x [m],…,q_RS_w [],…` | ns | poses, w first |
 //! | poses | columns `px_m`, …, `qw`, …, or other names of a position and a quaternion | by name | poses, in the order of the names |
 //! | TUM | eight columns without a header, `t x y z qx qy qz qw` | s | poses, w last |
-//! | MCAP | its first bytes | `header.stamp` | `JointState`, `PoseStamped`, `TransformStamped`, `Odometry`, `TFMessage` |
+//! | bag of ROS: MCAP, `.db3`, `.bag` | its first bytes | `header.stamp` | `JointState`, `PoseStamped`, `TransformStamped`, `Odometry`, `TFMessage` |
 //!
 //! The rows are read as those of recordings are. [`text_columns`] finds what the columns hold, [`rows`] reads
 //! them, and [`log_assembly`] makes a log of their values. A value that is NaN was not recorded: the body was not

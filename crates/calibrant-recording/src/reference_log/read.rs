@@ -1,6 +1,8 @@
 //! Reads a log of a motion in any format.
 
 use super::file::ReferenceLogFile;
+#[cfg(feature = "mcap")]
+use super::format::ReferenceFormat;
 use super::log_assembly::assemble;
 #[cfg(feature = "mcap")]
 use super::mcap;
@@ -8,6 +10,7 @@ use super::options::ReferenceLogOptions;
 use super::rows::LogReader;
 use super::text_columns::TextColumns;
 use crate::files::checksum::hex_sha256;
+use crate::recording::bag_kind::BagKind;
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
@@ -19,7 +22,7 @@ use std::path::Path;
 
 /// Does a file that begins so hold a bag?
 pub(super) fn is_bag(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"\x89MCAP0\r\n")
+    BagKind::of(bytes).is_some()
 }
 
 /// Reads a log of joints or poses in any known format.
@@ -61,8 +64,8 @@ pub fn parse_reference_log(bytes: &[u8], options: &ReferenceLogOptions) -> Resul
 }
 
 fn parse(bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    if is_bag(bytes) {
-        let (file, sha256) = rayon::join(|| read_mcap(bytes, options), || hex_sha256(bytes));
+    if let Some(kind) = BagKind::of(bytes) {
+        let (file, sha256) = rayon::join(|| read_mcap(kind, bytes, options), || hex_sha256(bytes));
         return Ok(with_checksum((file?, sha256)));
     }
     text_source::of_bytes(bytes, |source| parse_text(source, options)).map(with_checksum)
@@ -106,11 +109,16 @@ fn without_table(mut input_error: Box<InputError>) -> Box<InputError> {
 }
 
 #[cfg(feature = "mcap")]
-fn read_mcap(bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    mcap::read(bytes, options.topic.as_deref())
+fn read_mcap(kind: BagKind, bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
+    let format = match kind {
+        BagKind::Mcap => ReferenceFormat::Mcap,
+        BagKind::Db3 => ReferenceFormat::Db3,
+        BagKind::Rosbag => ReferenceFormat::Rosbag,
+    };
+    mcap::read(format, bytes, options.topic.as_deref())
 }
 
 #[cfg(not(feature = "mcap"))]
-fn read_mcap(_: &[u8], _: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
+fn read_mcap(_: BagKind, _: &[u8], _: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
     crate::text::decoding::without("mcap")
 }

@@ -18,7 +18,8 @@ pub fn refuse<T>(code: Refusal, message: impl Into<String>, help: impl Into<Stri
 /// The error where this build lacks a reader.
 #[cfg(any(test, not(all(feature = "mcap", feature = "parquet"))))]
 pub fn without<T>(feature: &str) -> Checked<T> {
-    let message = format!("this build of calibrant does not read {feature} files");
+    let files = if feature == "mcap" { "bags of ROS (MCAP, .db3, .bag)" } else { "Parquet" };
+    let message = format!("this build of calibrant does not read {files}");
     refuse(Refusal::FormatUnsupported, message, install_with(feature))
 }
 
@@ -123,11 +124,21 @@ pub fn as_text(bytes: &[u8]) -> Checked<&str> {
             "save it as UTF-8 (or plain ASCII)",
         );
     }
-    if bytes.starts_with(b"#ROSBAG V") {
+    if bytes.starts_with(b"H Product:Blackbox") {
         return refuse(
             Refusal::FormatUnsupported,
-            "this is a bag of ROS 1, which is not read",
-            "convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR",
+            "this is a blackbox log of Betaflight or INAV, which is not read",
+            "decode it: `blackbox_decode FILE`, and give the .csv",
+        );
+    }
+    // the second byte of a text may be a P, but its first is no control character
+    if let [block, b'P', ..] = bytes
+        && (1..9).contains(block)
+    {
+        return refuse(
+            Refusal::FormatUnsupported,
+            "this is a C3D file of motion capture, which is not read",
+            "save its analog channels as CSV: in Python `pandas.DataFrame(ezc3d.c3d('FILE')['data']['analogs'][0].T, columns=[…]).to_csv('log.csv', index=False)`",
         );
     }
     if let Some((version, array)) = of_matlab(bytes) {

@@ -3,7 +3,7 @@
 //! | meaning | names | units, as an ending or in brackets |
 //! |---|---|---|
 //! | time | `t`, `time`, `timestamp`, `stamp` | `_s`, `_ms`, `_us`, `_ns` |
-//! | another clock | `millis`, `micros`, `ms`, `elapsed`, `rtcTime`, `TimeUS` | the name itself, or as of a time |
+//! | another clock | `millis`, `micros`, `ms`, `elapsed`, `seconds_elapsed`, `rtcTime`, `TimeUS` | the name itself, or as of a time |
 //! | counter | `n_samples`, `sample`, `index`, `counter`, `packetcounter` | |
 //! | accelerometer | `ax`, `acc_x`, `AcX`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x`, `accSmooth[0]` | `_mps2`, `_mmps2`, `_g`, `_mg`, `_counts` |
 //! | gyroscope | `gx`, `wx`, `GyX`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
@@ -241,7 +241,13 @@ fn plain(base: &str) -> String {
 /// The unit that is the name of a clock, or its end: `millis`, `TimeUS`. A single `s` is none.
 fn unit_in_name(plain: &str) -> Option<TimeUnit> {
     let unit = |before: &&str| TimeUnit::parse(plain.strip_prefix(*before).filter(|rest| rest.len() > 1)?);
-    BEFORE_UNIT.iter().find_map(unit).filter(|unit| *unit != TimeUnit::Sample)
+    let elapsed = || TimeUnit::parse(plain.strip_suffix("elapsed").filter(|rest| rest.len() > 1)?);
+    BEFORE_UNIT.iter().find_map(unit).or_else(elapsed).filter(|unit| *unit != TimeUnit::Sample)
+}
+
+/// Is it the clock of the sample, where another one is that of its message?
+pub(super) fn is_of_sample(name: &str) -> bool {
+    ["timestampsample", "sampleus"].contains(&plain(&name.to_lowercase()).as_str())
 }
 
 fn is_angle(plain: &str) -> bool {
@@ -284,6 +290,7 @@ mod tests {
             ("millis", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Millisecond)))),
             ("ms", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Millisecond)))),
             ("TimeUS", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Microsecond)))),
+            ("seconds_elapsed", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Second)))),
             ("elapsed (s)", (ColumnMeaning::Clock, Some(ColumnUnit::Time(TimeUnit::Second)))),
             ("rtcTime", (ColumnMeaning::Clock, None)),
             ("times", (ColumnMeaning::Other, None)),

@@ -1,6 +1,7 @@
 //! The layout of a file before its rows are read: its columns, their meaning, and the source of the times.
 
 use super::column::{ColumnMeaning, ImuColumn};
+use super::column_names::is_of_sample;
 use super::column_values::{READINGS, slot_of};
 use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
@@ -23,6 +24,8 @@ pub(super) struct Draft {
     pub(super) rate_hz: Option<(f64, &'static str)>,
     /// Columns whose times are text, and the ticks (ns) after which they begin anew.
     pub(super) texts: Vec<(usize, Option<f64>)>,
+    /// Unit of the column of ticks within the second that the user names, by its values.
+    pub(super) rest_unit: Option<TimeUnit>,
     /// Columns of numbers that only go up.
     pub(super) may_be_clocks: Vec<String>,
     /// Of a plain text of one accelerometer: what its experiment expects. Such a recording need not show
@@ -41,6 +44,7 @@ impl Draft {
             counter_wraps_at: None,
             rate_hz: None,
             texts: Vec::new(),
+            rest_unit: None,
             may_be_clocks: Vec::new(),
             plain: None,
             line: None,
@@ -59,7 +63,20 @@ impl Draft {
     /// Applies the user's mapping of the columns.
     pub(super) fn map(&mut self, options: &ImuReadOptions) -> Checked<()> {
         let mapping = &options.columns;
-        if let Some(name) = &mapping.time {
+        if let Some((name, rest)) = mapping.time.as_ref().zip(mapping.rest_of_second.as_ref()) {
+            if !self.format.is_text() {
+                let message = "[columns] names two columns for the time, which is read of text only";
+                return refuse(Refusal::OptionsContradict, message, "add them to one column of times");
+            }
+            self.unuse(
+                &[ColumnMeaning::Time, ColumnMeaning::RestOfSecond, ColumnMeaning::Counter],
+                "other columns are named in [columns]",
+            );
+            let unit = ColumnUnit::Time(options.time_unit.or(self.rest_unit).unwrap_or(TimeUnit::Nanosecond));
+            self.assign(name, ColumnMeaning::Time, Some(unit))?;
+            self.assign(rest, ColumnMeaning::RestOfSecond, Some(unit))?;
+            (self.time_wraps_at, self.counter_wraps_at) = (None, None);
+        } else if let Some(name) = &mapping.time {
             self.unuse(
                 &[ColumnMeaning::Time, ColumnMeaning::RestOfSecond, ColumnMeaning::Counter],
                 "another column is named in [columns]",
@@ -103,8 +120,9 @@ impl Draft {
         let is_used_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time && column.is_used();
         let of_times = (0..self.columns.len()).filter(|&k| is_used_time(&self.columns[k])).map(rank).min();
         let clocks = (0..self.columns.len()).filter(|&k| self.columns[k].meaning == ColumnMeaning::Clock);
-        if let Some(best) =
-            clocks.min_by_key(|&k| rank(k)).filter(|&k| of_times.is_none_or(|least| rank(k) < least))
+        if let Some(best) = clocks
+            .min_by_key(|&k| (rank(k), !is_of_sample(&self.columns[k].name)))
+            .filter(|&k| of_times.is_none_or(|least| rank(k) < least))
         {
             self.unuse(&[ColumnMeaning::Time], "another clock says its unit");
             (self.columns[best].meaning, self.columns[best].unused) = (ColumnMeaning::Time, None);
@@ -276,9 +294,15 @@ impl Draft {
         )
     }
 
-    /// Keeps one time column: of several, the one whose unit is known. A time and a counter both stay.
+    /// Keeps one time column: of several, that of the samples, or the one whose unit is known. A time and a counter both stay.
     fn one_time(&mut self) {
         let is_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time && column.is_used();
+        if self.columns.iter().any(|column| is_time(column) && is_of_sample(&column.name)) {
+            let others = self.columns.iter_mut().filter(|column| !is_of_sample(&column.name));
+            for column in others.filter(|column| is_time(column)) {
+                column.unused = Some("the times of the samples are in another column".into());
+            }
+        }
         let times = self.columns.iter().filter(|column| is_time(column)).count();
         let known = self.columns.iter().filter(|column| is_time(column) && column.unit.is_some()).count();
         if times > 1 && known == 1 {

@@ -98,6 +98,14 @@ impl<'t> FirstRows<'t> {
         }
     }
 
+    /// The unit of ticks within a second: the coarsest in which all are less than one.
+    pub(super) fn unit_of_rest(&self, column: usize) -> TimeUnit {
+        let most = self.times(column).into_iter().fold(0.0, f64::max);
+        let units = [TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
+        let fits = |unit: &TimeUnit| unit.per_second().is_some_and(|per_second| most < per_second);
+        units.into_iter().find(fits).unwrap_or(TimeUnit::Nanosecond)
+    }
+
     /// May a column of numbers be a clock or a counter? It only goes up, in most rows.
     fn goes_up(&self, column: usize) -> bool {
         let times = self.times(column);

@@ -1,5 +1,7 @@
 //! The formats of recordings, and how the content of a file shows its format.
 
+use crate::recording::autopilot::{dataflash, ulog};
+use crate::recording::bag_kind::BagKind;
 use crate::recording::text_header::Head;
 use crate::text::decoding::Checked;
 use calibrant_core::error::{InputError, Refusal, TaskOption};
@@ -27,8 +29,17 @@ pub enum FileFormat {
     Csv,
     /// ROS 2 bag in an MCAP container, `sensor_msgs/msg/Imu`.
     Mcap,
+    /// ROS 2 bag in an SQLite database.
+    Db3,
+    /// ROS 1 bag.
+    Rosbag,
     /// Apache Parquet, columns named as in CSV.
     Parquet,
+    /// Log of PX4, ULog.
+    Ulog,
+    /// Log of ArduPilot, DataFlash.
+    #[serde(rename = "dataflash")]
+    DataFlash,
     /// Columns in memory, named as in CSV.
     #[serde(skip)]
     Columns,
@@ -36,7 +47,7 @@ pub enum FileFormat {
 
 impl FileFormat {
     /// All formats of files.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
         Self::MtManager,
         Self::MovellaDot,
         Self::Euroc,
@@ -44,10 +55,15 @@ impl FileFormat {
         Self::Imucal,
         Self::Csv,
         Self::Mcap,
+        Self::Db3,
+        Self::Rosbag,
         Self::Parquet,
+        Self::Ulog,
+        Self::DataFlash,
     ];
 
-    /// As the option `format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `parquet`.
+    /// As the option `format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `db3`,
+    /// `rosbag`, `parquet`, `ulog`, `dataflash`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -58,7 +74,11 @@ impl FileFormat {
             Self::Imucal => "imucal",
             Self::Csv => "csv",
             Self::Mcap => "mcap",
+            Self::Db3 => "db3",
+            Self::Rosbag => "rosbag",
             Self::Parquet => "parquet",
+            Self::Ulog => "ulog",
+            Self::DataFlash => "dataflash",
             Self::Columns => "columns",
         }
     }
@@ -74,7 +94,11 @@ impl FileFormat {
             Self::Imucal => "imucal CSV",
             Self::Csv => "CSV",
             Self::Mcap => "ROS 2 bag (MCAP)",
+            Self::Db3 => "ROS 2 bag (SQLite)",
+            Self::Rosbag => "ROS 1 bag",
             Self::Parquet => "Parquet",
+            Self::Ulog => "log of PX4 (ULog)",
+            Self::DataFlash => "log of ArduPilot (DataFlash)",
             Self::Columns => "columns in memory",
         }
     }
@@ -88,18 +112,22 @@ impl FileFormat {
     /// Is it text?
     #[must_use]
     pub fn is_text(self) -> bool {
-        !matches!(self, Self::Mcap | Self::Parquet | Self::Columns)
+        use FileFormat::{Columns, DataFlash, Db3, Mcap, Parquet, Rosbag, Ulog};
+        !matches!(self, Mcap | Db3 | Rosbag | Parquet | Ulog | DataFlash | Columns)
     }
 
     /// The binary format that begins with these bytes.
     pub(super) fn of_magic(bytes: &[u8]) -> Option<Self> {
-        if bytes.starts_with(b"\x89MCAP0\r\n") {
-            Some(Self::Mcap)
-        } else if bytes.starts_with(b"PAR1") {
-            Some(Self::Parquet)
-        } else {
-            None
+        if let Some(kind) = BagKind::of(bytes) {
+            return Some(match kind {
+                BagKind::Mcap => Self::Mcap,
+                BagKind::Db3 => Self::Db3,
+                BagKind::Rosbag => Self::Rosbag,
+            });
         }
+        let magics: [(&[u8], Self); 3] =
+            [(b"PAR1", Self::Parquet), (ulog::MAGIC, Self::Ulog), (dataflash::MAGIC, Self::DataFlash)];
+        magics.into_iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, format)| format)
     }
 
     /// The format of a text that begins like this.

@@ -1,5 +1,6 @@
 //! A text without a header: the question to the user, and the answer in `[columns]`.
 
+use super::column_names::sensor_named;
 use super::unit::ImuUnit;
 use crate::recording::text_header::Head;
 use calibrant_core::error::{InputError, Refusal};
@@ -22,6 +23,9 @@ pub(super) fn question(head: &Head<'_>) -> InputError {
 /// The entry in `[columns]` for the usual order of this number of columns, with the units that the first row
 /// suggests. `None` where there are too few.
 pub(super) fn in_columns(head: &Head<'_>) -> Option<String> {
+    if let Some(stated) = of_sensor_rows(head) {
+        return Some(stated);
+    }
     let values: Vec<f64> = head.first_row.map_or_else(Vec::new, |row| {
         row.fields(head.delimiter).map(|(_, field)| field.parse().unwrap_or(f64::NAN)).collect()
     });
@@ -47,10 +51,31 @@ pub(super) fn in_columns(head: &Head<'_>) -> Option<String> {
         let unit = if unit == ImuUnit::Counts { unit } else { ImuUnit::RadianPerSecond };
         sensor("gyroscope", first + 3, unit);
     }
-    Some(format!(
+    Some(stated(&keys))
+}
+
+fn stated(keys: &[String]) -> String {
+    format!(
         "say what they hold in [columns] of an experiment file (of a file of its own for option `columns`), a line each, such as {}",
         keys.join(", ")
-    ))
+    )
+}
+
+/// The same for rows of one sensor each, where a field names it: both sensors are given the same three columns.
+fn of_sensor_rows(head: &Head<'_>) -> Option<String> {
+    let row: Vec<&str> = head.first_row?.fields(head.delimiter).map(|(_, field)| field.trim()).collect();
+    row.iter().find(|field| sensor_named(field).is_some())?;
+    let numbers = (1..=row.len()).filter(|column| row[column - 1].parse::<f64>().is_ok());
+    let [time, x, y, z, ..] = *numbers.collect::<Vec<_>>() else { return None };
+    let reading: Vec<f64> = [x, y, z].iter().filter_map(|column| row[column - 1].parse().ok()).collect();
+    let unit = accelerometer_unit(&reading);
+    let rate = if unit == ImuUnit::Counts { unit } else { ImuUnit::RadianPerSecond };
+    let mut keys = vec![format!("time = \"{time}\""), "time_unit = \"s\"".to_owned()];
+    for (name, unit) in [("accelerometer", unit), ("gyroscope", rate)] {
+        keys.push(format!("{name} = [\"{x}\", \"{y}\", \"{z}\"]"));
+        keys.push(format!("{name}_unit = \"{}\"", unit.symbol()));
+    }
+    Some(stated(&keys))
 }
 
 /// The unit that gravity suggests.

@@ -7,7 +7,7 @@
 //! linear_acceleration   x y z f64, covariance 9 f64
 //! ```
 
-use crate::recording::cdr::{CdrReader, Unreadable};
+use crate::recording::ros_message::{RosMessage, Unreadable};
 use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;
 
@@ -31,19 +31,18 @@ impl ImuMessage {
 }
 
 /// Reads a message, or states why it cannot be one.
-pub(super) fn imu(bytes: &[u8]) -> Result<ImuMessage, Unreadable> {
-    let mut reader = CdrReader::new(bytes)?;
+pub(super) fn imu(reader: &mut RosMessage<'_>) -> Result<ImuMessage, Unreadable> {
     let stamp_ns = reader.stamp_ns()?;
     reader.text()?;
     reader.numbers::<4>()?;
     reader.numbers::<9>()?;
-    let angular_velocity = reading(&mut reader)?;
-    let linear_acceleration = reading(&mut reader)?;
+    let angular_velocity = reading(reader)?;
+    let linear_acceleration = reading(reader)?;
     Ok(ImuMessage { stamp_ns, angular_velocity, linear_acceleration })
 }
 
 /// A vector and its covariance.
-fn reading(reader: &mut CdrReader<'_>) -> Result<Option<Vector3<f64>>, Unreadable> {
+fn reading(reader: &mut RosMessage<'_>) -> Result<Option<Vector3<f64>>, Unreadable> {
     let reading = reader.numbers::<3>()?;
     let covariance = reader.numbers::<9>()?;
     Ok((covariance[0] != -1.0).then(|| Vector3::from(reading)))

@@ -7,7 +7,9 @@
 //! | EuRoC | `#timestamp [ns],…` | ns | m/s², rad/s |
 //! | imu_tk | four columns of numbers, `t x y z`; two files | s | asked for |
 //! | imucal | `n_samples,gyr_x,…` | counter; the rate is asked for | asked for |
-//! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
+//! | bags of ROS (MCAP, `.db3`, `.bag`) | their first bytes | `header.stamp` | m/s², rad/s |
+//! | Parquet | its first bytes | by name or type | by name, or asked for |
+//! | logs of PX4 and ArduPilot | their first bytes | `timestamp_sample`, `SampleUS`, … µs | m/s², rad/s |
 //! | a table in memory ([`imu_from_columns`]) | – | by name | by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //! | plain text | `t_s,ax,ay,az`, or `t x y z`, read for the accelerometer alone | s | by name, or the experiment's |
@@ -19,6 +21,10 @@
 //! it.
 
 mod accelerometer_only;
+mod autopilot;
+mod autopilot_source;
+#[cfg(feature = "mcap")]
+mod bag;
 mod binary_columns;
 mod column;
 mod column_names;
@@ -37,8 +43,6 @@ mod imu_tk;
 mod imucal;
 mod in_memory;
 mod instances;
-#[cfg(feature = "mcap")]
-mod mcap;
 mod movella_dot;
 mod mt_manager;
 mod names_of_file;

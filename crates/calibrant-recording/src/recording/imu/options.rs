@@ -148,6 +148,8 @@ impl ImuReadOptions {
 pub struct ColumnMapping {
     /// Sample times, in [`ImuReadOptions::time_unit`].
     pub time: Option<String>,
+    /// What is to be added to sample times in whole seconds: ns, µs or ms, by its values or [`ImuReadOptions::time_unit`].
+    pub rest_of_second: Option<String>,
     /// x, y, z of the accelerometer.
     pub accelerometer: Option<[String; 3]>,
     /// x, y, z of the gyroscope.

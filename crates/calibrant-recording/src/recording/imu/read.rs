@@ -2,18 +2,20 @@
 //! rows, the recording.
 
 use super::accelerometer_only::{only, plain};
+#[cfg(feature = "mcap")]
+use super::bag;
 use super::column_values::{READINGS, SampleReader, Samples};
 use super::file::ImuFile;
 use super::file_layout::Draft;
 use super::first_rows::FirstRows;
 use super::format::{FileFormat, LEAVE_AWAY};
-#[cfg(feature = "mcap")]
-use super::mcap;
 use super::options::{ColumnMapping, ImuReadOptions};
 #[cfg(feature = "parquet")]
 use super::parquet;
 use super::recording_assembly::assemble;
-use super::{csv, euroc, headerless_text, imu_tk, imucal, instances, movella_dot, mt_manager, sensor_rows};
+use super::{
+    autopilot, csv, euroc, headerless_text, imu_tk, imucal, instances, movella_dot, mt_manager, sensor_rows,
+};
 use crate::files::checksum::hex_sha256;
 use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::row_parser::Layout;
@@ -23,8 +25,8 @@ use crate::recording::time_unit::TimeUnit;
 #[cfg(not(all(feature = "mcap", feature = "parquet")))]
 use crate::text::decoding::without;
 use crate::text::decoding::{Checked, refuse};
-#[cfg(feature = "mcap")]
-use calibrant_core::diagnostic::{Check, reader::RowsSorted};
+use calibrant_core::diagnostic::reader::{RowsSorted, ValuesMissing};
+use calibrant_core::diagnostic::{Check, Diagnostic};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
@@ -132,21 +134,24 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Sensor
             return Err(headerless_text::question(&head).into());
         }
         FileFormat::Csv => csv::draft(&head, asked),
-        FileFormat::Mcap | FileFormat::Parquet | FileFormat::Columns => return Err(not_binary(format).into()),
+        _ => return Err(not_binary(format).into()),
     };
     rows(draft, head, source, options)
 }
 
-#[cfg(feature = "mcap")]
-fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+/// Columns and values of messages, and what there is to say of their file.
+type OfMessages = (Draft, Samples, Vec<Diagnostic>);
+
+/// Reads a bag or a log, whose messages say what they hold.
+fn read_messages(read: impl FnOnce() -> Checked<OfMessages>, options: &ImuReadOptions) -> Checked<ImuFile> {
     if !options.columns.is_empty() {
         return refuse(
             Refusal::OptionsContradict,
-            "[columns] names columns, but the messages of a bag say what they hold",
-            "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
+            "[columns] names columns, but the messages of a bag or a log say what they hold",
+            "take time, accelerometer, gyroscope and temperature out of [columns]; topic and instance may stay",
         );
     }
-    let (mut draft, samples, findings) = mcap::read(bytes, options)?;
+    let (mut draft, samples, findings) = read()?;
     draft.slots()?;
     let mut file = finish(draft, samples, options).map_err(|mut input_error| {
         for lost in findings.iter().filter(|found| found.code() != RowsSorted::CODE) {
@@ -158,8 +163,13 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     Ok(file)
 }
 
+#[cfg(feature = "mcap")]
+fn read_bag(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<OfMessages> {
+    bag::read(format, bytes, options)
+}
+
 #[cfg(not(feature = "mcap"))]
-fn read_mcap(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
+fn read_bag(_: FileFormat, _: &[u8], _: &ImuReadOptions) -> Checked<OfMessages> {
     without("mcap")
 }
 
@@ -180,7 +190,18 @@ fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
 }
 
 fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
-    if format == FileFormat::Mcap { read_mcap(bytes, options) } else { read_parquet(bytes, options) }
+    match format {
+        FileFormat::Parquet => read_parquet(bytes, options),
+        FileFormat::Mcap | FileFormat::Db3 | FileFormat::Rosbag => {
+            read_messages(|| read_bag(format, bytes, options), options)
+        }
+        _ => {
+            let mut file = read_messages(|| autopilot::read(format, bytes, options), options)?;
+            // every sensor has rows of its own
+            file.findings.retain(|found| found.code() != ValuesMissing::CODE);
+            Ok(file)
+        }
+    }
 }
 
 /// The format of a text. Where the user names the columns, four of them need not be imu_tk's.
@@ -205,6 +226,10 @@ pub(super) fn rows(
     if draft.format == FileFormat::Csv {
         first_rows.find_clocks(&mut draft);
         first_rows.find_split_clock(&mut draft);
+    }
+    if let Some(name) = &options.columns.rest_of_second {
+        let place = draft.columns.iter().position(|column| column.name == *name);
+        draft.rest_unit = place.map(|column| first_rows.unit_of_rest(column));
     }
     let sensor_column = sensor_rows::find(&mut draft, &first_rows, options);
     let of_rows = sensor_column.map(|_| {

@@ -36,7 +36,8 @@ pub(super) fn leave_no_clock(draft: &mut Draft, samples: &mut Samples, options: 
     // the type of a message or a column states it, but a driver may leave its stamps empty
     let by_type = back > 0
         && match draft.format {
-            FileFormat::Mcap => true,
+            FileFormat::Mcap | FileFormat::Db3 | FileFormat::Rosbag => true,
+            FileFormat::Ulog | FileFormat::DataFlash => true,
             FileFormat::Parquet => column.unit.is_some() && options.time_unit.is_none(),
             _ => false,
         };

@@ -105,6 +105,7 @@ fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKi
         let column = |name: &Option<String>| name.clone().filter(has);
         ColumnMapping {
             time: column(&options.columns.time),
+            rest_of_second: column(&options.columns.rest_of_second),
             accelerometer: sensor(SensorKind::Accelerometer),
             gyroscope: sensor(SensorKind::Gyroscope),
             temperature: column(&options.columns.temperature),

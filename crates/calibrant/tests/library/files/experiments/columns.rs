@@ -93,6 +93,7 @@ topic = "/imu"
         format: Some(FileFormat::Csv),
         columns: ColumnMapping {
             time: Some("timestamp".into()),
+            rest_of_second: None,
             accelerometer: Some(names("acc")),
             gyroscope: Some(names("gyr")),
             temperature: Some("T".into()),

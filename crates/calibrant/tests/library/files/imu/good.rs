@@ -11,7 +11,13 @@ use nalgebra::Vector3;
 /// Options with nothing given.
 const PLAIN: ImuReadOptions = ImuReadOptions {
     format: None,
-    columns: ColumnMapping { time: None, accelerometer: None, gyroscope: None, temperature: None },
+    columns: ColumnMapping {
+        time: None,
+        rest_of_second: None,
+        accelerometer: None,
+        gyroscope: None,
+        temperature: None,
+    },
     time_unit: None,
     accelerometer_unit: None,
     gyroscope_unit: None,
@@ -219,6 +225,7 @@ fn columns_are_mapped_by_name_or_number() {
             accelerometer: names(acc),
             gyroscope: names(gyr),
             temperature: Some(temperature.into()),
+            rest_of_second: None,
         },
         time_unit: Some(TimeUnit::Millisecond),
         ..units(ImuUnit::StandardGravity, ImuUnit::DegreePerSecond)

@@ -393,6 +393,7 @@ fn each_file_of_a_pair_has_its_own_columns() {
             accelerometer: names(),
             gyroscope: names(),
             temperature: None,
+            rest_of_second: None,
         },
         accelerometer_unit: Some(ImuUnit::StandardGravity),
         gyroscope_unit: Some(ImuUnit::DegreePerSecond),
@@ -424,6 +425,7 @@ fn a_column_may_name_the_sensor_of_each_row() {
         accelerometer: axes(),
         gyroscope: axes(),
         temperature: None,
+        rest_of_second: None,
     };
     assert_read("numbers", &read(&text("", rows), &ImuReadOptions { columns, ..units }), 2e-3);
 }

@@ -1,16 +1,19 @@
 //! Tests of recordings of a whole IMU: every format, every question, every message.
 
 mod accelerometer_only;
+mod autopilots;
 mod broken;
 mod clocks;
 mod good;
 mod host_times;
 mod invalid_samples;
 mod layouts;
+mod other_bags;
 mod packets;
 mod parquet;
 mod pieces;
 mod real;
+mod remedies;
 pub(super) mod ros_bag;
 mod separate_rows;
 

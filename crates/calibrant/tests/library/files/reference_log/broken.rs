@@ -218,7 +218,7 @@ const CASES: &[(&[u8], &str)] = &[
     (b"\xff\xfet\0", "the text is encoded in UTF-16 (save it as UTF-8 (or plain ASCII))"),
     (
         b"#ROSBAG V2.0\n",
-        "this is a bag of ROS 1, which is not read (convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR)",
+        "the bag is damaged: it ends before any message (copy it again, or try `rosbag reindex FILE.bag`)",
     ),
     (
         b"\x89MCAP0\r\n\0\x01",

@@ -1,7 +1,8 @@
-//! Reads the fields of a message in CDR, the serialisation of ROS 2.
+//! Reads the fields of a message of ROS.
 //!
-//! A message begins with 4 bytes: 0, then 0 for big-endian or 1 for little-endian, and two of options. Every number is
-//! aligned to its size, counted from the end of these bytes.
+//! ROS 2 has them in CDR. A message begins with 4 bytes: 0, then 0 for big-endian or 1 for little-endian, and two of options. Every number is
+//! aligned to its size, counted from the end of these bytes. ROS 1 has the same fields without these bytes, little-endian and not aligned; a header
+//! begins with a number that counts messages.
 
 /// The reason for a message that ends too early.
 const SHORT: &str = "it is too short";
@@ -9,32 +10,48 @@ const SHORT: &str = "it is too short";
 /// The reason why a message cannot be what its type says.
 pub(crate) type Unreadable = &'static str;
 
+/// How a message is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    /// As ROS 2 does.
+    Cdr,
+    /// As ROS 1 does.
+    Ros1,
+}
+
 /// The fields of a message that are still to be read.
-pub(crate) struct CdrReader<'b> {
+pub(crate) struct RosMessage<'b> {
     bytes: &'b [u8],
     at: usize,
     little: bool,
+    encoding: Encoding,
 }
 
-impl<'b> CdrReader<'b> {
-    pub(crate) fn new(bytes: &'b [u8]) -> Result<Self, Unreadable> {
+impl<'b> RosMessage<'b> {
+    pub(crate) fn new(bytes: &'b [u8], encoding: Encoding) -> Result<Self, Unreadable> {
+        if encoding == Encoding::Ros1 {
+            return Ok(Self { bytes, at: 0, little: true, encoding });
+        }
         let little = match bytes.get(..2) {
             Some([0, 0]) => false,
             Some([0, 1]) => true,
             Some(_) => return Err("its encapsulation is not plain CDR"),
             None => return Err(SHORT),
         };
-        Ok(Self { bytes: bytes.get(4..).ok_or(SHORT)?, at: 0, little })
+        Ok(Self { bytes: bytes.get(4..).ok_or(SHORT)?, at: 0, little, encoding })
     }
 
     /// The time stamp of a header, ns. Its frame follows: `frame_id`, a text.
     pub(crate) fn stamp_ns(&mut self) -> Result<i64, Unreadable> {
+        if self.encoding == Encoding::Ros1 {
+            self.u32()?;
+        }
         let sec = self.u32()? as i32;
         let nanosec = self.u32()?;
         Ok(i64::from(sec) * 1_000_000_000 + i64::from(nanosec))
     }
 
-    /// A length u32, then bytes with a NUL at their end.
+    /// A length u32, then bytes, in ROS 2 with a NUL at their end.
     pub(crate) fn text(&mut self) -> Result<String, Unreadable> {
         let length = self.u32()? as usize;
         let bytes = self.bytes.get(self.at..).and_then(|rest| rest.get(..length)).ok_or(SHORT)?;
@@ -71,7 +88,10 @@ impl<'b> CdrReader<'b> {
     }
 
     fn take<const N: usize>(&mut self) -> Result<[u8; N], Unreadable> {
-        let start = self.at.next_multiple_of(N);
+        let start = match self.encoding {
+            Encoding::Cdr => self.at.next_multiple_of(N),
+            Encoding::Ros1 => self.at,
+        };
         let bytes = self.bytes.get(start..).and_then(|rest| rest.first_chunk::<N>()).ok_or(SHORT)?;
         self.at = start + N;
         Ok(*bytes)

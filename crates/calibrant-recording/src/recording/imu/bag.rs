@@ -1,4 +1,4 @@
-//! Reads the IMU of a ROS 2 bag in an MCAP container: messages `sensor_msgs/msg/Imu`.
+//! Reads the IMU of a bag of ROS: messages `sensor_msgs/msg/Imu`.
 //!
 //! By the message's definition, angular velocity is in rad/s, and linear acceleration is in m/s² with
 //! gravity. [`readings`](super::reading_unit) checks that. Times are `header.stamp`, when the sample was
@@ -11,7 +11,8 @@ use super::format::FileFormat;
 use super::imu_message::{self, ImuMessage};
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit};
-use crate::recording::mcap_container::{Bag, MessageType};
+use crate::recording::bag::MessageType;
+use crate::recording::bag_file;
 use crate::recording::mcap_order::by_log_time;
 use crate::recording::time_unit::TimeUnit;
 use crate::text::decoding::Checked;
@@ -23,9 +24,13 @@ const TYPES: &[MessageType<ImuMessage>] =
     &[MessageType { name: "sensor_msgs/msg/Imu", read: imu_message::imu }];
 
 /// Columns and values of the bag's IMU, and what there is to say of the bag: that its messages were sorted, that it has no end, or something behind it.
-pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Vec<Diagnostic>)> {
-    let bag = Bag::read(bytes, TYPES)?;
-    let (cut, unread) = (bag.cut("an IMU")?, bag.unread());
+pub(super) fn read(
+    format: FileFormat,
+    bytes: &[u8],
+    options: &ImuReadOptions,
+) -> Checked<(Draft, Samples, Vec<Diagnostic>)> {
+    let mut bag = bag_file::read(bytes, TYPES)?;
+    let (cut, unread) = (bag.cut("an IMU")?, bag.unread.take());
     let messages = bag.topics().one(options.topic.as_deref(), "IMU")?;
     let (messages, sorted) = by_log_time(messages, |message| message.stamp_ns);
     let origin = messages.first().map_or(0, |message| message.stamp_ns);
@@ -59,5 +64,5 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
     let last_s = messages.last().map_or(0.0, |message| (message.stamp_ns - origin) as f64 / 1e9);
     let cut = cut.map(|cut| cut.finding(messages.len(), last_s));
     let findings = sorted.into_iter().chain(cut).chain(unread).collect();
-    Ok((Draft::new(FileFormat::Mcap, described), Samples::from_columns(columns, origin)?, findings))
+    Ok((Draft::new(format, described), Samples::from_columns(columns, origin)?, findings))
 }
