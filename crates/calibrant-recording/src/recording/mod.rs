@@ -40,6 +40,7 @@ pub(crate) mod recording_quality;
 mod recording_writer;
 pub(crate) mod row_parser;
 mod size;
+pub(crate) mod split_clock;
 pub mod stated_rate;
 pub(crate) mod tally;
 pub(crate) mod text_header;

@@ -14,30 +14,39 @@
 //! seen. Times may stand still; one that goes backwards is an error.
 
 mod angles;
+mod blank_poses;
+mod column_faults;
 mod content;
 mod file;
 mod format;
 mod held_rows;
 mod in_memory;
 mod joint_columns;
+mod joint_layout;
 mod joints_in_order;
 mod log_assembly;
+mod log_columns;
 #[cfg(feature = "mcap")]
 mod mcap;
 #[cfg(feature = "mcap")]
 mod messages;
 mod options;
+mod orientation_form;
 mod pose_columns;
+mod pose_layout;
 mod quaternion;
 mod read;
 mod recognise;
 mod rows;
 mod text_columns;
+mod time_layout;
 mod writer;
 
 pub use file::ReferenceLogFile;
 pub use format::ReferenceFormat;
+pub use log_columns::{AngleUnit, JointUnit, LengthUnit, LogColumns, TimeColumns};
 pub use options::ReferenceLogOptions;
+pub use orientation_form::OrientationForm;
 pub use read::{parse_reference_log, read_reference_log};
 pub use recognise::{is_reference_log, unusable_log};
 pub use writer::{write_joint_log, write_pose_log};

@@ -81,18 +81,19 @@ fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<Refe
     let knot_step_s = head.number(KNOT_STEP);
     let columns = TextColumns::find(&head, options)?;
     let layout = columns.layout(head.delimiter);
-    let mut reader = LogReader::new(&layout, &columns.factors, source.estimated_rows(&head));
+    let mut reader =
+        LogReader::new(&layout, &columns.values.factors, columns.rest, source.estimated_rows(&head));
     source.read_rows(head, &mut reader)?;
     let mut rows = reader.finish();
     rows.last_line = rows.last_line.or(Some(line));
     let ignored = columns.ignored();
-    let mut findings = Vec::new();
+    let clock = (columns.time_name(), columns.time_unit);
+    let mut findings: Vec<_> = columns.values.assumed.into_iter().collect();
     if !ignored.is_empty() {
         let found = ColumnsIgnored { columns: ignored, other: None };
         findings.push(Diagnostic::from(found).at_line(Some(line)));
     }
-    let clock = (columns.time_name(), columns.time_unit);
-    let mut file = assemble(columns.format, columns.content, (&clock.0, clock.1), rows, findings)?;
+    let mut file = assemble(columns.format, columns.values.content, (&clock.0, clock.1), rows, findings)?;
     file.knot_step_s = file.knot_step_s.or(knot_step_s);
     Ok(file)
 }

@@ -2,7 +2,7 @@
 
 use super::format::ReferenceFormat;
 use super::options::ReferenceLogOptions;
-use super::quaternion::orientation;
+use super::orientation_form::OrientationForm;
 use super::read::{is_bag, read_reference_log};
 use super::text_columns::{TextColumns, first_row};
 use crate::recording::chunked_reader::FileBeginning;
@@ -41,5 +41,5 @@ pub fn unusable_log(path: &Path, options: &ReferenceLogOptions) -> Option<Error>
 /// Are the last four of the fields of a row a quaternion?
 fn has_orientation(row: &[&str]) -> bool {
     let value = |field: usize| row.get(field).and_then(|field| field.parse().ok()).unwrap_or(0.0);
-    orientation([value(7), value(4), value(5), value(6)]).is_ok()
+    OrientationForm::QuaternionXyzw.orientation(&[4, 5, 6, 7].map(value)).is_ok()
 }
