@@ -46,10 +46,14 @@ pub(super) fn repeated(what: &str, one: &str, other: &str) -> InputError {
     )
 }
 
+/// Are there columns of an IMU? An orientation beside them may be its own estimate.
+pub(super) fn has_readings(names: &[String]) -> bool {
+    names.iter().any(|name| matches!(imu_column(name).meaning, ColumnMeaning::Reading(..)))
+}
+
 /// The error where no name is that of a joint or of a pose.
 pub(super) fn nothing_to_read(names: &[String]) -> InputError {
-    let is_reading = |name: &String| matches!(imu_column(name).meaning, ColumnMeaning::Reading(..));
-    if names.iter().any(is_reading) {
+    if has_readings(names) {
         return InputError::new(
             Refusal::FormatUnknown,
             "the columns are those of a recording of an IMU: there is no joint and no pose",

@@ -13,15 +13,31 @@ pub enum ReferenceFormat {
     Euroc,
     /// Delimited text whose header names the columns of a pose.
     Poses,
+    /// Export of OptiTrack's Motive.
+    Motive,
+    /// Export of Vicon's Tracker or Nexus.
+    Vicon,
+    /// Export of Qualisys Track Manager, 6D.
+    Qualisys,
     /// ROS 2 bag in an MCAP container.
     Mcap,
 }
 
 impl ReferenceFormat {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Joints, Self::Rtde, Self::Tum, Self::Euroc, Self::Poses, Self::Mcap];
+    pub const ALL: [Self; 9] = [
+        Self::Joints,
+        Self::Rtde,
+        Self::Tum,
+        Self::Euroc,
+        Self::Poses,
+        Self::Motive,
+        Self::Vicon,
+        Self::Qualisys,
+        Self::Mcap,
+    ];
 
-    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses` or `mcap`.
+    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses`, `motive`, `vicon`, `qualisys` or `mcap`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -30,6 +46,9 @@ impl ReferenceFormat {
             Self::Tum => "tum",
             Self::Euroc => "euroc",
             Self::Poses => "poses",
+            Self::Motive => "motive",
+            Self::Vicon => "vicon",
+            Self::Qualisys => "qualisys",
             Self::Mcap => "mcap",
         }
     }
@@ -43,6 +62,9 @@ impl ReferenceFormat {
             Self::Tum => "TUM trajectory",
             Self::Euroc => "EuRoC ground truth",
             Self::Poses => "CSV of poses",
+            Self::Motive => "CSV of OptiTrack's Motive",
+            Self::Vicon => "CSV of Vicon's Tracker or Nexus",
+            Self::Qualisys => "6D export of Qualisys Track Manager",
             Self::Mcap => "ROS 2 bag (MCAP)",
         }
     }

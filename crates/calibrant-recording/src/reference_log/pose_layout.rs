@@ -1,6 +1,6 @@
 //! Where the values of a pose are among the columns: as the user says, or by their names.
 
-use super::column_faults::{EXAMPLES, check_repeated, named};
+use super::column_faults::{EXAMPLES, check_repeated, has_readings, named};
 use super::content::{Content, Values};
 use super::joint_columns::joint_column;
 use super::log_columns::{AngleUnit, LengthUnit, LogColumns};
@@ -54,6 +54,7 @@ pub(super) fn of_poses(names: &[String], options: &ReferenceLogOptions) -> Check
     let all = || position.iter().chain(orientation.iter().flat_map(|of| &of.columns));
     if orientation.is_none()
         && !is_said
+        && !has_readings(names)
         && let Some((usual, angles)) = euler_angles(names)
         && (!position.is_empty() || usual.is_plain)
         && (options.poses || !position.iter().chain(&angles).all(is_of_joints))
@@ -100,6 +101,9 @@ fn by_names(
     }
     let has_position =
         options.columns.position.is_some() || (0..3).all(|value| column_of(found, value).is_some());
+    if has_readings(names) {
+        return Ok(None);
+    }
     let quaternion = numbered_quaternion(names).filter(|(first, _)| *first == 0 || has_position);
     let vector = rotation_vector(names).filter(|(_, is_short)| !is_short || has_position || options.poses);
     let (columns, usual, may_differ) = match (quaternion, vector) {
@@ -130,12 +134,13 @@ fn position_by_names(
     options: &ReferenceLogOptions,
     is_pose: bool,
 ) -> Checked<Vec<usize>> {
+    let has = |value: usize| column_of(found, value).is_some();
     let has_long = |value: usize| found.iter().flatten().any(|of| of.value == value && !of.is_bare);
-    let has = |value: &usize| column_of(found, *value).is_some();
-    if !is_pose && !((0..3).all(has_long) || options.poses && (0..3).all(|value| has(&value))) {
+    let may_be_bare = options.poses || euler_angles(names).is_some();
+    if !is_pose && !(0..3).all(|value| has_long(value) || may_be_bare && has(value)) {
         return Ok(Vec::new());
     }
-    match (0..3).any(|value| has(&value)) {
+    match (0..3).any(has) {
         true => all_of(found, 0..3, "position", names),
         false => Ok(Vec::new()),
     }

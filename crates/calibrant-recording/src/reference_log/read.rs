@@ -2,19 +2,18 @@
 
 use super::file::ReferenceLogFile;
 use super::log_assembly::assemble;
+use super::log_head::head_and_columns;
 #[cfg(feature = "mcap")]
 use super::mcap;
 use super::options::ReferenceLogOptions;
 use super::rows::LogReader;
-use super::text_columns::TextColumns;
 use crate::files::checksum::hex_sha256;
 use crate::recording::chunked_reader::FileBeginning;
-use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::ColumnsIgnored;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{Error, InputError, Result};
 use std::path::Path;
 
 /// Does a file that begins so hold a bag?
@@ -76,13 +75,11 @@ fn with_checksum((file, sha256): (ReferenceLogFile, String)) -> ReferenceLogFile
 pub(super) const KNOT_STEP: &str = "knot_step_s";
 
 fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    let head = Head::find(source.text).map_err(without_table)?;
+    let (head, columns) = head_and_columns(source.text, options).map_err(without_table)?;
     let line = head.line();
     let knot_step_s = head.number(KNOT_STEP);
-    let columns = TextColumns::find(&head, options)?;
     let layout = columns.layout(head.delimiter);
-    let mut reader =
-        LogReader::new(&layout, &columns.values.factors, columns.rest, source.estimated_rows(&head));
+    let mut reader = LogReader::new(&layout, &columns, source.estimated_rows(&head));
     source.read_rows(head, &mut reader)?;
     let mut rows = reader.finish();
     rows.last_line = rows.last_line.or(Some(line));
@@ -100,7 +97,7 @@ fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<Refe
 
 /// The error about a text without a table, with the remedy for a log.
 fn without_table(mut input_error: Box<InputError>) -> Box<InputError> {
-    if matches!(input_error.code, Refusal::FileEmpty | Refusal::HeaderMissing) {
+    if input_error.help.starts_with("a recording has") {
         input_error.help = "a log of a motion has a row for each sample, below a header such as t_s,elbow_rad or t_s,px_m,py_m,pz_m,qw,qx,qy,qz".into();
     }
     input_error

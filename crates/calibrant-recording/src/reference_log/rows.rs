@@ -1,5 +1,6 @@
 //! The values of the rows of a log.
 
+use super::text_columns::TextColumns;
 use crate::recording::TimeUnit;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
@@ -31,31 +32,24 @@ pub(super) struct LogReader<'l> {
     factors: &'l [f64],
     /// The first whole second, where another column has the rest of it, and the ticks in a second of that.
     seconds: Option<(Option<f64>, f64)>,
+    /// Rate of the frames, Hz, where they stand in the place of times.
+    rate_hz: Option<f64>,
     /// The time and the values of a row, then the rest of its second.
     row: Vec<f64>,
 }
 
 impl<'l> LogReader<'l> {
-    /// No rows yet; `capacity` is a guess of how many there will be. `rest` is the unit of the rest of the seconds.
-    pub(super) fn new(
-        layout: &'l Layout,
-        factors: &'l [f64],
-        rest: Option<TimeUnit>,
-        capacity: usize,
-    ) -> Self {
+    /// No rows yet; `capacity` is a guess of how many there will be.
+    pub(super) fn new(layout: &'l Layout, columns: &'l TextColumns, capacity: usize) -> Self {
+        let factors = &columns.values.factors;
         let rows = Rows {
             times: Vec::with_capacity(capacity),
             values: Vec::with_capacity(capacity.saturating_mul(factors.len())),
             ..Rows::default()
         };
-        let seconds = rest.and_then(TimeUnit::per_second).map(|per_second| (None, per_second));
-        Self {
-            reader: RowReader::new(layout),
-            rows,
-            factors,
-            seconds,
-            row: vec![f64::NAN; 2 + factors.len()],
-        }
+        let seconds = columns.rest.and_then(TimeUnit::per_second).map(|per_second| (None, per_second));
+        let row = vec![f64::NAN; 2 + factors.len()];
+        Self { reader: RowReader::new(layout), rows, factors, seconds, rate_hz: columns.rate_hz, row }
     }
 
     pub(super) fn finish(mut self) -> Rows {
@@ -82,7 +76,7 @@ impl RowTaker for LogReader<'_> {
                     let first = *first.get_or_insert(self.row[0]);
                     (self.row[0] - first) * *per_second + self.row[1 + self.factors.len()]
                 }
-                None => self.row[0],
+                None => self.row[0] / self.rate_hz.unwrap_or(1.0),
             };
             self.rows.times.push(time);
             let values = self.row[1..].iter().zip(self.factors);

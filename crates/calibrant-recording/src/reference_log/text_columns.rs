@@ -4,6 +4,7 @@ use super::column_faults::without_header;
 use super::content::{Content, Values};
 use super::format::ReferenceFormat;
 use super::joint_layout;
+use super::log_columns::{LengthUnit, LogColumns};
 use super::options::ReferenceLogOptions;
 use super::orientation_form::OrientationForm;
 use super::pose_columns::{VALUES, tcp_pose};
@@ -13,7 +14,7 @@ use crate::recording::TimeUnit;
 use crate::recording::row_parser::Layout;
 use crate::recording::text_header::Head;
 use crate::text::decoding::{Checked, refuse};
-use crate::text::delimited::Delimiter;
+use crate::text::delimited::{Delimiter, Line};
 use calibrant_core::error::Refusal;
 
 /// The columns of a text.
@@ -23,10 +24,12 @@ pub(super) struct TextColumns {
     pub(super) values: Values,
     /// Names of the columns; their numbers, where the user names some without a header; otherwise empty without one.
     pub(super) names: Vec<String>,
-    has_header: bool,
+    pub(super) has_header: bool,
     pub(super) time_unit: Option<TimeUnit>,
     /// Is there a column of the rest of the seconds, in this unit?
     pub(super) rest: Option<TimeUnit>,
+    /// Rate of the frames, Hz, where they stand in the place of times.
+    pub(super) rate_hz: Option<f64>,
 }
 
 /// Largest number of columns: no machine has so many joints.
@@ -51,9 +54,13 @@ impl TextColumns {
             head.first_row.is_some() || head.names.first().is_some_and(|name| name.starts_with('#'));
         let is_trajectory =
             first_row.len() == 1 + VALUES && first_row.iter().all(|field| field.parse::<f64>().is_ok());
-        let is_said = options.columns != Default::default();
+        let said = &options.columns;
+        let is_said = said.time.is_some()
+            || said.position.is_some()
+            || said.orientation.is_some()
+            || said.joints.is_some();
         let found = match names.is_empty() {
-            true if is_said && !is_trajectory => {
+            true if is_said => {
                 let numbers = (1..=first_row.len()).map(|number| number.to_string()).collect();
                 Some(Self::of_names(numbers, head, options))
             }
@@ -63,23 +70,26 @@ impl TextColumns {
         let mut columns = match found {
             Some(Ok(columns)) => columns,
             // a comment above a trajectory need not name its columns
-            _ if is_comment && is_trajectory && !is_said => Self::trajectory(),
+            _ if is_comment && is_trajectory && !is_said => Self::trajectory(said),
             Some(Err(input_error)) => return Err(input_error.at_line(head.line()).into()),
-            None if is_trajectory => Self::trajectory(),
             None => return Err(without_header(first_row.len()).at_line(head.line()).into()),
         };
-        if is_comment && columns.format == ReferenceFormat::Poses {
+        if is_comment && !is_said && columns.format == ReferenceFormat::Poses {
             columns.format = ReferenceFormat::Tum;
         }
         columns.set_time_unit(&first_row, options)?;
         Ok(columns)
     }
 
-    fn trajectory() -> Self {
+    /// `t x y z` and a quaternion, w last unless it is said otherwise.
+    fn trajectory(said: &LogColumns) -> Self {
+        let form = said.orientation_is.filter(|form| form.width() == 4);
+        let mut factors = vec![said.position_unit.map_or(1.0, LengthUnit::factor); 3];
+        factors.resize(VALUES, 1.0);
         let values = Values {
-            content: Content::Poses(OrientationForm::QuaternionXyzw),
+            content: Content::Poses(form.unwrap_or(OrientationForm::QuaternionXyzw)),
             slots: (0..=VALUES).map(Some).collect(),
-            factors: vec![1.0; VALUES],
+            factors,
             assumed: None,
         };
         Self {
@@ -89,6 +99,7 @@ impl TextColumns {
             has_header: false,
             time_unit: None,
             rest: None,
+            rate_hz: None,
         }
     }
 
@@ -106,7 +117,7 @@ impl TextColumns {
         };
         let times = |column: usize| {
             let rows = head.first_row.into_iter().chain(head.rest.clone()).filter(|line| !line.is_void());
-            let field = |line: crate::text::delimited::Line<'_>| {
+            let field = |line: Line<'_>| {
                 line.fields(head.delimiter).nth(column).and_then(|(_, field)| field.trim().parse().ok())
             };
             rows.take(LOOKED_AT).filter_map(field).collect()
@@ -123,6 +134,7 @@ impl TextColumns {
             has_header: !head.names.is_empty(),
             time_unit: time.unit,
             rest: time.unit.filter(|_| time.rest.is_some()),
+            rate_hz: None,
         })
     }
 
