@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 
 fn options(time_unit_name: Option<String>, topic: Option<String>) -> calibrant::Result<ReferenceLogOptions> {
-    Ok(ReferenceLogOptions { time_unit: time_unit(&time_unit_name)?, topic })
+    Ok(ReferenceLogOptions { time_unit: time_unit(&time_unit_name)?, topic, ..Default::default() })
 }
 
 /// Is a file a log of a motion?

@@ -43,8 +43,9 @@ pub use recording::{
     read_imu_recording, read_imu_sensor, write_imu_recording, write_recording,
 };
 pub use reference_log::{
-    ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,
-    read_reference_log, unusable_log, write_joint_log, write_pose_log,
+    AngleUnit, JointUnit, LengthUnit, LogColumns, OrientationForm, ReferenceFormat, ReferenceLogFile,
+    ReferenceLogOptions, TimeColumns, is_reference_log, parse_reference_log, read_reference_log,
+    unusable_log, write_joint_log, write_pose_log,
 };
 #[cfg(feature = "parquet")]
 pub use table::ParquetRows;

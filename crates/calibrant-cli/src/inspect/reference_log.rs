@@ -29,5 +29,5 @@ pub(super) fn run(path: &Path, options: &ImuReadOptions, output: &Output) -> cal
 
 /// The options that a log has of those of a recording.
 fn of_log(options: &ImuReadOptions) -> ReferenceLogOptions {
-    ReferenceLogOptions { time_unit: options.time_unit, topic: options.topic.clone() }
+    ReferenceLogOptions { time_unit: options.time_unit, topic: options.topic.clone(), ..Default::default() }
 }

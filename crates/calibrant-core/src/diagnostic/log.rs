@@ -30,6 +30,37 @@ checks! {
     remedy "Write the quaternions with more decimals."
     says format!("quaternions have norms that are up to {} % off 1. They are normalised", significant(100.0 * off, 2));
 
+    /// Columns of a log hold an orientation, and their names do not say in which form. The usual one was taken.
+    OrientationAssumed "orientation-assumed" Note {
+        /// The columns.
+        columns: Vec<String>,
+        /// What they were taken as.
+        form: String,
+    }
+    decided "Columns `rx`, `ry`, `rz` are taken as a rotation vector, as Universal Robots' controllers give it, and `q1` to `q4` (or `q0` to `q3`) as a quaternion with w first, as \
+        ABB's give it."
+    remedy "Write orientation_is in [machine.log.columns], and the note is gone."
+    says format!(
+        "the columns {} are taken as {form}. Are they? orientation_is = \"{form}\", or what they are, in [machine.log.columns]",
+        columns.join(", ")
+    );
+
+    /// Rows of a log hold zeros, or no rotation at the origin, as a tracker's bridge writes them while the body is hidden. They are taken as missing.
+    PosesBlank "poses-blank" Note {
+        /// Number of rows.
+        rows: usize,
+        /// Their share of all.
+        share: f64,
+    }
+    decided "A quaternion is 0, 0, 0, 0; or rows repeat no rotation at the origin, and the motion jumps there and back: it goes three times as far as \
+        nine in ten of the other rows do."
+    remedy "Log nothing, or NaN, while a body is not seen."
+    says format!(
+        "{} of the log ({} %) hold zeros, or no rotation at the origin: placeholders for a body that is hidden. They are taken as missing",
+        counted(*rows, "row"),
+        significant(100.0 * share, 2)
+    );
+
     /// Rows of a log repeat the one before while the machine moves: the log holds its last values. They are left out.
     RowsHeld "rows-held" Note {
         /// Number of rows that are left out.

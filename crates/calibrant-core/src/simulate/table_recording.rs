@@ -33,8 +33,10 @@ pub enum TableAction {
         axis: Vector3<f64>,
         /// The angle.
         angle_rad: f64,
-        /// Standard deviation of the actual axis and angle, rad.
+        /// Standard deviation of the actual angle, rad.
         angle_sd_rad: f64,
+        /// That of the actual axis, rad; without it, as [`Turn::axis_sd_rad`](crate::estimate::Turn::axis_sd_rad).
+        axis_sd_rad: Option<f64>,
     },
 }
 
@@ -71,10 +73,10 @@ pub fn simulate_table(
                 path.push((end_s, step.start_s, world_from_sensor, over));
                 world_from_sensor *= UnitQuaternion::from_scaled_axis(over);
             }
-            TableAction::Turn { axis, angle_rad, angle_sd_rad } => {
+            TableAction::Turn { axis, angle_rad, angle_sd_rad, axis_sd_rad } => {
                 let missed = Vector3::from_fn(|_, _| normal());
                 let along = axis * axis.dot(&missed);
-                let axis_sd_rad = turn_axis_sd_rad(angle_rad, angle_sd_rad);
+                let axis_sd_rad = turn_axis_sd_rad(angle_rad, angle_sd_rad, axis_sd_rad);
                 let made =
                     axis * angle_rad + along * angle_sd_rad + (missed - along) * (axis_sd_rad * angle_rad);
                 path.push((step.start_s, step.end_s, world_from_sensor, made));
@@ -162,7 +164,8 @@ mod tests {
                 TableStep { start_s, end_s: start_s + 4.0, action: TableAction::Hold(axes[k as usize]) }
             })
             .collect();
-        let action = TableAction::Turn { axis: -Vector3::z(), angle_rad: 7.0, angle_sd_rad: 0.0 };
+        let action =
+            TableAction::Turn { axis: -Vector3::z(), angle_rad: 7.0, angle_sd_rad: 0.0, axis_sd_rad: None };
         steps.push(TableStep { start_s: 23.0, end_s: 27.0, action });
         let setup =
             ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 0.0, ..ImuSimulation::default() };

@@ -92,6 +92,8 @@ pub struct TurnSection {
     pub angle_deg: Within<TurnAngle>,
     /// Standard uncertainty of the angle.
     pub angle_sd_deg: Option<Within<TurnSd>>,
+    /// Standard uncertainty of the axis' direction; without it, that of the angle.
+    pub axis_sd_deg: Option<Within<TurnSd>>,
 }
 
 /// `[known]`: quantities by their names; a number fixes a quantity, a table is a prior.
@@ -261,6 +263,7 @@ impl TurnSection {
             angle_rad: turned_by(&format!("{key}.angle_deg"), self.angle_deg)?,
             axis: self.axis.unit(),
             angle_sd_rad: self.angle_sd_deg.map_or(TURN_SD_DEG, f64::from).to_radians(),
+            axis_sd_rad: self.axis_sd_deg.map(|sd| sd.get().to_radians()),
         })
     }
 }

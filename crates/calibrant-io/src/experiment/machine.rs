@@ -21,6 +21,7 @@ use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::{Sensor, SensorModel};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{MachineSetup, MachineTrust, MountingPrior};
+use calibrant_recording::{LogColumns, ReferenceLogOptions};
 use nalgebra::{Unit, Vector3};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -124,11 +125,24 @@ pub struct LogSection {
     pub orientation_noise_rad: Option<Within<SampleOfLog>>,
     /// Distance of the waypoints that cubic splines joined.
     pub knot_step_s: Option<Within<KnotStep>>,
-    /// Topic in a bag with several.
+    /// Topic in a bag with several, or body in an export with several.
     pub topic: Option<String>,
+    /// What its columns hold, where their names do not say it.
+    pub columns: Option<LogColumns>,
 }
 
 impl MachinePlan {
+    /// How its logs are read.
+    #[must_use]
+    pub fn log_options(&self) -> ReferenceLogOptions {
+        ReferenceLogOptions {
+            topic: self.log.topic.clone(),
+            columns: self.log.columns.clone().unwrap_or_default(),
+            poses: !self.has_joints(),
+            ..ReferenceLogOptions::default()
+        }
+    }
+
     /// The joints that carry the sensor; `None` where the reference is a log of poses.
     ///
     /// # Errors
@@ -255,6 +269,7 @@ impl MachinePlan {
             let message = "an unknown mounting needs the full model";
             return Err(refused("machine.mount.rotation", message, help));
         }
+        self.log.check_columns(self.has_joints())?;
         let help = "take it out, or name the machine: urdf = … in [machine]";
         let of_joints = [
             ("machine.geometry", self.geometry.is_some()),
@@ -289,6 +304,27 @@ impl MachinePlan {
 }
 
 impl LogSection {
+    /// Refuses columns that contradict each other, or the machine.
+    fn check_columns(&self, has_joints: bool) -> Result<()> {
+        let Some(columns) = &self.columns else { return Ok(()) };
+        if let Some((key, message, help)) = columns.complaint() {
+            let dot = if key.is_empty() { "" } else { "." };
+            return Err(refused(format!("machine.log.columns{dot}{key}"), message, help));
+        }
+        let unsuited = match has_joints {
+            true => {
+                [("position", columns.position.is_some()), ("orientation", columns.orientation.is_some())]
+            }
+            false => [("joints", columns.joints.is_some()); 2],
+        };
+        let Some((key, _)) = unsuited.into_iter().find(|(_, is_there)| *is_there) else { return Ok(()) };
+        let (message, help) = match has_joints {
+            true => ("the log of a machine has joints", "joints = { elbow_joint = \"q3\" }, for example"),
+            false => ("without a urdf the log has poses", "position, orientation and orientation_is"),
+        };
+        Err(refused(format!("machine.log.columns.{key}"), message, help))
+    }
+
     /// The noise of each component of a log: of each joint, or of three axes of position and three of orientation.
     fn noise_of(&self, has_joints: bool, joints: usize) -> Result<Option<Vec<f64>>> {
         let key = |key: &str| format!("machine.log.{key}");

@@ -136,7 +136,7 @@ fn broken_designs_name_key_and_remedy() {
         (
             "acceleration = 5.0           # largest acceleration, ",
             "acceleration = 0.0 # ",
-            "line 64, column 16: `machine.limits.acceleration`: 0.0 is out of range",
+            "line 67, column 16: `machine.limits.acceleration`: 0.0 is out of range",
         ),
         (
             "# velocity = 2.98 ",

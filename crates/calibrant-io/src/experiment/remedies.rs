@@ -2,7 +2,7 @@
 
 /// What to write for this key; empty where nothing is known.
 pub(super) fn remedy(key: &str) -> &'static str {
-    if key.starts_with("columns.") && key.ends_with(']') {
+    if (key.starts_with("columns.") || key.starts_with("machine.log.columns.")) && key.ends_with(']') {
         return COLUMN;
     }
     let key = key.split('[').next().unwrap_or(key);
@@ -55,6 +55,12 @@ pub(super) fn remedy(key: &str) -> &'static str {
             "a quaternion [w, x, y, z], a rotation vector in degrees [0.0, 0.0, 90.0], or \"unknown\""
         }
         "machine.log.topic" => "topic = \"/joint_states\"",
+        "machine.log.columns.position" => "the columns of x, y and z: [\"x\", \"y\", \"z\"]",
+        "machine.log.columns.orientation" => {
+            "the columns in the order of orientation_is: [\"qw\", \"qx\", \"qy\", \"qz\"]"
+        }
+        "machine.log.columns.joints" => "the column of each joint: { elbow_joint = \"q3 [deg]\" }",
+        _ if key.starts_with("machine.log.columns.joints.") => COLUMN,
         "columns.accelerometer" | "columns.gyroscope" => {
             "the columns of x, y and z: [\"acc_x\", \"acc_y\", \"acc_z\"]"
         }

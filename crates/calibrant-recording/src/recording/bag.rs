@@ -128,8 +128,8 @@ impl<'t, M> Bag<'t, M> {
 }
 
 impl<M> Topics<M> {
-    /// The messages of one topic, which has to be named where there are several of `what`.
-    pub(crate) fn one(mut self, topic: Option<&str>, what: &str) -> Checked<Vec<Logged<M>>> {
+    /// The messages of one topic, which has to be named where there are several of `what`: in this section of an experiment file, too.
+    pub(crate) fn one(mut self, topic: Option<&str>, what: &str, section: &str) -> Checked<Vec<Logged<M>>> {
         let types = &self.types;
         let named = |names: &[String]| quoted(names, 10);
         if let Some(topic) = topic {
@@ -150,8 +150,8 @@ impl<M> Topics<M> {
                 .iter()
                 .map(|(topic, messages)| format!("{topic} ({})", counted(messages.len(), "message")));
             let message = format!("there is more than one {what}: {}", each.collect::<Vec<_>>().join(", "));
-            let error =
-                InputError::new(Refusal::TopicUnknown, message, "say option `topic`, or topic in [columns]");
+            let help = format!("say option `topic`, or topic in [{section}]");
+            let error = InputError::new(Refusal::TopicUnknown, message, help);
             let topics = self.messages.keys().map(String::as_str);
             return Err(error.answered_by(TaskOption::Topic, topics).into());
         }

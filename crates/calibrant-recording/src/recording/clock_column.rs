@@ -22,6 +22,8 @@ pub(crate) struct ClockColumn<'n> {
     pub(crate) wraps_at: Option<f64>,
     /// The number that was subtracted from each time, in its ticks.
     pub(crate) origin: i64,
+    /// The section of an experiment file that may say its unit.
+    pub(crate) section: &'static str,
 }
 
 /// Times of rows.
@@ -42,7 +44,7 @@ impl ClockColumn<'_> {
     ) -> Checked<Seconds> {
         let name = self.name;
         let Some(unit) = self.unit.or_else(|| since_1970(&ticks, self.origin)) else {
-            return Err(which_unit(name, &ticks).into());
+            return Err(which_unit(name, self.section, &ticks).into());
         };
         let per_second = unit.per_second().unwrap_or(1.0);
         let wraps_at = self.wraps_at.or_else(|| wraps_in_32_bits(&ticks, per_second));
@@ -145,7 +147,7 @@ fn since_1970(ticks: &[f64], origin: i64) -> Option<TimeUnit> {
 }
 
 /// The question about the unit of the time.
-fn which_unit(name: &str, ticks: &[f64]) -> InputError {
+fn which_unit(name: &str, section: &str, ticks: &[f64]) -> InputError {
     let hint = match median_step(ticks) {
         None => String::new(),
         Some(step) => {
@@ -162,7 +164,7 @@ fn which_unit(name: &str, ticks: &[f64]) -> InputError {
         format!("the time column `{name}` has no unit{hint}"),
         vec![
             Answer::new(TaskOption::TimeUnit, ["s", "ms", "us", "ns"])
-                .and(format!(" (time_unit in [columns]){or}")),
+                .and(format!(" (time_unit in [{section}]){or}")),
         ],
     )
 }

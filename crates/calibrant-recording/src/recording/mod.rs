@@ -50,6 +50,7 @@ pub(crate) mod ros_message;
 mod rosbag;
 pub(crate) mod row_parser;
 mod size;
+pub(crate) mod split_clock;
 #[cfg(feature = "mcap")]
 mod sqlite;
 pub mod stated_rate;

@@ -67,6 +67,11 @@ impl<'t> Head<'t> {
         )
     }
 
+    /// The head of rows that its reader has found itself.
+    pub(crate) fn above_rows(header: Line<'t>, delimiter: Delimiter, rest: Lines<'t>) -> Self {
+        Self { header: Some(header), ..Self::without_names(Vec::new(), None, delimiter, rest) }
+    }
+
     fn at(line: Line<'t>, preamble: Vec<Line<'t>>, rest: Lines<'t>) -> Self {
         let delimiter = mixed(line, &rest).unwrap_or_else(|| delimiter_of(line.text));
         let names = fields(line, delimiter);

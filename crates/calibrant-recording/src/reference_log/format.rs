@@ -13,6 +13,12 @@ pub enum ReferenceFormat {
     Euroc,
     /// Delimited text whose header names the columns of a pose.
     Poses,
+    /// Export of OptiTrack's Motive.
+    Motive,
+    /// Export of Vicon's Tracker or Nexus.
+    Vicon,
+    /// Export of Qualisys Track Manager, 6D.
+    Qualisys,
     /// ROS 2 bag in an MCAP container.
     Mcap,
     /// ROS 2 bag in an SQLite database.
@@ -23,10 +29,21 @@ pub enum ReferenceFormat {
 
 impl ReferenceFormat {
     /// All formats.
-    pub const ALL: [Self; 8] =
-        [Self::Joints, Self::Rtde, Self::Tum, Self::Euroc, Self::Poses, Self::Mcap, Self::Db3, Self::Rosbag];
+    pub const ALL: [Self; 11] = [
+        Self::Joints,
+        Self::Rtde,
+        Self::Tum,
+        Self::Euroc,
+        Self::Poses,
+        Self::Motive,
+        Self::Vicon,
+        Self::Qualisys,
+        Self::Mcap,
+        Self::Db3,
+        Self::Rosbag,
+    ];
 
-    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses`, `mcap`, `db3` or `rosbag`.
+    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses`, `motive`, `vicon`, `qualisys`, `mcap`, `db3` or `rosbag`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,6 +52,9 @@ impl ReferenceFormat {
             Self::Tum => "tum",
             Self::Euroc => "euroc",
             Self::Poses => "poses",
+            Self::Motive => "motive",
+            Self::Vicon => "vicon",
+            Self::Qualisys => "qualisys",
             Self::Mcap => "mcap",
             Self::Db3 => "db3",
             Self::Rosbag => "rosbag",
@@ -50,6 +70,9 @@ impl ReferenceFormat {
             Self::Tum => "TUM trajectory",
             Self::Euroc => "EuRoC ground truth",
             Self::Poses => "CSV of poses",
+            Self::Motive => "CSV of OptiTrack's Motive",
+            Self::Vicon => "CSV of Vicon's Tracker or Nexus",
+            Self::Qualisys => "6D export of Qualisys Track Manager",
             Self::Mcap => "ROS 2 bag (MCAP)",
             Self::Db3 => "ROS 2 bag (SQLite)",
             Self::Rosbag => "ROS 1 bag",

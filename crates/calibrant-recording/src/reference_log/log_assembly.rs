@@ -1,12 +1,13 @@
 //! Makes a log of the values of a file: times in seconds, poses or positions of joints, and findings.
 
 use super::angles::unwrap_angles;
+use super::blank_poses::blank_placeholders;
 use super::content::Content;
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use super::held_rows::leave_out_held;
-use super::pose_columns::VALUES;
-use super::quaternion::{ROUNDED, orientation};
+use super::orientation_form::OrientationForm;
+use super::quaternion::ROUNDED;
 use super::rows::Rows;
 use crate::recording::clock_column::{ClockColumn, backwards};
 use crate::recording::line_map::LineMap;
@@ -39,10 +40,15 @@ pub(super) fn assemble(
         return Err(short("there is no row of numbers".into(), &rows).into());
     }
     findings.extend(put_in_order(&mut rows, content.width(), time_name));
-    let clock = ClockColumn { name: time_name, unit: time_unit, wraps_at: None, origin: rows.origin };
+    let section = "machine.log.columns";
+    let clock =
+        ClockColumn { name: time_name, unit: time_unit, wraps_at: None, origin: rows.origin, section };
     let clock = clock.seconds(std::mem::take(&mut rows.times), &rows.lines, &mut findings)?;
-    let rows = Rows { times: clock.times_s, ..rows };
+    let mut rows = Rows { times: clock.times_s, ..rows };
     let kept = with_times(&rows, &mut findings)?;
+    if let Content::Poses(form) = content {
+        findings.extend(blank_placeholders(form, &kept, &mut rows));
+    }
     let width = content.width();
     let value = |row: usize| &rows.values[row * width..][..width];
     for &row in &kept {
@@ -55,7 +61,9 @@ pub(super) fn assemble(
     }
     let times_s: Vec<f64> = kept.iter().map(|&row| rows.times[row]).collect();
     let (mut log, turns) = match content {
-        Content::Poses => (ReferenceLog::Poses(poses(times_s, &kept, &rows, &mut findings)?), Vec::new()),
+        Content::Poses(form) => {
+            (ReferenceLog::Poses(poses(form, times_s, &kept, &rows, &mut findings)?), Vec::new())
+        }
         Content::Joints { names, turns, has_velocities, derivatives } => {
             let joints = names.len();
             if derivatives == 2 {
@@ -143,16 +151,22 @@ fn with_times(rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<Vec<usize>
     }
 }
 
-fn poses(times_s: Vec<f64>, kept: &[usize], rows: &Rows, findings: &mut Vec<Diagnostic>) -> Checked<PoseLog> {
+fn poses(
+    form: OrientationForm,
+    times_s: Vec<f64>,
+    kept: &[usize],
+    rows: &Rows,
+    findings: &mut Vec<Diagnostic>,
+) -> Checked<PoseLog> {
     let mut positions_m = Vec::with_capacity(kept.len());
     let mut world_from_body = Vec::with_capacity(kept.len());
     let mut farthest = 0.0_f64;
+    let width = 3 + form.width();
     for &row in kept {
-        let values = &rows.values[row * VALUES..][..VALUES];
+        let values = &rows.values[row * width..][..width];
         let position = Vector3::new(values[0], values[1], values[2]);
         positions_m.push(position.iter().all(|value| !value.is_nan()).then_some(position));
-        let found = orientation([values[3], values[4], values[5], values[6]]).map_err(|message| {
-            let help = "are its columns in the order of the format, w first or last? a body that was not seen is NaN";
+        let found = form.orientation(&values[3..]).map_err(|[message, help]| {
             at(InputError::new(Refusal::ValueInvalid, message, help), rows, row)
         })?;
         farthest = found.map_or(farthest, |(_, off)| farthest.max(off));
@@ -185,7 +199,7 @@ fn check_seen(log: &ReferenceLog, rows: &Rows) -> Checked<()> {
     }
     let what = if matches!(log, ReferenceLog::Poses(_)) { "a pose" } else { "a position" };
     let message = match seen {
-        0 => format!("no row has {what}: every value is NaN"),
+        0 => format!("no row has {what}: every value is NaN, or a placeholder"),
         _ => format!("only one row has {what}"),
     };
     Err(short(message, rows).into())

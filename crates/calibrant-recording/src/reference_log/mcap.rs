@@ -9,6 +9,7 @@ use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use super::log_assembly::assemble;
 use super::messages::{JointState, Message, Pose, TYPES};
+use super::orientation_form::OrientationForm;
 use super::rows::Rows;
 use crate::recording::TimeUnit;
 use crate::recording::bag::Topics;
@@ -21,7 +22,7 @@ use std::collections::BTreeMap;
 pub(super) fn read(format: ReferenceFormat, bytes: &[u8], topic: Option<&str>) -> Checked<ReferenceLogFile> {
     let mut bag = bag_file::read(bytes, TYPES)?;
     let (cut, unread) = (bag.cut("a motion")?, bag.unread.take());
-    let messages = by_frame(bag.topics(), topic).one(topic, "log of a motion")?;
+    let messages = by_frame(bag.topics(), topic).one(topic, "log of a motion", "machine.log")?;
     let (messages, sorted) = by_log_time(messages, Message::stamp_ns);
     let number = messages.len();
     let (mut joints, mut poses) = (Vec::new(), Vec::new());
@@ -33,7 +34,7 @@ pub(super) fn read(format: ReferenceFormat, bytes: &[u8], topic: Option<&str>) -
         }
     }
     let (content, rows) = match joints.is_empty() {
-        true => (Content::Poses, of_poses(&poses)),
+        true => (Content::Poses(OrientationForm::QuaternionWxyz), of_poses(&poses)),
         false if joints.iter().all(|message| message.positions.is_empty()) => {
             let message = "the messages of JointState have no positions";
             let help = "record a topic whose messages have them: velocities and efforts are no reference";

@@ -7,22 +7,15 @@ pub(super) const ROUNDED: f64 = 0.01;
 /// The same of one decimal: more is no quaternion.
 const OFF: f64 = 0.1;
 
-/// The orientation, and how far the norm is from 1; `None` where a value is missing. The error is what is wrong with
-/// the norm.
-pub(super) fn orientation([w, x, y, z]: [f64; 4]) -> Result<Option<(UnitQuaternion<f64>, f64)>, String> {
-    if [w, x, y, z].iter().any(|value| value.is_nan()) {
-        return Ok(None);
-    }
+/// The orientation, and how far the norm is from 1. The error is what is wrong with the norm.
+pub(super) fn of_quaternion([w, x, y, z]: [f64; 4]) -> Result<(UnitQuaternion<f64>, f64), String> {
     let quaternion = Quaternion::new(w, x, y, z);
     let norm = quaternion.norm();
-    if norm == 0.0 {
-        return Err("0, 0, 0, 0 is no orientation: the norm of a quaternion is 1".into());
-    }
     let off = (norm - 1.0).abs();
     if off > OFF {
         return Err(format!("the norm of the quaternion is {norm:.4}, not 1"));
     }
-    Ok(Some((UnitQuaternion::from_quaternion(quaternion), off)))
+    Ok((UnitQuaternion::from_quaternion(quaternion), off))
 }
 
 #[cfg(test)]

@@ -4,20 +4,19 @@ use super::file::ReferenceLogFile;
 #[cfg(feature = "mcap")]
 use super::format::ReferenceFormat;
 use super::log_assembly::assemble;
+use super::log_head::head_and_columns;
 #[cfg(feature = "mcap")]
 use super::mcap;
 use super::options::ReferenceLogOptions;
 use super::rows::LogReader;
-use super::text_columns::TextColumns;
 use crate::files::checksum::hex_sha256;
 use crate::recording::bag_kind::BagKind;
 use crate::recording::chunked_reader::FileBeginning;
-use crate::recording::text_header::Head;
 use crate::recording::text_source::{self, Source};
 use crate::text::decoding::Checked;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::ColumnsIgnored;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::{Error, InputError, Result};
 use std::path::Path;
 
 /// Does a file that begins so hold a bag?
@@ -79,30 +78,29 @@ fn with_checksum((file, sha256): (ReferenceLogFile, String)) -> ReferenceLogFile
 pub(super) const KNOT_STEP: &str = "knot_step_s";
 
 fn parse_text(source: Source<'_>, options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    let head = Head::find(source.text).map_err(without_table)?;
+    let (head, columns) = head_and_columns(source.text, options).map_err(without_table)?;
     let line = head.line();
     let knot_step_s = head.number(KNOT_STEP);
-    let columns = TextColumns::find(&head, options)?;
     let layout = columns.layout(head.delimiter);
-    let mut reader = LogReader::new(&layout, &columns.factors, source.estimated_rows(&head));
+    let mut reader = LogReader::new(&layout, &columns, source.estimated_rows(&head));
     source.read_rows(head, &mut reader)?;
     let mut rows = reader.finish();
     rows.last_line = rows.last_line.or(Some(line));
     let ignored = columns.ignored();
-    let mut findings = Vec::new();
+    let clock = (columns.time_name(), columns.time_unit);
+    let mut findings: Vec<_> = columns.values.assumed.into_iter().collect();
     if !ignored.is_empty() {
         let found = ColumnsIgnored { columns: ignored, other: None };
         findings.push(Diagnostic::from(found).at_line(Some(line)));
     }
-    let clock = (columns.time_name(), columns.time_unit);
-    let mut file = assemble(columns.format, columns.content, (&clock.0, clock.1), rows, findings)?;
+    let mut file = assemble(columns.format, columns.values.content, (&clock.0, clock.1), rows, findings)?;
     file.knot_step_s = file.knot_step_s.or(knot_step_s);
     Ok(file)
 }
 
 /// The error about a text without a table, with the remedy for a log.
 fn without_table(mut input_error: Box<InputError>) -> Box<InputError> {
-    if matches!(input_error.code, Refusal::FileEmpty | Refusal::HeaderMissing) {
+    if input_error.help.starts_with("a recording has") {
         input_error.help = "a log of a motion has a row for each sample, below a header such as t_s,elbow_rad or t_s,px_m,py_m,pz_m,qw,qx,qy,qz".into();
     }
     input_error

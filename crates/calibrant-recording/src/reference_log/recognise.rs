@@ -1,12 +1,12 @@
 //! Distinguishes a log of a motion from other files.
 
 use super::format::ReferenceFormat;
+use super::log_head::head_and_columns;
 use super::options::ReferenceLogOptions;
-use super::quaternion::orientation;
+use super::orientation_form::OrientationForm;
 use super::read::{is_bag, read_reference_log};
-use super::text_columns::{TextColumns, first_row};
+use super::text_columns::first_row;
 use crate::recording::chunked_reader::FileBeginning;
-use crate::recording::text_header::Head;
 use crate::text::decoding;
 use calibrant_core::error::{Error, Refusal};
 use std::path::Path;
@@ -18,9 +18,12 @@ pub fn is_reference_log(path: &Path, options: &ReferenceLogOptions) -> bool {
     if is_bag(&beginning.bytes) {
         return read_reference_log(path, options).is_ok();
     }
-    let Ok(text) = decoding::as_text(&beginning.bytes) else { return false };
-    let Ok(head) = Head::find(text) else { return false };
-    let Ok(columns) = TextColumns::find(&head, options) else { return false };
+    decoding::as_text(&beginning.bytes).is_ok_and(|text| has_log(text, options))
+}
+
+/// Is a text that begins so a log?
+pub(super) fn has_log(text: &str, options: &ReferenceLogOptions) -> bool {
+    let Ok((head, columns)) = head_and_columns(text, options) else { return false };
     // eight columns without a header may be anything
     columns.format != ReferenceFormat::Tum || !columns.names.is_empty() || has_orientation(&first_row(&head))
 }
@@ -41,5 +44,5 @@ pub fn unusable_log(path: &Path, options: &ReferenceLogOptions) -> Option<Error>
 /// Are the last four of the fields of a row a quaternion?
 fn has_orientation(row: &[&str]) -> bool {
     let value = |field: usize| row.get(field).and_then(|field| field.parse().ok()).unwrap_or(0.0);
-    orientation([value(7), value(4), value(5), value(6)]).is_ok()
+    OrientationForm::QuaternionXyzw.orientation(&[4, 5, 6, 7].map(value)).is_ok()
 }

@@ -1,5 +1,7 @@
 //! The values of the rows of a log.
 
+use super::text_columns::TextColumns;
+use crate::recording::TimeUnit;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
 use crate::recording::text_source::RowTaker;
@@ -28,23 +30,33 @@ pub(super) struct LogReader<'l> {
     reader: RowReader<'l>,
     rows: Rows,
     factors: &'l [f64],
-    /// The time and the values of a row.
+    /// The first whole second, where another column has the rest of it, and the ticks in a second of that.
+    seconds: Option<(Option<f64>, f64)>,
+    /// Rate of the frames, Hz, where they stand in the place of times.
+    rate_hz: Option<f64>,
+    /// The time and the values of a row, then the rest of its second.
     row: Vec<f64>,
 }
 
 impl<'l> LogReader<'l> {
     /// No rows yet; `capacity` is a guess of how many there will be.
-    pub(super) fn new(layout: &'l Layout, factors: &'l [f64], capacity: usize) -> Self {
+    pub(super) fn new(layout: &'l Layout, columns: &'l TextColumns, capacity: usize) -> Self {
+        let factors = &columns.values.factors;
         let rows = Rows {
             times: Vec::with_capacity(capacity),
             values: Vec::with_capacity(capacity.saturating_mul(factors.len())),
             ..Rows::default()
         };
-        Self { reader: RowReader::new(layout), rows, factors, row: vec![f64::NAN; 1 + factors.len()] }
+        let seconds = columns.rest.and_then(TimeUnit::per_second).map(|per_second| (None, per_second));
+        let row = vec![f64::NAN; 2 + factors.len()];
+        Self { reader: RowReader::new(layout), rows, factors, seconds, rate_hz: columns.rate_hz, row }
     }
 
     pub(super) fn finish(mut self) -> Rows {
-        self.rows.origin = self.reader.origin.unwrap_or(0);
+        self.rows.origin = match self.seconds {
+            Some((first, per_second)) => (first.unwrap_or(0.0) * per_second) as i64,
+            None => self.reader.origin.unwrap_or(0),
+        };
         self.rows.truncated = self.reader.truncated;
         self.rows
     }
@@ -59,10 +71,16 @@ impl RowTaker for LogReader<'_> {
                 continue;
             }
             self.rows.lines.push(self.rows.times.len(), line.number);
-            self.rows.times.push(self.row[0]);
-            self.rows
-                .values
-                .extend(self.row[1..].iter().zip(self.factors).map(|(value, factor)| value * factor));
+            let time = match &mut self.seconds {
+                Some((first, per_second)) => {
+                    let first = *first.get_or_insert(self.row[0]);
+                    (self.row[0] - first) * *per_second + self.row[1 + self.factors.len()]
+                }
+                None => self.row[0] / self.rate_hz.unwrap_or(1.0),
+            };
+            self.rows.times.push(time);
+            let values = self.row[1..].iter().zip(self.factors);
+            self.rows.values.extend(values.map(|(value, factor)| value * factor));
         }
         Ok(())
     }

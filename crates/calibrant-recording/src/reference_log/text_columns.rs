@@ -1,37 +1,41 @@
 //! What the columns of a text hold: joints or a pose, and times.
 
-use super::content::Content;
+use super::column_faults::without_header;
+use super::content::{Content, Values};
 use super::format::ReferenceFormat;
-use super::joint_columns::{JointColumn, joint_column, rtde_column};
+use super::joint_layout;
+use super::log_columns::{LengthUnit, LogColumns};
 use super::options::ReferenceLogOptions;
-use super::pose_columns::{NAMES, PoseColumn, VALUES, pose_column};
-use crate::recording::imu_column;
+use super::orientation_form::OrientationForm;
+use super::pose_columns::{VALUES, tcp_pose};
+use super::pose_layout::of_poses;
+use super::time_layout::TimeLayout;
+use crate::recording::TimeUnit;
 use crate::recording::row_parser::Layout;
 use crate::recording::text_header::Head;
-use crate::recording::{ColumnMeaning, ColumnUnit, TimeUnit};
 use crate::text::decoding::{Checked, refuse};
-use crate::text::delimited::Delimiter;
-use calibrant_core::diagnostic::reader::quoted;
-use calibrant_core::error::{InputError, Refusal};
+use crate::text::delimited::{Delimiter, Line};
+use calibrant_core::error::Refusal;
 
 /// The columns of a text.
 pub(super) struct TextColumns {
     pub(super) format: ReferenceFormat,
-    pub(super) content: Content,
-    /// Names of the columns; empty where there is no header.
+    /// The values of a row.
+    pub(super) values: Values,
+    /// Names of the columns; their numbers, where the user names some without a header; otherwise empty without one.
     pub(super) names: Vec<String>,
-    /// For each column its slot: 0 is the time, values follow.
-    pub(super) slots: Vec<Option<usize>>,
-    /// The factor on each value.
-    pub(super) factors: Vec<f64>,
+    pub(super) has_header: bool,
     pub(super) time_unit: Option<TimeUnit>,
+    /// Is there a column of the rest of the seconds, in this unit?
+    pub(super) rest: Option<TimeUnit>,
+    /// Rate of the frames, Hz, where they stand in the place of times.
+    pub(super) rate_hz: Option<f64>,
 }
-
-/// The names that a log may have, for errors.
-const EXAMPLES: &str = "name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw";
 
 /// Largest number of columns: no machine has so many joints.
 const MOST: usize = 4096;
+/// First rows that show whether two columns are one clock.
+const LOOKED_AT: usize = 100;
 
 impl TextColumns {
     /// The columns of a text that begins like this.
@@ -50,155 +54,96 @@ impl TextColumns {
             head.first_row.is_some() || head.names.first().is_some_and(|name| name.starts_with('#'));
         let is_trajectory =
             first_row.len() == 1 + VALUES && first_row.iter().all(|field| field.parse::<f64>().is_ok());
+        let said = &options.columns;
+        let is_said = said.time.is_some()
+            || said.position.is_some()
+            || said.orientation.is_some()
+            || said.joints.is_some();
         let found = match names.is_empty() {
+            true if is_said => {
+                let numbers = (1..=first_row.len()).map(|number| number.to_string()).collect();
+                Some(Self::of_names(numbers, head, options))
+            }
             true => None,
-            false => Some(Self::of_names(names)),
+            false => Some(Self::of_names(names, head, options)),
         };
         let mut columns = match found {
             Some(Ok(columns)) => columns,
             // a comment above a trajectory need not name its columns
-            _ if is_comment && is_trajectory => Self::trajectory(),
+            _ if is_comment && is_trajectory && !is_said => Self::trajectory(said),
             Some(Err(input_error)) => return Err(input_error.at_line(head.line()).into()),
             None => return Err(without_header(first_row.len()).at_line(head.line()).into()),
         };
-        if is_comment && columns.format == ReferenceFormat::Poses {
+        if is_comment && !is_said && columns.format == ReferenceFormat::Poses {
             columns.format = ReferenceFormat::Tum;
         }
         columns.set_time_unit(&first_row, options)?;
         Ok(columns)
     }
 
-    fn trajectory() -> Self {
+    /// `t x y z` and a quaternion, w last unless it is said otherwise.
+    fn trajectory(said: &LogColumns) -> Self {
+        let form = said.orientation_is.filter(|form| form.width() == 4);
+        let mut factors = vec![said.position_unit.map_or(1.0, LengthUnit::factor); 3];
+        factors.resize(VALUES, 1.0);
+        let values = Values {
+            content: Content::Poses(form.unwrap_or(OrientationForm::QuaternionXyzw)),
+            slots: (0..=VALUES).map(Some).collect(),
+            factors,
+            assumed: None,
+        };
         Self {
             format: ReferenceFormat::Tum,
-            content: Content::Poses,
+            values,
             names: Vec::new(),
-            slots: [0, 1, 2, 3, 5, 6, 7, 4].map(Some).to_vec(),
-            factors: vec![1.0; VALUES],
+            has_header: false,
             time_unit: None,
+            rest: None,
+            rate_hz: None,
         }
     }
 
-    fn of_names(names: Vec<String>) -> Checked<Self> {
-        let rtde: Vec<_> = names.iter().map(|name| rtde_column(name)).collect();
-        let numbers =
-            || rtde.iter().flatten().filter(|(_, is_velocity)| !is_velocity).map(|(number, _)| *number);
-        let mut columns = if let Some(last) = numbers().max() {
-            if let Some(missing) = (0..last).find(|number| !numbers().any(|known| known == *number)) {
-                let message = format!("the column `actual_q_{missing}` is missing");
-                let help = "record actual_q with all of its joints";
-                return refuse(Refusal::ColumnMissing, message, help);
+    fn of_names(names: Vec<String>, head: &Head<'_>, options: &ReferenceLogOptions) -> Checked<Self> {
+        let said = &options.columns;
+        if let Some((key, message, help)) = said.complaint() {
+            let at = if key.is_empty() { String::new() } else { format!(" {key}:") };
+            return refuse(Refusal::ValueInvalid, format!("[machine.log.columns]{at} {message}"), help);
+        }
+        let (mut values, format) = match &said.joints {
+            Some(joints) => {
+                (joint_layout::as_said(joints, said.joints_unit, &names)?, ReferenceFormat::Joints)
             }
-            let joint = |number: usize| format!("actual_q_{number}");
-            let column = |(number, is_velocity)| JointColumn {
-                joint: joint(number),
-                derivative: usize::from(is_velocity),
-                turns: true,
-                factor: 1.0,
-            };
-            let columns = rtde.iter().map(|found| found.map(column));
-            Self::of_joints(
-                ReferenceFormat::Rtde,
-                (0..=last).map(joint).collect(),
-                names,
-                &columns.collect::<Vec<_>>(),
-            )?
-        } else if let Some(columns) = Self::of_poses(&names)? {
-            columns
-        } else {
-            let columns: Vec<_> = names.iter().map(|name| joint_column(name)).collect();
-            let mut joints: Vec<String> = Vec::new();
-            for column in columns.iter().flatten().filter(|column| column.derivative == 0) {
-                if !joints.contains(&column.joint) {
-                    joints.push(column.joint.clone());
-                }
-            }
-            if joints.is_empty() {
-                return Err(nothing_to_read(&names).into());
-            }
-            Self::of_joints(ReferenceFormat::Joints, joints, names, &columns)?
+            None => by_names(&names, options)?,
         };
-        let (time, time_unit) = time_column(&columns.names)?;
-        columns.slots[time] = Some(0);
-        columns.time_unit = time_unit;
-        Ok(columns)
-    }
-
-    /// The columns of poses; `None` where the names are not of a pose.
-    fn of_poses(names: &[String]) -> Checked<Option<Self>> {
-        let mut found: Vec<_> = names.iter().map(|name| pose_column(name)).collect();
-        let has =
-            |found: &[Option<PoseColumn>], value| found.iter().flatten().any(|column| column.value == value);
-        let has_orientation = (3..VALUES).any(|value| has(&found, value));
-        if !has_orientation {
-            // three joints may be called x, y and z
-            found.iter_mut().for_each(|column| *column = column.filter(|column| !column.is_bare));
-            if !(0..3).all(|value| has(&found, value)) {
-                return Ok(None);
-            }
+        let times = |column: usize| {
+            let rows = head.first_row.into_iter().chain(head.rest.clone()).filter(|line| !line.is_void());
+            let field = |line: Line<'_>| {
+                line.fields(head.delimiter).nth(column).and_then(|(_, field)| field.trim().parse().ok())
+            };
+            rows.take(LOOKED_AT).filter_map(field).collect()
+        };
+        let time = TimeLayout::find(&names, said, times)?;
+        values.slots[time.column] = Some(0);
+        if let Some(rest) = time.rest {
+            values.slots[rest] = Some(1 + values.factors.len());
         }
-        for (what, values) in [("position", 0..3), ("orientation", 3..VALUES)] {
-            let missing: Vec<&str> =
-                values.clone().filter(|&value| !has(&found, value)).map(|value| NAMES[value]).collect();
-            if !missing.is_empty() && missing.len() < values.len() {
-                let message = format!("the {what} has no column for {}", missing.join(", "));
-                return refuse(Refusal::ColumnMissing, message, EXAMPLES);
-            }
-        }
-        let mut slots = vec![None; names.len()];
-        let mut factors = vec![1.0; VALUES];
-        for (k, column) in found.iter().enumerate() {
-            let Some(column) = column else { continue };
-            check_repeated(&slots, 1 + column.value, k, names)?;
-            slots[k] = Some(1 + column.value);
-            factors[column.value] = column.factor;
-        }
-        let is_euroc = names.iter().any(|name| name.to_lowercase().starts_with("p_rs"));
-        let format = if is_euroc { ReferenceFormat::Euroc } else { ReferenceFormat::Poses };
-        Ok(Some(Self {
+        Ok(Self {
             format,
-            content: Content::Poses,
-            names: names.to_vec(),
-            slots,
-            factors,
-            time_unit: None,
-        }))
-    }
-
-    /// The columns of these joints.
-    fn of_joints(
-        format: ReferenceFormat,
-        joints: Vec<String>,
-        names: Vec<String>,
-        columns: &[Option<JointColumn>],
-    ) -> Checked<Self> {
-        let mut slots = vec![None; names.len()];
-        let mut factors = vec![1.0; 3 * joints.len()];
-        let mut has = [true, false, false];
-        let mut turning = vec![None; joints.len()];
-        for (k, column) in columns.iter().enumerate() {
-            let Some(JointColumn { joint, derivative, turns, factor }) = column else { continue };
-            let Some(number) = joints.iter().position(|known| known == joint) else { continue };
-            let value = derivative * joints.len() + number;
-            check_repeated(&slots, 1 + value, k, &names)?;
-            slots[k] = Some(1 + value);
-            factors[value] = *factor;
-            has[*derivative] = true;
-            if *derivative == 0 {
-                turning[number] = Some(*turns);
-            }
-        }
-        let derivatives = has.iter().rposition(|has| *has).unwrap_or(0);
-        factors.truncate((1 + derivatives) * joints.len());
-        let content = Content::Joints { names: joints, turns: turning, has_velocities: has[1], derivatives };
-        Ok(Self { format, content, names, slots, factors, time_unit: None })
+            values,
+            names,
+            has_header: !head.names.is_empty(),
+            time_unit: time.unit,
+            rest: time.unit.filter(|_| time.rest.is_some()),
+            rate_hz: None,
+        })
     }
 
     /// The unit of the times: stated by the name or the format, or given, or plain from their size.
     fn set_time_unit(&mut self, first_row: &[&str], options: &ReferenceLogOptions) -> Checked<()> {
         let contradicts =
             |message: String| refuse(Refusal::UnitContradicted, message, "leave option `time_unit` away");
-        match (options.time_unit, self.time_unit) {
+        let given = options.columns.time_unit.or(options.time_unit);
+        match (given, self.time_unit) {
             (Some(TimeUnit::Sample), _) => {
                 return contradicts("a log of a motion has times, not numbers of samples".into());
             }
@@ -211,14 +156,14 @@ impl TextColumns {
             }
             _ => (),
         }
-        let column = self.slots.iter().position(|slot| *slot == Some(0));
+        let column = self.values.slots.iter().position(|slot| *slot == Some(0));
         let first = column.and_then(|column| first_row.get(column)).and_then(|field| field.parse().ok());
         let of_format = match self.format {
             ReferenceFormat::Euroc => Some(TimeUnit::Nanosecond),
             ReferenceFormat::Tum | ReferenceFormat::Rtde => Some(TimeUnit::Second),
             _ => None,
         };
-        self.time_unit = self.time_unit.or(options.time_unit).or_else(|| since_1970(first?)).or(of_format);
+        self.time_unit = self.time_unit.or(given).or_else(|| since_1970(first?)).or(of_format);
         Ok(())
     }
 
@@ -227,9 +172,9 @@ impl TextColumns {
         Layout {
             decimal_comma: false,
             delimiter,
-            slots: self.slots.clone(),
+            slots: self.values.slots.clone(),
             names: self.names.clone(),
-            has_header: !self.names.is_empty(),
+            has_header: self.has_header,
             ticks: self.time_unit != Some(TimeUnit::Second),
             text_times: false,
             only: None,
@@ -239,13 +184,13 @@ impl TextColumns {
 
     /// The names of the columns that are not used.
     pub(super) fn ignored(&self) -> Vec<String> {
-        let unused = self.names.iter().zip(&self.slots).filter(|(_, slot)| slot.is_none());
+        let unused = self.names.iter().zip(&self.values.slots).filter(|(_, slot)| slot.is_none());
         unused.map(|(name, _)| name.clone()).collect()
     }
 
     /// Name of the time column.
     pub(super) fn time_name(&self) -> String {
-        let column = self.slots.iter().position(|slot| *slot == Some(0)).unwrap_or(0);
+        let column = self.values.slots.iter().position(|slot| *slot == Some(0)).unwrap_or(0);
         self.names.get(column).cloned().unwrap_or_else(|| (column + 1).to_string())
     }
 }
@@ -283,68 +228,21 @@ pub(super) fn first_row<'t>(head: &Head<'t>) -> Vec<&'t str> {
     fields
 }
 
-/// The time column and its unit: of several, the one whose unit is known.
-fn time_column(names: &[String]) -> Checked<(usize, Option<TimeUnit>)> {
-    let unit = |name: &String| {
-        let column = imu_column(name);
-        let unit = match column.unit {
-            Some(ColumnUnit::Time(unit)) => Some(unit),
-            _ => None,
+/// Joints or poses, by the names of the columns.
+fn by_names(names: &[String], options: &ReferenceLogOptions) -> Checked<(Values, ReferenceFormat)> {
+    let is_said = options.columns.position.is_some() || options.columns.orientation.is_some();
+    let wants_poses = is_said || options.poses && tcp_pose(names).is_some();
+    if !wants_poses && let Some(values) = joint_layout::of_rtde(names)? {
+        return Ok((values, ReferenceFormat::Rtde));
+    }
+    if let Some(values) = of_poses(names, options)? {
+        let is_euroc = names.iter().any(|name| name.to_lowercase().starts_with("p_rs"));
+        let format = match () {
+            () if tcp_pose(names).is_some() => ReferenceFormat::Rtde,
+            () if is_euroc => ReferenceFormat::Euroc,
+            () => ReferenceFormat::Poses,
         };
-        (column.meaning == ColumnMeaning::Time).then_some(unit)
-    };
-    let times: Vec<_> = names.iter().enumerate().filter_map(|(k, name)| Some((k, unit(name)?))).collect();
-    let known: Vec<_> = times.iter().copied().filter(|(_, unit)| unit.is_some()).collect();
-    match (known.as_slice(), times.as_slice()) {
-        ([one], _) | ([], [one]) => Ok(*one),
-        (_, []) => {
-            refuse(Refusal::ColumnMissing, "there is no column of times", "name it t_s (or t_ms, t_us, t_ns)")
-        }
-        (_, [(one, _), ..]) => {
-            let (other, _) = times[times.len() - 1];
-            Err(repeated("time", &names[*one], &names[other]).into())
-        }
+        return Ok((values, format));
     }
-}
-
-/// An error where two columns have the same slot.
-fn check_repeated(slots: &[Option<usize>], slot: usize, column: usize, names: &[String]) -> Checked<()> {
-    match slots.iter().position(|taken| *taken == Some(slot)) {
-        Some(other) => Err(repeated("same", &names[other], &names[column]).into()),
-        None => Ok(()),
-    }
-}
-
-fn repeated(what: &str, one: &str, other: &str) -> InputError {
-    InputError::new(
-        Refusal::ColumnRepeated,
-        format!("two columns hold the {what}: `{one}` and `{other}`"),
-        "rename one of them in the file",
-    )
-}
-
-fn nothing_to_read(names: &[String]) -> InputError {
-    let is_reading = |name: &String| matches!(imu_column(name).meaning, ColumnMeaning::Reading(..));
-    if names.iter().any(is_reading) {
-        return InputError::new(
-            Refusal::FormatUnknown,
-            "the columns are those of a recording of an IMU: there is no joint and no pose",
-            EXAMPLES,
-        );
-    }
-    if names.iter().any(|name| name.starts_with("target_q_")) {
-        return InputError::new(
-            Refusal::ColumnMissing,
-            "the log holds where the joints should have been (target_q), not where they were",
-            "record actual_q, too",
-        );
-    }
-    let message =
-        format!("no column is known to be of a joint or of a pose; the columns are {}", quoted(names, 20));
-    InputError::new(Refusal::ColumnMissing, message, EXAMPLES)
-}
-
-fn without_header(columns: usize) -> InputError {
-    let message = format!("{columns} column{} without a header", if columns == 1 { "" } else { "s" });
-    InputError::new(Refusal::HeaderMissing, message, EXAMPLES)
+    joint_layout::by_names(names).map(|values| (values, ReferenceFormat::Joints))
 }

@@ -9,7 +9,6 @@ use super::machine_limits::beyond_limits;
 use super::machine_log::LogFile;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
-use super::prepared::log_options;
 use super::reader::Reader;
 use super::recorded::Recorded;
 use super::report::about;
@@ -170,7 +169,7 @@ impl<'e> MachineTask<'e> {
         let log = match log {
             Some(log) => log,
             None => {
-                beside = LogFile::read_beside(&source.recording, &log_options(self.plan), option, notes)?;
+                beside = LogFile::read_beside(&source.recording, &self.plan.log_options(), option, notes)?;
                 &beside
             }
         };
@@ -188,7 +187,7 @@ impl<'e> MachineTask<'e> {
         notes: &mut Vec<Diagnostic>,
     ) -> Result<Moved> {
         let log = options.validate_motion.as_ref();
-        let log = log.map(|log| LogFile::read(log, &log_options(self.plan), notes)).transpose()?;
+        let log = log.map(|log| LogFile::read(log, &self.plan.log_options(), notes)).transpose()?;
         let calibrated: Vec<_> = (SensorKind::ALL.into_iter())
             .filter(|sensor_kind| moved.recorded.recording.sensor(*sensor_kind).is_some())
             .collect();

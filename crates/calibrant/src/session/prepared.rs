@@ -6,7 +6,7 @@ use calibrant_core::diagnostic::motion::IntervalsDiffer;
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::motion::CommandedMotion;
-use calibrant_io::{Experiment, MachinePlan, MotionPlan, Plan, ReferenceLogOptions};
+use calibrant_io::{Experiment, MotionPlan, Plan};
 use calibrant_machine::chain::KinematicChain;
 
 /// What is read once.
@@ -36,7 +36,7 @@ impl Prepared {
                 Ok(Self::OnMachine {
                     chain: plan.kinematic_chain()?,
                     log: log
-                        .map(|log| LogFile::read(log, &log_options(plan), notes))
+                        .map(|log| LogFile::read(log, &plan.log_options(), notes))
                         .transpose()?
                         .map(Box::new),
                 })
@@ -49,11 +49,6 @@ impl Prepared {
 pub(crate) fn unsuited() -> Error {
     let (message, help) = ("an IMU needs [holds]", "see `calibrant init imu`");
     Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help))
-}
-
-/// How the logs of a machine are read.
-pub(crate) fn log_options(plan: &MachinePlan) -> ReferenceLogOptions {
-    ReferenceLogOptions { topic: plan.log.topic.clone(), ..Default::default() }
 }
 
 /// The commanded motion of a `[motion]` experiment.

@@ -65,6 +65,7 @@ fn take_sections(setup: &mut ImuSetup, sections: &[Section], times: &[f64], plan
                 axis,
                 angle_rad: plan.section_angle_rad,
                 angle_sd_rad: plan.section_angle_sd_rad,
+                axis_sd_rad: None,
             }),
         }
     }

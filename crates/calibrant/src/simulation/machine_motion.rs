@@ -7,7 +7,7 @@ use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::number_format::significant;
 use calibrant_core::simulate::{Purpose, stream};
-use calibrant_io::{MachinePlan, ReferenceLogOptions, file_name};
+use calibrant_io::{MachinePlan, file_name};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::MachineSetup;
 use calibrant_machine::reference::{JointMotion, Motion};
@@ -68,8 +68,7 @@ fn given(
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
 ) -> Result<TrueMotion> {
-    let options = ReferenceLogOptions { topic: plan.log.topic.clone(), ..Default::default() };
-    let (file, path) = (source.logged(&options)?, source.path());
+    let (file, path) = (source.logged(&plan.log_options())?, source.path());
     notes.extend(file.findings.iter().map(|found| found.clone().in_file(file_name(path))));
     let log = file.of_machine(chain, path)?;
     let refused = |message: String, help: &str| {

@@ -52,6 +52,7 @@ pub(super) fn table(holds: &HoldsPlan, turns: &[Turn]) -> Option<Vec<TableStep>>
             axis: turn.axis,
             angle_rad: turn.angle_rad,
             angle_sd_rad: turn.angle_sd_rad,
+            axis_sd_rad: turn.axis_sd_rad,
         },
     });
     let mut steps: Vec<TableStep> = faces.chain(turns).collect();

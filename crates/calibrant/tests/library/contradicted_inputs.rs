@@ -29,9 +29,17 @@ fn table() -> (ImuParameters, ImuRecording, ImuSetup) {
         }
         let (start_s, end_s, angle_rad, angle_sd_rad) =
             (from_s + 6.0, from_s + 11.0, std::f64::consts::TAU, 1e-3);
-        let action = TableAction::Turn { axis: up, angle_rad, angle_sd_rad };
+        let action = TableAction::Turn { axis: up, angle_rad, angle_sd_rad, axis_sd_rad: None };
         steps.insert(steps.len() - 1, TableStep { start_s, end_s, action });
-        setup.turns.push(Turn { name: None, start_s, end_s, axis: up, angle_rad, angle_sd_rad });
+        setup.turns.push(Turn {
+            name: None,
+            start_s,
+            end_s,
+            axis: up,
+            angle_rad,
+            angle_sd_rad,
+            axis_sd_rad: None,
+        });
     }
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(directions);

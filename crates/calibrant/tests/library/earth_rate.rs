@@ -265,7 +265,7 @@ fn table(number: u64, simulation: &ImuSimulation) -> (ImuParameters, ImuRecordin
             if sign < 0.0 {
                 let (from_s, end_s) = (start_s + 6.0, start_s + 16.0);
                 let (axis, angle_rad, angle_sd_rad) = (face, std::f64::consts::TAU, 0.0);
-                let action = TableAction::Turn { axis, angle_rad, angle_sd_rad };
+                let action = TableAction::Turn { axis, angle_rad, angle_sd_rad, axis_sd_rad: None };
                 steps.push(TableStep { start_s: from_s, end_s, action });
                 setup.turns.push(Turn {
                     name: None,
@@ -274,6 +274,7 @@ fn table(number: u64, simulation: &ImuSimulation) -> (ImuParameters, ImuRecordin
                     axis,
                     angle_rad,
                     angle_sd_rad: 1e-9,
+                    axis_sd_rad: None,
                 });
                 start_s += 11.0;
             }

@@ -97,6 +97,7 @@ fn a_ferraris_session_agrees_with_imucal() {
                     axis,
                     angle_rad,
                     angle_sd_rad: 0.5_f64.to_radians(),
+                    axis_sd_rad: None,
                 });
             }
         }

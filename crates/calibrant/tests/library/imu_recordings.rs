@@ -302,6 +302,7 @@ fn a_turn_that_was_not_made_is_named() {
         axis: Vector3::x(),
         angle_rad: std::f64::consts::TAU,
         angle_sd_rad: 0.01,
+        axis_sd_rad: None,
     };
     let setup = ImuSetup { turns: vec![turn], ..steady_imu() };
     let unit = ReadingUnit::MetrePerSecondSquared;

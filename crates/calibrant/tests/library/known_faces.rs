@@ -34,8 +34,20 @@ fn session(directions: &[Vector3<f64>]) -> (Vec<TableStep>, ImuSetup) {
     }
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
         let (end_s, angle_rad, angle_sd_rad) = (start_s + 4.0, std::f64::consts::TAU, 0.5_f64.to_radians());
-        steps.push(TableStep { start_s, end_s, action: TableAction::Turn { axis, angle_rad, angle_sd_rad } });
-        setup.turns.push(Turn { name: None, start_s, end_s, axis, angle_rad, angle_sd_rad });
+        steps.push(TableStep {
+            start_s,
+            end_s,
+            action: TableAction::Turn { axis, angle_rad, angle_sd_rad, axis_sd_rad: None },
+        });
+        setup.turns.push(Turn {
+            name: None,
+            start_s,
+            end_s,
+            axis,
+            angle_rad,
+            angle_sd_rad,
+            axis_sd_rad: None,
+        });
         start_s += 5.0;
     }
     setup.holds.intervals_s = Some(intervals);

@@ -48,9 +48,17 @@ fn table() -> (Vec<TableStep>, ImuSetup) {
         for (start_s, sign) in [(from_s + 6.0, 1.0), (from_s + 11.0, -1.0)] {
             let (angle_rad, angle_sd_rad, end_s) =
                 (sign * std::f64::consts::TAU, 0.1_f64.to_radians(), start_s + 4.0);
-            let action = TableAction::Turn { axis: up, angle_rad, angle_sd_rad };
+            let action = TableAction::Turn { axis: up, angle_rad, angle_sd_rad, axis_sd_rad: None };
             steps.push(TableStep { start_s, end_s, action });
-            setup.turns.push(Turn { name: None, start_s, end_s, axis: up, angle_rad, angle_sd_rad });
+            setup.turns.push(Turn {
+                name: None,
+                start_s,
+                end_s,
+                axis: up,
+                angle_rad,
+                angle_sd_rad,
+                axis_sd_rad: None,
+            });
         }
     }
     steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));

@@ -160,7 +160,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
         if let 2..=4 = k {
             let (axis, angle_rad) = (Axis::ALL[k - 2], std::f64::consts::TAU);
             let axis = Vector3::ith(axis.index(), 1.0);
-            let action = TableAction::Turn { axis, angle_rad, angle_sd_rad: 1e-3 };
+            let action = TableAction::Turn { axis, angle_rad, angle_sd_rad: 1e-3, axis_sd_rad: None };
             steps.push(TableStep { start_s: start_s + 3.0, end_s: start_s + 6.0, action });
         }
     }
@@ -169,7 +169,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
     for TableStep { start_s, end_s, action } in &steps {
         match *action {
             TableAction::Hold(_) => intervals.push((*start_s, *end_s)),
-            TableAction::Turn { axis, angle_rad, angle_sd_rad } => {
+            TableAction::Turn { axis, angle_rad, angle_sd_rad, .. } => {
                 setup.turns.push(Turn {
                     name: None,
                     start_s: *start_s,
@@ -177,6 +177,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
                     axis,
                     angle_rad,
                     angle_sd_rad,
+                    axis_sd_rad: None,
                 });
             }
         }
@@ -193,7 +194,15 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
 
     // where the gyroscope senses the force, a turn with an unknown force is refused
     let axis = Vector3::x();
-    setup.turns.push(Turn { name: None, start_s: 0.0, end_s: 3.0, axis, angle_rad: 1.0, angle_sd_rad: 1e-3 });
+    setup.turns.push(Turn {
+        name: None,
+        start_s: 0.0,
+        end_s: 3.0,
+        axis,
+        angle_rad: 1.0,
+        angle_sd_rad: 1e-3,
+        axis_sd_rad: None,
+    });
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let error = run(&recording, &gyroscope, &setup).expect_err("not known").to_string();
     assert!(

@@ -146,9 +146,17 @@ fn intervals_of_200_imus_turned_by_known_angles_cover_the_truth() {
         steps.push(TableStep { start_s: hold.0, end_s: hold.1, action: TableAction::Hold(*face) });
         // there on a face, back on the opposite one
         let (axis, angle_rad, angle_sd_rad) = (*face, std::f64::consts::TAU, 0.1_f64.to_radians());
-        let action = TableAction::Turn { axis, angle_rad, angle_sd_rad };
+        let action = TableAction::Turn { axis, angle_rad, angle_sd_rad, axis_sd_rad: None };
         steps.push(TableStep { start_s: turn.0, end_s: turn.1, action });
-        setup.turns.push(Turn { name: None, start_s: turn.0, end_s: turn.1, axis, angle_rad, angle_sd_rad });
+        setup.turns.push(Turn {
+            name: None,
+            start_s: turn.0,
+            end_s: turn.1,
+            axis,
+            angle_rad,
+            angle_sd_rad,
+            axis_sd_rad: None,
+        });
     }
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(faces);

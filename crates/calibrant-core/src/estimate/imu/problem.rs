@@ -214,9 +214,11 @@ pub struct Turn {
     pub axis: Vector3<f64>,
     /// The angle, positive by the right-hand rule, rad.
     pub angle_rad: f64,
-    /// Standard uncertainty of the angle and of the axis' direction, rad. Across the axis, the uncertainty is this times the angle: 0.5° of the axis is
-    /// 3.1° of a full turn. Over several turns the axis' is that of the angle for each turn, but half a degree at least, where that is less.
+    /// Standard uncertainty of the angle, rad.
     pub angle_sd_rad: f64,
+    /// Standard uncertainty of the axis' direction, rad. Across the axis, the uncertainty is this times the angle: 0.5° of the axis is 3.1° of a full turn.
+    /// Without it, that of the angle; over several turns that of the angle for each turn, but half a degree at least, where that is less.
+    pub axis_sd_rad: Option<f64>,
 }
 
 impl Turn {

@@ -31,7 +31,7 @@ pub(super) fn read(
 ) -> Checked<(Draft, Samples, Vec<Diagnostic>)> {
     let mut bag = bag_file::read(bytes, TYPES)?;
     let (cut, unread) = (bag.cut("an IMU")?, bag.unread.take());
-    let messages = bag.topics().one(options.topic.as_deref(), "IMU")?;
+    let messages = bag.topics().one(options.topic.as_deref(), "IMU", "columns")?;
     let (messages, sorted) = by_log_time(messages, |message| message.stamp_ns);
     let origin = messages.first().map_or(0, |message| message.stamp_ns);
     let mut columns: [Vec<f64>; SLOTS] = Default::default();

@@ -3,6 +3,7 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::unit::ColumnUnit;
+use crate::recording::split_clock::SplitClock;
 use crate::recording::text_header::Head;
 use crate::recording::text_times::{DAY_NS, TextTime};
 use crate::recording::time_unit::TimeUnit;
@@ -65,36 +66,16 @@ impl<'t> FirstRows<'t> {
 
     /// Finds a clock of two columns: whole seconds, and the rest of them, as in `sec` and `nanosec`.
     pub(super) fn find_split_clock(&self, draft: &mut Draft) {
-        const SECONDS: &[&str] = &["sec", "secs", "seconds", "second"];
-        const RESTS: [(&[&str], TimeUnit); 2] = [
-            (&["nanosec", "nanosecs", "nsec", "nsecs", "nanoseconds", "nanosecond"], TimeUnit::Nanosecond),
-            (&["usec", "usecs", "microsec", "microseconds", "microsecond"], TimeUnit::Microsecond),
-        ];
-        let lower: Vec<String> = draft.columns.iter().map(|column| column.name.to_lowercase()).collect();
-        let parts = |k: usize| lower[k].rsplit_once(['.', '_', '/', ' ']).unwrap_or(("", &lower[k]));
-        let rest_of = |seconds: usize| {
-            (0..lower.len()).find_map(|k| {
-                let (before, word) = parts(k);
-                let unit = RESTS.iter().find(|(names, _)| names.contains(&word))?.1;
-                (before == parts(seconds).0).then_some((k, unit))
-            })
-        };
-        let is_of_seconds = |k: &usize| SECONDS.contains(&parts(*k).1);
-        let Some((seconds, (rest, unit))) =
-            (0..lower.len()).filter(is_of_seconds).find_map(|k| Some((k, rest_of(k)?)))
-        else {
+        let names: Vec<String> = draft.columns.iter().map(|column| column.name.clone()).collect();
+        let Some(SplitClock { seconds, rest, unit }) = SplitClock::find(&names, |k| self.times(k)) else {
             return;
         };
-        let per_second = unit.per_second().unwrap_or(1.0);
-        let is_rest = |t: &f64| (0.0..per_second).contains(t);
-        if self.times(rest).iter().all(is_rest) && self.times(seconds).iter().all(|t| t.fract() == 0.0) {
-            for column in draft.columns.iter_mut().filter(|column| column.meaning == ColumnMeaning::Time) {
-                *column = ImuColumn::new(&column.name, ColumnMeaning::Clock, column.unit);
-            }
-            let unit = Some(ColumnUnit::Time(unit));
-            for (k, meaning) in [(seconds, ColumnMeaning::Time), (rest, ColumnMeaning::RestOfSecond)] {
-                draft.columns[k] = ImuColumn::new(&draft.columns[k].name, meaning, unit);
-            }
+        for column in draft.columns.iter_mut().filter(|column| column.meaning == ColumnMeaning::Time) {
+            *column = ImuColumn::new(&column.name, ColumnMeaning::Clock, column.unit);
+        }
+        let unit = Some(ColumnUnit::Time(unit));
+        for (k, meaning) in [(seconds, ColumnMeaning::Time), (rest, ColumnMeaning::RestOfSecond)] {
+            draft.columns[k] = ImuColumn::new(&draft.columns[k].name, meaning, unit);
         }
     }
 

@@ -221,6 +221,7 @@ fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Diagnostic>
         unit: draft.time_unit(),
         wraps_at: draft.time_wraps_at,
         origin: samples.origin,
+        section: "columns",
     };
     let seconds = clock.seconds(std::mem::take(&mut samples.times), &samples.lines, findings)?;
     samples.counted_from_ns = seconds.counted_from_ns;

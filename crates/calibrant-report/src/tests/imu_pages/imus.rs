@@ -47,7 +47,15 @@ pub(crate) fn imu_case(holds: usize, seed: u64) -> ImuCase {
             let angle_rad = std::f64::consts::TAU;
             hand.turn(&(axis * angle_rad), TURN_S, Vector3::zeros());
             let end_s = hand.time_s();
-            turns.push(Turn { name: None, start_s, end_s, axis, angle_rad, angle_sd_rad: 0.01 });
+            turns.push(Turn {
+                name: None,
+                start_s,
+                end_s,
+                axis,
+                angle_rad,
+                angle_sd_rad: 0.01,
+                axis_sd_rad: None,
+            });
         } else if number + 1 < holds {
             let axis = Unit::new_normalize(hand.vector(1.0));
             let angle = 1.5 + hand.vector(0.3).x;

@@ -355,3 +355,15 @@ fn the_default_problem_of_the_library_is_that_of_the_preset() {
     assert_eq!(imu.gyroscope, Gyroscope::default());
     assert_eq!(imu.setup(plan).expect("valid"), ImuSetup::default());
 }
+
+#[test]
+fn the_axis_of_a_turn_may_be_known_better_or_worse_than_its_angle() {
+    let imu = preset("imu").expect("known").replace("# turns = ", "turns = ");
+    let sd = |text: &str| {
+        let turn = parse(text).imu.expect("an IMU").turns[0].clone();
+        [Some(turn.angle_sd_rad), turn.axis_sd_rad]
+            .map(|sd| sd.map(|sd| (sd.to_degrees() * 1e6).round() / 1e6))
+    };
+    assert_eq!(sd(&imu.replace("axis_sd_deg = 0.5", "axis_sd_deg = 0.02")), [Some(0.5), Some(0.02)]);
+    assert_eq!(sd(&imu.replace(", axis_sd_deg = 0.5", "")), [Some(0.5), None], "that of the angle");
+}

@@ -27,9 +27,17 @@ fn a_ferraris_calibration_is_believed_on_another_session_and_by_hand() {
             [(start + 7.0, std::f64::consts::TAU), (start + 14.0, -std::f64::consts::TAU)]
         {
             let (end_s, angle_sd_rad) = (start_s + 5.0, 0.1_f64.to_radians());
-            let action = TableAction::Turn { axis, angle_rad, angle_sd_rad };
+            let action = TableAction::Turn { axis, angle_rad, angle_sd_rad, axis_sd_rad: None };
             steps.push(TableStep { start_s, end_s, action });
-            bench.setup.turns.push(Turn { name: None, start_s, end_s, axis, angle_rad, angle_sd_rad });
+            bench.setup.turns.push(Turn {
+                name: None,
+                start_s,
+                end_s,
+                axis,
+                angle_rad,
+                angle_sd_rad,
+                axis_sd_rad: None,
+            });
         }
     }
     steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));

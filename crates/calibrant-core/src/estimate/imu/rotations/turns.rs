@@ -71,7 +71,7 @@ pub(crate) fn turn_data(
             let bias = start.at(temperature_c)[SensorKind::Gyroscope].bias * duration_s;
             let gain = (integral - bias).norm() / turn.angle_rad.abs();
             let along = (integral - bias).try_normalize(0.0).unwrap_or_default().map(|share| share * share);
-            let axis_sd_rad = turn_axis_sd_rad(turn.angle_rad, turn.angle_sd_rad);
+            let axis_sd_rad = turn_axis_sd_rad(turn.angle_rad, turn.angle_sd_rad, turn.axis_sd_rad);
             let across = (Vector3::repeat(1.0) - along) * (axis_sd_rad * turn.angle_rad).powi(2);
             variance += (along * turn.angle_sd_rad.powi(2) + across) * gain.powi(2);
             Ok(TurnData {

@@ -1,7 +1,8 @@
 //! Tests of `[machine]`: what is known of the machine, and what contradicts itself.
 
 use calibrant::io::{
-    Experiment, ExperimentFile, MachinePlan, Plan, Urdf, UrdfSource, machine_preset, preset,
+    Experiment, ExperimentFile, MachinePlan, OrientationForm, Plan, TimeColumns, Urdf, UrdfSource,
+    machine_preset, preset,
 };
 use calibrant::machine::estimate::{MachineSetup, MachineTrust, MountingPrior};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -28,6 +29,23 @@ fn what_is_not_said_is_as_the_estimator_expects() {
     assert_eq!(setup(LEAST), MachineSetup { gravity_mps2: 9.81, ..MachineSetup::default() });
     let text = preset("arm").expect("known").replace("# gravity_mps2 = 9.80665", "gravity_mps2 = 9.81");
     assert_eq!(setup(&text), setup(LEAST), "the preset states the defaults");
+}
+
+#[test]
+fn the_columns_of_the_log_arrive_at_its_reader() {
+    let text = format!(
+        "{LEAST}[machine.log]\ntopic = \"imu\"\n[machine.log.columns]\ntime = [\"sec\", \"nanosec\"]\nposition_unit = \"mm\"\norientation = [\"a\", \"b\", \"c\"]\n\
+         orientation_is = \"intrinsic-zyx\"\norientation_unit = \"deg\"\n"
+    );
+    let options = plan(&Experiment::parse(&text, None).expect("valid")).log_options();
+    assert!(options.poses && options.topic.as_deref() == Some("imu"));
+    assert_eq!(options.columns.orientation_is, OrientationForm::parse("intrinsic-zyx"));
+    assert_eq!(options.columns.time, Some(TimeColumns(vec!["sec".into(), "nanosec".into()])));
+    let again = ExperimentFile::parse(&text, None).expect("valid").to_toml();
+    assert_eq!(plan(&Experiment::parse(&again, None).expect(&again)).log_options(), options);
+    let arm = preset("arm").expect("known").replace("# joints = {", "joints = {");
+    let options = plan(&Experiment::parse(&arm, None).expect("valid")).log_options();
+    assert!(!options.poses && options.columns.joints.is_some());
 }
 
 #[test]
@@ -131,6 +149,18 @@ const WRONG: &[(&str, &str)] = &[
     ("urdf = \"arm\"\n[machine.log]\nposition_noise_m = 1e-4", "a log of joints has no poses"),
     ("[machine.log]\nnoise = 1e-4", "without a urdf the log has poses"),
     ("[machine.log]\nposition_noise_m = 1e-4", "`machine.log.orientation_noise_rad`"),
+    (
+        "[machine.log.columns]\norientation = [\"roll\", \"pitch\", \"yaw\"]",
+        "nothing says what these columns of an orientation are",
+    ),
+    ("[machine.log.columns]\norientation_is = \"euler-zyx\"", "\"euler-zyx\" is not known here"),
+    ("[machine.log.columns]\nposition = [\"x\", \"y\", \"x\"]", "the column `x` is named twice"),
+    ("[machine.log.columns]\ntime = 3", "the name of a column, or two is needed here, not a whole number"),
+    ("[machine.log.columns]\njoints = { a = \"q1\" }", "without a urdf the log has poses"),
+    (
+        "urdf = \"arm\"\n[machine.log.columns]\nposition = [\"x\", \"y\", \"z\"]",
+        "the log of a machine has joints",
+    ),
     ("[holds]\ngravity_mps2 = 9.81\ngauge = \"lower\"", "[holds] and [machine] are both there"),
     ("[motion]\nintervals = 2\ninterval_s = 1\nrate_hz = 10", "[motion] and [machine] are both there"),
     ("[gyroscope]", "only an IMU has a gyroscope"),

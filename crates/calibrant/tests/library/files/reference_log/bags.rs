@@ -215,7 +215,7 @@ fn one_of_several_logs_has_to_be_named() {
     ]);
     assert_eq!(
         refused(&two, None),
-        "there is more than one log of a motion: /joint_states (3 messages), /pose (4 messages) (say option `topic`, or topic in [columns])"
+        "there is more than one log of a motion: /joint_states (3 messages), /pose (4 messages) (say option `topic`, or topic in [machine.log])"
     );
     assert_eq!(read(&two, Some("/pose")).log.times_s().len(), 4);
     assert_eq!(read(&two, Some("/tf:tool")).log.times_s().len(), 5);
@@ -224,7 +224,7 @@ fn one_of_several_logs_has_to_be_named() {
     let many = bag(&[("/tf", TF, "cdr", frames)]);
     assert_eq!(
         refused(&many, None),
-        "there is more than one log of a motion: /tf:tool (5 messages), /tf:upper (5 messages) (say option `topic`, or topic in [columns])"
+        "there is more than one log of a motion: /tf:tool (5 messages), /tf:upper (5 messages) (say option `topic`, or topic in [machine.log])"
     );
 }
 
@@ -272,7 +272,7 @@ fn broken_bags_say_why() {
     let zeros = |k: u64| Cdr::new(false).header(k, "").numbers(&[0.0; 7]).done();
     is(
         &bag(&[("/p", POSE, "cdr", (0..3).map(zeros).collect())]),
-        "message 1: 0, 0, 0, 0 is no orientation: the norm of a quaternion is 1 (are its columns in the order of the format, w first or last? a body that was not seen is NaN)",
+        "no row has a pose: every value is NaN, or a placeholder (a log needs two rows with a time and a position at least)",
     );
     assert!(
         refused(&joints(vec![joint_state(0, &["a"], &[1.0], &[])]), Some("/k")).contains("no messages of")

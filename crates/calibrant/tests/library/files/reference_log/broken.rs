@@ -104,28 +104,31 @@ const CASES: &[(&[u8], &str)] = &[
     ),
     (
         b"t_s,a_rad,a_deg\n0,1,2\n1,2,3\n",
-        "line 1: two columns hold the same: `a_rad` and `a_deg` (rename one of them in the file)",
+        "line 1: two columns hold the same: `a_rad` and `a_deg` (rename one of them in the file, or say which in [machine.log.columns])",
     ),
     (
         b"t_s,a_radps\n0,1\n1,2\n",
-        "line 1: no column is known to be of a joint or of a pose; the columns are `t_s`, `a_radps` (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: no column is known to be of a joint or of a pose; the columns are `t_s`, `a_radps` (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
-    (b"a_rad,b_rad\n0,1\n1,2\n", "line 1: there is no column of times (name it t_s (or t_ms, t_us, t_ns))"),
+    (
+        b"a_rad,b_rad\n0,1\n1,2\n",
+        "line 1: there is no column of times (name it t_s (or t_ms, t_us, t_ns), or say time = \"…\" in [machine.log.columns])",
+    ),
     (
         b"time,a_rad\n0,1\n1,2\n",
-        "the time column `time` has no unit: steps of 1 suggest ms (say option `time_unit` s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the time column `time` has no unit: steps of 1 suggest ms (say option `time_unit` s, ms, us or ns (time_unit in [machine.log.columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         b"t_s,t_ms,a_rad\n0,1,1\n1,2,1\n",
-        "line 1: two columns hold the time: `t_s` and `t_ms` (rename one of them in the file)",
+        "line 1: two columns hold the time: `t_s` and `t_ms` (rename one of them in the file, or say which in [machine.log.columns])",
     ),
     (
         b"t_s,elbow\n0,1\n1,2\n",
-        "line 1: no column is known to be of a joint or of a pose; the columns are `t_s`, `elbow` (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: no column is known to be of a joint or of a pose; the columns are `t_s`, `elbow` (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
     (
         b"t_s,gx_radps,gy_radps,gz_radps\n0,1,2,3\n1,2,3,4\n",
-        "line 1: the columns are those of a recording of an IMU: there is no joint and no pose (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: the columns are those of a recording of an IMU: there is no joint and no pose (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
     (
         b"timestamp target_q_0 target_q_1\n0 1 2\n1 2 3\n",
@@ -137,15 +140,15 @@ const CASES: &[(&[u8], &str)] = &[
     ),
     (
         b"t_s,qw,qx,qy\n0,1,0,0\n1,1,0,0\n",
-        "line 1: the orientation has no column for z (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: the orientation has no column for z (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
     (
         b"t_s,px_m,py_m,qw,qx,qy,qz\n0,1,2,1,0,0,0\n1,1,2,1,0,0,0\n",
-        "line 1: the position has no column for z (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: the position has no column for z (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
     (
         b"t_s,qw,qx,qy,qz,qw\n0,1,0,0,0,1\n1,1,0,0,0,1\n",
-        "line 1: two columns hold the same: `qw` and `qw` (rename one of them in the file)",
+        "line 1: two columns hold the same: `qw` and `qw` (rename one of them in the file, or say which in [machine.log.columns])",
     ),
     (
         b"t_s,qw,qx,qy,qz\n0,1,0,0,0\n1,1,0.5,0,0\n",
@@ -153,11 +156,11 @@ const CASES: &[(&[u8], &str)] = &[
     ),
     (
         b"t_s,qw,qx,qy,qz\n0,1,0,0,0\n1,0,0,0,0\n",
-        "line 3: 0, 0, 0, 0 is no orientation: the norm of a quaternion is 1 (are its columns in the order of the format, w first or last? a body that was not seen is NaN)",
+        "line 3: only one row has a pose (a log needs two rows with a time and a position at least)",
     ),
     (
         b"t_s,px_m,py_m,pz_m\n0,nan,1,2\n1,1,nan,2\n",
-        "line 3: no row has a pose: every value is NaN (a log needs two rows with a time and a position at least)",
+        "line 3: no row has a pose: every value is NaN, or a placeholder (a log needs two rows with a time and a position at least)",
     ),
     (
         b"0 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n3 1 2 3 0 0 0 1\n",
@@ -177,11 +180,11 @@ const CASES: &[(&[u8], &str)] = &[
     ),
     (
         b"0 1 2 3 4 5 6 7 8 9 10 11\n0 1 2 3 4 5 6 7 8 9 10 11\n",
-        "line 1: 12 columns without a header (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: 12 columns without a header (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
     (
         b"0,1;2\n",
-        "line 1: 2 columns without a header (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz; without a header a trajectory is t x y z qx qy qz qw)",
+        "line 1: 2 columns without a header (name joints like t_s,elbow_rad,rail_m and poses like t_s,px_m,py_m,pz_m,qw,qx,qy,qz, or say which is which in [machine.log.columns] of an experiment file; without a header a trajectory is t x y z qx qy qz qw)",
     ),
     (
         b"1 2 3 4 5 6 7 inf\n1 2 3 4 5 6 7 8\n",
