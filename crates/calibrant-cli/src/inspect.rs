@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// and what is missing.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair. A log of a motion: joints, RTDE, TUM, EuRoC's ground truth, MCAP. A machine (.urdf).
+    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, Parquet, a bag of ROS, a log of PX4 or ArduPilot; or the accelerometer's file of a pair. A log of a motion: joints, RTDE, TUM, EuRoC's ground truth, a bag. A machine (.urdf).
     file: PathBuf,
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,

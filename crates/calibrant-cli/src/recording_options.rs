@@ -9,7 +9,7 @@ use std::path::Path;
 
 #[derive(clap::Args, Clone)]
 pub(crate) struct RecordingOptions {
-    /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap, parquet, ulog or dataflash (default: by content).
+    /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap, db3, rosbag, parquet, ulog or dataflash (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
     /// Unit of the readings, if the file does not state it: m/s2, mm/s2, g or mg of the accelerometer, rad/s, deg/s or mdps of the gyroscope, counts of both.
@@ -36,7 +36,7 @@ pub(crate) struct RecordingOptions {
     /// Standard deviation of that rate, ppm (default: 50000, 5 per cent, of a rate that is typed; 100 of one that a logger states).
     #[arg(long, value_name = "PPM", value_parser = ppm)]
     rate_sd_ppm: Option<f64>,
-    /// Which sensor to read, if the rows of a file are those of several: its value in the column that numbers them.
+    /// Which sensor to read, if a file has those of several: its value in the column that numbers them, or its number in the log of an autopilot.
     #[arg(long, value_name = "VALUE")]
     instance: Option<String>,
     /// Sample times: even, or as-logged (default: even, if the logged times are steps of a coarse clock about even ones).
@@ -45,7 +45,7 @@ pub(crate) struct RecordingOptions {
     /// Each row is the mean of a hold: a table of averages, without times.
     #[arg(long)]
     rows_are_holds: bool,
-    /// Topic of the IMU, in a bag with several IMUs.
+    /// Topic of the IMU, in a bag with several IMUs or in the log of an autopilot.
     #[arg(long)]
     topic: Option<String>,
 }

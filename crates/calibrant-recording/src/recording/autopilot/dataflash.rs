@@ -6,8 +6,8 @@
 //! ```
 
 use super::layout::{Layout, Scalar};
+use super::log::{AutopilotLog, PassedOver};
 use super::stream::{Collector, Topic};
-use super::{AutopilotLog, PassedOver};
 use calibrant_core::sensor::SensorKind::{Accelerometer, Gyroscope};
 
 pub(crate) const MAGIC: &[u8] = b"\xa3\x95\x80";

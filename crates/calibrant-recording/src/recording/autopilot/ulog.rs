@@ -12,8 +12,8 @@
 //! ```
 
 use super::layout::{Layout, Scalar};
+use super::log::{AutopilotLog, PassedOver};
 use super::stream::{Collector, Topic};
-use super::{AutopilotLog, PassedOver};
 use crate::text::decoding::{Checked, refuse};
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::SensorKind::{Accelerometer, Gyroscope};

@@ -63,7 +63,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "gauge = \"upper\"",
         "gauge = \"upper\"⏎[columns]⏎format = \"mtmanager\"",
-        r#"line 13, column 10: `columns.format`: "mtmanager" is not known here (did you mean "mt-manager"? one of "mt-manager", "movella-dot", "euroc", "imu-tk", "imucal", "csv", "mcap", "parquet")"#,
+        r#"line 13, column 10: `columns.format`: "mtmanager" is not known here (did you mean "mt-manager"? one of "mt-manager", "movella-dot", "euroc", "imu-tk", "imucal", "csv", "mcap", "db3", "rosbag", "parquet", "ulog", "dataflash")"#,
     ),
 ];
 

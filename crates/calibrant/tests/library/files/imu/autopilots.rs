@@ -181,13 +181,14 @@ fn samples_of_a_fifo_end_at_the_time_of_their_message() {
         let times = [(time + 90).to_le_bytes(), time.to_le_bytes()].concat();
         let counts = |from: i16| -> Vec<u8> { (from..from + 4).flat_map(i16::to_le_bytes).collect() };
         let rest =
-            [&[0; 4][..], &floats(&[1000.0, 0.5]), &[4], &counts(k as i16), &counts(-2), &counts(7)].concat();
+            [&[0; 4][..], &floats(&[1000.0, 0.0625]), &[4], &counts(k as i16), &counts(-2), &counts(7)]
+                .concat();
         data(&mut log, 1, &[&times, &rest]);
     }
     let file = read(&log);
     let rate = file.recording.sensor(Gyroscope).expect("there");
     assert_eq!(rate.len(), 400);
-    assert_eq!(rate.readings()[4 * 9 + 2].as_slice(), [5.5, 0.0, 4.5]);
+    assert_eq!(rate.readings()[4 * 9 + 2].as_slice(), [0.6875, 0.0, 0.5625]);
     assert!(rate.times_s().windows(2).all(|pair| (pair[1] - pair[0] - 1e-3).abs() < 1e-9));
 }
 

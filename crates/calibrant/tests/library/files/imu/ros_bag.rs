@@ -348,17 +348,17 @@ fn bags_that_cannot_be_used_say_why() {
         (
             bag(&[("/imu", IMU, "json", vec![b"{}".to_vec()])]),
             plain.clone(),
-            "messages of `/imu` are encoded as `json` (only CDR is read)",
+            "messages of `/imu` are encoded as `json` (only CDR and the encoding of ROS 1 are read)",
         ),
         (
             bag(&[("/imu", IMU, "cdr", vec![message(0), message(1)[..100].to_vec()])]),
             plain.clone(),
-            "message 2 of `/imu` cannot be read: it is too short (was it recorded as sensor_msgs/msg/Imu by ROS 2?)",
+            "message 2 of `/imu` cannot be read: it is too short (was it recorded as sensor_msgs/msg/Imu by ROS?)",
         ),
         (
             bag(&[("/imu", IMU, "cdr", vec![[vec![0, 7], message(0)[2..].to_vec()].concat()])]),
             plain.clone(),
-            "message 1 of `/imu` cannot be read: its encapsulation is not plain CDR (was it recorded as sensor_msgs/msg/Imu by ROS 2?)",
+            "message 1 of `/imu` cannot be read: its encapsulation is not plain CDR (was it recorded as sensor_msgs/msg/Imu by ROS?)",
         ),
         (
             bag(&[("/imu", IMU, "cdr", vec![message(0)])]),
@@ -373,7 +373,7 @@ fn bags_that_cannot_be_used_say_why() {
         (
             one(),
             mapped,
-            "[columns] names columns, but the messages of a bag say what they hold (take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay)",
+            "[columns] names columns, but the messages of a bag or a log say what they hold (take time, accelerometer, gyroscope and temperature out of [columns]; topic and instance may stay)",
         ),
         (
             one(),

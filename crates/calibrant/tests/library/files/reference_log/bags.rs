@@ -241,11 +241,11 @@ fn broken_bags_say_why() {
     );
     is(
         &joints(vec![joint_state(0, &["a", "b"], &[1.0], &[])]),
-        "message 1 of `/j` cannot be read: it has another number of positions than of names (was it recorded as sensor_msgs/msg/JointState by ROS 2?)",
+        "message 1 of `/j` cannot be read: it has another number of positions than of names (was it recorded as sensor_msgs/msg/JointState by ROS?)",
     );
     is(
         &joints(vec![joint_state(0, &["a"], &[1.0], &[])[..30].to_vec()]),
-        "message 1 of `/j` cannot be read: it is too short (was it recorded as sensor_msgs/msg/JointState by ROS 2?)",
+        "message 1 of `/j` cannot be read: it is too short (was it recorded as sensor_msgs/msg/JointState by ROS?)",
     );
     is(
         &joints(vec![joint_state(1, &["a"], &[1.0], &[]), joint_state(0, &["a"], &[1.0], &[])]),
