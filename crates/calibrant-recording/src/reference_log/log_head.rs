@@ -2,6 +2,7 @@
 
 use super::options::ReferenceLogOptions;
 use super::text_columns::TextColumns;
+use super::tracker_export::Export;
 use super::{motive, qualisys, vicon};
 use crate::recording::text_header::Head;
 use crate::text::decoding::Checked;
@@ -11,11 +12,15 @@ pub(super) fn head_and_columns<'t>(
     text: &'t str,
     options: &ReferenceLogOptions,
 ) -> Checked<(Head<'t>, TextColumns)> {
-    let export = motive::find(text).or_else(|| vicon::find(text)).or_else(|| qualisys::find(text));
-    if let Some(export) = export {
+    if let Some(export) = export(text) {
         return export.columns(options);
     }
     let head = Head::find(text)?;
     let columns = TextColumns::find(&head, options)?;
     Ok((head, columns))
+}
+
+/// The export of a tracker, where the text is one.
+pub(super) fn export(text: &str) -> Option<Export<'_>> {
+    motive::find(text).or_else(|| vicon::find(text)).or_else(|| qualisys::find(text))
 }

@@ -1,7 +1,7 @@
 //! Distinguishes a log of a motion from other files.
 
 use super::format::ReferenceFormat;
-use super::log_head::head_and_columns;
+use super::log_head::{export, head_and_columns};
 use super::options::ReferenceLogOptions;
 use super::orientation_form::OrientationForm;
 use super::read::{is_bag, read_reference_log};
@@ -23,6 +23,10 @@ pub fn is_reference_log(path: &Path, options: &ReferenceLogOptions) -> bool {
 
 /// Is a text that begins so a log?
 pub(super) fn has_log(text: &str, options: &ReferenceLogOptions) -> bool {
+    // which body, and what its angles are, may still be asked
+    if export(text).is_some() {
+        return true;
+    }
     let Ok((head, columns)) = head_and_columns(text, options) else { return false };
     // eight columns without a header may be anything
     columns.format != ReferenceFormat::Tum || !columns.names.is_empty() || has_orientation(&first_row(&head))

@@ -70,6 +70,7 @@ mod tests {
     use super::super::options::ReferenceLogOptions;
     use super::super::orientation_form::OrientationForm;
     use super::super::read::parse_reference_log;
+    use super::super::recognise::has_log;
 
     const FILE: &str = "Objects\n200\n,,Global Angle wand:wand,,,,,,Global Angle box:box,,,,,\nFrame,Sub Frame,RX,RY,RZ,TX,TY,TZ,RX,RY,RZ,TX,TY,TZ\n\
         ,,deg,deg,deg,mm,mm,mm,deg,deg,deg,mm,mm,mm\n\
@@ -79,6 +80,7 @@ mod tests {
     fn one_body_and_what_its_angles_are_have_to_be_said() {
         let read = |options: &ReferenceLogOptions| parse_reference_log(FILE.as_bytes(), options);
         let mut options = ReferenceLogOptions::default();
+        assert!(has_log(FILE, &options), "it asks, and not the reader of recordings");
         let refused = read(&options).expect_err("two").to_string();
         assert!(refused.contains("more than one body: `wand:wand`, `box:box`"), "{refused}");
         options.topic = Some("wand:wand".into());
