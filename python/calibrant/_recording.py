@@ -218,9 +218,9 @@ def read_recording(
     columns : dict, optional
         Names of columns, where their names do not tell: keys ``time``, ``accelerometer``, ``gyroscope`` (three names each) and ``temperature``.
     accelerometer_unit : str, optional
-        ``"m/s²"``, ``"mm/s²"``, ``"g"``, ``"mg"`` or ``"counts"``, where the file does not say.
+        ``"m/s²"``, ``"mm/s²"``, ``"g"``, ``"mg"`` or ``"counts"``, where the file does not say. A sensitivity, ``"16384 LSB/g"``, makes m/s² of counts.
     gyroscope_unit : str, optional
-        ``"rad/s"``, ``"deg/s"``, ``"mdps"`` or ``"counts"``, where the file does not say.
+        ``"rad/s"``, ``"deg/s"``, ``"mdps"`` or ``"counts"``, where the file does not say; or a sensitivity, ``"131 LSB/dps"``.
     time_unit : str, optional
         ``"s"``, ``"ms"``, ``"us"``, ``"ns"``, or ``"samples"`` for a counter.
     rate_hz : float, optional
