@@ -1,11 +1,11 @@
 //! Qualisys Track Manager's export of rigid bodies, `…_6D.tsv`.
 //!
 //! ```text
-//! NO_OF_FRAMES	22245
+//! NO_OF_FRAMES  22245
 //! …
-//! DATA_INCLUDED	6D
-//! BODY_NAMES	one	other
-//! Frame	Time	one X	Y	Z	Roll	Pitch	Yaw	Residual	Rot[0]	…	Rot[8]	other X	…
+//! DATA_INCLUDED  6D
+//! BODY_NAMES  one  other
+//! Frame  Time  one X  Y  Z  Roll  Pitch  Yaw  Residual  Rot[0]  …  Rot[8]  other X  …
 //! ```
 //! Lengths are in mm, angles in degrees. The matrix stands column by column: in published files, `Rot[1]` has the sign of a turn about z, and roll, pitch and yaw about the
 //! axes of the body (docs.qualisys.com, "Rotation angles in QTM") make the same matrix. It is taken, since another definition of the angles can be set.
