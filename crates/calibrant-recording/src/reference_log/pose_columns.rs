@@ -91,7 +91,7 @@ pub(super) fn numbered_quaternion(names: &[String]) -> Option<(usize, Vec<usize>
 pub(super) fn rotation_vector(names: &[String]) -> Option<(Vec<usize>, bool)> {
     let named = |stem: &&str| Some((axes(names, stem)?, false));
     let short = || BEFORE.iter().find_map(|before| axes(names, &format!("{before}r")));
-    ROTATION_VECTOR.iter().find_map(|stem| named(&stem)).or_else(|| Some((short()?, true)))
+    ROTATION_VECTOR.iter().find_map(named).or_else(|| Some((short()?, true)))
 }
 
 /// Three angles whose order their names do not say.
