@@ -318,6 +318,10 @@ fn the_datasheets_fit_every_preset() {
         assert!(experiment.sensor.range_mps2.is_some());
         let is_of_counts = sensor.ranges_g[0].1 > 0.0;
         assert_eq!(text.contains("accelerometer_lsb_per_g = "), is_of_counts, "{name} {}", sensor.name);
+        // a preset that names the unit of its file has no place for another
+        if text.contains("\naccelerometer_unit") {
+            continue;
+        }
         let with_counts = text.replace("# accelerometer_lsb_per_g", "accelerometer_lsb_per_g");
         let unit = parse(&with_counts).columns.accelerometer_unit;
         assert_eq!(unit.and_then(ImuUnit::sensitivity).is_some(), is_of_counts, "{name}");
