@@ -79,7 +79,8 @@ fn a_pair_is_asked_for_both_units_at_once_and_told_file_by_file() {
     let asked = bench.run("inspect acc.mat --gyroscope gyro.mat");
     asked.says("acc.mat: the accelerometer's columns have no unit");
     asked.says("gyro.mat: the gyroscope's columns have no unit");
-    asked.says("(say --accelerometer-unit m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s, mdps or counts");
+    asked.says("(say --accelerometer-unit m/s², mm/s², g, mg or counts (accelerometer_unit in [columns]; counts of a sensitivity");
+    asked.says("--gyroscope-unit rad/s, deg/s, mdps or counts");
     let units = "--accelerometer-unit counts --gyroscope-unit counts";
     let message = bench.run(&format!("inspect acc.mat --gyroscope gyro.mat {units}")).done();
     assert_eq!(message.stderr, "", "nothing to warn of");

@@ -86,16 +86,31 @@ fn counts_of_a_known_sensitivity_are_calibrated_in_physical_units() {
         let off = one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
         assert!(off < 0.6 * 9.80665 / PER_G, "half a count: {off}");
     }
-    bench.run("convert raw/calibration.json --to c -o imu.h").done();
+    bench.run("convert raw/calibration.json imu.h --to c").done();
     let header = bench.read("imu.h");
     assert!(header.contains("accelerometer: readings in counts"), "{header}");
-    bench.run("convert raw/calibration.json --to kalibr -o imu.yaml").done();
-    bench.run("convert imu.h --to calibrant -o back.json").done();
+    bench.run("convert raw/calibration.json imu.yaml --to kalibr --gauge lower").done();
+    bench.run("convert imu.h back.json --to calibrant").done();
     let back = bench.json("back.json");
     let gain = &back["accelerometer"]["matrix_counts_per_mps2"][0][0];
     let (gain, scale) = (gain.as_f64().expect("a number"), &raw["accelerometer"]["matrix"][0][0]);
     let expected = scale.as_f64().expect("a number") * PER_G / 9.80665;
     assert!((gain / expected - 1.0).abs() < 1e-12, "{gain} {expected}");
+
+    // what `init` says works: a simulated recording is in m/s², the real one in counts
+    bench.run("init imu-counts --sensor mpu-6050 -o sheet.toml").done();
+    bench.run("simulate sheet.toml -o simulated").done();
+    bench.run("calibrate sheet.toml simulated/recording.csv --no-report -o of_simulated").done();
+    bench.run("calibrate sheet.toml counts.csv --no-report -o of_counts").done();
+    let [simulated, counts] = ["of_simulated", "of_counts"].map(|name| {
+        let found = bench.json(&format!("{name}/calibration.json"));
+        (
+            found["accelerometer"]["reading_unit"].clone(),
+            found["accelerometer"]["counts_per_mps2"].is_number(),
+        )
+    });
+    assert_eq!((simulated.0, counts.0), ("m/s²".into(), "m/s²".into()));
+    assert_eq!((simulated.1, counts.1), (false, true));
 
     // the sensitivity of another range
     bench.refuses(

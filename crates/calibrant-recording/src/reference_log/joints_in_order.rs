@@ -49,8 +49,11 @@ impl ReferenceLogFile {
     ///
     /// # Errors
     /// - [`Error::Recording`]: joints of the chain are missing.
-    /// - [`Error::Experiment`]: a log of joints, and no chain.
+    /// - [`Error::Experiment`]: a log of joints, or of positions alone, and no chain.
     pub fn of_machine(&self, chain: Option<&KinematicChain>, path: &Path) -> Result<ReferenceLog> {
+        let unsuited = |message: &str, help: &str| {
+            Err(Error::experiment(InputError::new(Refusal::MachineUnsuited, message, help).in_file(path)))
+        };
         match (chain, self.poses()) {
             (Some(chain), _) => {
                 let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
@@ -58,13 +61,15 @@ impl ReferenceLogFile {
                 self.check_units(chain).map_err(|error| error.in_recording(path))?;
                 Ok(ReferenceLog::Joints(joints))
             }
+            (None, Some(poses)) if poses.world_from_body.iter().all(Option::is_none) => unsuited(
+                "the log has positions without orientations, and [machine] names no machine",
+                "log the orientation of the body, too; where these are joints, give urdf, base and tip in [machine]",
+            ),
             (None, Some(poses)) => Ok(ReferenceLog::Poses(poses.clone())),
-            (None, None) => {
-                let message = "the log is of joints, and [machine] names no machine";
-                let help = "give urdf, base and tip in [machine]";
-                let input_error = InputError::new(Refusal::MachineUnsuited, message, help);
-                Err(Error::experiment(input_error.in_file(path)))
-            }
+            (None, None) => unsuited(
+                "the log is of joints, and [machine] names no machine",
+                "give urdf, base and tip in [machine]",
+            ),
         }
     }
 

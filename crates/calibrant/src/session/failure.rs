@@ -17,7 +17,7 @@ impl Session {
         let names: Vec<String> = source.paths().map(|path| path.display().to_string()).collect();
         let inspection = inspect(&file);
         let sheet = recording_sheet(&file, &inspection, &names);
-        let verdict = SheetVerdict::new(Grade::Bad, "✗ Not calibrated.", error.to_string());
+        let verdict = SheetVerdict::new(Grade::Bad, "✗ Not calibrated:", error.to_string());
         Some(Sheet { verdict: Some(verdict), ..sheet }.html())
     }
 }

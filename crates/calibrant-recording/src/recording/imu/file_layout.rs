@@ -101,12 +101,13 @@ impl Draft {
             self.unuse(&[ColumnMeaning::Temperature], "another column is named in [columns]");
             self.assign(name, ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))?;
         }
-        self.choose_clock();
+        self.choose_clock(options.time_unit.map(ColumnUnit::Time));
         Ok(())
     }
 
-    /// Takes another clock where no column of sample times says its unit: one of numbers before one of texts, one of a known unit before others.
-    fn choose_clock(&mut self) {
+    /// Takes another clock where no column of sample times says its unit: one of numbers before one of texts, one of a known unit before others. None in another unit than the
+    /// given one.
+    fn choose_clock(&mut self, given: Option<ColumnUnit>) {
         let is_text = |k: usize| self.texts.iter().any(|(column, _)| *column == k);
         let rank = |k: usize| {
             let column = &self.columns[k];
@@ -119,7 +120,9 @@ impl Draft {
         };
         let is_used_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time && column.is_used();
         let of_times = (0..self.columns.len()).filter(|&k| is_used_time(&self.columns[k])).map(rank).min();
-        let clocks = (0..self.columns.len()).filter(|&k| self.columns[k].meaning == ColumnMeaning::Clock);
+        let is_in = |unit: Option<ColumnUnit>| unit.is_none() || given.is_none() || unit == given;
+        let is_clock = |column: &ImuColumn| column.meaning == ColumnMeaning::Clock && is_in(column.unit);
+        let clocks = (0..self.columns.len()).filter(|&k| is_clock(&self.columns[k]));
         if let Some(best) = clocks
             .min_by_key(|&k| (rank(k), !is_of_sample(&self.columns[k].name)))
             .filter(|&k| of_times.is_none_or(|least| rank(k) < least))

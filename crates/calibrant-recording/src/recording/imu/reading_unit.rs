@@ -61,7 +61,9 @@ pub(super) fn stated_unit(
         return refuse(Refusal::UnitContradicted, message, format!("say {}", ImuUnit::choices(sensor_kind)));
     }
     match (stated, given) {
+        // a sensitivity is that of counts
         (Some(ImuUnit::Counts), Some(given)) if given.sensitivity().is_some() => Ok(Some(given)),
+        (Some(stated), Some(given)) if given.sensitivity().is_some() => Ok(Some(stated)),
         (Some(stated), Some(given)) if stated != given && !draft.format.is_text() => Ok(Some(given)),
         (Some(stated), Some(given)) if stated != given => {
             let message = format!(

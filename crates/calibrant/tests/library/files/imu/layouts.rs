@@ -332,6 +332,16 @@ fn each_logger_is_read_by_what_the_guide_says() {
     }
 }
 
+/// A unit that is given is that of the other clock.
+#[test]
+fn the_unit_of_the_times_chooses_among_clocks() {
+    let phone = loggers().pop().expect("the last");
+    let options = ImuReadOptions { time_unit: Some(TimeUnit::Nanosecond), ..typed(phone.typed) };
+    let [a, g] = [0, 1].map(|k| phone.files[k].as_bytes());
+    let file = parse_imu_pair(a, g, &options).unwrap_or_else(|error| panic!("{error}"));
+    assert_read(phone.name, &file, phone.within);
+}
+
 /// The guide is made of these tests. To write it anew, set `CALIBRANT_WRITE_GUIDE`.
 #[test]
 fn the_guide_of_loggers_says_what_is_tested() {
