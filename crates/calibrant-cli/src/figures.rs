@@ -1,11 +1,14 @@
 //! `--figures`: the figures of a report as files.
 
+use calibrant::diagnostic::Severity;
 use calibrant::io::write_text;
 use calibrant::report::Sheet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
+static IS_WRITTEN: AtomicBool = AtomicBool::new(false);
 /// No report has more figures.
 const MOST: usize = 99;
 
@@ -27,6 +30,13 @@ fn files(directory: &Path, number: usize) -> [PathBuf; 2] {
     ["svg", "csv"].map(|ending| directory.join(format!("figure-{number:02}.{ending}")))
 }
 
+/// Says so, where figures were asked for and there were none.
+pub(crate) fn tell_if_none() {
+    if DIRECTORY.get().is_some() && !IS_WRITTEN.load(Ordering::Relaxed) {
+        crate::console::told(Severity::Note, "--figures: there are no figures to write");
+    }
+}
+
 /// Writes the figures of a sheet, where that is asked for.
 pub(crate) fn write(sheet: &Sheet<'_>) -> calibrant::Result<()> {
     let Some(directory) = DIRECTORY.get() else { return Ok(()) };
@@ -34,6 +44,7 @@ pub(crate) fn write(sheet: &Sheet<'_>) -> calibrant::Result<()> {
         let [svg, csv] = files(directory, number);
         write_text(&svg, &figure.svg)?;
         write_text(&csv, &figure.csv)?;
+        IS_WRITTEN.store(true, Ordering::Relaxed);
     }
     Ok(())
 }

@@ -54,6 +54,23 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             format!("{hint}choose one of {}", names.join(", ")),
         );
     };
+    let takes_counts = text.lines().any(|line| line.starts_with("unit = \"counts\""));
+    if let Some(sensor) = arguments.sensor.filter(|of| takes_counts && !of.has_counts()) {
+        return reject(
+            Refusal::ExperimentUnsuited,
+            format!("the datasheet of {} has no sensitivity of counts", sensor.name),
+            "choose the preset that is not of counts: imu, static-poses".into(),
+        );
+    }
+    if let Some(sensor) =
+        arguments.sensor.filter(|of| of.noise_mdps_per_rthz.is_none() && text.contains("\n[gyroscope]"))
+    {
+        return reject(
+            Refusal::ExperimentUnsuited,
+            format!("{} is an accelerometer alone, and the preset is of an IMU", sensor.name),
+            "choose the preset of an accelerometer: static-poses, faces".into(),
+        );
+    }
     let text = arguments.sensor.map_or_else(|| text.to_owned(), |sensor| sensor.in_experiment(text));
     match &arguments.output {
         None => console::print_always(&text),

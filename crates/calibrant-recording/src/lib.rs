@@ -39,8 +39,8 @@ pub use recording::stated_rate;
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, SampleTimes, SecondFile, Sensitivity, TYPED_RATE_SD_PPM, TimeUnit,
-    USUAL_RATE_SD_PPM, imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair,
-    read_imu_recording, read_imu_sensor, write_imu_recording, write_recording,
+    USUAL_RATE_SD_PPM, check_counts, imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording,
+    read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording, write_recording,
 };
 pub use reference_log::{
     AngleUnit, JointUnit, LengthUnit, LogColumns, OrientationForm, ReferenceFormat, ReferenceLogFile,

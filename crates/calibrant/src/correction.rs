@@ -10,7 +10,7 @@ use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
     CalibratedImu, CorrectedRecording, ImuCorrection, ImuRecording, ReadingUnit, SensorKind,
 };
-use calibrant_io::{ColumnMeaning, ImuFile, ImuReadOptions};
+use calibrant_io::{ColumnMeaning, ImuFile, ImuReadOptions, Sensitivity, check_counts};
 
 /// A corrected recording, and what was noticed.
 #[derive(Debug, Clone)]
@@ -71,7 +71,7 @@ pub fn apply<'a>(imu: &CalibratedImu, recording: &'a ImuRecording) -> Result<App
 }
 
 /// Reads the recording that a calibration is to correct. A calibration in counts needs no unit of the file: it corrects counts. So does one of counts
-/// with a known sensitivity, which makes readings of them.
+/// with a known sensitivity, which makes readings of whole numbers; what they show is checked.
 ///
 /// # Errors
 /// [`Error::Recording`] as [`read_imu_recording`](calibrant_io::read_imu_recording), and where a calibrated sensor has columns that cannot be used.
@@ -80,25 +80,41 @@ pub fn read_for_correction(
     source: &Source,
     reading: &ImuReadOptions,
 ) -> Result<ImuFile> {
-    let options = ImuReadOptions {
-        // a sensor without calibration is ignored, whatever its unit
-        counts_unless_stated: SensorKind::ALL.map(|kind| {
-            imu.unit(kind).is_none_or(|unit| unit == ReadingUnit::Counts)
-                || imu.counts_per_unit[kind].is_some()
-        }),
-        ..reading.clone()
+    // a sensor without calibration is ignored, whatever its unit
+    let takes_counts = |kind: SensorKind| imu.unit(kind).is_none_or(|unit| unit == ReadingUnit::Counts);
+    let read = |counts_unless_stated: [bool; 2]| {
+        let options = ImuReadOptions { counts_unless_stated, ..reading.clone() };
+        match alone(imu) {
+            Some(sensor_kind) => source.read_sensor(sensor_kind, &options),
+            None => source.read_imu(&options),
+        }
     };
-    let mut file = match alone(imu) {
-        Some(sensor_kind) => source.read_sensor(sensor_kind, &options),
-        None => source.read_imu(&options),
-    }?;
+    let knows_counts = |kind: SensorKind| takes_counts(kind) || imu.counts_per_unit[kind].is_some();
+    let (mut file, question) = match read(SensorKind::ALL.map(takes_counts)) {
+        Err(Error::Recording(question))
+            if question.code == Refusal::UnitUnknown && SensorKind::ALL.into_iter().all(knows_counts) =>
+        {
+            (read([true; 2])?, Some(question))
+        }
+        file => (file?, None),
+    };
     for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
         check_usable(&file, sensor_kind).map_err(|error| error.in_recording(source.path()))?;
     }
-    for (sensor_kind, counts) in imu.counts_per_unit.present() {
+    for (sensor_kind, &counts) in imu.counts_per_unit.present() {
         let of_counts = file.recording[sensor_kind].as_mut().filter(|of| of.unit() == ReadingUnit::Counts);
-        if let Some(recording) = of_counts {
-            *recording = recording.mapped(sensor_kind.stimulus_unit(), |reading| reading / *counts);
+        let (Some(recording), Some(sensitivity)) = (of_counts, Sensitivity::new(sensor_kind, counts)) else {
+            continue;
+        };
+        let is_whole = recording.readings().iter().all(|reading| reading.iter().all(|of| of.fract() == 0.0));
+        *recording = recording.mapped(sensor_kind.stimulus_unit(), |reading| reading / counts);
+        let checked = check_counts(recording, sensitivity);
+        match &question {
+            // what is in another unit has it to be said
+            Some(question) if !is_whole || checked.is_err() => {
+                return Err(Error::Recording(question.clone()));
+            }
+            _ => checked.map_err(|error| error.in_recording(source.path()))?,
         }
     }
     Ok(file)

@@ -99,15 +99,20 @@ fn a_key_is_set_on_the_command_line() {
     bench
         .run("calibrate imu.toml made/recording.csv --set holds.minimum_hold_s=2.0 --no-report -o out")
         .done();
+    let experiment = &bench.json("out/calibration.json")["experiment"]["file"];
+    assert_eq!(experiment, "imu.toml --set holds.minimum_hold_s=2.0");
     for (setting, says) in [
         ("holds.posse=7", "did you mean `poses`?"),
         ("holds.poses=-7", "`holds.poses`"),
         ("holds.poses", "sets no key"),
+        ("holds={posse=3,hold_s=5.0}", "did you mean `poses`?"),
     ] {
         let command = format!("simulate imu.toml --set {setting} -o other");
         bench.refuses(&command, 2, &[says]);
         let said = bench.run(&command).stderr;
         assert!(!said.contains("imu.toml:"), "it is not in the file: {said}");
     }
+    bench.refuses("init imu-counts --sensor mti-3", 2, &["has no sensitivity of counts"]);
+    bench.refuses("init imu --sensor adxl355", 2, &["is an accelerometer alone"]);
     bench.refuses("init imu --sensor lsm9ds1", 2, &["the datasheets at hand are bmi088"]);
 }

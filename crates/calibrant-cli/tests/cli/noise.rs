@@ -394,7 +394,7 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
         (
             "si.csv --unit furlongs",
             2,
-            "the accelerometer is in m/s², mm/s², g, mg or counts, also of a sensitivity (16384 LSB/g), the gyroscope in rad/s",
+            "the accelerometer is in m/s², mm/s², g, mg or counts, also of a sensitivity (16384 LSB/g, 0.061 mg/LSB), the gyroscope in rad/s",
         ),
         ("si.csv --columns poses.toml", 2, "there is no [columns] section"),
     ];

@@ -86,6 +86,32 @@ fn counts_of_a_known_sensitivity_are_calibrated_in_physical_units() {
         let off = one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
         assert!(off < 0.6 * 9.80665 / PER_G, "half a count: {off}");
     }
+    // what is no counts of this sensitivity is not taken for such
+    let plain = bench.read("made/recording.csv").replace("_mps2", "").replace("_radps", "");
+    bench.write("plain.csv", plain);
+    bench.refuses(
+        "apply raw/calibration.json plain.csv -o other.csv",
+        3,
+        &["the accelerometer's columns have no unit", "--accelerometer-unit"],
+    );
+    let half = bench.read("counts.csv");
+    let half = half.lines().enumerate().map(|(row, line)| match row {
+        0 => line.to_owned() + "\n",
+        _ => {
+            let of = |(k, cell): (usize, &str)| {
+                let counts: i64 = cell.parse().expect("a whole number");
+                if (1..4).contains(&k) { (counts / 2).to_string() } else { cell.to_owned() }
+            };
+            line.split(',').enumerate().map(of).collect::<Vec<_>>().join(",") + "\n"
+        }
+    });
+    let half: String = half.collect();
+    bench.write(
+        "half.csv",
+        half.replace("AcX", "ax_counts").replace("AcY", "ay_counts").replace("AcZ", "az_counts"),
+    );
+    let says = ["with 16384 LSB/g the accelerometer's magnitude is 0.5 g"];
+    bench.refuses("apply raw/calibration.json half.csv --gyroscope-unit counts -o other.csv", 3, &says);
     bench.run("convert raw/calibration.json imu.h --to c").done();
     let header = bench.read("imu.h");
     assert!(header.contains("accelerometer: readings in counts"), "{header}");

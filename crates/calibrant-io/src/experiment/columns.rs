@@ -170,7 +170,8 @@ fn unit_named(key: &str, text: &str, sensor_kind: SensorKind) -> Result<ImuUnit>
     let words: Vec<&str> = suited.map(ImuUnit::symbol).collect();
     let said = unknown_word(text, &words);
     let (message, help) = said.split_once('\n').unwrap_or((&said, ""));
-    Err(refused(key, message, help))
+    let also = "; or counts of a sensitivity: \"16384 LSB/g\", \"8.75 mdps/LSB\"";
+    Err(refused(key, message, format!("{help}{also}")))
 }
 
 fn no_column_twice(columns: &ColumnMapping) -> Result<()> {

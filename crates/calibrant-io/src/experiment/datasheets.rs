@@ -29,6 +29,12 @@ impl Datasheet {
         found.next().filter(|_| found.next().is_none() && plain(name).len() > 3)
     }
 
+    /// Does it give counts, by a sensitivity?
+    #[must_use]
+    pub fn has_counts(&self) -> bool {
+        self.ranges_g.iter().all(|(_, counts)| *counts > 0.0)
+    }
+
     /// The text of an experiment file with the noise and the ranges of this sensor. The sensitivities stand in `[columns]`: as comments, unless the
     /// experiment is one of counts, which are then those of the sensitivities.
     ///
@@ -56,7 +62,7 @@ impl Datasheet {
             "sensor",
             "noise_ug_per_rthz",
             &format!(
-                "noise_ug_per_rthz = {:?}  # noise density of a {name} ({source})",
+                "noise_ug_per_rthz = {:?}  # noise density of the {name} ({source})",
                 self.noise_ug_per_rthz
             ),
         );
@@ -74,7 +80,7 @@ impl Datasheet {
             text.set(
                 "gyroscope",
                 "noise_mdps_per_rthz",
-                &format!("noise_mdps_per_rthz = {noise:?}  # noise density of a {name}"),
+                &format!("noise_mdps_per_rthz = {noise:?}  # noise density of the {name}"),
             );
             text.set("gyroscope", "noise_bandwidth_hz", bandwidth);
             text.set(
@@ -123,7 +129,16 @@ pub const DATASHEETS: &[Datasheet] = &[
         noise_ug_per_rthz: 70.0,
         noise_mdps_per_rthz: Some(2.8),
         ranges_g: &converter_of_16_bits([16.0, 2.0, 4.0, 8.0]),
-        ranges_dps: &[(2000.0, 16.4), (125.0, 262.0), (250.0, 131.0), (500.0, 65.5), (1000.0, 32.8)],
+        ranges_dps: &[
+            (2000.0, 16.4),
+            (15.625, 2097.2),
+            (31.25, 1048.6),
+            (62.5, 524.3),
+            (125.0, 262.0),
+            (250.0, 131.0),
+            (500.0, 65.5),
+            (1000.0, 32.8),
+        ],
     },
     Datasheet {
         name: "ICM-20948",

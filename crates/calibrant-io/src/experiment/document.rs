@@ -43,8 +43,11 @@ impl<'a> Document<'a> {
     pub(super) fn set(&mut self, settings: &'a [Setting]) -> Result<()> {
         for Setting(text) in settings {
             let table = DeTable::parse(text).map_err(|error| no_setting(text, error.message()))?;
-            let key = merge(&mut self.root, table.into_inner()).ok_or_else(|| no_setting(text, "no key"))?;
-            self.set.push(key);
+            let before = self.set.len();
+            merge(&mut self.root, table.into_inner(), "", &mut self.set);
+            if self.set.len() == before {
+                return Err(no_setting(text, "no key"));
+            }
         }
         Ok(())
     }
@@ -86,7 +89,11 @@ impl<'a> Document<'a> {
         match error {
             Error::Experiment(input_error) if input_error.line.is_none() => {
                 let key = input_error.key.as_deref().unwrap_or_default();
-                if self.set.iter().any(|set| key.starts_with(set.as_str())) {
+                let is_within = |set: &String| {
+                    key.strip_prefix(set.as_str())
+                        .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+                };
+                if self.set.iter().any(is_within) {
                     return Error::experiment(InputError { file: None, ..*input_error });
                 }
                 let span = place(&self.root, key, input_error.code == Refusal::KeyUnknown).unwrap_or(0..0);
@@ -141,24 +148,25 @@ fn no_setting(text: &str, why: &str) -> Error {
     Error::experiment(InputError::new(Refusal::SyntaxInvalid, message, help))
 }
 
-/// Puts the values of one table into another. The key of the last one, with those around it.
-fn merge<'a>(into: &mut DeValue<'a>, table: DeTable<'a>) -> Option<String> {
-    let DeValue::Table(into) = into else { return None };
-    let mut last = None;
+/// Puts the values of one table, which is in this section, into another; `set` takes their keys.
+fn merge<'a>(into: &mut DeValue<'a>, table: DeTable<'a>, section: &str, set: &mut Vec<String>) {
+    let DeValue::Table(into) = into else { return };
     for (name, mut value) in table {
-        let key = name.get_ref().to_string();
-        let there = into.get_mut(key.as_str()).filter(|there| there.get_ref().is_table());
-        last = match (there, value.get_mut()) {
+        let key = match section {
+            "" => name.get_ref().to_string(),
+            section => format!("{section}.{}", name.get_ref()),
+        };
+        let there = into.get_mut(name.get_ref().as_ref()).filter(|there| there.get_ref().is_table());
+        match (there, value.get_mut()) {
             (Some(there), DeValue::Table(inner)) => {
-                merge(there.get_mut(), std::mem::take(inner)).map(|inner| format!("{key}.{inner}"))
+                merge(there.get_mut(), std::mem::take(inner), &key, set);
             }
             _ => {
                 into.insert(name, value);
-                Some(key)
+                set.push(key);
             }
-        };
+        }
     }
-    last
 }
 
 /// The bytes of the value of this key, or of the innermost value around it; of the key itself where it is not

@@ -313,14 +313,11 @@ impl Experiment {
     /// # Errors
     /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
     pub fn read(path: &Path) -> Result<Self> {
-        let (text, source) = decoding::parsed(path, (LARGEST, "the experiment file"), |bytes| {
-            Ok((decoding::as_text(bytes)?.to_owned(), HashedFile::of_bytes(file_name(path), bytes)))
-        })?;
+        let (text, source) = Self::text_of(path)?;
         Ok(Self { source, ..Self::parse(&text, Some(path))? })
     }
 
-    /// Reads an experiment file with other values of some keys: `holds.poses=36`, the value as in the file. The origin is then that of the content, since it is no more
-    /// that of the file.
+    /// Reads an experiment file with other values of some keys: `holds.poses=36`, the value as in the file. Results name them after the file.
     ///
     /// # Errors
     /// As [`read`](Self::read). The TOML of a setting is invalid, or sets no key.
@@ -329,19 +326,25 @@ impl Experiment {
     /// ```no_run
     /// use calibrant_io::Experiment;
     /// let longer = Experiment::read_with("imu.toml".as_ref(), &["holds.hold_s=8.0".into()])?;
+    /// assert!(longer.origin().file.ends_with("imu.toml --set holds.hold_s=8.0"));
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn read_with(path: &Path, settings: &[String]) -> Result<Self> {
         if settings.is_empty() {
             return Self::read(path);
         }
-        let text = decoding::read_text(path, LARGEST, "the experiment file").map_err(Error::Experiment)?;
-        let settings: Vec<Setting> = settings.iter().map(|setting| Setting::new(setting)).collect();
+        let (text, source) = Self::text_of(path)?;
+        let toml: Vec<Setting> = settings.iter().map(|setting| Setting::new(setting)).collect();
         let mut document = Document::parse(&text, Some(path))?;
-        document.set(&settings)?;
-        let experiment = Self::of(&document, HashedFile::of_bytes("", b""))?;
-        let content = HashedFile { file: file_name(path), ..experiment.content() };
-        Ok(Self { source: content, ..experiment })
+        document.set(&toml)?;
+        let file = settings.iter().fold(source.file, |file, setting| format!("{file} --set {setting}"));
+        Self::of(&document, HashedFile { file, ..source })
+    }
+
+    fn text_of(path: &Path) -> Result<(String, HashedFile)> {
+        decoding::parsed(path, (LARGEST, "the experiment file"), |bytes| {
+            Ok((decoding::as_text(bytes)?.to_owned(), HashedFile::of_bytes(file_name(path), bytes)))
+        })
     }
 
     /// Reads the text of an experiment file. `file` serves only for its name in errors.

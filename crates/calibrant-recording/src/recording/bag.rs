@@ -150,7 +150,10 @@ impl<M> Topics<M> {
                 .iter()
                 .map(|(topic, messages)| format!("{topic} ({})", counted(messages.len(), "message")));
             let message = format!("there is more than one {what}: {}", each.collect::<Vec<_>>().join(", "));
-            let help = format!("say option `topic`, or topic in [{section}]");
+            let help = match section {
+                "columns" => "say option `topic`, or topic in [columns]".to_owned(),
+                section => format!("name it: topic = \"…\" in [{section}]; `inspect` takes option `topic`"),
+            };
             let error = InputError::new(Refusal::TopicUnknown, message, help);
             let topics = self.messages.keys().map(String::as_str);
             return Err(error.answered_by(TaskOption::Topic, topics).into());

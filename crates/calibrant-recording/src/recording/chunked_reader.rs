@@ -3,7 +3,8 @@
 
 use super::size::LARGEST;
 use crate::files::checksum::hex;
-use crate::text::decoding::{self, Checked};
+use crate::text::decoding::{self, Checked, refuse};
+use calibrant_core::error::Refusal;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::Read;
@@ -16,6 +17,28 @@ const PIECE: usize = 128 << 10;
 const HELD_BACK: usize = 16 << 10;
 /// Largest stated length of a file that is trusted, bytes.
 const TRUSTED: u64 = 64 << 20;
+
+/// How a database of SQLite begins.
+const SQLITE: &[u8] = b"SQLite format 3\0";
+
+/// Refuses a database whose latest rows are in a file beside it still.
+fn check_merged(path: &Path) -> Checked<()> {
+    let mut log = path.as_os_str().to_owned();
+    log.push("-wal");
+    if std::fs::metadata(&log).map_or(0, |metadata| metadata.len()) == 0 {
+        return Ok(());
+    }
+    let log = log.to_string_lossy();
+    let message = format!("its latest messages are in {log} beside it: its recorder was killed");
+    let file = path.display();
+    refuse(
+        Refusal::FileUnreadable,
+        message,
+        format!(
+            "put them into it: sqlite3 {file} 'PRAGMA wal_checkpoint(TRUNCATE)'; or take {log} away to do without them"
+        ),
+    )
+}
 
 /// The beginning of a file, and its remainder.
 pub(crate) struct FileBeginning {
@@ -34,6 +57,9 @@ impl FileBeginning {
         let mut bytes = Vec::new();
         pieces.fill(&mut bytes)?;
         let is_binary = is_binary(&bytes);
+        if bytes.starts_with(SQLITE) {
+            check_merged(path)?;
+        }
         let whole = pieces.ended || is_binary || !pieces.cut_off(&mut bytes);
         let mut beginning = Self { bytes, rest: Some(pieces), is_binary };
         if whole {

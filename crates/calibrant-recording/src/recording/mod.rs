@@ -65,8 +65,8 @@ pub(crate) use imu::imu_column;
 pub use imu::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, SampleTimes, SecondFile, Sensitivity, TYPED_RATE_SD_PPM, USUAL_RATE_SD_PPM,
-    imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,
-    read_imu_sensor,
+    check_counts, imu_from_columns, imu_pair_of, parse_imu_pair, parse_imu_recording, read_imu_pair,
+    read_imu_recording, read_imu_sensor,
 };
 pub use recording_writer::{write_imu_recording, write_recording};
 pub use time_unit::TimeUnit;

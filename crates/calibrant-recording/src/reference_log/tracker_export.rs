@@ -71,7 +71,7 @@ impl<'t> Export<'t> {
                     }
                     _ => format!("there is more than one body: {}", quoted(&names, 20)),
                 };
-                let help = "say option `topic`, or topic in [machine.log]";
+                let help = "name it: topic = \"…\" in [machine.log]; `inspect` takes option `topic`";
                 let error = InputError::new(Refusal::TopicUnknown, message, help);
                 let bodies = names.iter().map(String::as_str);
                 return Err(at(error.answered_by(TaskOption::Topic, bodies)).into());

@@ -72,6 +72,7 @@ pub use format::FileFormat;
 pub use in_memory::{imu_from_columns, imu_pair_of};
 pub use options::{AccelerometerOnly, ColumnMapping, ImuReadOptions, TYPED_RATE_SD_PPM, USUAL_RATE_SD_PPM};
 pub use read::{parse_imu_recording, read_imu_recording, read_imu_sensor};
+pub use reading_unit::check_counts;
 pub use sensitivity::Sensitivity;
 pub use two_files::{parse_imu_pair, read_imu_pair};
 pub use unit::{ColumnUnit, ImuUnit};

@@ -8,7 +8,7 @@ use super::sensitivity::{STANDARD_GRAVITY_MPS2, Sensitivity};
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::row_parser::Sense;
 use crate::text::decoding::{Checked, refuse};
-use calibrant_core::error::{InputError, Refusal, TaskOption};
+use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::number_format::plain;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -184,6 +184,19 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         );
     }
     Ok(())
+}
+
+/// Returns an error for readings, made of counts by this sensitivity, that no sensor of it shows: it is that of another range, or they were no counts.
+///
+/// # Errors
+/// [`Error::Recording`] with the sensitivity that would fit.
+pub fn check_counts(recording: &Recording, sensitivity: Sensitivity) -> Result<()> {
+    let unit = ImuUnit::CountsOf(sensitivity);
+    let checked = match sensitivity.sensor_kind() {
+        SensorKind::Accelerometer => check_gravity(recording, unit),
+        SensorKind::Gyroscope => check_rates(recording, unit),
+    };
+    checked.map_err(Error::Recording)
 }
 
 /// Returns an error for a sensitivity by which the accelerometer shows another gravity: most are those of another range.

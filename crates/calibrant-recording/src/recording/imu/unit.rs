@@ -67,7 +67,8 @@ impl ImuUnit {
     /// ```
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
-        let plain: String = text.to_lowercase().chars().filter(|c| !" _^*·()".contains(*c)).collect();
+        let text = text.to_lowercase().replace(" per ", "/");
+        let plain: String = text.chars().filter(|c| !" _^*·()".contains(*c)).collect();
         Some(match plain.as_str() {
             "m/s²" | "m/s2" | "mps2" | "ms2" | "ms-2" | "mpss" | "m/s/s" | "meterspersecondsquared" => {
                 Self::MetrePerSecondSquared
@@ -145,8 +146,12 @@ impl ImuUnit {
     #[must_use]
     pub fn choices(sensor_kind: SensorKind) -> &'static str {
         match sensor_kind {
-            SensorKind::Accelerometer => "m/s², mm/s², g, mg or counts, also of a sensitivity (16384 LSB/g)",
-            SensorKind::Gyroscope => "rad/s, deg/s, mdps or counts, also of a sensitivity (131 LSB/dps)",
+            SensorKind::Accelerometer => {
+                "m/s², mm/s², g, mg or counts, also of a sensitivity (16384 LSB/g, 0.061 mg/LSB)"
+            }
+            SensorKind::Gyroscope => {
+                "rad/s, deg/s, mdps or counts, also of a sensitivity (131 LSB/dps, 8.75 mdps/LSB)"
+            }
         }
     }
 
@@ -169,7 +174,8 @@ impl ImuUnit {
 
 /// `16384lsb/g`, `131counts/dps`, `0.061mg/lsb`: lower case, without blanks and brackets.
 fn sensitivity(plain: &str) -> Option<Sensitivity> {
-    let (number, of) = plain.split_at(plain.find(|c: char| !c.is_ascii_digit() && c != '.')?);
+    let is_number = |end: &usize| plain.get(..*end).is_some_and(|number| number.parse::<f64>().is_ok());
+    let (number, of) = plain.split_at((1..plain.len()).rev().find(is_number)?);
     let is_counts = |text| ImuUnit::parse(text) == Some(ImuUnit::Counts);
     let (number, unit) = match (number.parse::<f64>().ok()?, of.split_once('/'), of.rsplit_once('/')) {
         (number, Some((counts, unit)), _) if is_counts(counts) => (number, unit),
@@ -226,6 +232,8 @@ mod tests {
             ("131 LSB/dps", "131 LSB/dps"),
             ("16.4 LSB/(°/s)", "16.4 LSB/dps"),
             ("8.75 mdps/digit", "114.286 LSB/dps"),
+            ("6.1e-2 mg/LSB", "16393.4 LSB/g"),
+            ("131 LSB per dps", "131 LSB/dps"),
             ("0.0305 deg/s/LSB", "32.7869 LSB/dps"),
         ] {
             assert_eq!(written(text).as_deref(), Some(expected), "{text}");

@@ -286,7 +286,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx,gy,gz\n0,0,0,1\n1,0,1,0\n",
         || units(ImuUnit::Counts, ImuUnit::StandardGravity),
-        "g is no unit of the gyroscope (say rad/s, deg/s, mdps or counts, also of a sensitivity (131 LSB/dps))",
+        "g is no unit of the gyroscope (say rad/s, deg/s, mdps or counts, also of a sensitivity (131 LSB/dps, 8.75 mdps/LSB))",
     ),
     (
         "t_s,gx_radps,gy_degps,gz_radps\n0,0,0,1\n1,0,1,0\n",

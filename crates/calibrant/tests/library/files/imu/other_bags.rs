@@ -86,6 +86,22 @@ fn a_database_that_is_no_bag_is_refused_by_its_tables() {
 }
 
 #[test]
+fn a_database_whose_messages_are_beside_it_is_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("bag.db3");
+    std::fs::write(&path, db3(4096, &[("/imu", "sensor_msgs/msg/Imu", (0..3).map(message).collect())]))
+        .expect("written");
+    let read = || calibrant::io::read_imu_recording(&path, &ImuReadOptions::default());
+    assert!(read().is_ok());
+    let log = directory.path().join("bag.db3-wal");
+    std::fs::write(&log, "").expect("written");
+    assert!(read().is_ok(), "an empty log holds nothing");
+    std::fs::write(&log, "rows").expect("written");
+    let error = read().expect_err("rows beside it").to_string();
+    assert!(error.contains("bag.db3-wal") && error.contains("wal_checkpoint"), "{error}");
+}
+
+#[test]
 fn a_damaged_database_is_refused_and_never_followed_in_circles() {
     let whole = db3(512, &[("/imu", IMU, (0..20).map(message).collect())]);
     for length in (0..whole.len()).step_by(97) {

@@ -215,7 +215,7 @@ fn one_of_several_logs_has_to_be_named() {
     ]);
     assert_eq!(
         refused(&two, None),
-        "there is more than one log of a motion: /joint_states (3 messages), /pose (4 messages) (say option `topic`, or topic in [machine.log])"
+        "there is more than one log of a motion: /joint_states (3 messages), /pose (4 messages) (name it: topic = \"…\" in [machine.log]; `inspect` takes option `topic`)"
     );
     assert_eq!(read(&two, Some("/pose")).log.times_s().len(), 4);
     assert_eq!(read(&two, Some("/tf:tool")).log.times_s().len(), 5);
@@ -224,7 +224,7 @@ fn one_of_several_logs_has_to_be_named() {
     let many = bag(&[("/tf", TF, "cdr", frames)]);
     assert_eq!(
         refused(&many, None),
-        "there is more than one log of a motion: /tf:tool (5 messages), /tf:upper (5 messages) (say option `topic`, or topic in [machine.log])"
+        "there is more than one log of a motion: /tf:tool (5 messages), /tf:upper (5 messages) (name it: topic = \"…\" in [machine.log]; `inspect` takes option `topic`)"
     );
 }
 
