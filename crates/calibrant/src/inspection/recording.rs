@@ -4,7 +4,6 @@ use super::columns;
 use super::holds::hold_sections;
 use super::noticed::noticed;
 use super::sampling::sampling_line;
-use calibrant_core::estimate::refused_rests;
 use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{Axis, SensorKind};
 use calibrant_io::{FileFormat, ImuColumn, ImuFile, Inspection, SensorInspection};
@@ -19,10 +18,7 @@ pub fn recording_sheet<'a>(file: &'a ImuFile, inspection: &'a Inspection, names:
     sections.push(readings(file, inspection));
     sections.push(noticed(&inspection.findings, file.second.is_some()));
     let holds: &[Hold] = inspection.holds.as_ref().map_or(&[], |found| &found.holds);
-    let accelerometer = file.recording.sensor(SensorKind::Accelerometer);
-    let refused =
-        accelerometer.map_or_else(Vec::new, |of| refused_rests(of, holds, Inspection::MINIMUM_HOLD_S));
-    sections.push(timeline_section(&file.recording, holds, refused));
+    sections.push(timeline_section(&file.recording, holds, Inspection::MINIMUM_HOLD_S));
     match &inspection.holds {
         Some(found) => sections.extend(hold_sections(found, inspection)),
         None if file.recording[SensorKind::Accelerometer].is_some() => {}
