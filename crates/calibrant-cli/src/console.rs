@@ -29,6 +29,7 @@ pub(crate) fn json_or(json: bool, as_json: impl FnOnce() -> String, text: impl F
 }
 
 /// Prints a sheet to stdout as wide as the terminal is, or its JSON, where that is asked for.
+#[cfg(feature = "records")]
 pub(crate) fn sheet<'a>(json: bool, as_json: impl FnOnce() -> String, sheet: impl FnOnce() -> Sheet<'a>) {
     json_or(json, as_json, || sheet().text(width::get()));
 }
