@@ -1,6 +1,5 @@
 //! `--figures`: the figures of a report as files.
 
-use calibrant::diagnostic::Severity;
 use calibrant::io::write_text;
 use calibrant::report::Sheet;
 use std::path::{Path, PathBuf};
@@ -30,11 +29,9 @@ fn files(directory: &Path, number: usize) -> [PathBuf; 2] {
     ["svg", "csv"].map(|ending| directory.join(format!("figure-{number:02}.{ending}")))
 }
 
-/// Says so, where figures were asked for and there were none.
-pub(crate) fn tell_if_none() {
-    if DIRECTORY.get().is_some() && !IS_WRITTEN.load(Ordering::Relaxed) {
-        crate::console::told(Severity::Note, "--figures: there are no figures to write");
-    }
+/// Were figures asked for, and none written?
+pub(crate) fn are_missing() -> bool {
+    DIRECTORY.get().is_some() && !IS_WRITTEN.load(Ordering::Relaxed)
 }
 
 /// Writes the figures of a sheet, where that is asked for.

@@ -177,7 +177,9 @@ fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
     let claimed = places.claim(force)?;
     interruption::handle_signals();
     let outcome = command.run();
-    figures::tell_if_none();
+    if figures::are_missing() {
+        console::told(calibrant::diagnostic::Severity::Note, "--figures: there are no figures to write");
+    }
     let kept = command.kept();
     for left_over in claimed.left_over().filter(|path| !kept.iter().any(|of| of == path)) {
         tell(ResultLeftOver { file: Phrase(left_over.display().to_string()) });

@@ -100,7 +100,7 @@ fn a_key_is_set_on_the_command_line() {
         .run("calibrate imu.toml made/recording.csv --set holds.minimum_hold_s=2.0 --no-report -o out")
         .done();
     let experiment = &bench.json("out/calibration.json")["experiment"]["file"];
-    assert_eq!(experiment, "imu.toml --set holds.minimum_hold_s=2.0");
+    assert_eq!(experiment, "imu.toml with holds.minimum_hold_s=2.0");
     for (setting, says) in [
         ("holds.posse=7", "did you mean `poses`?"),
         ("holds.poses=-7", "`holds.poses`"),

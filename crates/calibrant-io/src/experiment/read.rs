@@ -326,7 +326,7 @@ impl Experiment {
     /// ```no_run
     /// use calibrant_io::Experiment;
     /// let longer = Experiment::read_with("imu.toml".as_ref(), &["holds.hold_s=8.0".into()])?;
-    /// assert!(longer.origin().file.ends_with("imu.toml --set holds.hold_s=8.0"));
+    /// assert!(longer.origin().file.ends_with("imu.toml with holds.hold_s=8.0"));
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn read_with(path: &Path, settings: &[String]) -> Result<Self> {
@@ -337,7 +337,7 @@ impl Experiment {
         let toml: Vec<Setting> = settings.iter().map(|setting| Setting::new(setting)).collect();
         let mut document = Document::parse(&text, Some(path))?;
         document.set(&toml)?;
-        let file = settings.iter().fold(source.file, |file, setting| format!("{file} --set {setting}"));
+        let file = settings.iter().fold(source.file, |file, setting| format!("{file} with {setting}"));
         Self::of(&document, HashedFile { file, ..source })
     }
 

@@ -48,12 +48,12 @@ pub(super) const CASES: &[Case] = &[
     (
         "gauge = \"upper\"",
         "gauge = \"upper\"⏎[columns]⏎accelerometer_unit = \"deg/s\"",
-        r#"line 13, column 22: `columns.accelerometer_unit`: "deg/s" is not known here (one of "m/s²", "mm/s²", "g", "mg", "counts")"#,
+        r#"line 13, column 22: `columns.accelerometer_unit`: "deg/s" is not known here (one of "m/s²", "mm/s²", "g", "mg", "counts"; or counts of a sensitivity: "16384 LSB/g", "8.75 mdps/LSB")"#,
     ),
     (
         "gauge = \"upper\"",
         "gauge = \"upper\"⏎[columns]⏎gyroscope_unit = \"rpm\"",
-        r#"line 13, column 18: `columns.gyroscope_unit`: "rpm" is not known here (one of "rad/s", "deg/s", "mdps", "counts")"#,
+        r#"line 13, column 18: `columns.gyroscope_unit`: "rpm" is not known here (one of "rad/s", "deg/s", "mdps", "counts"; or counts of a sensitivity: "16384 LSB/g", "8.75 mdps/LSB")"#,
     ),
     (
         "gauge = \"upper\"",
