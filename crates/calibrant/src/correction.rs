@@ -90,14 +90,8 @@ pub fn read_for_correction(
         }
     };
     let knows_counts = |kind: SensorKind| takes_counts(kind) || imu.counts_per_unit[kind].is_some();
-    let (mut file, question) = match read(SensorKind::ALL.map(takes_counts)) {
-        Err(Error::Recording(question))
-            if question.code == Refusal::UnitUnknown && SensorKind::ALL.into_iter().all(knows_counts) =>
-        {
-            (read([true; 2])?, Some(question))
-        }
-        file => (file?, None),
-    };
+    let asks = SensorKind::ALL.map(takes_counts);
+    let mut file = read(if SensorKind::ALL.into_iter().all(knows_counts) { [true; 2] } else { asks })?;
     for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
         check_usable(&file, sensor_kind).map_err(|error| error.in_recording(source.path()))?;
     }
@@ -109,13 +103,11 @@ pub fn read_for_correction(
         let is_whole = recording.readings().iter().all(|reading| reading.iter().all(|of| of.fract() == 0.0));
         *recording = recording.mapped(sensor_kind.stimulus_unit(), |reading| reading / counts);
         let checked = check_counts(recording, sensitivity);
-        match &question {
-            // what is in another unit has it to be said
-            Some(question) if !is_whole || checked.is_err() => {
-                return Err(Error::Recording(question.clone()));
-            }
-            _ => checked.map_err(|error| error.in_recording(source.path()))?,
+        if !is_whole || checked.is_err() {
+            // what may be in another unit has it to be said
+            read(asks)?;
         }
+        checked.map_err(|error| error.in_recording(source.path()))?;
     }
     Ok(file)
 }

@@ -20,7 +20,6 @@ impl Output {
     pub(super) fn show(&self, json: impl FnOnce() -> String, sheet: &Sheet<'_>) -> calibrant::Result<()> {
         self.report.as_ref().map_or(Ok(()), |path| write_text(path, &sheet.html()))?;
         let pages: Vec<PathBuf> = self.report.iter().cloned().collect();
-        console::result(self.json, json, sheet, None, &pages)?;
-        Ok(())
+        console::result(self.json, json, sheet, None, &pages)
     }
 }

@@ -1,6 +1,7 @@
 //! Reads a text file in pieces of whole lines: however long a recording is, its text is never in memory at
 //! once.
 
+use super::bag_kind::BagKind;
 use super::size::LARGEST;
 use crate::files::checksum::hex;
 use crate::text::decoding::{self, Checked, refuse};
@@ -17,9 +18,6 @@ const PIECE: usize = 128 << 10;
 const HELD_BACK: usize = 16 << 10;
 /// Largest stated length of a file that is trusted, bytes.
 const TRUSTED: u64 = 64 << 20;
-
-/// How a database of SQLite begins.
-const SQLITE: &[u8] = b"SQLite format 3\0";
 
 /// Refuses a database whose latest rows are in a file beside it still.
 fn check_merged(path: &Path) -> Checked<()> {
@@ -57,7 +55,7 @@ impl FileBeginning {
         let mut bytes = Vec::new();
         pieces.fill(&mut bytes)?;
         let is_binary = is_binary(&bytes);
-        if bytes.starts_with(SQLITE) {
+        if BagKind::of(&bytes) == Some(BagKind::Db3) {
             check_merged(path)?;
         }
         let whole = pieces.ended || is_binary || !pieces.cut_off(&mut bytes);

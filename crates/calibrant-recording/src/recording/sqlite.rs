@@ -130,7 +130,7 @@ impl<'b> Database<'b> {
             let (page, start) = self.page(number)?;
             let (kind, cells) =
                 (page[start], usize::from(u16::from_be_bytes([page[start + 3], page[start + 4]])));
-            let place = |head: usize| {
+            let content = |head: usize, cell: usize| {
                 let at = start + head + 2 * cell;
                 let place = page.get(at..at + 2).ok_or(SHORT)?;
                 page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..).ok_or(SHORT)
@@ -138,10 +138,7 @@ impl<'b> Database<'b> {
             match kind {
                 13 => {
                     for cell in 0..cells {
-                        let at = start + 8 + 2 * cell;
-                        let place = page.get(at..at + 2).ok_or(SHORT)?;
-                        let cell = page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..);
-                        let (row, record) = self.record(cell.ok_or(SHORT)?)?;
+                        let (row, record) = self.record(content(8, cell)?)?;
                         if let Err(error) = take(row, &values(&record)?)? {
                             return Ok(Err(error));
                         }
@@ -149,7 +146,7 @@ impl<'b> Database<'b> {
                 }
                 5 => {
                     let child = match cell < cells {
-                        true => place(12)?.first_chunk(),
+                        true => content(12, cell)?.first_chunk(),
                         false => page[start + 8..].first_chunk(),
                     };
                     if cell < cells {

@@ -76,7 +76,7 @@ pub(super) fn find(text: &str) -> Option<Export<'_>> {
         format: ReferenceFormat::Motive,
         bodies,
         form,
-        // before version 1.2 the file did not say it, and was in metres
+        // a file of version 1.0 does not say it: metres are supposed
         length: LengthUnit::parse(&value("Length Units").unwrap_or("Meters").to_lowercase())?,
         angle: AngleUnit::Deg,
         time: (1, None),

@@ -5,7 +5,7 @@
 //!   type 80 hexadecimal, a format: type u8, length u8 with these three bytes, name 4, a letter for each field 16, names of the fields 64
 //! ```
 
-use super::layout::{Layout, Scalar};
+use super::layout::{Field, Layout, Scalar};
 use super::log::{AutopilotLog, PassedOver};
 use super::stream::{Collector, Topic};
 use calibrant_core::sensor::SensorKind::{Accelerometer, Gyroscope};
@@ -38,6 +38,8 @@ struct Format {
     topics: Vec<&'static Topic>,
     /// The number in its name, from 0: `IMU2`.
     instance: u8,
+    /// The field that numbers the sensor of a message, where there is one.
+    number: Option<Field>,
     /// The collectors of its sensors.
     collectors: Vec<(u8, Vec<usize>)>,
 }
@@ -102,6 +104,7 @@ fn describe(formats: &mut [Format], content: &[u8]) {
     }
     *format = Format {
         length: Some(length),
+        number: layout.field("I"),
         layout,
         topics: TOPICS.iter().filter(|topic| topic.name == base).collect(),
         // `IMU` is followed by `IMU2`, `ACC1` is the first
@@ -116,7 +119,7 @@ impl Format {
         if self.topics.is_empty() {
             return;
         }
-        let number = self.layout.field("I").and_then(|field| field.value(content));
+        let number = self.number.and_then(|field| field.value(content));
         let instance = number.map_or(self.instance, |number| number as u8);
         let known = self.collectors.iter().position(|(known, _)| *known == instance);
         let known = known.unwrap_or_else(|| {

@@ -78,7 +78,7 @@ impl Field {
         self.value_at(message, 0)
     }
 
-    /// The value of the field so many after this one.
+    /// The value of the field that stands this number of fields behind it.
     pub(super) fn value_at(&self, message: &[u8], after: usize) -> Option<f64> {
         let bytes = message.get(self.offset + after * self.scalar.size()..)?;
         Some(self.scalar.value(bytes)? * self.factor)
