@@ -33,7 +33,7 @@ fn the_script_of_the_figures_is_short_and_fetches_nothing() {
 }
 
 fn about() -> About {
-    About { title: "A test".to_string(), ..About::default() }
+    About { title: "A test".to_string(), of_thesis: true, ..About::default() }
 }
 
 /// The page without the script of its figures.
