@@ -29,7 +29,7 @@ impl Outcome {
             ("Temperature", stated(self.temperature())),
             ("Uncertainty", "± 1 standard deviation, k = 1".to_owned()),
             ("Program", format!("calibrant {}", env!("CARGO_PKG_VERSION"))),
-            ("Certificate", format!("SHA-256 of calibration.json: {}…", &sha256[..NAMED_BY])),
+            ("Result", format!("SHA-256 of calibration.json: {}…", &sha256[..NAMED_BY])),
         ];
         facts.into_iter().map(|(label, fact)| (label.to_owned(), fact)).collect()
     }
