@@ -1,7 +1,8 @@
 //! The page: escaped text, numbered sections with their contents, and one file that needs nothing else.
 
-/// Shows values, and zooms, in panels that state the ranges of their axes, and saves figures. It reads the drawings and the legends.
-pub(super) const CHART_SCRIPT: &str = include_str!("figure/chart.js");
+/// Shows values, and zooms, in panels that state the ranges of their axes, then saves figures. It reads the drawings and the legends.
+pub(super) const CHART_SCRIPT: &str =
+    concat!(include_str!("figure/chart.js"), include_str!("figure/save.js"));
 
 /// Text made safe for HTML, also within attributes.
 pub(super) fn escape(text: &str) -> String {

@@ -7,6 +7,7 @@ use super::table::{Shown, Table};
 use crate::cited::without_thesis;
 use crate::figure::FigureFiles;
 use crate::html::{escape, facts, list, page, paragraph};
+use calibrant_core::sensor::SensorKind;
 use rayon::prelude::*;
 
 impl Sheet<'_> {
@@ -171,7 +172,9 @@ fn cell(cell: &Cell, class: &str) -> String {
 
 /// The name of a parameter, which may go on in a second line after that of its sensor.
 fn breakable(name: &str) -> String {
-    if name.matches('.').count() > 1 { name.replacen('.', ".<wbr>", 1) } else { name.to_owned() }
+    let of_sensor =
+        SensorKind::ALL.iter().any(|kind| name.split_once('.').is_some_and(|of| of.0 == kind.name()));
+    if of_sensor { name.replacen('.', ".<wbr>", 1) } else { name.to_owned() }
 }
 
 /// A name with more letters than this is broken into lines.

@@ -50,7 +50,7 @@ fn each_message_has_a_line_and_each_code_its_sensors() {
     batch.sensors[4].reasons = vec!["One thing is wrong".into(), "another is, too".into()];
     let html = batch_sheet(&batch, &about()).html();
     assert!(html.contains(">One thing is wrong.<br>Another is, too.</td>"));
-    assert!(html.contains("<td>sensor-5<br>sensor-23<br>sensor-32</td>"), "those with spikes");
+    assert!(html.contains("<td>sensor-5<br>sensor-14<br>sensor-23<br>sensor-32</td>"), "those with spikes");
 }
 
 #[test]
