@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._exceptions import experiment_error
+from ._sheet import with_sd
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -89,7 +90,7 @@ def residuals(calibration: Calibration, ax: Axes | None) -> Axes:
 
 
 def parameters(calibration: Calibration, ax: Axes | None) -> Axes:
-    """Standard deviation of each parameter, in its unit."""
+    """Standard deviation of each parameter, in its unit; its value stands beside the point."""
     known = [of for of in calibration.parameters if np.isfinite(of.sd) and of.sd > 0.0]
     if not known:
         raise experiment_error("the calibration states no standard deviations", "there is nothing to draw")
@@ -99,8 +100,14 @@ def parameters(calibration: Calibration, ax: Axes | None) -> Axes:
         places = [k for k, of in enumerate(known) if of.unit == unit]
         ax.plot([known[k].sd for k in places], places, "o", ms=5, color=colour, label=unit or "1")
     ax.set_xscale("log")
+    # room for the values, to the right of their points
+    least, most = ax.get_xlim()
+    ax.set_xlim(least, most * (most / least) ** 0.6)
+    for k, of in enumerate(known):
+        text = with_sd(of.value, of.sd)
+        ax.annotate(text, (of.sd, k), textcoords="offset points", xytext=(7, 0), va="center", fontsize="small")
     ax.set_xlabel("standard deviation, in the unit of the parameter")
-    ax.legend(title="unit", fontsize="small", framealpha=0.9, edgecolor="none")
+    ax.legend(title="unit", loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize="small", frameon=False)
     return _by_line(ax, [of.name for of in known])
 
 

@@ -67,6 +67,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => arguments.settings.read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
     };
+    let of_thesis = experiment.is_of_thesis();
     let studies = match experiment.plan {
         Plan::Machine(_) => rehearsed(arguments, experiment)?,
         Plan::Motion(_) | Plan::Holds(_) => studied(arguments, &experiment)?,
@@ -79,6 +80,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Some(path) => format!("Study of {}", path.display()),
             None => "Calibration and optimal experimental design: the thesis's chapters 3 and 4".into(),
         },
+        of_thesis,
         ..About::default()
     };
     let sheet = study_sheet(&studies, &about);

@@ -1,6 +1,6 @@
 //! Where variances come from: of a calibration, and of what a trajectory promises.
 
-use crate::figure::{budget_bars, source_in_words};
+use crate::figure::{Bars, budget_bars, source_in_words};
 use crate::number_format::uncertainty;
 use crate::sheet::{Cell, Section, Table};
 use calibrant_core::estimate::{BudgetRow, Calibration, VarianceSource};
@@ -23,7 +23,7 @@ pub(crate) fn shares(budget: &[BudgetRow]) -> Table {
 }
 
 /// The same as bars, with the standard deviation in this unit.
-pub(crate) fn bars(budget: &[BudgetRow], unit: impl Fn(ImuQuantity) -> &'static str) -> String {
+pub(crate) fn bars(budget: &[BudgetRow], unit: impl Fn(ImuQuantity) -> &'static str) -> Bars {
     let bar = |row: &BudgetRow| {
         let unit = unit(row.quantity);
         let sd = uncertainty(row.variance.sqrt());
@@ -35,7 +35,7 @@ pub(crate) fn bars(budget: &[BudgetRow], unit: impl Fn(ImuQuantity) -> &'static 
 
 /// As bars, and in standard deviations.
 pub(crate) fn on_page<'a>(section: &mut Section<'a>, calibration: &'a Calibration) {
-    section.drawn(|| bars(&calibration.budget, |quantity| calibration.unit_of(quantity)));
+    section.figure(|| Some(bars(&calibration.budget, |quantity| calibration.unit_of(quantity))));
     let mut within = Section::default();
     within.table(deviations(calibration));
     within.paragraph("Each number is a standard deviation. Their squares add up to that of the sd.");

@@ -1,7 +1,8 @@
 //! The page: escaped text, numbered sections with their contents, and one file that needs nothing else.
 
-/// Shows values, and zooms, in panels that state the ranges of their axes. It reads the drawings and the legends.
-pub(super) const CHART_SCRIPT: &str = include_str!("figure/chart.js");
+/// Shows values, and zooms, in panels that state the ranges of their axes, then saves figures. It reads the drawings and the legends.
+pub(super) const CHART_SCRIPT: &str =
+    concat!(include_str!("figure/chart.js"), include_str!("figure/save.js"));
 
 /// Text made safe for HTML, also within attributes.
 pub(super) fn escape(text: &str) -> String {
@@ -31,16 +32,17 @@ const HINT: &str = "<p class=\"screen\">Figures: point at a place for its values
 const FEWEST: usize = 3;
 
 /// The whole file: title, verdict, contents and sections, each with its heading and its HTML, and the lines at the foot. Headings are numbered; a section without one has no number.
-pub(super) fn page(title: &str, verdict: &str, sections: &[(&str, String)], footer: &[String]) -> String {
-    let title = escape(title);
+pub(super) fn page(raw_title: &str, verdict: &str, sections: &[(&str, String)], footer: &[String]) -> String {
+    let title = escape(raw_title);
     let opening = format!("<h1>{title}</h1>\n{verdict}\n");
     let has = |text: &str| opening.contains(text) || sections.iter().any(|(_, html)| html.contains(text));
     let is_alive = has(" data-x=\"");
     let source = has("the thesis").then_some(THESIS);
     let footer: String = footer.iter().map(String::as_str).chain(source).map(paragraph).collect();
-    let (hint, script) = match is_alive {
-        true => (HINT, format!("<script>\n{CHART_SCRIPT}</script>\n")),
-        false => ("", String::new()),
+    let hint = if is_alive { HINT } else { "" };
+    let script = match has("<figure") {
+        true => format!("<script>\n{CHART_SCRIPT}</script>\n"),
+        false => String::new(),
     };
     let headings: Vec<&str> =
         sections.iter().map(|(heading, _)| *heading).filter(|of| !of.is_empty()).collect();
@@ -57,12 +59,23 @@ pub(super) fn page(title: &str, verdict: &str, sections: &[(&str, String)], foot
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"generator\" content=\"calibrant {}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
+         <title>{title}</title>\n<style>\n{}@page {{ @bottom-left {{ content: \"{}\"; font: 8pt sans-serif; }} }}\n</style>\n</head>\n<body>\n<main>\n\
          {opening}{}{body}</main>\n<footer>{footer}{hint}</footer>\n{script}</body>\n</html>\n",
         env!("CARGO_PKG_VERSION"),
         include_str!("style.css"),
+        in_css(raw_title),
         contents(&entries)
     )
+}
+
+/// Text made safe within a string of a style sheet.
+fn in_css(text: &str) -> String {
+    let safe = |sign: char| match sign {
+        '"' | '\\' | '<' | '&' => format!("\\{:x} ", sign as u32),
+        sign if sign.is_control() => " ".to_owned(),
+        sign => sign.to_string(),
+    };
+    text.chars().map(safe).collect()
 }
 
 /// A section in the contents: its number, its heading as HTML, and its address, which is unique on the page.
@@ -72,14 +85,18 @@ type Entry = (usize, String, String);
 fn entries(headings: &[&str]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for (number, heading) in (1..).zip(headings) {
-        // letters and digits, words joined by hyphens
-        let plain = heading.to_lowercase();
-        let words = plain.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-        let words = words.collect::<Vec<_>>().join("-");
+        let words = address(heading);
         let taken = words.is_empty() || entries.iter().any(|other| other.2 == words);
         entries.push((number, escape(heading), if taken { format!("{words}-{number}") } else { words }));
     }
     entries
+}
+
+/// The address of a heading: letters and digits, words joined by hyphens.
+pub(super) fn address(heading: &str) -> String {
+    let plain = heading.to_lowercase();
+    let words = plain.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("-")
 }
 
 fn heading((number, heading, address): &Entry) -> String {
@@ -129,6 +146,7 @@ mod tests {
         assert_eq!(escape("a<b>&\"c\"'d'\u{0}"), "a&lt;b&gt;&amp;&quot;c&quot;&#39;d&#39;\u{fffd}");
         let html = page("</title><b>", "", &[("<script>", paragraph("1 < 2"))], &["x & y".to_string()]);
         assert!(!html.contains("<script") && !html.contains("</title><b>") && html.contains("x &amp; y"));
+        assert_eq!(in_css("a\"</style>\n\\"), "a\\22 \\3c /style> \\5c ");
     }
 
     #[test]

@@ -6,6 +6,7 @@
 mod batch;
 mod budget;
 mod calibration;
+mod cited;
 mod comparison;
 mod design;
 mod evaluation;

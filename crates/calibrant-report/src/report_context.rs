@@ -32,6 +32,8 @@ pub struct About {
     /// Findings about the recording, in words: gaps, repeated times, saturated readings. The page shows them
     /// beside the warnings.
     pub findings: Vec<String>,
+    /// Is it of an experiment of the thesis (`vamvaka2021`)? Then the page says which figures of the thesis its own are.
+    pub of_thesis: bool,
     /// The verdict; `None`: that of the diagnostics alone.
     pub verdict: Option<Verdict>,
     /// The acceptance limits that were checked.
@@ -64,6 +66,8 @@ impl About {
             sections,
             inputs: self.facts.clone(),
             footer: vec![made, meaning.to_owned()],
+            of_thesis: self.of_thesis,
+            ..Sheet::default()
         }
     }
 }

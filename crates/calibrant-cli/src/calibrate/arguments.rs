@@ -7,7 +7,8 @@ use std::sync::Mutex;
 
 /// Calibrate sensors from their recordings.
 ///
-/// Writes calibration.json and report.html into DIR. Several recordings get a subfolder of DIR each, named after the file, and one
+/// Writes calibration.json and report.html into DIR. Several recordings get a subfolder of DIR each, named after the file (or, where files
+/// have equal names, after the part of the path that differs), and one
 /// DIR/summary.csv and DIR/batch.html. One bad recording does not stop the others. The exit status is the highest of all.
 /// Each result has a verdict: ok, doubtful or bad. The exit status is 5 where one is bad, or breaks a limit of [accept].
 /// Each warning has a code: --deny CODE sets the exit status 1, --allow CODE silences the warning.

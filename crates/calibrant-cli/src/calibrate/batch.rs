@@ -4,7 +4,7 @@ use super::arguments::Arguments;
 use crate::console;
 use crate::diagnostics::{rules, tell, tell_all, tell_in};
 use crate::exit::Exit;
-use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_name};
+use calibrant::batch::{Batch, BatchResults, RESULT_FILES, folder_names, own_names};
 use calibrant::diagnostic::design::SeriesInterrupted;
 use calibrant::diagnostic::files::{FolderNameTaken, ResultsKept};
 use calibrant::diagnostic::{Diagnostic, Phrase};
@@ -15,10 +15,11 @@ use std::sync::PoisonError;
 
 /// Calibrates from all recordings, then prints the outcome of each.
 pub(super) fn run(arguments: &Arguments, batch: &Batch) -> calibrant::Result<Exit> {
-    for (folder, path) in folder_names(&arguments.recordings).iter().zip(&arguments.recordings) {
-        if *folder != own_name(path) {
+    let own = own_names(&arguments.recordings).into_iter().zip(&arguments.recordings);
+    for (folder, (name, path)) in folder_names(&arguments.recordings).into_iter().zip(own) {
+        if folder != name {
             let recording = Phrase(path.display().to_string());
-            tell(FolderNameTaken { folder: Phrase(folder.clone()), recording });
+            tell(FolderNameTaken { folder: Phrase(folder), recording });
         }
     }
     let bar = console::progress(arguments.recordings.len() as u64, "calibrating");

@@ -60,7 +60,7 @@ pub(super) fn about(
     if job.experiment.calibrate.prior == Prior::Datasheet {
         facts.push(fact("Prior", "datasheet".into()));
     }
-    About { title, facts, ..About::default() }
+    About { title, facts, of_thesis: job.experiment.is_of_thesis(), ..About::default() }
 }
 
 /// Solves the problem, with a progress bar over its starts.

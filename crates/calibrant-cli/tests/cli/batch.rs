@@ -85,12 +85,12 @@ fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
 fn files_of_one_name_do_not_collide() {
     let bench = bench(&["one/rec.csv", "two/rec.csv", "rec-2.csv", "three/rec.txt"]);
     let command = format!("{CALIBRATE} one/rec.csv two/rec.csv rec-2.csv three/rec.txt -o result");
-    bench.run(&command).done().says("note: rec-3 is two/rec.csv: the name is taken");
+    bench.run(&command).done();
     let value = |folder: &str| {
         let calibration = bench.json(&format!("result/{folder}/calibration.json"));
         (calibration["inputs"][0]["file"].to_string(), calibration["inputs"][0]["sha256"].to_string())
     };
-    let (one, two, dash, three) = (value("rec"), value("rec-3"), value("rec-2"), value("rec-4"));
+    let (one, two, dash, three) = (value("one-rec"), value("two-rec"), value("rec-2"), value("three-rec"));
     assert_eq!((one.0.as_str(), two.0.as_str()), ("\"rec.csv\"", "\"rec.csv\""));
     assert_eq!((dash.0.as_str(), three.0.as_str()), ("\"rec-2.csv\"", "\"rec.txt\""));
     let mut sums = [one.1, two.1, dash.1, three.1];
@@ -99,7 +99,27 @@ fn files_of_one_name_do_not_collide() {
     let summary = bench.read("result/summary.csv");
     let files: Vec<_> =
         summary.lines().skip(1).map(|row| row.split(',').take(2).collect::<Vec<_>>().join(" ")).collect();
-    assert_eq!(files, ["rec one/rec.csv", "rec-3 two/rec.csv", "rec-2 rec-2.csv", "rec-4 three/rec.txt"]);
+    assert_eq!(
+        files,
+        ["one-rec one/rec.csv", "two-rec two/rec.csv", "rec-2 rec-2.csv", "three-rec three/rec.txt"]
+    );
+}
+
+#[test]
+fn folders_name_the_sensors_whose_files_have_one_name() {
+    let bench = bench(&["line/S1/rec.csv", "line/S2/rec.csv"]);
+    let short: String =
+        bench.read("line/S1/rec.csv").lines().take(3).map(|line| format!("{line}\n")).collect();
+    bench.write("line/S3/rec.csv", short.replace("\n0.1,", "\n99,"));
+    let outcome = bench.run(&format!("{CALIBRATE} line/S1/rec.csv line/S2/rec.csv line/S3/rec.csv -o out"));
+    assert!(!outcome.stderr.contains("the name is taken") && outcome.stdout.contains("  S1 "), "{outcome:?}");
+    assert_eq!(bench.json("out/S2/calibration.json")["sensor"], "S2");
+    let summary = bench.read("out/summary.csv");
+    assert!(summary.contains("\nS3,line/S3/rec.csv,none,"), "{summary}");
+    // the page about the one that failed
+    assert!(bench.read("out/S3/report.html").contains("✗ Not calibrated:"));
+    let page = bench.read("out/batch.html");
+    assert!(page.contains("<a href=\"S3/report.html\">S3</a>") && page.contains("<a href=\"summary.csv\">"));
 }
 
 #[test]

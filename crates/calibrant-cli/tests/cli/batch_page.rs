@@ -21,7 +21,11 @@ fn the_page_names_the_bad_sensor_its_codes_and_the_yield() {
     for text in ["<a href=\"s4/report.html\">s4</a>", "parameter-implausible", "s6</th>", "file-empty"] {
         assert!(list.contains(text), "{text}: {list}");
     }
-    assert!(!list.contains("s1") && !list.contains("s6/report.html"), "{list}");
+    assert!(
+        !list.contains("s1") && !list.contains("s6/report.html"),
+        "an empty file has nothing to show: {list}"
+    );
+    assert!(page.find("Causes</h2>") < page.find("Sensors that are not ok</h2>"), "causes are first");
     let causes = page.split("Sensors with each code").nth(1).expect("bars");
     assert!(causes.contains("<th scope=\"row\">file-empty</th><td class=\"n\">1 (17 %)</td>"));
     assert!(page.contains("aria-label=\"accelerometer.scale.x\"") && page.contains("estimate, 1 outside"));

@@ -259,7 +259,7 @@ fn json_on_stdout_is_the_file_and_nothing_else() {
     let outcome = bench.run(&format!("{calibrate} a/recording.csv b/recording.csv -o two")).ends_with(5);
     let list = outcome.list("batch");
     assert_eq!(list.as_array().map(Vec::len), Some(2));
-    for (k, (file, folder)) in [("a", "recording"), ("b", "recording-2")].into_iter().enumerate() {
+    for (k, (file, folder)) in [("a", "a"), ("b", "b")].into_iter().enumerate() {
         assert_eq!(list[k]["file"], format!("{file}/recording.csv"));
         assert_eq!(list[k]["calibration"], bench.json(&format!("two/{folder}/calibration.json")));
     }

@@ -53,6 +53,28 @@ fn recordings_of_the_same_name_are_not_recorded_as_one_sensor_unless_somebody_sa
 }
 
 #[test]
+fn a_report_begins_with_sensor_date_and_station_and_invents_none() {
+    let bench = folders();
+    let calibrate = "calibrate experiment.toml --motion motion.csv -o out s1/2026-05-01.csv";
+    let head = |options: &str| {
+        bench.run(&format!("{calibrate} {options}")).done();
+        let page = bench.read("out/report.html");
+        page.split("<div class=\"verdict").next().expect("a head").replace("</dt><dd>", ": ")
+    };
+    let plain = head("");
+    for says in ["Recorded: not stated", "Station: not stated", "Gravity: not stated", "Program: calibrant "]
+    {
+        assert!(plain.contains(says), "{says}: {plain}");
+    }
+    let named = head("--sensor-from {sensor}/{date} --station L1");
+    for says in ["Sensor: s1, accelerometer", "Recorded: 2026-05-01", "Station: L1"] {
+        assert!(named.contains(says), "{says}: {named}");
+    }
+    let sha256 = calibrant::io::HashedFile::of(&bench.path("out/calibration.json")).expect("written").sha256;
+    assert!(named.contains(&sha256[..16]), "{named}");
+}
+
+#[test]
 fn a_recording_names_its_sensor() {
     let bench = folders();
     bench.write("noted.csv", format!("# serial: SN 17\n{}", bench.read("s1.csv")));

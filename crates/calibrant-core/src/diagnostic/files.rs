@@ -20,7 +20,7 @@ checks! {
         /// The recording.
         recording: Phrase,
     }
-    decided "Names of files without their endings are compared."
+    decided "Names of files without their endings are compared; where two are equal, the parts of the paths that differ."
     says format!("{} is {}: the name is taken", folder.0, recording.0);
 
     /// Results of an earlier run are kept, since nothing has changed.

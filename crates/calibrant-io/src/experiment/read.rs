@@ -302,6 +302,16 @@ impl Experiment {
         if content.sha256 == self.read { self.source.clone() } else { content }
     }
 
+    /// Is it one of the thesis (`vamvaka2021`), as its presets have it?
+    #[must_use]
+    pub fn is_of_thesis(&self) -> bool {
+        let is_preset = |name: &str| {
+            let text = preset(name).and_then(|text| Self::parse(text, None).ok());
+            text.is_some_and(|of| of.content().sha256 == self.content().sha256)
+        };
+        ["report", "report-unknown", "report-noisy"].into_iter().any(is_preset)
+    }
+
     fn content(&self) -> HashedFile {
         let source = HashedFile::of_bytes("", b"");
         let bare = Self { source, read: String::new(), ..self.clone() };

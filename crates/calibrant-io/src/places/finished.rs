@@ -29,6 +29,12 @@ pub struct Finished {
     pub cells: Vec<String>,
     /// What was told of it.
     pub told: Vec<Diagnostic>,
+    /// The sensor, as `calibration.json` names it.
+    pub sensor: Option<String>,
+    /// Where it was recorded.
+    pub station: Option<String>,
+    /// When it was recorded.
+    pub recorded: Option<String>,
 }
 
 /// The content of the file.

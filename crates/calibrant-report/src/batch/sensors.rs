@@ -43,6 +43,10 @@ pub struct BatchSensor {
     pub name: String,
     /// Address of its own page or file, relative to this page; not yet escaped.
     pub link: Option<String>,
+    /// Where it was recorded.
+    pub station: Option<String>,
+    /// When it was recorded, UTC.
+    pub recorded: Option<String>,
     /// The verdict; or why there is no result.
     pub verdict: Result<Verdict, Refusal>,
     /// Its cells in the columns of quality. Empty without a result.

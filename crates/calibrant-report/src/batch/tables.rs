@@ -11,7 +11,7 @@ const MOST_ON_PAGE: usize = 100;
 /// The most sensors of a terminal.
 const MOST_ON_TERMINAL: usize = 20;
 /// The most sentences on one sensor.
-const MOST_REASONS: usize = 2;
+const MOST_REASONS: usize = 3;
 
 /// How many sensors the table of the worst leaves out.
 pub(super) struct Further {
@@ -28,7 +28,9 @@ pub(super) fn worst_first(batch: &Batch) -> (Table, Further) {
     let mut sensors: Vec<&BatchSensor> = batch.sensors.iter().collect();
     sensors
         .sort_by_key(|of| of.usability().map_or(0, |usability| Usability::Bad as u8 - usability as u8 + 1));
+    let places = places(batch);
     let mut columns: Vec<Column> = vec!["sensor".into(), "verdict".into()];
+    columns.extend(places.iter().map(|(heading, _)| Column::on_page(*heading)));
     columns.extend(batch.quality.iter().map(Column::new));
     columns.extend(["decided by".into(), Column::on_page("what was found")]);
     let mut table = Table::new(columns);
@@ -41,7 +43,8 @@ pub(super) fn worst_first(batch: &Batch) -> (Table, Further) {
             (false, true) => Shown::OnTerminal,
             (false, false) => continue,
         };
-        let mut cells = vec![name(sensor), verdict(sensor)];
+        let mut cells = vec![linked(sensor), verdict(sensor)];
+        cells.extend(places.iter().map(|(_, of)| text_or_missing(of(sensor))));
         let quality = |k: usize| sensor.quality.get(k).map_or(Cell::Missing, |of| Cell::Number(of.clone()));
         cells.extend((0..batch.quality.len()).map(quality));
         cells.extend([Cell::Text(codes_and_limits(sensor)), Cell::Words(reasons(sensor))]);
@@ -57,19 +60,35 @@ pub(super) fn worst_first(batch: &Batch) -> (Table, Further) {
 
 /// All sensors in their order.
 pub(super) fn all(batch: &Batch) -> Table {
-    let mut table = Table::new(["order", "sensor", "verdict", "decided by"]);
+    let places = places(batch);
+    let mut columns = vec!["order", "sensor", "verdict"];
+    columns.extend(places.iter().map(|(heading, _)| *heading));
+    columns.push("decided by");
+    let mut table = Table::new(columns);
     for (number, sensor) in batch.sensors.iter().enumerate() {
-        table.row(vec![
-            Cell::count(number + 1),
-            name(sensor),
-            verdict(sensor),
-            Cell::Text(decided_by(sensor)),
-        ]);
+        let mut cells = vec![Cell::count(number + 1), linked(sensor), verdict(sensor)];
+        cells.extend(places.iter().map(|(_, of)| text_or_missing(of(sensor))));
+        cells.push(Cell::Text(decided_by(sensor)));
+        table.row(cells);
     }
     table
 }
 
-fn name(sensor: &BatchSensor) -> Cell {
+/// Reads a text of a sensor.
+type Of = fn(&BatchSensor) -> Option<&str>;
+
+/// Station and date, where some sensor has one.
+fn places(batch: &Batch) -> Vec<(&'static str, Of)> {
+    let all: [(&str, Of); 2] =
+        [("station", |of| of.station.as_deref()), ("recorded", |of| of.recorded.as_deref())];
+    all.into_iter().filter(|(_, of)| batch.sensors.iter().any(|sensor| of(sensor).is_some())).collect()
+}
+
+fn text_or_missing(text: Option<&str>) -> Cell {
+    text.map_or(Cell::Missing, Cell::text)
+}
+
+fn linked(sensor: &BatchSensor) -> Cell {
     match &sensor.link {
         Some(address) => Cell::Link { text: sensor.name.clone(), address: address.clone() },
         None => Cell::Name(sensor.name.clone()),
@@ -106,7 +125,7 @@ fn reasons(sensor: &BatchSensor) -> String {
     if further > 0 {
         shown.push(format!("And {further} more."));
     }
-    shown.join(" ")
+    shown.join("\n")
 }
 
 /// A reason with a capital letter first and a point at its end.

@@ -138,7 +138,7 @@ fn hold_section<'a>(
     section.figure(|| (holds.degrees_of_freedom > 0).then(|| hold_residuals(holds)));
     section.figure(|| still_gyroscope(calibration, holds, recording[SensorKind::Gyroscope].as_ref()?));
     section.figure(|| bias_over_temperature(calibration, holds, recording[SensorKind::Gyroscope].as_ref()?));
-    section.drawn(|| hold_directions(holds));
+    section.figure(|| Some(hold_directions(holds)));
     section.figure(|| Some(recording_overview(holds, recording[SensorKind::Accelerometer].as_ref()?)));
     section
         .on_page_below("Table of the holds", hold_table(holds, calibration.unit(SensorKind::Accelerometer)));

@@ -1,7 +1,8 @@
 //! Where each variance comes from, as bars.
 
+use crate::figure::bars::{Bars, Part};
 use crate::figure::colour;
-use crate::figure::drawing::{Part, bars, entry, filled};
+use crate::figure::drawing::filled;
 use crate::number_format;
 use calibrant_core::estimate::VarianceSource;
 
@@ -27,11 +28,10 @@ fn colours(source: VarianceSource) -> (&'static str, &'static str) {
 }
 
 /// One bar for each name with its sd and the shares of its sources.
-pub(crate) fn budget_bars(rows: Vec<(String, String, [f64; VarianceSource::ALL.len()])>) -> String {
+pub(crate) fn budget_bars(rows: Vec<(String, String, [f64; VarianceSource::ALL.len()])>) -> Bars {
     let is_seen = |(k, _): &(usize, VarianceSource)| rows.iter().any(|(_, _, shares)| shares[*k] >= SEEN);
-    let sign =
-        |(_, source): (usize, VarianceSource)| entry(&filled(colours(source).0), &source_in_words(source));
-    let legend: Vec<String> = VarianceSource::ALL.into_iter().enumerate().filter(is_seen).map(sign).collect();
+    let sign = |(_, source): (usize, VarianceSource)| (filled(colours(source).0), source_in_words(source));
+    let legend = VarianceSource::ALL.into_iter().enumerate().filter(is_seen).map(sign).collect();
     let part = |(source, share): (VarianceSource, f64)| {
         let ((colour, ink), percent) = (colours(source), number_format::percent(share));
         let title = format!("{}: {percent}", source_in_words(source));
@@ -42,13 +42,13 @@ pub(crate) fn budget_bars(rows: Vec<(String, String, [f64; VarianceSource::ALL.l
         let parts = VarianceSource::ALL.into_iter().zip(shares).filter_map(part).collect();
         (name, format!("± {sd}"), parts)
     });
-    bars(
-        "Where the variance of each parameter comes from",
-        &legend,
-        rows,
-        "Each bar is the variance of one parameter, divided among its sources. The largest part names what to improve, such as \
-         a better reference, a mount or a gravity that is known better, or more data against noise.",
-    )
+    Bars {
+        title: "Where the variance of each parameter comes from",
+        legend,
+        rows: rows.collect(),
+        caption: "Each bar is the variance of one parameter, divided among its sources. The largest part names what to improve, such as \
+                  a better reference, a mount or a gravity that is known better, or more data against noise.",
+    }
 }
 
 /// A source, as the legend and the table name it.

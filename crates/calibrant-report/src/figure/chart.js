@@ -84,7 +84,8 @@
       const seen = [...series.values()].flat().filter(({ at }) => at >= view[0] - 1e-9 && view[1] + 1e-9 >= at);
       if (!seen.length) return null;
       const { at } = nearest(seen, wanted), here = x.value(at), part = view[1] - view[0];
-      const lines = [`${labels[0] || ""}: ${tidy(here, x.span(here, part))}`];
+      const named = svg.dataset.names && document.querySelectorAll(`#${svg.dataset.names} ~ .scroll tbody th`)[Math.round(here) - 1];
+      const lines = [named ? named.textContent : `${labels[0] || ""}: ${tidy(here, x.span(here, part))}`];
       for (const [label, points] of series) {
         const point = nearest(points, at);
         if (Math.abs(point.at - at) > 0.02 * part) continue;
@@ -100,13 +101,17 @@
       const across = Math.max(0, Math.min(1, share(((event.clientX - start) * svg.viewBox.baseVal.width) / shown)));
       return view[0] + across * (view[1] - view[0]);
     };
-    return { zoom, read, mark, at, x, label: labels[0], view: () => view, hide: () => cursor.removeAttribute("d") };
+    // as the files of --figures, with the digits that a drawing has
+    const digits = (of) => String(Number(of.toPrecision(6)));
+    const rows = () => [...series].flatMap(([label, points]) => points.map(({ at: of, low, high }) => [svg.getAttribute("aria-label"), labels[0] || "", labels[1] || "", label, ...[x.value(of), (low + high) / 2, (high - low) / 2].map(digits)]));
+    return { zoom, read, mark, at, x, rows, label: labels[0], view: () => view, hide: () => cursor.removeAttribute("d") };
   };
   const tip = document.body.appendChild(document.createElement("div"));
   Object.assign(tip, { className: "tip", role: "status", hidden: true });
   for (const svg of document.querySelectorAll("svg[data-x]")) {
     let start = null, last = svg.tabIndex = 0;
     const own = () => (svg.chart = svg.chart || chart(svg));
+    svg.rows = () => own().rows();
     // panels of a figure with the same quantity along x are zoomed together
     const zoom = (view) => {
       const { x, label } = own(), whole = view[0] === 0 && view[1] === 1;

@@ -14,7 +14,7 @@ pub(super) fn opened([left, top, width, height]: [f64; 4], name: &str, attribute
 }
 
 /// A line of a legend: its sign, as drawn on 34 × 14 units, and its label.
-pub(super) fn entry(sign: &str, label: &str) -> String {
+fn entry(sign: &str, label: &str) -> String {
     let svg = "<svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">";
     format!("<li>{svg}{sign}</svg>{}</li>", escape(label))
 }
@@ -24,53 +24,13 @@ pub(super) fn filled(colour: &str) -> String {
     format!("<rect width=\"34\" height=\"14\" fill=\"{colour}\"/>")
 }
 
-/// A legend of these lines; nothing for none.
-pub(super) fn legend(entries: &[String]) -> String {
-    if entries.is_empty() { String::new() } else { format!("<ul class=\"legend\">{}</ul>", entries.concat()) }
+/// A legend of these signs with their labels; nothing for none.
+pub(super) fn legend(signs: &[(String, String)]) -> String {
+    let entries: String = signs.iter().map(|(sign, label)| entry(sign, label)).collect();
+    if entries.is_empty() { entries } else { format!("<ul class=\"legend\">{entries}</ul>") }
 }
 
 /// A path that is not filled.
 pub(super) fn stroke(path: &str, colour: &str, width: f64) -> String {
     format!("<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
-}
-
-/// A part of a bar: its share of the whole width, its colour, the colour of letters on it, a title that names it, and the text in it.
-pub(super) struct Part {
-    pub(super) share: f64,
-    pub(super) colour: &'static str,
-    pub(super) ink: &'static str,
-    pub(super) title: String,
-    pub(super) text: String,
-}
-
-/// Bars of several parts in a table, each with its name and a number. A table rather than a plot: its letters keep their size on a phone. The caption is HTML.
-pub(super) fn bars(
-    title: &str,
-    legend: &[String],
-    rows: impl IntoIterator<Item = (String, String, Vec<Part>)>,
-    caption: &str,
-) -> String {
-    let part = |part: &Part| {
-        format!(
-            "<span style=\"width:{:.2}%;background:{};color:{}\" title=\"{}\">{}</span>",
-            100.0 * part.share,
-            part.colour,
-            part.ink,
-            escape(&part.title),
-            escape(&part.text)
-        )
-    };
-    let row = |(name, number, parts): (String, String, Vec<Part>)| {
-        let parts: String = parts.iter().map(part).collect();
-        let (name, number) = (escape(&name), escape(&number));
-        format!(
-            "<tr><th scope=\"row\">{name}</th><td class=\"n\">{number}</td><td><div class=\"stack\">{parts}</div></td></tr>\n"
-        )
-    };
-    let rows: String = rows.into_iter().map(row).collect();
-    format!(
-        "<figure><h3>{}</h3>{}<table class=\"budget\"><tbody>\n{rows}</tbody></table><figcaption>{caption}</figcaption></figure>",
-        escape(title),
-        self::legend(legend)
-    )
 }

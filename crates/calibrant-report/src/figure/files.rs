@@ -21,53 +21,71 @@ pub struct FigureFiles {
     pub csv: String,
 }
 
+/// What a page draws, and `--figures` writes.
+pub(crate) trait Drawable {
+    /// As a part of a page.
+    fn html(&self) -> String;
+    /// As files.
+    fn files(&self) -> FigureFiles;
+}
+
+/// Drawings in rows, each with its size, with the title above and the legend below: signs with their labels.
+pub(super) fn standalone(
+    title: &str,
+    drawings: &[(String, [f64; 2])],
+    signs: &[(String, String)],
+    columns: usize,
+) -> String {
+    let wide = drawings.iter().map(|(_, [width, _])| *width).fold(0.0, f64::max);
+    let (mut drawn, mut top) = (String::new(), TITLE);
+    for row in drawings.chunks(columns) {
+        for (column, (drawing, [width, height])) in row.iter().enumerate() {
+            let x = column as f64 * wide;
+            let place = format!("<svg x=\"{x}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"");
+            drawn += &drawing.replacen("<svg", &place, 1);
+        }
+        top += row.iter().map(|(_, [_, height])| *height).fold(0.0, f64::max);
+    }
+    for (number, (sign, label)) in signs.iter().enumerate() {
+        let x = (number % columns) as f64 * wide + 40.0;
+        let y = top + (number / columns) as f64 * LINE;
+        let _ = write!(
+            drawn,
+            "<svg x=\"{x}\" y=\"{y}\" width=\"34\" height=\"14\" viewBox=\"0 0 34 14\" fill=\"none\">{sign}</svg><text x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
+            x + 42.0,
+            y + 12.0,
+            escape(label)
+        );
+    }
+    let (width, height) = (columns as f64 * wide, top + LINE * signs.len().div_ceil(columns) as f64 + 6.0);
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\" fill=\"#1b1f24\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/><text x=\"{}\" y=\"22\" font-size=\"17\" text-anchor=\"middle\">{}</text>{drawn}</svg>\n",
+        width / 2.0,
+        escape(title)
+    )
+}
+
+/// A text as a field of CSV.
+pub(super) fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
+impl Drawable for Figure {
+    fn html(&self) -> String {
+        self.html()
+    }
+
+    fn files(&self) -> FigureFiles {
+        let drawings: Vec<_> =
+            self.panels.iter().map(|panel| (svg::svg(panel), [svg::WIDTH, svg::height(panel)])).collect();
+        let svg = standalone(&self.title, &drawings, &self.signs(), self.columns);
+        FigureFiles { title: self.title.clone(), svg, csv: self.values() }
+    }
+}
+
 impl Figure {
-    /// The figure as files.
-    pub(crate) fn files(&self) -> FigureFiles {
-        FigureFiles { title: self.title.clone(), svg: self.standalone(), csv: self.values() }
-    }
-
-    /// The panels in their rows, with the title above and the legend below.
-    fn standalone(&self) -> String {
-        let (mut drawn, mut top) = (String::new(), TITLE);
-        for row in self.panels.chunks(self.columns) {
-            for (column, panel) in row.iter().enumerate() {
-                let height = svg::height(panel);
-                let place = format!(
-                    "<svg x=\"{}\" y=\"{top}\" width=\"{}\" height=\"{height}\"",
-                    column as f64 * svg::WIDTH,
-                    svg::WIDTH
-                );
-                drawn += &svg::svg(panel).replacen("<svg", &place, 1);
-            }
-            top += row.iter().map(svg::height).fold(0.0, f64::max);
-        }
-        let signs = self.signs();
-        for (number, (sign, label)) in signs.iter().enumerate() {
-            let (x, y) = (
-                (number % self.columns) as f64 * svg::WIDTH + 40.0,
-                top + (number / self.columns) as f64 * LINE,
-            );
-            let _ = write!(
-                drawn,
-                "<svg x=\"{x}\" y=\"{y}\" width=\"34\" height=\"14\" viewBox=\"0 0 34 14\" fill=\"none\">{sign}</svg><text x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
-                x + 42.0,
-                y + 12.0,
-                escape(label)
-            );
-        }
-        let (width, height) =
-            (self.columns as f64 * svg::WIDTH, top + LINE * signs.len().div_ceil(self.columns) as f64 + 6.0);
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\" fill=\"#1b1f24\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/><text x=\"{}\" y=\"22\" font-size=\"17\" text-anchor=\"middle\">{}</text>{drawn}</svg>\n",
-            width / 2.0,
-            escape(&self.title)
-        )
-    }
-
     fn values(&self) -> String {
         let mut csv = String::from("panel,x_label,y_label,series,x,y,half_width\n");
-        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
         for panel in &self.panels {
             let labels = [&panel.title, &panel.x_label, &panel.y_label].map(|text| quoted(text)).join(",");
             for series in &panel.series {

@@ -1,13 +1,13 @@
 //! The frame of a figure: panels with title, legend and caption, as HTML.
 
-use super::drawing::entry;
+use super::drawing::legend;
 use super::panel::{Panel, Series};
 use super::svg;
 use crate::html::escape;
 use rayon::prelude::*;
 
 /// A figure: panels that belong together.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Figure {
     pub(super) title: String,
     caption: String,
@@ -32,8 +32,7 @@ impl Figure {
     }
 
     fn legend(&self) -> String {
-        let entries: String = self.signs().iter().map(|(sign, label)| entry(sign, label)).collect();
-        format!("<ul class=\"legend\">{entries}</ul>")
+        legend(&self.signs())
     }
 
     /// The lines of the legend, each once: the sign of a series or a shaded interval, and its label.

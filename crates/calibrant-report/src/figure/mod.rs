@@ -5,6 +5,7 @@
 //! phone. The legend comes from the series themselves.
 
 mod allan;
+mod bars;
 mod batch;
 mod before_after;
 mod budget;
@@ -47,7 +48,8 @@ mod validation;
 mod view;
 
 pub(super) use allan::allan_figure;
-pub(super) use batch::{code_bars, drifts, parameter_histograms};
+pub(super) use bars::Bars;
+pub(super) use batch::{SENSORS, code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
 pub(super) use budget::{budget_bars, source_in_words};
 pub(super) use correlation::correlation_map;
@@ -56,6 +58,7 @@ pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use device::device;
 pub(super) use durations::duration_curves;
 pub(super) use ellipse::confidence_ellipses;
+pub(super) use files::Drawable;
 pub use files::FigureFiles;
 pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_in_holds::{bias_over_temperature, still_gyroscope};

@@ -103,7 +103,7 @@ pub(crate) fn states(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> O
     limits.intercept_mps2?;
     let caption = "Acceleration in interval i is α(t) = xᵢ + uᵢ t. A limit on xᵢ, the line's value at t = 0, restricts late intervals more than \
                    early ones. No arm has such a limit. Limit acceleration, velocity and displacement unless you compare with the thesis.";
-    Some(figure("States xᵢ, which the thesis limits", &[Profile::Intercept], motions, axes, limits, caption))
+    Some(figure("States xᵢ with their limits", &[Profile::Intercept], motions, axes, limits, caption))
 }
 
 /// Velocity and displacement between the nodes too.

@@ -135,6 +135,8 @@ pub(super) struct Panel {
     pub(super) y_includes: Vec<f64>,
     /// What the y axis shows, where that is not all values: what lies beyond it is cut.
     pub(super) y_shown: Option<(f64, f64)>,
+    /// The heading of the table in whose rows the places on the x axis have names; empty for none.
+    pub(super) x_names: &'static str,
     /// Distance between ticks of the x axis, where it is not left to the scale.
     pub(super) x_step: Option<f64>,
     /// The same of the y axis.

@@ -3,8 +3,10 @@
 //! This file draws it itself: a sphere with a graticule and numbered points is no panel.
 
 use super::colour;
-use super::drawing::{entry, legend, opened};
+use super::drawing::{legend, opened};
+use super::files::{Drawable, FigureFiles, standalone};
 use super::frame::framed;
+use crate::html::escape;
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use nalgebra::Vector3;
 
@@ -12,42 +14,73 @@ const RADIUS: f64 = 165.0;
 /// Half the side of a hemisphere's drawing.
 const HALF: f64 = 212.0;
 
+/// Directions on the sphere, numbered.
+pub(crate) struct Sphere {
+    title: &'static str,
+    /// Signs with their labels.
+    legend: Vec<(String, String)>,
+    points: Vec<Point>,
+    /// Directions without numbers.
+    rings: Vec<Vector3<f64>>,
+    caption: &'static str,
+}
+
+impl Drawable for Sphere {
+    fn html(&self) -> String {
+        let hemispheres = self.hemispheres().concat();
+        framed(self.title, &legend(&self.legend), &hemispheres, 2, self.caption)
+    }
+
+    fn files(&self) -> FigureFiles {
+        let drawings = self.hemispheres().map(|drawing| (drawing, [2.0 * HALF, 2.0 * HALF + 16.0]));
+        let row = |(number, d, used): &Point| format!("{number},{:?},{:?},{:?},{used}\n", d.x, d.y, d.z);
+        let ring = |d: &Vector3<f64>| format!(",{:?},{:?},{:?},\n", d.x, d.y, d.z);
+        let rows = self.points.iter().map(row).chain(self.rings.iter().map(ring));
+        FigureFiles {
+            title: self.title.to_owned(),
+            svg: standalone(self.title, &drawings, &self.legend, 2),
+            csv: "number,x,y,z,used\n".to_owned() + &rows.collect::<String>(),
+        }
+    }
+}
+
+impl Sphere {
+    fn hemispheres(&self) -> [String; 2] {
+        [("upper half, z ≥ 0", true), ("lower half, z < 0", false)]
+            .map(|(name, upper)| hemisphere(&self.points, &self.rings, name, upper))
+    }
+}
+
 /// Directions of the specific force in the sensor's frame, one numbered point for each hold.
-pub(crate) fn hold_directions(holds: &HoldCalibration) -> String {
+pub(crate) fn hold_directions(holds: &HoldCalibration) -> Sphere {
     let points: Vec<Point> = holds
         .holds
         .iter()
         .enumerate()
         .filter_map(|(i, hold)| direction(hold).map(|d| (i + 1, d, hold.used)))
         .collect();
-    let mut signs = vec![entry(&dot(17.0, 7.0), "used")];
+    let mut signs = vec![(dot(17.0, 7.0), "used".to_owned())];
     if holds.holds.iter().any(|hold| !hold.used) {
-        signs.push(entry(&cross(17.0, 7.0), "not used"));
+        signs.push((cross(17.0, 7.0), "not used".to_owned()));
     }
     let caption = "Specific force over its magnitude in the true frame, with the number of the hold. Both halves are seen from \
                    +z. Equal areas on the sphere are equal areas here. Rings are 30° apart, and the rim is z = 0. Good: points in \
                    all parts of both halves. An empty region is a direction in which the calibration extrapolates.";
-    framed("Orientations of the holds", &legend(&signs), &hemispheres(&points, &[]), 2, caption)
+    Sphere { title: "Orientations of the holds", legend: signs, points, rings: Vec::new(), caption }
 }
 
 /// Directions of poses in the sensor's frame, numbered, and those of the approximate design that bounds them.
-pub(crate) fn pose_directions(poses: &[Vector3<f64>], approximate: &[Vector3<f64>]) -> String {
-    let points: Vec<Point> = poses.iter().enumerate().map(|(k, u)| (k + 1, *u, true)).collect();
-    let of_bound = entry(&ring(17.0, 7.0), "direction of the approximate design");
-    let legend = legend(&[entry(&dot(17.0, 7.0), "pose"), of_bound]);
+pub(crate) fn pose_directions(poses: &[Vector3<f64>], approximate: &[Vector3<f64>]) -> Sphere {
+    let points = poses.iter().enumerate().map(|(k, u)| (k + 1, *u, true)).collect();
+    let legend = [(dot(17.0, 7.0), "pose"), (ring(17.0, 7.0), "direction of the approximate design")];
+    let legend = legend.map(|(sign, label)| (sign, label.to_owned())).to_vec();
     let caption = "The direction that is up in each pose, in the sensor's axes. Both halves are seen from +z. Equal areas on the sphere are \
                    equal areas here. Rings are 30° apart, and the rim is z = 0.";
-    framed("Directions of the poses", &legend, &hemispheres(&points, approximate), 2, caption)
+    Sphere { title: "Directions of the poses", legend, points, rings: approximate.to_vec(), caption }
 }
 
 /// A number, a direction, and whether it is used.
 type Point = (usize, Vector3<f64>, bool);
-
-fn hemispheres(points: &[Point], rings: &[Vector3<f64>]) -> String {
-    [("upper half, z ≥ 0", true), ("lower half, z < 0", false)]
-        .map(|(name, upper)| hemisphere(points, rings, name, upper))
-        .concat()
-}
 
 fn hemisphere(points: &[Point], rings: &[Vector3<f64>], name: &str, upper: bool) -> String {
     let points: Vec<(usize, (f64, f64), bool)> = points
@@ -58,7 +91,10 @@ fn hemisphere(points: &[Point], rings: &[Vector3<f64>], name: &str, upper: bool)
     let frame = [-HALF, -HALF - 16.0, 2.0 * HALF, 2.0 * HALF + 16.0];
     let mut svg = opened(frame, name, " fill=\"#1b1f24\"");
     let top = 2.0 - HALF;
-    svg.push_str(&format!("<text x=\"0\" y=\"{top}\" font-size=\"15\" text-anchor=\"middle\">{name}</text>"));
+    svg.push_str(&format!(
+        "<text x=\"0\" y=\"{top}\" font-size=\"15\" text-anchor=\"middle\">{}</text>",
+        escape(name)
+    ));
     for elevation in [0.0_f64, 30.0, 60.0] {
         let radius = RADIUS * (1.0 - elevation.to_radians().sin()).sqrt();
         let stroke = if elevation == 0.0 { "#424a53" } else { "#d0d7de" };

@@ -47,6 +47,9 @@ pub(super) fn svg(panel: &Panel) -> String {
     if panel.square || panel.map.is_some() {
         ranges.clear();
     }
+    if !panel.x_names.is_empty() {
+        ranges += &format!(" data-names=\"{}\"", crate::html::address(panel.x_names));
+    }
     for shade in &panel.shades {
         let (from, to) = (x.at(shade.from), x.at(shade.to));
         inside += &rectangle(

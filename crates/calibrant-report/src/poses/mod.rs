@@ -190,7 +190,7 @@ fn predicted_section<'a>(
 /// The directions, and how the bound is meant.
 fn direction_section<'a>(directions: &'a [Vector3<f64>], bound: &'a PoseBound) -> Section<'a> {
     let mut section = Section::on_page("The directions");
-    section.drawn(|| pose_directions(directions, &bound.directions));
+    section.figure(|| Some(pose_directions(directions, &bound.directions)));
     section.heading_on_page("The lower bound");
     section.explanation(
         "The bound is that of the approximate design, in which any share of the recording may be spent in each direction. By the \

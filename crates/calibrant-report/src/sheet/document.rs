@@ -20,6 +20,8 @@ use super::section::Section;
 pub struct Sheet<'a> {
     /// The title of the page.
     pub title: String,
+    /// Labels and facts below the title, as at the head of a certificate. On paper such a sheet has its first section on a page of its own.
+    pub head: Vec<(String, String)>,
     /// What is said first.
     pub verdict: Option<SheetVerdict>,
     /// The sections in their order.
@@ -28,6 +30,8 @@ pub struct Sheet<'a> {
     pub inputs: Vec<(String, String)>,
     /// The lines at the foot of the page.
     pub footer: Vec<String>,
+    /// Is it of an experiment of the thesis (`vamvaka2021`)? Only then are its figures named.
+    pub of_thesis: bool,
 }
 
 /// How good a result is: the colour of its verdict.

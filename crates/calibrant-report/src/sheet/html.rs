@@ -4,8 +4,10 @@ use super::cell::Cell;
 use super::document::{Grade, Sheet, SheetVerdict};
 use super::section::{Piece, Plot, Section};
 use super::table::{Shown, Table};
+use crate::cited::without_thesis;
 use crate::figure::FigureFiles;
 use crate::html::{escape, facts, list, page, paragraph};
+use calibrant_core::sensor::SensorKind;
 use rayon::prelude::*;
 
 impl Sheet<'_> {
@@ -19,17 +21,21 @@ impl Sheet<'_> {
             self.sections.iter().filter(|section| section.shown.on_page()).collect();
         let mut sections: Vec<(&str, String)> =
             shown.par_iter().map(|section| (section.heading.as_str(), body(section))).collect();
+        if !self.of_thesis {
+            sections.iter_mut().for_each(|(_, body)| *body = without_thesis(body));
+        }
         sections.retain(|(_, body)| !body.is_empty());
         if !self.inputs.is_empty() {
             sections.push(("Inputs", facts(&self.inputs) + "\n"));
         }
         let verdict = self.verdict.as_ref().map_or_else(String::new, verdict);
-        page(&self.title, &verdict, &sections, &self.footer)
+        let html = page(&self.title, &(facts(&self.head) + &verdict), &sections, &self.footer);
+        if self.head.is_empty() { html } else { html.replacen("<main>", "<main class=\"certificate\">", 1) }
     }
 }
 
 impl Sheet<'_> {
-    /// The figures of the page as files, in their order. Tables that look like figures have none.
+    /// The figures of the page as files, in their order.
     #[must_use]
     pub fn figures(&self) -> Vec<FigureFiles> {
         let shown = self.sections.iter().filter(|section| section.shown.on_page());
@@ -105,22 +111,38 @@ impl Table {
     pub(crate) fn html(&self) -> String {
         let columns = self.places(Shown::on_page);
         let class = |column: usize| if self.is_numeric(column) { " class=\"n\"" } else { "" };
+        let rows = || self.rows.iter().filter(|row| row.shown.on_page());
+        let explains = rows().flat_map(|row| &row.cells).any(|cell| matches!(cell, Cell::Words(_)));
+        // on a phone, the words stand below name and value; a row of several numbers has no room for that
+        let numbers = columns.iter().filter(|&&column| self.is_numeric(column)).count();
+        let is_list = explains && numbers <= 1;
+        let is_long = is_list && columns.len() > 4;
         let heading = |&column: &usize| {
             format!("<th scope=\"col\"{}>{}</th>", class(column), escape(&self.columns[column].title()))
         };
         let head: String = columns.iter().map(heading).collect();
-        let rows = || self.rows.iter().filter(|row| row.shown.on_page());
         let mut body = String::new();
         for row in rows() {
             body.push_str(if row.left_out { "<tr class=\"out\">" } else { "<tr>" });
             let cells = columns.iter().filter_map(|&column| Some((column, row.cells.get(column)?)));
-            cells.for_each(|(column, found)| body.push_str(&cell(found, class(column))));
+            for (column, found) in cells {
+                let html = cell(found, class(column));
+                // a phone shows no headings of such a table
+                match is_long && self.is_numeric(column) {
+                    true => {
+                        let heading = escape(&self.columns[column].title());
+                        body.push_str(&html.replacen("<td", &format!("<td data-of=\"{heading}\""), 1));
+                    }
+                    false => body.push_str(&html),
+                }
+            }
             body.push_str("</tr>\n");
         }
-        let explains = rows().flat_map(|row| &row.cells).any(|cell| matches!(cell, Cell::Words(_)));
-        // on a phone, the words stand below name and value; a row of several numbers has no room for that
-        let numbers = columns.iter().filter(|&&column| self.is_numeric(column)).count();
-        let explained = if explains && numbers <= 1 { " class=\"explained\"" } else { "" };
+        let explained = match (is_list, is_long) {
+            (true, true) => " class=\"explained many\"",
+            (true, false) => " class=\"explained\"",
+            _ => "",
+        };
         format!(
             "<div class=\"scroll\"><table{explained}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
         )
@@ -129,9 +151,10 @@ impl Table {
 
 /// A cell, in a column of this class.
 fn cell(cell: &Cell, class: &str) -> String {
-    let text = escape(&cell.on_page());
+    // each line of a text is one on the page
+    let text = escape(&cell.on_page()).replace('\n', "<br>");
     match cell {
-        Cell::Name(name) => format!("<th scope=\"row\"{}>{text}</th>", long(name)),
+        Cell::Name(name) => format!("<th scope=\"row\"{}>{}</th>", long(name), breakable(&text)),
         Cell::Link { text: name, address } => {
             let address = escape(&encoded(address));
             format!("<th scope=\"row\"{}><a href=\"{address}\">{text}</a></th>", long(name))
@@ -145,6 +168,13 @@ fn cell(cell: &Cell, class: &str) -> String {
         Cell::Mark(_) => format!("<td class=\"mark\">{text}</td>"),
         Cell::Flag(_) => format!("<td class=\"flag\">{text}</td>"),
     }
+}
+
+/// The name of a parameter, which may go on in a second line after that of its sensor.
+fn breakable(name: &str) -> String {
+    let of_sensor =
+        SensorKind::ALL.iter().any(|kind| name.split_once('.').is_some_and(|of| of.0 == kind.name()));
+    if of_sensor { name.replacen('.', ".<wbr>", 1) } else { name.to_owned() }
 }
 
 /// A name with more letters than this is broken into lines.

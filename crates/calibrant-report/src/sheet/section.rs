@@ -1,7 +1,7 @@
 //! A section of a sheet: its pieces in order.
 
 use super::table::{Shown, Table};
-use crate::figure::Figure;
+use crate::figure::Drawable;
 use std::fmt;
 
 /// A piece of a section.
@@ -27,7 +27,7 @@ pub(super) enum Piece<'a> {
 pub(super) struct Drawing<'a>(pub(super) Box<dyn Fn() -> String + Send + Sync + 'a>);
 
 /// A figure that is made when it is needed; `None` where there is nothing to draw.
-pub(super) struct Plot<'a>(pub(super) Box<dyn Fn() -> Option<Figure> + Send + Sync + 'a>);
+pub(super) struct Plot<'a>(pub(super) Box<dyn Fn() -> Option<Box<dyn Drawable>> + Send + Sync + 'a>);
 
 impl fmt::Debug for Plot<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -150,8 +150,12 @@ impl<'a> Section<'a> {
     }
 
     /// A figure, drawn when a page is printed; `None` where there is nothing to draw.
-    pub(crate) fn figure(&mut self, figure: impl Fn() -> Option<Figure> + Send + Sync + 'a) {
-        self.push(Shown::OnPage, Piece::Figure(Plot(Box::new(figure))));
+    pub(crate) fn figure<D: Drawable + 'static>(
+        &mut self,
+        figure: impl Fn() -> Option<D> + Send + Sync + 'a,
+    ) {
+        let boxed = move || figure().map(|drawable| Box::new(drawable) as Box<dyn Drawable>);
+        self.push(Shown::OnPage, Piece::Figure(Plot(Box::new(boxed))));
     }
 
     /// A table of pages alone, under a heading of its own.

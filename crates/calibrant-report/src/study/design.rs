@@ -24,8 +24,8 @@ pub(super) struct Chapter {
 
 pub(super) const OPTIMAL: Chapter = Chapter {
     heading: "Initial against optimal motion",
-    lead: "Each sensor goes round the loop of the thesis's Figure 2: calibrated on a random initial motion, the best motion designed at that \
-           estimate, calibrated again on it.",
+    lead: "Each sensor goes round a loop: calibrated on a random initial motion, the best motion designed at that \
+           estimate, calibrated again on it. The loop is Figure 2 of the thesis.",
     motion: "Figure 8 of the thesis: initial against optimal jerk (a) and acceleration (b), first sensor",
     motions: "Figure 9 of the thesis: optimal motions on each axis",
     traces: "Figure 10 of the thesis: trace of the covariance, sensor by sensor",

@@ -26,6 +26,31 @@ fn the_page_shows_yield_failures_causes_and_every_parameter() {
     }
     assert!(html.contains("estimate, 1 outside"), "the bad one does not flatten the others");
     assert!(html.contains("Beyond the control limits: accelerometer.bias.x of sensor-1, "));
+    assert!(
+        html.contains("<th scope=\"col\">station</th>") && !html.contains("<th scope=\"col\">recorded</th>")
+    );
+    assert!(html.contains("<dt>Stations</dt><dd>L1 (20), L2 (20)</dd>"));
+    assert!(html.contains("data-names=\"all-sensors\"") && html.contains("<h2 id=\"all-sensors\">"));
+    // bias.x drifts beyond its limits, bias.y has half a spread of 0.05 about zero: 0.15 over three of these
+    let row = |name: &str| {
+        let rows = html.split("Scatter of the parameters</h2>").nth(1).expect("a section");
+        let row = rows.split(&format!("{name}</th>")).nth(1).expect("a row").split("</tr>").next();
+        row.expect("its end").replace("<td>", "").replace("<td class=\"n\">", "").replace("</td>", "|")
+    };
+    let cells = row("bias.y");
+    let cpk = cells.split('|').nth_back(1).and_then(|cell| cell.split(' ').next());
+    let cpk: f64 = cpk.and_then(|text| text.parse().ok()).expect("a number");
+    assert!((1.4..2.6).contains(&cpk), "{cells}");
+    assert!(row("scale.x").ends_with("–|–|"), "it has no limits");
+}
+
+#[test]
+fn each_message_has_a_line_and_each_code_its_sensors() {
+    let mut batch = drifting_batch(40);
+    batch.sensors[4].reasons = vec!["One thing is wrong".into(), "another is, too".into()];
+    let html = batch_sheet(&batch, &about()).html();
+    assert!(html.contains(">One thing is wrong.<br>Another is, too.</td>"));
+    assert!(html.contains("<td>sensor-5<br>sensor-14<br>sensor-23<br>sensor-32</td>"), "those with spikes");
 }
 
 #[test]

@@ -49,6 +49,8 @@ pub(crate) fn drifting_batch(count: usize) -> Batch {
         BatchSensor {
             name: format!("sensor-{}", number + 1),
             link: (!failed).then(|| format!("sensor-{}/report.html", number + 1)),
+            station: Some(if number < count / 2 { "L1".into() } else { "L2".into() }),
+            recorded: None,
             limits_failed: if codes.len() > 1 { vec!["accelerometer.scale.x".into()] } else { Vec::new() },
             reasons: match (failed, codes.len()) {
                 (true, _) => vec!["sensor.csv: the file is empty".into()],

@@ -15,6 +15,22 @@ fn gyroscope_of(calibration: &mut Calibration) -> &mut GyroscopeCalibration {
 }
 
 #[test]
+fn sphere_and_budget_are_files_too() {
+    let case = imus::imu_case(14, 1);
+    let files = calibration_sheet(&case.calibration, &case.recording, &[], &about()).figures();
+    let of = |title: &str| files.iter().find(|of| of.title == title).expect("a figure");
+    let sphere = of("Orientations of the holds");
+    assert_eq!((sphere.csv.lines().count(), sphere.svg.matches("<svg ").count()), (15, 4), "{}", sphere.svg);
+    assert!(!sphere.svg.contains("z < 0"), "XML");
+    let budget = of("Where the variance of each parameter comes from");
+    let shares = budget.csv.lines().filter(|line| line.starts_with("\"accelerometer.bias.x\""));
+    let share =
+        |line: &str| line.rsplit(',').next().and_then(|share| share.parse::<f64>().ok()).expect("a share");
+    assert!((shares.map(share).sum::<f64>() - 1.0).abs() < 1e-9, "{}", budget.csv);
+    assert!(budget.svg.contains(">accelerometer.bias.x</text>"));
+}
+
+#[test]
 fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let case = imus::imu_case(14, 1);
     let gyroscope = case.recording[SensorKind::Gyroscope].as_ref().expect("recorded");

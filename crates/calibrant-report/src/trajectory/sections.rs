@@ -52,10 +52,10 @@ pub fn trajectory_sheet<'a>(
     predicted.line(values(design, problem));
     let sections = vec![
         predicted,
+        motion(best, problem, world),
         budget(best),
         path(best, problem),
         limits(best, problem),
-        motion(best, problem, world),
         search(design),
     ];
     about.sheet("Trajectory of a machine", verdict, sections, MODEL)
@@ -95,14 +95,18 @@ pub fn trajectory_evaluation_sheet<'a>(
     let mut predicted = Section::new("Predicted standard deviations");
     let given = ("of this trajectory", evaluation);
     predicted.table(promised_table(given, &[], best.map(|best| ("optimal", best))));
-    let mut sections =
-        vec![predicted, budget(evaluation), path(evaluation, problem), limits(evaluation, problem)];
+    let mut sections = vec![
+        predicted,
+        motion(evaluation, problem, world),
+        budget(evaluation),
+        path(evaluation, problem),
+        limits(evaluation, problem),
+    ];
     if !broken.is_empty() {
         let mut section = Section::new("Broken limits");
         section.list(broken);
         sections.insert(0, section);
     }
-    sections.push(motion(evaluation, problem, world));
     about.sheet("Evaluation of a trajectory", verdict, sections, MODEL)
 }
 
@@ -155,7 +159,7 @@ fn budget(of: &TrajectoryEvaluation) -> Section<'_> {
         Section::new("Budget").lead("Where the variance of each parameter comes from: what to improve.");
     if !of.budget.is_empty() {
         section.table(shares(&of.budget).shown(Shown::OnTerminal));
-        section.drawn(|| bars(&of.budget, unit));
+        section.figure(|| Some(bars(&of.budget, unit)));
     }
     section
 }

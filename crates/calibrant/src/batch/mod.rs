@@ -43,7 +43,7 @@ mod result;
 mod run;
 
 pub use copies::Copies;
-pub use folders::{folder_names, own_name};
+pub use folders::{folder_names, own_names};
 pub use options::BatchOptions;
 pub use parallel::in_parallel;
 pub use result::{BatchResult, BatchResults, BatchRow};

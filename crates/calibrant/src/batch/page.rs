@@ -6,7 +6,7 @@ use super::run::Batch;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::{Code, Diagnostic, Severity};
 use calibrant_core::sensor::{Parameter, ParameterList, Sensor};
-use calibrant_io::SummaryParameter;
+use calibrant_io::{Finished, SummaryParameter};
 use calibrant_report::{About, Batch as Page, BatchParameter, BatchSensor};
 
 impl Batch {
@@ -52,7 +52,9 @@ impl Batch {
                 codes.push(code);
             }
         }
-        let name = row.folder.clone();
+        let folder = &row.folder;
+        // what is named of a recording that failed
+        let named_by_path = || options.naming.of(&row.recording).ok();
         match &row.outcome {
             Ok(kept) => {
                 let summary = &kept.finished.summary;
@@ -63,9 +65,12 @@ impl Batch {
                 };
                 let decides = |found: &&Diagnostic| summary.verdict().codes.contains(&found.code());
                 let deciding = row.told().iter().filter(decides);
+                let Finished { sensor, station, recorded, .. } = &kept.finished;
                 BatchSensor {
-                    link: Some(format!("{name}/{file}")),
-                    name,
+                    name: self.name(folder, sensor.as_deref()),
+                    link: Some(format!("{folder}/{file}")),
+                    station: station.clone(),
+                    recorded: recorded.clone(),
                     verdict: Ok(summary.verdict().clone()),
                     quality: kept.finished.cells.clone(),
                     codes,
@@ -75,8 +80,10 @@ impl Batch {
                 }
             }
             Err(error) => BatchSensor {
-                name,
-                link: None,
+                name: self.name(folder, named_by_path().as_ref().map(|named| named.sensor.as_str())),
+                link: row.has_failure_page.then(|| format!("{folder}/report.html")),
+                station: named_by_path().and_then(|named| named.station),
+                recorded: named_by_path().and_then(|named| named.recorded).map(|time| time.to_string()),
                 verdict: Err(error.code()),
                 quality: Vec::new(),
                 codes,
@@ -84,6 +91,17 @@ impl Batch {
                 reasons: vec![error.to_string()],
                 estimates: Vec::new(),
             },
+        }
+    }
+}
+
+impl Batch {
+    /// The name of a sensor on the page: its folder, after the name that the user gives it, where the folder does not have it.
+    fn name(&self, folder: &str, sensor: Option<&str>) -> String {
+        let given = sensor.filter(|_| self.session().options().naming.names_sensors());
+        match given.filter(|name| !folder.contains(*name)) {
+            Some(name) => format!("{name} ({folder})"),
+            None => folder.to_owned(),
         }
     }
 }

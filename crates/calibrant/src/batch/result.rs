@@ -27,6 +27,8 @@ pub struct BatchRow {
     pub key: Option<ResumeKey>,
     /// Its result, or the reason why there is none.
     pub outcome: Result<BatchResult>,
+    /// Has its folder a page about the error?
+    pub has_failure_page: bool,
     /// What was told before an error ended the work. With a result, it is there.
     pub(super) told: Vec<Diagnostic>,
 }

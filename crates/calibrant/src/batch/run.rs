@@ -10,9 +10,9 @@ use super::record_keeper::RecordKeeper;
 use super::result::{BatchResult, BatchResults, BatchRow};
 use crate::session::{Outcome, Session, Source};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::progress::Progress;
-use calibrant_io::{Finished, HashedFile, ResumeKey};
+use calibrant_io::{Finished, HashedFile, ResumeKey, write_text};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -54,7 +54,7 @@ impl Batch {
     /// As [`Session::calibrate_noting`]; where the records have the recording as one of another sensor; where a file cannot be written.
     pub fn calibrate(&self, source: &Source, notes: &mut Vec<Diagnostic>) -> Result<Outcome> {
         self.check_records(source, || source.hashed())?;
-        self.calibrate_into(self.options.directory.as_deref(), source, notes)
+        self.calibrate_into(self.options.directory.as_deref(), source, None, notes)
     }
 
     /// Calibrates from all recordings, several at the same time: as many as there are threads. The progress counts recordings. After an interruption of the
@@ -77,9 +77,11 @@ impl Batch {
                 .and_then(|()| self.session.options().interruption.check())
                 .and_then(|()| self.check_records(source, || files.clone()))
                 .and_then(|()| self.result(source, folder, key.as_ref(), &mut told));
+            let has_failure_page =
+                outcome.as_ref().is_err_and(|error| self.write_failure(source, folder, error));
             progress.tell("recordings", done.fetch_add(1, Ordering::Relaxed) + 1, count as u64);
             let (folder, recording) = (folder.clone(), source.path().to_path_buf());
-            BatchRow { folder, recording, files: files.clone(), key, outcome, told }
+            BatchRow { folder, recording, files: files.clone(), key, outcome, has_failure_page, told }
         };
         BatchResults { rows: in_parallel(count, row), copies: copies.groups() }
     }
@@ -104,12 +106,15 @@ impl Batch {
             self.records.add(|| text.clone())?;
             return Ok(BatchResult { finished, json: keep(text), earlier: true });
         }
-        let outcome = self.calibrate_into(directory.as_deref(), source, told)?;
+        let outcome = self.calibrate_into(directory.as_deref(), source, Some(folder), told)?;
         told.extend(outcome.warnings().iter().cloned());
         let mut finished = Finished {
             summary: outcome.summary(),
             cells: cells(self.session.experiment(), &outcome.calibrated),
             told: std::mem::take(told),
+            sensor: outcome.origin.sensor.clone(),
+            station: outcome.origin.station.clone(),
+            recorded: outcome.origin.recorded.map(|time| time.to_string()),
         };
         if let Some((directory, key)) = kept {
             finished.write(directory, key, self.session.options().report)?;
@@ -119,16 +124,34 @@ impl Batch {
         Ok(BatchResult { finished, json, earlier: false })
     }
 
+    /// `name`: that of the sensor among the others, where nobody names the sensors.
     fn calibrate_into(
         &self,
         directory: Option<&Path>,
         source: &Source,
+        name: Option<&str>,
         notes: &mut Vec<Diagnostic>,
     ) -> Result<Outcome> {
-        let outcome = self.session.calibrate_noting(source, notes)?;
+        let mut outcome = self.session.calibrate_noting(source, notes)?;
+        if let Some(name) = name.filter(|_| !self.session.options().naming.names_sensors()) {
+            outcome.origin.sensor = Some(name.replace(char::is_control, "_"));
+        }
         directory.map_or(Ok(()), |directory| outcome.write(directory))?;
         self.records.add(|| outcome.json())?;
         Ok(outcome)
+    }
+
+    /// Writes the page about a recording that could not be calibrated, where there is something to show. Is there one?
+    fn write_failure(&self, source: &Source, folder: &str, error: &Error) -> bool {
+        let options = self.session.options();
+        let Some(directory) = self.options.directory.as_ref().filter(|_| options.report) else {
+            return false;
+        };
+        if error.code() == Refusal::Interrupted {
+            return false;
+        }
+        let page = self.session.failure_html(source, error);
+        page.is_some_and(|page| write_text(&directory.join(folder).join("report.html"), &page).is_ok())
     }
 
     /// Refuses a recording that the records have as one of another sensor. `files`: its own by their content; `None` where one cannot be read.

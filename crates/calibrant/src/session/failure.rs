@@ -29,6 +29,7 @@ impl Session {
         let inspection = inspect(&file);
         let sheet = recording_sheet(&file, &inspection, &names);
         let verdict = SheetVerdict::new(Grade::Bad, "✗ Not calibrated:", error.to_string());
-        Some(Sheet { verdict: Some(verdict), ..sheet }.html())
+        let footer = vec![format!("calibrant {}.", env!("CARGO_PKG_VERSION"))];
+        Some(Sheet { verdict: Some(verdict), footer, ..sheet }.html())
     }
 }

@@ -47,6 +47,7 @@ mod clean;
 mod duplicates;
 mod failure;
 mod figures;
+mod head;
 mod holds;
 mod kind;
 mod left_out;

@@ -132,9 +132,15 @@ impl Outcome {
         }
     }
 
-    /// The text of `report.html`.
+    /// The text of `report.html`, which begins as a certificate does.
     #[must_use]
     pub fn report_html(&self) -> String {
-        self.sheet().html()
+        let sheet = self.sheet();
+        // of several sensors whose files have one name, each title says which it is
+        let title = match &self.origin.sensor {
+            Some(sensor) if !sheet.title.contains(sensor.as_str()) => format!("{sensor}: {}", sheet.title),
+            _ => sheet.title.clone(),
+        };
+        Sheet { title, head: self.head(), ..sheet }.html()
     }
 }

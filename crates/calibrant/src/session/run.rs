@@ -113,6 +113,7 @@ impl Session {
         let before = notes.len();
         let named = self.options.naming.of(source.path())?;
         let mut outcome = self.estimated(source, notes)?;
+        outcome.about.of_thesis = self.experiment.is_of_thesis();
         outcome.origin = Origin {
             sensor: Some(named.sensor),
             station: named.station,

@@ -1,7 +1,4 @@
-//! Each parameter over the order of the recordings, with the limits of an individuals chart.
-//!
-//! The limits are `x̄ ± 2.66 MR̄`, with `MR̄` the mean of `|x_k − x_{k−1}|`: three standard deviations as neighbours show them, since
-//! `3 / 1.128 = 2.66` (`iso7870_2`). A slow drift widens the spread of all sensors, but not that of neighbours. Sensors that are bad are left out.
+//! Each parameter over the order of the recordings, with its control limits.
 
 use super::super::panel::{Panel, Points, Series, Shape};
 use super::super::point_thinning::{drawn_in_words, every};
@@ -9,14 +6,10 @@ use super::super::unit::DisplayUnit;
 use super::super::{Figure, colour, frame};
 use super::groups::groups;
 use super::reach::{Reach, least_width, median, whole_step};
-use crate::batch::Batch;
+use crate::batch::{Batch, Control};
 use crate::number_format::{count, significant};
 use calibrant_core::diagnostic::Usability;
 
-/// Half the width of the control limits over the mean moving range.
-const OVER_MOVING_RANGE: f64 = 2.66;
-/// The fewest sensors that give control limits.
-const FEWEST: usize = 5;
 /// From this number of sensors on, control limits are reliable.
 const RELIABLE: usize = 20;
 /// The share of a normal distribution beyond three standard deviations.
@@ -26,6 +19,8 @@ const BAR_SD: f64 = 2.0;
 /// The most sensors that are drawn with error bars, and one by one.
 const MOST_BARS: usize = 150;
 const MOST_POINTS: usize = 600;
+/// The heading under which the page lists the sensors in their order.
+pub(crate) const SENSORS: &str = "All sensors";
 /// The most sensors that are named for a parameter.
 const MOST_NAMES: usize = 5;
 
@@ -33,30 +28,6 @@ const MOST_NAMES: usize = 5;
 pub(crate) struct Drifts {
     pub(crate) figures: Vec<Figure>,
     pub(crate) findings: Vec<String>,
-}
-
-/// Limits within which sensors scatter at random.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Control {
-    mean: f64,
-    half_width: f64,
-}
-
-impl Control {
-    /// Of values in their order; `None` for too few.
-    fn of(values: &[f64]) -> Option<Self> {
-        if values.len() < FEWEST {
-            return None;
-        }
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let ranges = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-        let moving_range = ranges.sum::<f64>() / (values.len() - 1) as f64;
-        (moving_range > 0.0).then_some(Self { mean, half_width: OVER_MOVING_RANGE * moving_range })
-    }
-
-    fn ends(self) -> [f64; 2] {
-        [self.mean - self.half_width, self.mean + self.half_width]
-    }
 }
 
 /// A sensor that has the parameter.
@@ -79,16 +50,11 @@ pub(crate) fn drifts(batch: &Batch) -> Drifts {
             if points.len() < 2 {
                 continue;
             }
-            let usable: Vec<f64> =
-                points.iter().filter(|of| of.usability != Usability::Bad).map(|of| of.value).collect();
-            let control = Control::of(&usable);
+            let control = Control::of(batch, place);
             if let Some(control) = control {
-                checked += usable.len();
-                fewest = fewest.min(usable.len());
-                let far = |of: &&Point| {
-                    of.usability != Usability::Bad && (of.value - control.mean).abs() > control.half_width
-                };
-                beyond.extend(points.iter().filter(far).map(|of| (place, of.number)));
+                checked += control.sensors;
+                fewest = fewest.min(control.sensors);
+                beyond.extend(control.beyond(batch, place).into_iter().map(|number| (place, number)));
             }
             panels.push(panel(batch, place, &points, control, &mut seen));
         }
@@ -115,7 +81,7 @@ fn caption(batch: &Batch, seen: &Seen) -> String {
     let always = match seen.control {
         false => "Good: no pattern.",
         true => {
-            "Control limits are the mean ± 2.66 times the mean difference of neighbours, of the sensors that are not bad (individuals chart, \
+            "Control limits are the mean ± 2.66 times the mean difference of neighbours, without sensors whose calibration is bad (individuals chart, \
              ISO 7870-2). Good: no pattern, and hardly a sensor beyond them."
         }
     };
@@ -202,6 +168,7 @@ fn panel(batch: &Batch, place: usize, points: &[Point], control: Option<Control>
         panel = panel.with(crosses);
     }
     panel.x_step = Some(whole_step(batch.sensors.len()));
+    panel.x_names = SENSORS;
     panel
 }
 
@@ -247,6 +214,8 @@ mod tests {
         let sensor = |(number, estimate): (usize, (f64, f64))| BatchSensor {
             name: format!("s{number}"),
             link: None,
+            station: None,
+            recorded: None,
             verdict: Ok(Verdict::on([], &[])),
             quality: Vec::new(),
             codes: Vec::new(),
@@ -267,8 +236,7 @@ mod tests {
 
     fn only_panel(batch: &Batch) -> (Panel, Seen) {
         let (points, mut seen) = (points(batch, 0), Seen::default());
-        let values: Vec<f64> = points.iter().map(|of| of.value).collect();
-        let panel = panel(batch, 0, &points, Control::of(&values), &mut seen);
+        let panel = panel(batch, 0, &points, Control::of(batch, 0), &mut seen);
         (panel, seen)
     }
 
@@ -306,15 +274,5 @@ mod tests {
         let (_, seen) = only_panel(&few);
         let caption = caption(&few, &seen);
         assert!(!caption.contains("ontrol limits") && !caption.contains("crosses"), "{caption}");
-    }
-
-    #[test]
-    fn control_limits_are_those_of_the_individuals_chart() {
-        // mean 10, moving ranges 2, 2, 1, 1, 2: mean 1.6
-        let control = Control::of(&[9.0, 11.0, 9.0, 10.0, 11.0, 9.0]).expect("six values");
-        assert!((control.mean - 59.0 / 6.0).abs() < 1e-12);
-        assert!((control.half_width - 2.66 * 1.6).abs() < 1e-12);
-        assert_eq!(Control::of(&[1.0; 4]), None, "too few");
-        assert_eq!(Control::of(&[1.0; 9]), None, "no scatter");
     }
 }

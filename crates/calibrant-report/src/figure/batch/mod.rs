@@ -6,6 +6,6 @@ mod histogram;
 mod pareto;
 mod reach;
 
-pub(crate) use drift::drifts;
+pub(crate) use drift::{SENSORS, drifts};
 pub(crate) use histogram::parameter_histograms;
 pub(crate) use pareto::code_bars;

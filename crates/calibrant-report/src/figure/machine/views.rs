@@ -2,7 +2,7 @@
 
 use super::scene::{Scene, without_gaps};
 use crate::figure::colour;
-use crate::figure::drawing::{self, entry, opened, stroke};
+use crate::figure::drawing::{self, opened, stroke};
 use crate::figure::frame::framed;
 use crate::figure::view::{View, round_step};
 use crate::number_format::tick;
@@ -34,14 +34,14 @@ pub(super) fn legend(is_chain: bool) -> String {
     let tip = if is_chain { "tip" } else { "body" };
     let mut entries = Vec::new();
     if is_chain {
-        entries.push(entry(&line(colour::GREY, 4.0), "links"));
-        entries.push(entry(&dot(colour::BLACK), "base"));
+        entries.push((line(colour::GREY, 4.0), "links".to_owned()));
+        entries.push((dot(colour::BLACK), "base".to_owned()));
     }
-    entries.push(entry(&line(colour::SKY, 1.2), &format!("path of the {tip}")));
+    entries.push((line(colour::SKY, 1.2), format!("path of the {tip}")));
     for (axis, colour) in ["x", "y", "z"].iter().zip(colour::AXES) {
-        entries.push(entry(&line(colour, 2.0), &format!("its {axis}")));
+        entries.push((line(colour, 2.0), format!("its {axis}")));
     }
-    entries.push(entry(&dot(SENSOR), "sensor"));
+    entries.push((dot(SENSOR), "sensor".to_owned()));
     drawing::legend(&entries)
 }
 
