@@ -1,7 +1,7 @@
 #!/bin/sh
 # MuJoCo 4.0.0: three properties of a sensor that are not what their names say.
 # 1. `interval` alone does nothing, nor does `nsample` alone: the sensor changes at every step. Only both together make it slower. Its value then
-#    repeats, bit for bit, until the next one. With steps of 1 ms and an interval of 5 ms most values last five steps; one in two thousand steps lasted six.
+#    repeats, bit for bit, until the next one. With steps of 1 ms and an interval of 5 ms most values last five steps, and one of 398 lasted six.
 # 2. `noise` adds no noise.
 # 3. After `mj_step`, `data.time` is that of the new state, and `sensordata` belongs to the state before the step.
 # Seen:
