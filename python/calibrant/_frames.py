@@ -22,7 +22,12 @@ def is_frame(data: object) -> bool:
     return True
 
 
-def _read(data: object) -> Any:
+def _read(data: Any) -> Any:
+    # the index of a frame of pandas: as a column where it has a name, or is a time
+    index = getattr(data, "index", None)
+    if getattr(index, "name", None) is not None or type(index).__name__ in ("DatetimeIndex", "TimedeltaIndex"):
+        if index.name not in data.columns:
+            data = data.reset_index()
     try:
         return nw.from_native(data, eager_only=True)
     except nw.exceptions.NarwhalsError as error:
@@ -37,25 +42,27 @@ def library_of(data: object) -> Any:
 def first_date_ns(data: object) -> int | None:
     """The first time of a frame whose times are dates, ns."""
     series = _dates(_read(data))
-    known = None if series is None else series.drop_nulls()
+    known = None if series is None or series.dtype == nw.Duration else series.drop_nulls()
     return None if known is None or len(known) == 0 else int(known.dt.timestamp("ns").to_numpy()[0])
 
 
 def has_dates(data: object, name: str) -> bool:
-    """Is this a column of dates?"""
+    """Is this a column of dates or durations?"""
     return _dates(_read(data), name) is not None
 
 
 def _dates(read: Any, name: str | None = None) -> Any:
-    """The column of dates that are times: the one of this name; else the first, where there is no `t_s`."""
-    of_dates = [column for column in read.columns if isinstance(read.schema[column], nw.Datetime)]
+    """The column of dates or durations that are times: the one of this name; else the first, where there is no `t_s`."""
+    of_dates = [column for column in read.columns if isinstance(read.schema[column], (nw.Datetime, nw.Duration))]
     if name is not None:
         return read[name] if name in of_dates else None
-    return None if not of_dates or "t_s" in read.columns else read[of_dates[0]]
+    if "t_s" in read.columns:
+        return read["t_s"] if "t_s" in of_dates else None
+    return read[of_dates[0]] if of_dates else None
 
 
 def columns_of(data: object, origin_ns: int | None = None, time: str | None = None) -> list[tuple[str, Array]]:
-    """The columns of numbers. Dates, of the column `time` where that is given, become the seconds `t_s` since `origin_ns`, or since the first."""
+    """The columns of numbers. Dates, of the column `time` where that is given, become the seconds `t_s` since `origin_ns`, or since the first; durations become seconds."""
     read = _read(data)
     names = list(read.columns)
     if not all(isinstance(name, str) for name in names):
@@ -68,9 +75,11 @@ def columns_of(data: object, origin_ns: int | None = None, time: str | None = No
     dates = _dates(read, time)
     if dates is not None:
         missing = dates.is_null().to_numpy()
-        since = origin_ns if origin_ns is not None else first_date_ns(data) or 0
+        is_duration = dates.dtype == nw.Duration
+        since = 0 if is_duration else origin_ns if origin_ns is not None else first_date_ns(data) or 0
         # whole numbers first: seconds since 1970 have too many digits
-        times = dates.dt.timestamp("ns").fill_null(since).to_numpy().astype(np.int64)
+        ns = dates.dt.total_nanoseconds() if is_duration else dates.dt.timestamp("ns")
+        times = ns.fill_null(since).to_numpy().astype(np.int64)
         columns.insert(0, ("t_s", np.where(missing, np.nan, (times - since) / 1e9)))
     if not columns:
         raise recording_error("the frame has no column of numbers", "give times and readings", code="column-missing")

@@ -168,6 +168,25 @@ def test_dates_of_recording_and_log_are_of_one_clock() -> None:
         assert found["delay.accelerometer"].value == pytest.approx(truth["delay.accelerometer"].value, abs=1e-5)
 
 
+def test_durations_and_the_index_of_a_frame_are_times(imu: cb.Recording) -> None:
+    pd = pytest.importorskip("pandas")
+    frame = imu.to_frame()
+    assert imu.accelerometer is not None
+    times = frame.pop("t_s")
+    for index in (
+        times.rename("t_s"),
+        pd.to_timedelta(times, unit="s"),
+        pd.Timestamp("2026-11-26 23:59:50Z") + pd.to_timedelta(times, unit="s").rename(None),
+    ):
+        indexed = frame.set_index(pd.Index(index, name=index.name))
+        read = cb.read_recording(indexed).accelerometer
+        assert read is not None
+        assert np.diff(read.t_s) == pytest.approx(np.diff(imu.accelerometer.t_s), abs=1e-8)
+    frame["time"] = pd.to_timedelta(times, unit="s")
+    read = cb.read_recording(frame).accelerometer
+    assert read is not None and read.t_s == pytest.approx(imu.accelerometer.t_s, abs=1e-8)
+
+
 def test_orientations_of_counts_are_those_of_their_readings() -> None:
     made = cb.simulate(cb.Experiment.preset("static-poses-counts", sensor={"gain_counts_per_mps2": 1000.0, "noise_counts": 5.0})).recording
     assert made.accelerometer is not None and made.accelerometer.unit == "counts"

@@ -12,14 +12,14 @@ checks! {
         format: &'static str,
         /// What it has no place for: `the biases`.
         what: &'static str,
-        /// Is it in the file nevertheless, where only calibrant reads it?
-        is_beside: bool,
+        /// How it is in the file nevertheless: `under the key …, which only calibrant reads`.
+        kept: Option<&'static str>,
     }
     decided "The format has no key for it."
     remedy "Keep the JSON of calibrant beside it."
-    says match is_beside {
-        true => format!("{format} has no place for {what}, kept under the key `calibrant`, which only calibrant reads"),
-        false => format!("{format} has no place for {what}: keep the calibrant JSON"),
+    says match kept {
+        Some(kept) => format!("{format} has no place for {what}, kept {kept}"),
+        None => format!("{format} has no place for {what}: keep the calibrant JSON"),
     };
 
     /// A format of calibrations has no place for the terms that bend the accelerometer's response.

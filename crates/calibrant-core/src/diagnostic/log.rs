@@ -94,6 +94,19 @@ checks! {
         significant(100.0 * share, 2)
     );
 
+    /// The body of a log moves faster than any machine or hand. Its positions may be in another unit.
+    BodyTooFast "body-too-fast" Warning {
+        /// The speed that one step in ten exceeds, m/s.
+        speed_mps: f64,
+    }
+    decided "One step in ten between two poses is faster than 50 m/s. Millimetres that are read as metres are."
+    remedy "If the positions are in mm, say so: position_unit = \"mm\" in [machine.log.columns], or in the columns' names (px_mm)."
+    says format!(
+        "by the log the body moves at {} m/s and more. Are its positions in mm? Then write position_unit = \"mm\" in \
+         [machine.log.columns], or name the columns so (px_mm)",
+        significant(*speed_mps, 2)
+    );
+
     /// The log has positions that the machine's file does not allow.
     BeyondLimits "beyond-limits" Warning {
         /// The joint.

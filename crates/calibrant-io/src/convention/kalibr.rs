@@ -9,9 +9,8 @@
 //! triangular factor in `M`, the rotation in `C`.
 //!
 //! Readings are in m/s² and rad/s, `A` in (rad/s)/(m/s²). Kalibr estimates biases as curves in time and does
-//! not write them. Our files have them under a key `calibrant`, which its readers ignore. The unit of
-//! readings that are counts is there, too. The file cannot carry the covariance. Other programs write biases as
-//! `b` beside `M`; these are read. Numbers under a key that is not known are an error: they may be part of the model.
+//! not write them. Our files have them as `b` beside `M`, as other programs do, which its readers ignore. In counts they
+//! are under a key `calibrant`, with the unit. The file cannot carry the covariance. Numbers under a key that is not known are an error: they may be part of the model.
 //!
 //! # References
 //! `rehder2016`, `kalibr`
@@ -21,7 +20,7 @@ use super::file::LARGEST;
 use super::imu_noise::ImuNoise;
 use super::kalibr_keys::refuse_unknown_numbers;
 use super::words::{input_error, invalid, singular, unit_named, written_by};
-use super::yaml::{self, beside, line, matrix};
+use super::yaml::{self, UNDER_OWN_KEY, beside, line, matrix};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use calibrant_core::diagnostic::convention::{
     FormatLoses, FormatNeeds, FormatSupposed, FrameTurned, LeverArmIgnored,
@@ -328,13 +327,13 @@ pub(super) fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Mat
 
 pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) -> Checked<String> {
     let imu = &file.imu;
-    let Some(accelerometer_unit) = imu.unit(SensorKind::Accelerometer) else {
+    if imu.unit(SensorKind::Accelerometer).is_none() {
         return Err(input_error(
             Refusal::ConversionImpossible,
             "Kalibr's imu.yaml has no place for a gyroscope alone: its frame is the accelerometer's",
             "choose another format",
         ));
-    };
+    }
     let noise = file.noise.clone().unwrap_or_default();
     let (m_a, c_i_b) = factors(&imu.parameters[SensorKind::Accelerometer].matrix, SensorKind::Accelerometer)?;
     let mut out = format!("# {}: true to raw, y_a = M_a C_i_b f + b_a\nimu0:\n  T_i_b:\n", written_by());
@@ -346,30 +345,44 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     let mut absent = yaml::noise(&mut out, &noise, "Kalibr");
     out.push_str("  accelerometers:\n");
     matrix(&mut out, ("    M", "    - "), &m_a);
+    // counts stay under our own key: who reads `b` takes it in SI
+    let is_plain =
+        |sensor_kind| imu.has_bias(sensor_kind) && imu.unit(sensor_kind) != Some(ReadingUnit::Counts);
+    let plain_bias = |out: &mut String, sensor_kind| {
+        if is_plain(sensor_kind) {
+            yaml::bias(out, "    b: ", imu, sensor_kind);
+        }
+    };
+    plain_bias(&mut out, SensorKind::Accelerometer);
     if imu.unit(SensorKind::Gyroscope).is_some() {
         let (m_g, c_gyro_b) = factors(&imu.parameters[SensorKind::Gyroscope].matrix, SensorKind::Gyroscope)?;
         out.push_str("  gyroscopes:\n");
         matrix(&mut out, ("    A", "    - "), &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
         matrix(&mut out, ("    C_gyro_i", "    - "), &(c_gyro_b * c_i_b.transpose()));
         matrix(&mut out, ("    M", "    - "), &m_g);
-        beside(&mut out, imu);
+        plain_bias(&mut out, SensorKind::Gyroscope);
     } else {
         absent.push("a gyroscope".into());
-        beside(&mut out, imu);
     }
+    let has_counts =
+        SensorKind::ALL.map(|sensor_kind| imu.unit(sensor_kind)).contains(&Some(ReadingUnit::Counts));
+    beside(&mut out, imu, |sensor_kind| imu.has_bias(sensor_kind) && !is_plain(sensor_kind));
     out.push_str("  model: scale-misalignment\n  time_offset: 0.0\n");
     if c_i_b != Matrix3::identity() {
         warnings.push(FrameTurned { format: "Kalibr", angle_deg: None }.into());
     }
     let format = ImuFormat::Kalibr.title();
-    let mut loses = |what| warnings.push(FormatLoses { format, what, is_beside: true }.into());
+    let mut loses = |what, kept| warnings.push(FormatLoses { format, what, kept: Some(kept) }.into());
     if imu.parameters[SensorKind::Accelerometer].bias != Vector3::zeros()
         || imu.parameters[SensorKind::Gyroscope].bias != Vector3::zeros()
     {
-        loses("the biases");
+        loses(
+            "the biases",
+            "as `b` beside `M`, of counts under the key `calibrant`, and Kalibr reads neither",
+        );
     }
-    if [Some(accelerometer_unit), imu.unit(SensorKind::Gyroscope)].contains(&Some(ReadingUnit::Counts)) {
-        loses("readings in counts");
+    if has_counts {
+        loses("readings in counts", UNDER_OWN_KEY);
     }
     if !absent.is_empty() {
         warnings.push(FormatNeeds { format: "Kalibr", fields: absent, how: yaml::how() }.into());

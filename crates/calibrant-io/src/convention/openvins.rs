@@ -14,7 +14,7 @@ use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
 use super::kalibr::factors;
 use super::words::{input_error, invalid, unit_named, written_by};
-use super::yaml::{self, beside, line, matrix, number, put};
+use super::yaml::{self, UNDER_OWN_KEY, beside, line, matrix, number, put};
 use calibrant_core::diagnostic::convention::{FormatLoses, FormatNeeds, FormatSupposed};
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::error::Refusal;
@@ -51,7 +51,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
     matrix(&mut out, ("  Ta", ROW), &p[SensorKind::Accelerometer].matrix);
     matrix(&mut out, ("  R_IMUtoACC", ROW), &Matrix3::identity());
     matrix(&mut out, ("  Tg", ROW), &p.g_sensitivity);
-    beside(&mut out, imu);
+    beside(&mut out, imu, |sensor_kind| imu.has_bias(sensor_kind));
     out.push_str("# OpenVINS estimates the biases. Its first guesses are keys of estimator_config.yaml:\n");
     for (key, kind) in
         [("init_dyn_bias_a", SensorKind::Accelerometer), ("init_dyn_bias_g", SensorKind::Gyroscope)]
@@ -60,7 +60,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
         put(&mut out, format_args!("# {key}: [{}]\n", bias.join(", ")));
     }
     let format = ImuFormat::OpenVins.title();
-    warnings.push(FormatLoses { format, what: "the biases", is_beside: true }.into());
+    warnings.push(FormatLoses { format, what: "the biases", kept: Some(UNDER_OWN_KEY) }.into());
     if !absent.is_empty() {
         warnings.push(FormatNeeds { format: "OpenVINS", fields: absent, how: yaml::how() }.into());
     }

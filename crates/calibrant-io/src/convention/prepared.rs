@@ -28,7 +28,7 @@ impl Prepared {
         let mut file = file.clone();
         let mut warnings: Vec<Diagnostic> = Vec::new();
         let (imu, title) = (&mut file.imu, format.title());
-        let loses = |what| FormatLoses { format: title, what, is_beside: false }.into();
+        let loses = |what| FormatLoses { format: title, what, kept: None }.into();
         if format != ImuFormat::CalibrantJson && imu.covariance.is_some() {
             warnings.push(loses("the covariance"));
         }

@@ -2,7 +2,7 @@
 
 use super::imu_noise::ImuNoise;
 use calibrant_core::diagnostic::Phrase;
-use calibrant_core::sensor::CalibratedImu;
+use calibrant_core::sensor::{CalibratedImu, SensorKind};
 use nalgebra::Matrix3;
 use std::fmt::Write;
 
@@ -40,17 +40,25 @@ pub(super) fn noise(out: &mut String, noise: &ImuNoise, program: &str) -> Vec<St
     absent
 }
 
-/// Our own key, with what the format has no place for.
-pub(super) fn beside(out: &mut String, imu: &CalibratedImu) {
+/// Where what the format has no place for is kept.
+pub(super) const UNDER_OWN_KEY: &str = "under the key `calibrant`, which only calibrant reads";
+
+/// Our own key, with what the format has no place for; with the biases of these sensors.
+pub(super) fn beside(out: &mut String, imu: &CalibratedImu, has_bias: impl Fn(SensorKind) -> bool) {
     out.push_str("  calibrant: # for calibrant alone\n");
     for (sensor_kind, unit) in imu.units.present() {
         put(out, format_args!("    {sensor_kind}_unit: {}\n", unit.symbol()));
-        if imu.has_bias(sensor_kind) {
-            let bias: Vec<f64> = imu.parameters.sensor(sensor_kind).bias.iter().copied().collect();
-            line(out, &format!("    {sensor_kind}_bias: "), &bias);
+        if has_bias(sensor_kind) {
+            bias(out, &format!("    {sensor_kind}_bias: "), imu, sensor_kind);
         }
     }
     put(out, format_args!("    frame: {}\n", quoted(&imu.frame)));
+}
+
+/// The bias of a sensor, in a line that begins like this.
+pub(super) fn bias(out: &mut String, before: &str, imu: &CalibratedImu, sensor_kind: SensorKind) {
+    let bias: Vec<f64> = imu.parameters.sensor(sensor_kind).bias.iter().copied().collect();
+    line(out, before, &bias);
 }
 
 /// A matrix under a key, whose rows begin like this.

@@ -216,7 +216,7 @@ impl<'l> RowReader<'l> {
         let help = if fields < columns {
             "was the line cut off, or written while the file was read?"
         } else {
-            "numbers need a decimal point, not a comma; columns need one delimiter"
+            "numbers need a decimal point, not a comma; columns need one delimiter, and a name each: R writes row names without one (row.names = FALSE)"
         };
         let before = if layout.has_header { "the header" } else { "the first row" };
         let message = format!("{fields} columns where {before} has {columns}");

@@ -6,6 +6,9 @@ use jiff::tz::Offset;
 /// Nanoseconds of a day: a time of day begins anew there.
 pub(crate) const DAY_NS: f64 = 86_400e9;
 
+/// Durations are shorter, s.
+const LONGEST_S: f64 = 1e9;
+
 /// A time that was given as text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TextTime {
@@ -16,9 +19,13 @@ pub(crate) struct TextTime {
 }
 
 impl TextTime {
-    /// The time of a text: `2024-03-05T13:35:38.42Z`, `2024/03/05 13:35:38`, `13:35:38.420`, `1:35:38 PM`. `None` for another text.
+    /// The time of a text: `2024-03-05T13:35:38.42Z`, `2024/03/05 13:35:38`, `13:35:38.420`, `1:35:38 PM`; the durations `0 days 00:00:12.5` of pandas and
+    /// `12.5 sec` of MATLAB. `None` for another text.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
+        if let Some(ns) = duration(text) {
+            return Some(Self { ns, has_date: false });
+        }
         let (day, time) = match text.rfind(['T', ' ', '_']).filter(|at| text[..*at].len() >= 8) {
             Some(at) if !is_half_of_day(&text[at + 1..]) => (Some(&text[..at]), &text[at + 1..]),
             Some(at) => match text[..at].rfind(['T', ' ', '_']) {
@@ -37,6 +44,15 @@ impl TextTime {
             }
         }
     }
+}
+
+/// Nanoseconds of a duration.
+fn duration(text: &str) -> Option<i64> {
+    if let Some((days, time)) = text.split_once(" days ") {
+        return days.parse::<i64>().ok()?.checked_mul(DAY_NS as i64)?.checked_add(time_of_day(time)?);
+    }
+    let seconds: f64 = text.strip_suffix(" sec")?.trim().parse().ok()?;
+    (seconds.abs() < LONGEST_S).then_some((seconds * 1e9).round() as i64)
 }
 
 fn is_half_of_day(text: &str) -> bool {
@@ -112,6 +128,9 @@ mod tests {
             ("03/05/2024 13:35:38.42", of_day(D)),
             ("03/05/2024 1:35:38.42 PM", of_day(D)),
             ("13:35:38", of_day(D - 420_000_000)),
+            ("0 days 00:00:12.500000", of_day(12_500_000_000)),
+            ("1 days 00:00:00", of_day(DAY_NS as i64)),
+            ("12.5 sec", of_day(12_500_000_000)),
             ("2024-03-05", None),
             ("12.5.3", None),
             ("1.5", None),

@@ -2,6 +2,7 @@
 
 use super::angles::unwrap_angles;
 use super::blank_poses::blank_placeholders;
+use super::body_speed::body_too_fast;
 use super::content::Content;
 use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
@@ -92,6 +93,9 @@ pub(super) fn assemble(
     };
     check_seen(&log, &rows)?;
     findings.extend(leave_out_held(&mut log));
+    if let ReferenceLog::Poses(poses) = &log {
+        findings.extend(body_too_fast(poses));
+    }
     if rows.truncated.is_some() {
         findings.push(Diagnostic::from(LineTruncated {}).at_line(rows.truncated));
     }

@@ -18,6 +18,7 @@
 
 mod angles;
 mod blank_poses;
+mod body_speed;
 mod column_faults;
 mod content;
 mod file;

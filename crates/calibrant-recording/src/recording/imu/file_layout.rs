@@ -290,6 +290,11 @@ impl Draft {
             "no column is known to be an accelerometer's or a gyroscope's; the columns are {}",
             quoted(&all, 20)
         );
+        if ["x", "y", "z"].iter().all(|axis| all.iter().any(|name| name.eq_ignore_ascii_case(axis))) {
+            let help = "x, y and z do not say whose they are. Give two files: the accelerometer's, and with option \
+                        `gyroscope` the gyroscope's. Of one alone, say in [columns] of an experiment file whose they are";
+            return InputError::new(Refusal::ColumnMissing, message, help);
+        }
         InputError::new(
             Refusal::ColumnMissing,
             message,

@@ -132,7 +132,7 @@ const RECORDINGS: &[Case] = &[
     ),
     (
         b"t_s,ax,ay,az\n0,0,1,5,2,5,3,5\n1,0,1,5,2,5,3,5\n",
-        "line 2: 8 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
+        "line 2: 8 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter, and a name each: R writes row names without one (row.names = FALSE))",
     ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n1,1,2\n2,1,2,3\n",
@@ -140,7 +140,7 @@ const RECORDINGS: &[Case] = &[
     ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3,4\n2,1,2,3\n",
-        "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
+        "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter, and a name each: R writes row names without one (row.names = FALSE))",
     ),
     (
         b"0 1 2\n1 2 3\n",

@@ -273,6 +273,8 @@ fn biases_beside_the_matrix_are_read_and_unknown_numbers_are_refused() {
     assert_eq!(file.imu.parameters[SensorKind::Accelerometer].bias, Vector3::new(0.1151, -0.1288, 0.0829));
     assert_eq!(file.imu.parameters[SensorKind::Gyroscope].bias, Vector3::new(0.03, 0.01, -0.02));
     assert!(SensorKind::ALL.into_iter().all(|sensor_kind| file.imu.has_bias(sensor_kind)));
+    let written = calibrant::io::calibrated_imu_texts(&file, ImuFormat::Kalibr).expect("carried").remove(0).1;
+    assert!(written.contains("    b: [0.1151, -0.1288, 0.0829]\n"), "as it was read: {written}");
     let [note] = &file.findings[..] else { panic!("{:?}", file.findings) };
     assert!(note.message().contains("does not say accelerometer_noise_density: 0"), "{note:?}");
     let noise = file.noise.expect("one density is stated");

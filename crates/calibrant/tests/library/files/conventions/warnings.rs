@@ -29,7 +29,7 @@ fn what_is_lost_is_said() {
     let message = warnings(imu(COUNTS, true), ImuFormat::Kalibr);
     for says in [
         "the true frame is not Kalibr's: T_i_b holds the rotation",
-        "no place for the biases, kept under the key `calibrant`",
+        "no place for the biases, kept as `b` beside `M`, of counts under the key `calibrant`",
         "no place for readings in counts",
         "Kalibr needs accelerometer_noise_density, accelerometer_random_walk",
     ] {

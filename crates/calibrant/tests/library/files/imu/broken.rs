@@ -144,6 +144,11 @@ const CASES: &[Case] = &[
         "line 1: no column is known to be an accelerometer's or a gyroscope's; the columns are `t_s`, `a`, `b`, `c` (name them like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, or say which is which in [columns] of an experiment file)",
     ),
     (
+        "timestamp_us,x,y,z\n0,1,2,3\n",
+        plain,
+        "line 1: no column is known to be an accelerometer's or a gyroscope's; the columns are `timestamp_us`, `x`, `y`, `z` (x, y and z do not say whose they are. Give two files: the accelerometer's, and with option `gyroscope` the gyroscope's. Of one alone, say in [columns] of an experiment file whose they are)",
+    ),
+    (
         "t_s,mag_x,mag_y,mag_z\n0,1,2,3\n",
         plain,
         "line 1: no column is known to be an accelerometer's or a gyroscope's; the columns are `t_s`, `mag_x`, `mag_y`, `mag_z` (name them like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, or say which is which in [columns] of an experiment file)",
@@ -383,7 +388,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,1,2,3\n1,1,2,3,4\n2,1,2,3\n",
         plain,
-        "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
+        "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter, and a name each: R writes row names without one (row.names = FALSE))",
     ),
     (
         "t_s;gx_radps;gy_radps;gz_radps\n0;1,500;2;3\n1;1;2;3\n",

@@ -71,7 +71,7 @@ const CASES: &[(&[u8], &str)] = &[
     ),
     (
         b"t_s,a_rad\n0,1\n1,2,3\n2,3\n",
-        "line 3: 3 columns where the header has 2 (numbers need a decimal point, not a comma; columns need one delimiter)",
+        "line 3: 3 columns where the header has 2 (numbers need a decimal point, not a comma; columns need one delimiter, and a name each: R writes row names without one (row.names = FALSE))",
     ),
     (
         b"t_s,a_rad\n0,1\n1\n2,3\n",
