@@ -28,7 +28,7 @@ html_copy_source = False
 myst_heading_anchors = 4
 myst_links_external_new_tab = False
 
-# a notebook has no outputs in the repository: they are those of the code that the site documents
+# the outputs are those of the code that the site documents, whole reports too; the repository has them without
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_timeout = 300

@@ -35,6 +35,10 @@ class Page:
     def __str__(self) -> str:
         return self._summary
 
+    def __repr__(self) -> str:
+        lines = self._summary.strip().splitlines()
+        return f"{type(self).__name__}({lines[0].strip() if lines else ''})"
+
     def _repr_html_(self) -> str:
         return page_html(self._html)
 

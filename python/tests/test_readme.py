@@ -24,7 +24,8 @@ def test_python_of_the_readme_runs(
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {}
     exec(compile(text, str(README), "exec"), names)
-    assert names["force"].shape == names["rec"].accelerometer.values.shape
+    assert len(names["true"]) == len(names["rec"].accelerometer.values)
+    assert "ax_sd_mps2" in names["true"].columns
     assert 0 <= names["best"].gap <= 0.01
     assert (tmp_path / "report.html").exists()
     assert len(list((tmp_path / "results").rglob("*.parquet"))) == 1

@@ -107,9 +107,25 @@ impl Bench {
         self.outcome(&arguments.split_whitespace().collect::<Vec<_>>(), file.into())
     }
 
+    /// Runs a line of a shell, which finds the program.
+    #[cfg(unix)]
+    pub(crate) fn shell(&self, line: &str) -> Outcome {
+        let program = Path::new(env!("CARGO_BIN_EXE_calibrant")).parent().expect("a folder");
+        let others = std::env::var_os("PATH").unwrap_or_default();
+        let path = std::iter::once(program.to_owned()).chain(std::env::split_paths(&others));
+        let mut command = Command::new("sh");
+        command.args(["-c", line]).env("PATH", std::env::join_paths(path).expect("no colons"));
+        self.outcome_of(command, line.to_owned(), Stdio::null())
+    }
+
     fn outcome(&self, arguments: &[&str], input: Stdio) -> Outcome {
-        let output = Command::new(env!("CARGO_BIN_EXE_calibrant"))
-            .args(arguments)
+        let mut command = Command::new(env!("CARGO_BIN_EXE_calibrant"));
+        command.args(arguments);
+        self.outcome_of(command, format!("calibrant {}", arguments.join(" ")), input)
+    }
+
+    fn outcome_of(&self, mut command: Command, words: String, input: Stdio) -> Outcome {
+        let output = command
             .current_dir(self.directory.path())
             .env_remove("RAYON_NUM_THREADS")
             .env_remove("FORCE_COLOR")
@@ -118,7 +134,7 @@ impl Bench {
             .expect("the program runs");
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
         let outcome = Outcome {
-            command: format!("calibrant {}", arguments.join(" ")),
+            command: words,
             status: output.status.code().expect("an exit status, not a signal"),
             stdout: text(output.stdout),
             stderr: text(output.stderr),

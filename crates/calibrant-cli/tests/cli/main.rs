@@ -17,8 +17,9 @@ mod design_poses;
 mod determinism;
 mod diagnostics;
 mod directions;
-mod examples;
 mod ferraris;
+#[cfg(unix)]
+mod guides;
 mod headerless_text;
 mod imu;
 mod init;

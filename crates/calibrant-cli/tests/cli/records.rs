@@ -1,7 +1,6 @@
 //! Tests of `calibrate --records` and of `calibrant records`: what is kept, what is asked, several writers, and a writer that is killed.
 
 use crate::bench::Bench;
-use crate::examples::follow_text;
 use std::process::{Child, Command, Stdio};
 
 const CALIBRATE: &str = "calibrate experiment.toml --motion motion.csv --no-report";
@@ -367,13 +366,4 @@ fn a_batch_that_is_killed_leaves_whole_records_and_is_resumed() {
     assert_eq!(count(), 200);
     let summary = bench.read("many-results/summary.csv");
     assert_eq!(summary.lines().filter(|line| line.contains(",converged,")).count(), 200);
-}
-
-/// The guide, on recordings of two sensors.
-#[test]
-fn guide_to_records() {
-    let bench = dated(&["2024-05-01", "2025-05-01", "2026-05-01"]);
-    follow_text(&bench, "records.md", include_str!("../../../../docs/records.md"), 8);
-    let files = bench.files();
-    assert!(files.contains("calibrations.csv") && files.contains("calibrations.parquet"));
 }
