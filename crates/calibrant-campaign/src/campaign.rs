@@ -183,6 +183,13 @@ impl Campaign {
         self.channels.iter().zip(information).map(of).collect()
     }
 
+    /// Standard deviation of a channel's polynomial at a temperature, with this information about it.
+    #[must_use]
+    pub fn sd_at(&self, channel: &Channel, information: &DMatrix<f64>, temperature_c: f64) -> Option<f64> {
+        let row = channel.polynomial_row(self.x(temperature_c));
+        Some(information.clone().cholesky()?.solve(&row).dot(&row).sqrt())
+    }
+
     /// The temperatures of soaks: from end to end in steps of about the spacing, not below it.
     pub(crate) fn temperatures_c(&self) -> Vec<f64> {
         let [low, high] = self.range_c;

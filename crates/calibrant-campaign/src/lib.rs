@@ -8,10 +8,12 @@ mod channel;
 mod criterion;
 mod design;
 mod legendre;
+mod timetable;
 mod usual;
 
 pub use campaign::{Campaign, Direction, Soak};
 pub use channel::Channel;
 pub use criterion::CampaignCriterion;
 pub use design::{CampaignDesign, RelaxedCampaign, RelaxedSoak, design, relaxed};
+pub use timetable::{TimedSoak, timetable};
 pub use usual::{UsualCampaign, usual};
