@@ -497,11 +497,13 @@ class Calibration:
             "ardupilot",
             "imufusion",
             "librealsense",
+            "imu_calib",
         ]
         | None = None,
         *,
         gauge: Literal["lower", "upper", "symmetric"] | None = None,
         sensor: Literal["accelerometer", "gyroscope"] | None = None,
+        after: Path | None = None,
         noise: Sequence[Path] = (),
         drop: Sequence[Literal["cross-axis", "gyroscope-matrix", "gain-temperature", "g-sensitivity"]] = (),
         drop_g_sensitivity: bool = False,
@@ -522,6 +524,8 @@ class Calibration:
             Turn the true frame of both sensors into this gauge of the accelerometer.
         sensor : str, optional
             Write one sensor alone.
+        after : path, optional
+            The calibration that had corrected the readings of this one. What is written then corrects raw readings, in one step.
         noise : list of paths
             Noise densities: files ``noise.json``, or ``imu.yaml`` of Kalibr.
         drop : list of str
@@ -551,6 +555,7 @@ class Calibration:
             "format": format,
             "gauge": gauge,
             "sensor": sensor,
+            "after": None if after is None else os.fspath(after),
             "noise": [os.fspath(of) for of in noise],
             "drop": [*drop, *(["g-sensitivity"] if drop_g_sensitivity else [])],
             "temperature_c": temperature_c,

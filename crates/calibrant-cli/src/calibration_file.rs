@@ -38,6 +38,9 @@ pub(crate) enum Format {
     /// librealsense's calibration.json (written).
     #[value(name = "librealsense", alias = "realsense")]
     LibRealSense,
+    /// The YAML of imu_calib, a node of ROS 1 and ROS 2, for the accelerometer (written).
+    #[value(name = "imu_calib", alias = "ros2")]
+    ImuCalib,
 }
 
 impl From<Format> for ImuFormat {
@@ -54,6 +57,7 @@ impl From<Format> for ImuFormat {
             Format::ArduPilot => Self::ArduPilot,
             Format::ImuFusion => Self::ImuFusion,
             Format::LibRealSense => Self::LibRealSense,
+            Format::ImuCalib => Self::ImuCalib,
         }
     }
 }

@@ -10,7 +10,7 @@ use calibrant::sensor::{Gauge, ImuPart};
 use calibrant::{Conversion, Error};
 use std::path::{Path, PathBuf};
 
-/// Convert a calibration between formats: calibrant JSON, Kalibr, OpenVINS, basalt, PX4, ArduPilot, imufusion, librealsense, imu_tk, imucal, C header.
+/// Convert a calibration between formats: calibrant JSON, Kalibr, OpenVINS, basalt, PX4, ArduPilot, imufusion, librealsense, imu_calib (ROS 1, ROS 2), imu_tk, imucal, C header.
 ///
 /// The correction stays the same to the last digits. The command reports what a format cannot store, and refuses where the correction would change, with the error
 /// that this would make; --drop leaves it out on purpose. imu_tk has one file for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib. With
@@ -34,6 +34,9 @@ pub(crate) struct Arguments {
     /// Rotate the true frame of both sensors into this gauge of the accelerometer.
     #[arg(long, value_enum)]
     gauge: Option<GaugeName>,
+    /// The calibration that had corrected the readings of IN, when IN was recorded and calibrated: OUT then corrects raw readings, in one step.
+    #[arg(long, value_name = "FILE")]
+    after: Option<PathBuf>,
     /// Noise densities for OUT: the noise.json of `calibrant noise`, or an imu.yaml of Kalibr. Repeatable: a file adds what the earlier ones lack.
     #[arg(long, value_name = "FILE")]
     noise: Vec<PathBuf>,
@@ -91,7 +94,7 @@ impl crate::run::Run for Arguments {
         let pair = |path: &Path, is_pair: bool| is_pair.then(|| imu_tk_files(path)).into_iter().flatten();
         let output = self.output.iter();
         let writes_pair = |path: &Path| is_pair(path) || matches!(self.to, Some(Format::ImuTk));
-        let inputs = std::iter::once(&self.input).chain(&self.noise).cloned();
+        let inputs = std::iter::once(&self.input).chain(&self.noise).chain(&self.after).cloned();
         ResultPlaces {
             directory: None,
             // the file of --into is no result: it is there before, and changed on purpose
@@ -138,6 +141,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let felt = arguments.drop_g_sensitivity.then_some(ImuPart::GSensitivity);
     let conversion = Conversion {
         path: Some(arguments.input.clone()),
+        after: arguments.after.clone(),
         noise: arguments.noise.clone(),
         drop: arguments.drop.iter().copied().chain(felt).collect(),
         sensor: arguments.reading.sensor_kind(),

@@ -53,6 +53,7 @@ impl Convention {
 struct Changes {
     format: Option<String>,
     gauge: Option<String>,
+    after: Option<PathBuf>,
     noise: Vec<PathBuf>,
     drop: Vec<String>,
     rostopic: Option<String>,
@@ -70,6 +71,7 @@ impl Changes {
         }
         Ok(Conversion {
             path: None,
+            after: self.after,
             noise: self.noise,
             drop: self.drop.iter().map(|name| part(name)).collect::<Result<_>>()?,
             rostopic: self.rostopic,

@@ -7,7 +7,10 @@ use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
 use calibrant_core::diagnostic::settings::SettingUnused;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{CalibratedImu, Gauge, ImuPart, ReadingUnit, SensorKind};
-use calibrant_io::{CalibratedImuFile, ImuNoise, read_kalibr_noise, read_measured_noise};
+use calibrant_io::{
+    CalibratedImuFile, ConventionOptions, ImuNoise, read_calibrated_imu, read_kalibr_noise,
+    read_measured_noise,
+};
 use std::path::PathBuf;
 
 /// Changes of a calibration on its way into another format.
@@ -29,6 +32,8 @@ use std::path::PathBuf;
 pub struct Conversion {
     /// The file of the calibration, for errors.
     pub path: Option<PathBuf>,
+    /// The calibration that had corrected the readings of this one: both together are written, of raw readings.
+    pub after: Option<PathBuf>,
     /// Files with noise densities: `noise.json`, or an `imu.yaml` of Kalibr. A file adds what the earlier ones lack.
     pub noise: Vec<PathBuf>,
     /// The parts that are left out. This changes the correction.
@@ -63,6 +68,14 @@ impl Conversion {
                 ..ImuNoise::default()
             };
             file.noise = Some(given.or(file.noise.take().unwrap_or_default()));
+        }
+        if let Some(path) = &self.after {
+            let first = read_calibrated_imu(path, &ConventionOptions::default())?;
+            let of_first = |finding: Diagnostic| finding.in_file(path.display().to_string());
+            notes.extend(first.findings.into_iter().map(of_first));
+            let whole =
+                self.sensor.map_or_else(|| file.imu.clone(), |sensor_kind| file.imu.only(sensor_kind));
+            file.imu = whole.after(&first.imu)?;
         }
         let whole = self.in_frame(&file.imu)?;
         let is_felt = !self.drop.contains(&ImuPart::GSensitivity);

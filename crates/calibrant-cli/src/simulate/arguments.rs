@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: a random motion; a shuttle at the limits, where a random one would say less than the datasheet). On a machine: a log of its joints or poses.
     #[arg(long, value_name = "CSV")]
     pub(super) motion: Option<PathBuf>,
-    /// The poses of an accelerometer that is held by hand, such as those of `design`: columns up_x, up_y, up_z (default: spread over the sphere, turned at random).
+    /// The poses of a sensor that is held by hand, such as those of `design`: columns up_x, up_y, up_z (default: random ones, those of an accelerometer alone spread over the sphere).
     #[arg(long, value_name = "CSV")]
     pub(super) poses: Option<PathBuf>,
     /// Seed of all random numbers (default: from [study], else 1).

@@ -56,6 +56,24 @@ fn a_design_leaves_poses_a_checklist_and_the_bound() {
     assert_eq!(json.stdout.trim_end(), bench.read("d/design.json").trim_end());
 }
 
+/// Which poses next, for a whole IMU: designed from the first recording, simulated, and calibrated together with it.
+#[test]
+fn poses_are_added_to_a_recording_of_a_whole_imu() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[("# poses = 24", "poses = 14")]);
+    bench.run("simulate imu.toml -o one").done();
+    bench.run("calibrate imu.toml one/recording.csv -o first").done();
+    let next =
+        bench.run(&format!("design imu.toml --from first/calibration.json --add 3 {QUICK} -o next")).done();
+    assert!(!next.stderr.contains("noise-assumed"), "the noise is that of the first: {}", next.stderr);
+    bench.run("simulate imu.toml --poses next/poses.csv --recording 2 -o two").done();
+    let both = "calibrate imu.toml one/recording.csv two/recording.csv --together -o both";
+    assert!(bench.run(both).done().printed().contains("from 17 of 17 holds"));
+    let (predicted, stated) = (bench.json("next/design.json"), bench.json("both/calibration.json"));
+    let ratio = sd(&stated, "accelerometer.matrix.zy") / sd(&predicted, "matrix.zy");
+    assert!((0.7..1.4).contains(&ratio), "{ratio}");
+}
+
 #[test]
 fn too_few_poses_are_refused_with_the_number_that_is_needed() {
     let outcome = bench(6).run("design static.toml -o d");

@@ -89,6 +89,36 @@ fn too_few_holds() {
     }
 }
 
+/// What the refusal of one hold says: with its direction and the gains of the datasheet, one pose gives the bias.
+#[test]
+fn one_pose_gives_the_bias() {
+    let bench = Bench::new();
+    let known = "intervals_s = [[0.5, 4.5]]\ndirections = [\"z\"]\n[calibrate]\nprior = \"datasheet\"\n";
+    let (before, _) =
+        calibrant::io::preset("static-poses").expect("built in").split_once("[design]").expect("a section");
+    bench.write("static.toml", before);
+    bench.write("known.toml", format!("{before}{known}"));
+    bench.write("up.csv", "up_x,up_y,up_z\n0,0,1\n");
+    bench.run("simulate static.toml --poses up.csv -o one").done();
+    bench.refuses(
+        "calibrate static.toml one/recording.csv -o result",
+        4,
+        &["only one hold was found", "holds.intervals_s with holds.directions, and prior = \"datasheet\""],
+    );
+    let outcome = bench.run("calibrate known.toml one/recording.csv -o known").done();
+    assert!(
+        outcome.printed().contains("with the gains of the datasheet gravity gives the bias"),
+        "{}",
+        outcome.stdout
+    );
+    let (found, truth) = (bench.json("known/calibration.json"), bench.json("one/truth.json"));
+    for k in 0..3 {
+        let of = |key: &str| found["parameters"][k][key].as_f64().expect("a number");
+        let off = of("value") - truth["parameters"][k]["value"].as_f64().expect("a number");
+        assert!(off.abs() < 3.0 * of("sd") && of("sd") < 0.1, "{k}: {off} ± {}", of("sd"));
+    }
+}
+
 #[test]
 fn no_hold_at_all() {
     let bench = Bench::new();

@@ -6,6 +6,7 @@
 //! the scale factors on its diagonal. Off it are the cross-axis sensitivities (misalignment,
 //! non-orthogonality). Terms of a [`Nonlinearity`] bend the response of an axis.
 
+mod composition;
 mod corrected_recording;
 mod covariance_degrees;
 mod datasheet;

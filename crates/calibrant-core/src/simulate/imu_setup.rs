@@ -14,6 +14,9 @@ pub const TURN_S: f64 = 2.0;
 pub struct ImuSimulation {
     /// Number of holds.
     pub poses: usize,
+    /// Directions of the holds by hand, in this order (up, unit vectors in the true frame): at least one.
+    /// `None`: as many random ones as `poses` says.
+    pub directions: Option<Vec<Vector3<f64>>>,
     /// Duration of a hold, s.
     pub hold_s: f64,
     /// Duration of the turn between two holds, s.
@@ -46,6 +49,7 @@ impl Default for ImuSimulation {
     fn default() -> Self {
         Self {
             poses: 24,
+            directions: None,
             hold_s: 2.5,
             turn_s: TURN_S,
             rate_hz: 100.0,

@@ -31,11 +31,13 @@ pub enum ImuFormat {
     ImuFusion,
     /// librealsense's `calibration.json`.
     LibRealSense,
+    /// The YAML of imu_calib, a node of ROS 1 and ROS 2.
+    ImuCalib,
 }
 
 impl ImuFormat {
     /// All formats.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::CalibrantJson,
         Self::Kalibr,
         Self::ImuTk,
@@ -47,9 +49,10 @@ impl ImuFormat {
         Self::ArduPilot,
         Self::ImuFusion,
         Self::LibRealSense,
+        Self::ImuCalib,
     ];
 
-    /// Its name on the command line: `calibrant`, `kalibr`, `imu_tk`, `imucal`, `c`, `openvins`, `basalt`, `px4`, `ardupilot`, `imufusion`, `librealsense`.
+    /// Its name on the command line: `calibrant`, `kalibr`, `imu_tk`, `imucal`, `c`, `openvins`, `basalt`, `px4`, `ardupilot`, `imufusion`, `librealsense`, `imu_calib`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -64,6 +67,7 @@ impl ImuFormat {
             Self::ArduPilot => "ardupilot",
             Self::ImuFusion => "imufusion",
             Self::LibRealSense => "librealsense",
+            Self::ImuCalib => "imu_calib",
         }
     }
 
@@ -82,6 +86,7 @@ impl ImuFormat {
             Self::ArduPilot => "ArduPilot's parameters",
             Self::ImuFusion => "imufusion's arrays",
             Self::LibRealSense => "librealsense's calibration.json",
+            Self::ImuCalib => "imu_calib's YAML",
         }
     }
 
@@ -101,7 +106,8 @@ impl ImuFormat {
     /// Is it read, too?
     #[must_use]
     pub fn is_read(self) -> bool {
-        !matches!(self, Self::Basalt | Self::Px4 | Self::ArduPilot | Self::ImuFusion | Self::LibRealSense)
+        use ImuFormat::{ArduPilot, Basalt, ImuCalib, ImuFusion, LibRealSense, Px4};
+        !matches!(self, Basalt | Px4 | ArduPilot | ImuFusion | LibRealSense | ImuCalib)
     }
 
     /// The parts of a calibration that it has no place for.

@@ -13,6 +13,7 @@
 //! | [`ArduPilot`](ImuFormat::ArduPilot) | `.param`, written | raw → true | the sensor's | m/s², rad/s | as PX4's |
 //! | [`ImuFusion`](ImuFormat::ImuFusion) | `.py`, written | raw → true | any, said in words | any, said | covariance, temperature, g-sensitivity |
 //! | [`LibRealSense`](ImuFormat::LibRealSense) | `.json`, written | raw → true | any | m/s², rad/s | covariance, temperature, g-sensitivity |
+//! | [`ImuCalib`](ImuFormat::ImuCalib) | `.yaml`, written | raw → true | any | m/s² | covariance, temperature, the gyroscope |
 //!
 //! When a format cannot carry something, the writer warns. It refuses where the correction itself would
 //! change. A finding states what a reader had to assume. What is ambiguous (the unit of imu_tk's readings)
@@ -30,6 +31,7 @@ mod calibrant_json;
 mod degrees_of_freedom;
 mod file;
 mod format;
+mod imu_calib;
 mod imu_noise;
 mod imu_tk;
 mod imucal;

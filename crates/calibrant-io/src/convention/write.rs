@@ -3,8 +3,8 @@
 use super::file::{CalibratedImuFile, LARGEST, WrittenImu};
 use super::prepared::Prepared;
 use super::{
-    ImuFormat, ardupilot, basalt, c_header, calibrant_json, imu_tk, imucal, imufusion, kalibr, librealsense,
-    openvins, px4,
+    ImuFormat, ardupilot, basalt, c_header, calibrant_json, imu_calib, imu_tk, imucal, imufusion, kalibr,
+    librealsense, openvins, px4,
 };
 use calibrant_core::error::{Error, Result};
 use calibrant_core::sensor::SensorKind;
@@ -78,6 +78,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<(Texts, Prepa
         ImuFormat::ArduPilot => one(ardupilot::write(file)?),
         ImuFormat::ImuFusion => one(imufusion::write(file)?),
         ImuFormat::LibRealSense => one(librealsense::write(file)?),
+        ImuFormat::ImuCalib => one(imu_calib::write(file)?),
     };
     Ok((texts, prepared))
 }

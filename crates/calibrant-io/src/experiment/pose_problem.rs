@@ -15,7 +15,8 @@ impl Experiment {
     /// The problem of the best poses of a `[holds]` experiment, with the information of earlier calibrations,
     /// which adds up. `poses`: their number in place of `holds.poses`.
     ///
-    /// The mean of a hold has the variance of its white noise and that between holds. The latter is that of
+    /// The mean of a hold has the variance of its white noise and that between holds. The noise is that of
+    /// `[sensor]`, or the last earlier one where that states none. The scatter between holds is that of
     /// `[holds]`, or of an earlier calibration where that is larger.
     ///
     /// # Errors
@@ -24,7 +25,6 @@ impl Experiment {
         let plan = self.holds()?;
         let list = self.pose_parameters(plan, self.design.knows_directions());
         let (at, prior) = self.known_before(&list, earlier)?;
-        let between = between_mps2(plan, earlier);
         let directions = if self.design.knows_directions() {
             DirectionKnowledge::Known { sd_rad: plan.face_sd_rad().unwrap_or(FaceTilt::ASSUMED_RAD) }
         } else {
@@ -32,7 +32,7 @@ impl Experiment {
         };
         let problem = PoseProblem {
             criterion: self.criterion(&list, &at)?,
-            mean_sd: self.mean_sd(plan, &at, between),
+            mean_sd: self.mean_sd(plan, &at, earlier),
             nuisance: self.nuisance(plan, &at, self.design.knows_directions())?,
             list,
             at,
@@ -86,7 +86,8 @@ impl Experiment {
     #[must_use]
     pub fn assumed_noise(&self, earlier: &[EarlierCalibration]) -> Option<Diagnostic> {
         let Plan::Holds(plan) = &self.plan else { return None };
-        let is_assumed = between_mps2(plan, earlier) == 0.0 && self.sensor.with_usual_noise().is_some();
+        let is_found = between_mps2(plan, earlier) > 0.0 || noise_found(earlier).is_some();
+        let is_assumed = !is_found && self.sensor.with_usual_noise().is_some();
         is_assumed.then(|| NoiseAssumed { noise_mps2: USUAL_NOISE_MPS2 }.into())
     }
 
@@ -120,15 +121,25 @@ impl Experiment {
         })
     }
 
-    /// Standard deviation of the mean reading of a hold. Where neither noise nor scatter is stated, a usual noise stands in.
-    fn mean_sd(&self, plan: &HoldsPlan, at: &SensorParameters, between_mps2: f64) -> Vector3<f64> {
-        let gain = at.matrix.diagonal();
-        let usual = self.sensor.with_usual_noise().filter(|_| between_mps2 == 0.0);
-        let sensor = usual.as_ref().unwrap_or(&self.sensor);
+    /// Standard deviation of the mean reading of a hold. Where neither noise nor scatter is known, a usual noise stands in.
+    fn mean_sd(
+        &self,
+        plan: &HoldsPlan,
+        at: &SensorParameters,
+        earlier: &[EarlierCalibration],
+    ) -> Vector3<f64> {
+        let (gain, between_mps2) = (at.matrix.diagonal(), between_mps2(plan, earlier));
+        let usual = || self.sensor.with_usual_noise().filter(|_| between_mps2 == 0.0)?.noise(&gain);
+        let stated = self.sensor.noise(&gain).or_else(|| noise_found(earlier));
         let samples = (plan.hold_s * plan.rate_hz).max(1.0);
-        let white = sensor.noise(&gain).unwrap_or_else(Vector3::zeros) / samples.sqrt();
+        let white = stated.or_else(usual).unwrap_or_else(Vector3::zeros) / samples.sqrt();
         white.zip_map(&gain, |white, gain| white.hypot(between_mps2 * gain))
     }
+}
+
+/// The noise of one sample in the last earlier calibration that had holds, in the unit of the readings.
+fn noise_found(earlier: &[EarlierCalibration]) -> Option<Vector3<f64>> {
+    earlier.iter().rev().find_map(|earlier| earlier.noise)
 }
 
 /// Scatter of the holds beyond their noise: that of `[holds]`, or of an earlier calibration where that is larger, m/s².

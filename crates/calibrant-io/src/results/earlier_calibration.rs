@@ -33,6 +33,8 @@ pub struct EarlierCalibration {
     pub has_datasheet_prior: bool,
     /// Scatter between its holds that the noise does not explain, m/s², where it had holds.
     pub between_holds_sd_mps2: Option<f64>,
+    /// Standard deviation of one sample's noise on each axis, pooled over its holds, in the unit of its readings, where it had holds.
+    pub noise: Option<Vector3<f64>>,
     information: DMatrix<f64>,
 }
 
@@ -47,6 +49,28 @@ struct WithHolds {
 struct Holds {
     #[serde(default)]
     between_holds_sd_mps2: Option<f64>,
+    #[serde(default)]
+    table: Vec<Hold>,
+}
+
+#[derive(Deserialize)]
+struct Hold {
+    samples: f64,
+    #[serde(alias = "sd_mps2")]
+    sd_counts: [f64; 3],
+    used: bool,
+}
+
+impl Holds {
+    /// The noise within the used holds.
+    fn noise(&self) -> Option<Vector3<f64>> {
+        let used = || self.table.iter().filter(|hold| hold.used);
+        let samples: f64 = used().map(|hold| hold.samples).sum();
+        let of_axis =
+            |axis: usize| used().map(|hold| hold.samples * hold.sd_counts[axis].powi(2)).sum::<f64>();
+        let noise = Vector3::from_fn(|axis, _| (of_axis(axis) / samples).sqrt());
+        noise.iter().all(|sd| sd.is_finite() && *sd > 0.0).then_some(noise)
+    }
 }
 
 /// Reads a `calibration.json` with a [`CalibrationFile`](crate::CalibrationFile).
@@ -174,6 +198,7 @@ fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
         values: imu.quantities.iter().map(|quantity| quantity.value(&imu.parameters)).collect(),
         covariance: matrix,
         has_datasheet_prior,
+        noise: holds.noise(),
         between_holds_sd_mps2: holds.between_holds_sd_mps2.filter(|sd| sd.is_finite() && *sd >= 0.0),
         information,
     })

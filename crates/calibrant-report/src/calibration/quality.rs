@@ -10,6 +10,9 @@ use calibrant_core::estimate::{
 };
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
+/// A parameter with more than this share of its information from the prior is the prior.
+const ALL_PRIOR: f64 = 0.99;
+
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
 
@@ -67,6 +70,12 @@ pub(super) fn calibration_quality(calibration: &Calibration) -> Vec<String> {
     if let Some(holds) = calibration.holds() {
         parts.extend(holds.tilt.as_ref().map(face_alignment));
         parts.push(match holds.degrees_of_freedom {
+            0 if calibration.datasheet_prior
+                && calibration.prior_share.iter().any(|share| *share > ALL_PRIOR) =>
+            {
+                "with the gains of the datasheet gravity gives the bias, and no data are left to check it"
+                    .into()
+            }
             0 => "gravity in the holds determines the accelerometer, and no data are left to check it".into(),
             _ => format!(
                 "the gravity residual in the holds is {} mm/s² rms",

@@ -35,6 +35,7 @@ pub(super) fn simulate(
     random: Random,
 ) -> Result<Simulation> {
     let sensor = &experiment.sensor;
+    let holds = &HoldsPlan { poses: options.poses.as_ref().map_or(holds.poses, Vec::len), ..holds.clone() };
     let mut notes = unused_motion(options);
     let [gain_a, gain_g] = gains(experiment)?;
     let mut rng = random.sensor();
@@ -49,6 +50,7 @@ pub(super) fn simulate(
     let noise_g = plan.gyroscope.noise.unwrap_or_else(|| gain_g * usual.gyroscope_noise);
     let setup = ImuSimulation {
         poses: holds.poses,
+        directions: options.poses.clone(),
         hold_s: holds.hold_s,
         turn_s: TURN_S,
         rate_hz: holds.rate_hz,

@@ -48,8 +48,14 @@ pub fn simulate(experiment: &Experiment, options: &SimulationOptions) -> Result<
     let random =
         Random { seed: options.seed.unwrap_or(experiment.study.seed), recording: options.recording.max(1) };
     let takes_poses = matches!(&experiment.plan, Plan::Holds(plan) if plan.directions.is_none());
-    if options.poses.is_some() && (!takes_poses || experiment.imu.is_some()) {
-        let message = "option `poses` is for an accelerometer that is held by hand, in directions that [holds] does not list";
+    if options.poses.as_ref().is_some_and(Vec::is_empty) {
+        let input_error =
+            InputError::new(Refusal::HoldsInvalid, "option `poses` has no pose", "give one or more");
+        return Err(Error::experiment(input_error));
+    }
+    if options.poses.is_some() && !takes_poses {
+        let message =
+            "option `poses` is for a sensor that is held by hand, in directions that [holds] does not list";
         let help = "leave it away, or see `calibrant init static-poses`";
         return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
     }

@@ -13,7 +13,7 @@ pub struct SimulationOptions {
     pub recording: u64,
     /// The commanded motion, or the log of a machine; `None`: a random one.
     pub motion: Option<MotionSource>,
-    /// Directions of the specific force in the holds of an accelerometer that is held by hand; `None`: spread over the sphere.
+    /// Directions of the specific force in the holds of a sensor that is held by hand, at least one; `None`: random ones.
     pub poses: Option<Vec<Vector3<f64>>>,
     /// What the simulation may take.
     pub budget: Budget,

@@ -63,10 +63,12 @@ pub(super) fn explain(
             "hold the sensor still, longer than holds.minimum_hold_s, in at least {} well-spread orientations: each axis up, down and at angles in \
              between{}",
             list.len() + 3,
-            if cross_terms {
-                "; the six faces alone do not determine cross-axis terms, for them use model = \"scale-bias\""
-            } else {
-                ""
+            match (holds.len(), cross_terms) {
+                (1, _) =>
+                    "; one pose gives the bias where its direction is known and the gains are stated: holds.intervals_s with holds.directions, and prior = \"datasheet\" in [calibrate]",
+                (_, true) =>
+                    "; the six faces alone do not determine cross-axis terms, for them use model = \"scale-bias\"",
+                (_, false) => "",
             }
         ),
     }

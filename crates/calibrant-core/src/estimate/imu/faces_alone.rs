@@ -6,7 +6,6 @@ use crate::estimate::at_rest::AtRest;
 use crate::estimate::datasheet::{noise_not_as_given, prior};
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{beyond, magnitude_rms};
-use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::initial::known_faces::from_faces;
 use crate::estimate::imu::model::{HoldData, ImuModel, singular};
 use crate::estimate::imu::shared_face_errors::shared_face_errors;
@@ -38,7 +37,7 @@ pub fn calibrate_faces(problem: &FacesProblem<'_>, settings: &CalibrationSetting
     let problem = &FacesProblem { recording: &recording, ..*problem };
     let (sensor, stimulus) = (problem.sensor, Stimulus::Holds(problem.holds));
     CalibrationProblem { sensor, recording: &recording, stimulus }.validate()?;
-    let mut calibration = solved(problem, from_faces(problem, &recording)?, settings)?;
+    let mut calibration = solved(problem, settings)?;
     let found = spikes.map(|spikes| Diagnostic::from(samples::Spikes::of(&spikes, kind, recording.unit)));
     calibration.warnings.splice(0..0, found);
     calibration.warnings.extend(beyond(&recording, problem.holds.intervals_s.as_deref().unwrap_or_default()));
@@ -50,12 +49,11 @@ pub fn calibrate_faces(problem: &FacesProblem<'_>, settings: &CalibrationSetting
 }
 
 /// The least squares with the face alignment that the first fit found.
-fn solved(
-    problem: &FacesProblem<'_>,
-    first: InitialAccelerometer,
-    settings: &CalibrationSettings,
-) -> Result<Calibration> {
+fn solved(problem: &FacesProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
     let list = problem.holds.parameter_list_on_faces(problem.sensor.model);
+    let stated = problem.sensor.nominal().filter(|_| settings.datasheet_prior);
+    let prior = stated.map(|nominal| prior(&list.describe_accelerometer(problem.sensor, &nominal)));
+    let first = from_faces(problem, problem.recording, prior.as_ref())?;
     let gains = Matrix3::from_diagonal(&first.sensor.matrix.diagonal());
     let nominal = problem.sensor.nominal().unwrap_or(SensorParameters::linear(first.sensor.bias, gains));
     let parameters = list.describe_accelerometer(problem.sensor, &nominal);
@@ -65,7 +63,6 @@ fn solved(
         HoldData::on_face(hold.mean, first.weight_on_face(hold, force, &scatter), *force)
     };
     let holds = used.holds.iter().zip(&used.forces).map(on_face).collect();
-    let prior = settings.datasheet_prior.then(|| prior(&parameters));
     let model = ImuModel::of_accelerometer(list.of_accelerometer(), gravity, holds, prior);
     let sensor = model.sensor_on_faces().ok_or_else(singular)?;
     let fit = model.linearised_on_faces(&sensor).ok_or_else(singular)?;

@@ -47,6 +47,8 @@ const MEDIAN_STEPS: f64 = 0.5;
 const TICK: std::ops::RangeInclusive<f64> = 0.25..=0.7;
 /// A coarser tick, in even steps, may be that of packets, and a lost packet would not show.
 const COARSEST: f64 = 2.0;
+/// The two samples of a pair are logged within this share of a step.
+const SHORT: f64 = 1.0 / 3.0;
 /// A logged step longer than this number of even steps is a gap.
 const GAP: f64 = 5.0;
 
@@ -60,8 +62,24 @@ pub(super) struct EvenTimes {
 }
 
 impl EvenTimes {
-    /// Even times, where the logged ones are steps of a coarse clock about them. `None` where they are even as logged, or uneven by more.
+    /// Even times, where the logged ones are steps of a coarse clock about them, or the host read two samples at a time. `None` where they are even as
+    /// logged, or uneven by more.
     pub(super) fn found(times: &[f64]) -> Option<Self> {
+        Self::of_ticks(times).or_else(|| Self::of_pairs(times))
+    }
+
+    /// Even times about samples that a host read in pairs: each is logged within half a step of its even time, and a lost sample would move all that
+    /// follow by a whole one.
+    fn of_pairs(times: &[f64]) -> Option<Self> {
+        let line = Self::line(times)?;
+        let (least, most) = line.off(times);
+        let long = steps(times).filter(|step| *step > line.step_s).count() as f64;
+        let short = steps(times).filter(|step| *step < SHORT * line.step_s).count() as f64;
+        let is_half = |count: f64| (count / (times.len() - 1) as f64 - 0.5).abs() < 0.02;
+        (is_half(long) && is_half(short) && most - least <= line.step_s).then_some(line)
+    }
+
+    fn of_ticks(times: &[f64]) -> Option<Self> {
         let tick_s = tick(times)?;
         let line = Self { tick_s: Some(tick_s), ..Self::line(times)? };
         let (least, most) = line.off(times);
@@ -218,6 +236,18 @@ mod tests {
         let mut lost = times;
         lost.drain(3000..3001);
         assert_eq!(EvenTimes::found(&lost), None);
+    }
+
+    #[test]
+    fn samples_that_a_host_reads_in_pairs_are_even() {
+        let jitter = |k: usize| 3e-4 * (k * 7919 % 101) as f64 / 101.0;
+        let pairs: Vec<f64> =
+            (0..5000).map(|k| (k / 2) as f64 * 0.02 + (k % 2) as f64 * 0.002 + jitter(k)).collect();
+        let even = EvenTimes::found(&pairs).expect("even");
+        assert!((even.step_s * 100.0 - 1.0).abs() < 1e-5, "{even:?}");
+        let mut lost = pairs;
+        lost.drain(2000..2002);
+        assert_eq!(EvenTimes::found(&lost), None, "a lost pair");
     }
 
     #[test]

@@ -174,16 +174,24 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
             "export the sensor's own readings; is it really an acceleration, in the unit that is stated?",
         );
     }
-    if median > 100.0 * STANDARD_GRAVITY_MPS2 {
-        return refuse(
-            Refusal::UnitImplausible,
-            format!(
-                "the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"
-            ),
-            "correct the unit",
-        );
+    check_size(recording, stated)
+}
+
+/// Returns an error for an accelerometer in a physical unit whose readings are larger than any has.
+pub(super) fn check_size(recording: &Recording, stated: ImuUnit) -> Checked<()> {
+    let median = median_magnitude(recording.readings());
+    if stated == ImuUnit::Counts || median <= 100.0 * STANDARD_GRAVITY_MPS2 {
+        return Ok(());
     }
-    Ok(())
+    let (shown, unit) = (plain(round(median / stated.reading().1), 6), stated.symbol());
+    refuse(
+        Refusal::UnitImplausible,
+        format!(
+            "the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"
+        ),
+        "correct the unit: accelerometer_unit = \"mg\" in [columns], or accelerometer_lsb_per_g for counts of a known sensitivity; for counts of an unknown \
+         one, see `calibrant init --list`",
+    )
 }
 
 /// Returns an error for readings, made of counts by this sensitivity, that no sensor of it shows: it is that of another range, or they were no counts.

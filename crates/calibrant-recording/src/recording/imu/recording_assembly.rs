@@ -5,7 +5,9 @@ use super::column_values::Samples;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::packet_times::Packets;
-use super::reading_unit::{COUNTS_HINT, check_gravity, check_rates, question, stated_unit, unit_option};
+use super::reading_unit::{
+    COUNTS_HINT, check_gravity, check_rates, check_size, question, stated_unit, unit_option,
+};
 use super::sample_clock;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::clock_column::backwards;
@@ -98,7 +100,7 @@ pub(super) fn assemble(
         let readings = readings.with_axes(draft.plain.map_or(3, |only| only.axes));
         lost_sign::check(&readings, &format!("{sensor_kind} "))?;
         match sensor_kind {
-            SensorKind::Accelerometer if is_plain => {}
+            SensorKind::Accelerometer if is_plain => check_size(&readings, *unit)?,
             SensorKind::Accelerometer => check_gravity(&readings, *unit)?,
             SensorKind::Gyroscope => check_rates(&readings, *unit)?,
         }

@@ -182,6 +182,10 @@ fn sensitivity(plain: &str) -> Option<Sensitivity> {
         (number, _, Some((unit, counts))) if is_counts(counts) => (1.0 / number, unit),
         _ => return None,
     };
+    // the usual unit of precise accelerometers has no readings of its own: both signs for micro, as letters in lower case
+    if let "µg" | "μg" | "ug" = unit {
+        return ImuUnit::of_counts(number * 1e3, ImuUnit::MilliGravity)?.sensitivity();
+    }
     ImuUnit::of_counts(number, ImuUnit::parse(unit)?)?.sensitivity()
 }
 
@@ -228,6 +232,7 @@ mod tests {
         for (text, expected) in [
             ("16384 LSB/g", "16384 LSB/g"),
             ("0.061 mg/LSB", "16393.4 LSB/g"),
+            ("3.9 µg/LSB", "256410 LSB/g"),
             ("1670.7 counts/(m/s²)", "16384 LSB/g"),
             ("131 LSB/dps", "131 LSB/dps"),
             ("16.4 LSB/(°/s)", "16.4 LSB/dps"),

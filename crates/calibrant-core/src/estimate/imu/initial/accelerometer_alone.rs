@@ -19,7 +19,7 @@ pub(crate) fn initial_accelerometer<'a>(
 ) -> Result<(InitialAccelerometer, RecordingTemperature<'a>)> {
     let setup = problem.setup;
     let from = |recording: &Recording, intervals: Option<Vec<(f64, f64)>>| match &setup.directions {
-        Some(directions) => from_faces(&problem.on_faces(directions, accelerometer), recording),
+        Some(directions) => from_faces(&problem.on_faces(directions, accelerometer), recording, None),
         None => from_unknown_directions(problem, recording, settings, intervals),
     };
     let first = from(accelerometer, setup.holds.intervals_s.clone())?;

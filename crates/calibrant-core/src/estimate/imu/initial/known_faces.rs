@@ -19,7 +19,7 @@ use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, inverse_covariance};
 use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceScatter, align_faces};
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
-use crate::estimate::imu::model::{HoldData, ImuModel};
+use crate::estimate::imu::model::{HoldData, ImuModel, Prior};
 use crate::estimate::problem::FacesProblem;
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::uncalibrated::Uncalibrated;
@@ -40,8 +40,13 @@ const FEWEST_FREE: usize = 5;
 /// Fewest samples of a face. A face with fewer has wrong times.
 const FEWEST_SAMPLES: usize = 10;
 
-/// Fits the accelerometer to holds of known directions. `recording`: that of the problem, or the same at one temperature.
-pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> Result<InitialAccelerometer> {
+/// Fits the accelerometer to holds of known directions. `recording`: that of the problem, or the same at one temperature. `prior`: what is known
+/// beforehand, for directions that alone do not determine it, such as one pose.
+pub(crate) fn from_faces(
+    problem: &FacesProblem<'_>,
+    recording: &Recording,
+    prior: Option<&Prior>,
+) -> Result<InitialAccelerometer> {
     let (setup, directions) = (problem.holds, problem.directions);
     let intervals = setup.intervals_s.as_deref().unwrap_or_default();
     if intervals.len() != directions.len() {
@@ -70,8 +75,14 @@ pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> R
     let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
     let gravity = setup.gravity.magnitude_mps2;
-    let faces = Faces { holds: &usable, forces: &along, list, gravity, within, of_mean };
-    let (mut sensor, alignment, condition) = match faces.solve(problem.face_sd_rad) {
+    let faces = Faces { holds: &usable, forces: &along, list, gravity, within, of_mean, prior: None };
+    let solved = match (faces.solve(problem.face_sd_rad), prior) {
+        (Err(Error::NotIdentifiable(_)), Some(_)) => {
+            Faces { prior, ..faces.clone() }.solve(problem.face_sd_rad)
+        }
+        (solved, _) => solved,
+    };
+    let (mut sensor, alignment, condition) = match solved {
         Ok(solved) => solved,
         Err(error) => {
             if !matches!(error, Error::NotIdentifiable(_)) {
@@ -188,6 +199,7 @@ struct Faces<'a> {
     gravity: f64,
     within: Vector3<f64>,
     of_mean: Vector3<f64>,
+    prior: Option<&'a Prior>,
 }
 
 impl Faces<'_> {
@@ -263,7 +275,7 @@ impl Faces<'_> {
             HoldData::on_face(hold.mean, self.weight(hold, force, s, scatter), *force)
         };
         let holds = self.holds.iter().zip(self.forces).map(on_face).collect();
-        ImuModel::of_accelerometer(self.list.of_accelerometer(), self.gravity, holds, None)
+        ImuModel::of_accelerometer(self.list.of_accelerometer(), self.gravity, holds, self.prior.cloned())
     }
 
     fn fit(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<SensorParameters> {
@@ -289,7 +301,8 @@ impl Faces<'_> {
                 parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
                 free_combinations: group.free_combinations,
                 reason: format!("the {} directions do not span all axes, up and down", self.holds.len()),
-                remedy: "hold each axis up and down: six faces".into(),
+                remedy: "hold each axis up and down: six faces; or state the gains: with prior = \"datasheet\" in [calibrate] one pose gives the bias"
+                    .into(),
             })
             .collect();
         NotIdentifiable { groups }

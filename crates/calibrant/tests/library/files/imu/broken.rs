@@ -188,7 +188,7 @@ const CASES: &[Case] = &[
     (
         "t_s,ax_mps2,ay_mps2,az_mps2\n0,33000,32000,36000\n1,33001,32000,36000\n2,33000,32001,36000\n",
         plain,
-        "the accelerometer is said to be in m/s², but its magnitude is 58400 half of the time or more: is it in mg, or are these counts? (correct the unit)",
+        "the accelerometer is said to be in m/s², but its magnitude is 58400 half of the time or more: is it in mg, or are these counts? (correct the unit: accelerometer_unit = \"mg\" in [columns], or accelerometer_lsb_per_g for counts of a known sensitivity; for counts of an unknown one, see `calibrant init --list`)",
     ),
     // units that the user must give
     (

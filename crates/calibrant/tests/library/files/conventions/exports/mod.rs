@@ -13,7 +13,7 @@ use calibrant::sensor::{CalibratedImu, Gauge, ImuCorrection, ImuPart, ImuQuantit
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use readers::corrected;
+use readers::{corrected, imu_calib};
 
 /// The range of temperatures of the random calibrations, °C.
 const RANGE_C: [f64; 2] = [-10.0, 60.0];
@@ -100,6 +100,23 @@ fn whole_matrices_correct_as_we_do() {
         same(&lower, ImuFormat::Basalt, [25.0; 2], 1e-12, seed);
         same(&imu, ImuFormat::ImuFusion, [25.0; 2], 1e-12, seed);
         same(&imu, ImuFormat::LibRealSense, [25.0; 2], 1e-12, seed);
+    }
+}
+
+#[test]
+fn an_accelerometer_alone_is_for_imu_calib() {
+    for imu in calibrations() {
+        let imu = cold(&imu);
+        let text = |imu: CalibratedImu| calibrated_imu_texts(&file(imu), ImuFormat::ImuCalib);
+        let refused = text(imu.clone()).expect_err("a gyroscope").to_string();
+        assert!(refused.contains("option `sensor` accelerometer"), "{refused}");
+        let alone = imu.only(SensorKind::Accelerometer);
+        let text = text(alone.clone()).expect("carried").remove(0).1;
+        let ours = ImuCorrection::of(&alone).and_then(|of| of.at(25.0)).expect("regular");
+        for raw in readings(&imu, 10, 7) {
+            let (found, expected) = (imu_calib(&text, &raw[0]), ours.force(&raw[0]).expect("there"));
+            assert!((found - expected).norm() <= 1e-12 * expected.norm(), "{found} {expected}");
+        }
     }
 }
 

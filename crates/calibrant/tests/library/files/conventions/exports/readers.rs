@@ -79,6 +79,11 @@ fn librealsense(json: &Value, raw: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     })
 }
 
+/// `accel_calib.cpp` of imu_calib: the accelerometer alone.
+pub(super) fn imu_calib(text: &str, raw: &Vector3<f64>) -> Vector3<f64> {
+    Matrix3::from_row_slice(&numbers::<9>(text, "SM:")) * raw - Vector3::from(numbers::<3>(text, "\nbias:"))
+}
+
 /// The parameters of a file, of 32 bits: a name, and the value behind it.
 fn parameters(text: &str) -> BTreeMap<String, f64> {
     let pairs = text.lines().filter_map(|line| {
