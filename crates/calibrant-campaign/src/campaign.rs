@@ -1,5 +1,6 @@
 //! A campaign: chamber, time and the soaks that it may consist of.
 
+use crate::criterion::{Gradient, over_range};
 use crate::{CampaignCriterion, Channel};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::number_format::plain;
@@ -113,8 +114,7 @@ impl Campaign {
     /// A temperature as `−1 … 1` over the range.
     #[must_use]
     pub fn x(&self, temperature_c: f64) -> f64 {
-        let [low, high] = self.range_c;
-        (2.0 * temperature_c - low - high) / (high - low)
+        over_range(self.range_c, temperature_c)
     }
 
     /// Time of the ramps, min: a closed cycle over both ends passes each temperature once in each direction.
@@ -169,7 +169,17 @@ impl Campaign {
     /// The criterion of these soaks; `None` where they leave a coefficient open.
     #[must_use]
     pub fn value(&self, soaks: &[Soak]) -> Option<f64> {
-        self.criterion.value(self, &self.information(soaks))
+        self.value_of(&self.information(soaks))
+    }
+
+    /// The criterion of this information about each channel.
+    pub(crate) fn value_of(&self, information: &[DMatrix<f64>]) -> Option<f64> {
+        self.criterion.value(self.range_c, &self.channels, information)
+    }
+
+    /// Its negative gradient.
+    pub(crate) fn gradient_of(&self, information: &[DMatrix<f64>]) -> Option<Vec<Gradient>> {
+        self.criterion.gradient(self.range_c, &self.channels, information)
     }
 
     /// Standard deviation of each channel's polynomial with this information, root of the mean variance over the range.

@@ -1,7 +1,7 @@
 //! What a campaign minimises.
 
+use crate::Channel;
 use crate::legendre::mean_square;
-use crate::{Campaign, Channel};
 use nalgebra::DMatrix;
 
 /// The criterion of a campaign, from the information `M_c` of each channel.
@@ -13,6 +13,11 @@ pub enum CampaignCriterion {
     D,
     /// The variance at one temperature, °C, over the goal squared.
     C(f64),
+}
+
+/// A temperature as `−1 … 1` over the range.
+pub(crate) fn over_range([low, high]: [f64; 2], temperature_c: f64) -> f64 {
+    (2.0 * temperature_c - low - high) / (high - low)
 }
 
 impl CampaignCriterion {
@@ -33,12 +38,12 @@ impl CampaignCriterion {
     }
 
     /// `W_c`, what is of interest in a channel's covariance.
-    pub(crate) fn interest(self, campaign: &Campaign, channel: &Channel) -> DMatrix<f64> {
+    pub(crate) fn interest(self, range_c: [f64; 2], channel: &Channel) -> DMatrix<f64> {
         let count = channel.coefficients();
         let weight = channel.goal_sd.powi(-2);
         match self {
             Self::C(temperature_c) => {
-                let row = channel.polynomial_row(campaign.x(temperature_c));
+                let row = channel.polynomial_row(over_range(range_c, temperature_c));
                 &row * row.transpose() * weight
             }
             Self::I | Self::D => DMatrix::from_fn(count, count, |i, j| {
@@ -48,34 +53,38 @@ impl CampaignCriterion {
     }
 
     /// Its value; `None` where the information leaves a coefficient open.
-    pub(crate) fn value(self, campaign: &Campaign, information: &[DMatrix<f64>]) -> Option<f64> {
+    pub(crate) fn value(
+        self,
+        range_c: [f64; 2],
+        channels: &[Channel],
+        information: &[DMatrix<f64>],
+    ) -> Option<f64> {
         let of = |(channel, information): (&Channel, &DMatrix<f64>)| {
             let factor = information.clone().cholesky()?;
             Some(match self {
                 Self::D => -2.0 * factor.l_dirty().diagonal().iter().map(|entry| entry.ln()).sum::<f64>(),
-                Self::I | Self::C(_) => factor.solve(&self.interest(campaign, channel)).trace(),
+                Self::I | Self::C(_) => factor.solve(&self.interest(range_c, channel)).trace(),
             })
         };
-        campaign
-            .channels
-            .iter()
-            .zip(information)
-            .map(of)
-            .sum::<Option<f64>>()
-            .filter(|value| value.is_finite())
+        channels.iter().zip(information).map(of).sum::<Option<f64>>().filter(|value| value.is_finite())
     }
 
     /// `G_c`, the negative gradient of the criterion by `M_c`: `M⁻¹ W M⁻¹`, or `M⁻¹`. `None` as for the value.
-    pub(crate) fn gradient(self, campaign: &Campaign, information: &[DMatrix<f64>]) -> Option<Vec<Gradient>> {
+    pub(crate) fn gradient(
+        self,
+        range_c: [f64; 2],
+        channels: &[Channel],
+        information: &[DMatrix<f64>],
+    ) -> Option<Vec<Gradient>> {
         let of = |(channel, information): (&Channel, &DMatrix<f64>)| {
             let inverse = information.clone().cholesky()?.inverse();
             let gradient = match self {
                 Self::D => inverse.clone(),
-                Self::I | Self::C(_) => &inverse * self.interest(campaign, channel) * &inverse,
+                Self::I | Self::C(_) => &inverse * self.interest(range_c, channel) * &inverse,
             };
             Some(Gradient { inverse, gradient })
         };
-        campaign.channels.iter().zip(information).map(of).collect()
+        channels.iter().zip(information).map(of).collect()
     }
 
     /// The factor of the second derivative: `tr(A M⁻¹ B G)` times this.

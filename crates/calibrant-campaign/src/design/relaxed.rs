@@ -71,8 +71,8 @@ pub fn relaxed(campaign: &Campaign) -> Result<RelaxedCampaign> {
         share = DVector::from_iterator(kept.len(), kept.iter().map(|&k| share[k]));
         share /= share.sum();
         let information = shares::mixed(&known, &atoms, &share);
-        let gradients = campaign.criterion.gradient(campaign, &information).ok_or_else(undetermined)?;
-        let value = campaign.criterion.value(campaign, &information).ok_or_else(undetermined)?;
+        let gradients = campaign.gradient_of(&information).ok_or_else(undetermined)?;
+        let value = campaign.value_of(&information).ok_or_else(undetermined)?;
         let gains = candidates.gains(&gradients);
         let vertex = best(&gains);
         let at = At {
@@ -96,8 +96,8 @@ pub fn relaxed(campaign: &Campaign) -> Result<RelaxedCampaign> {
         share = towards(campaign, &known, &atoms, &share);
     }
     let information = shares::mixed(&known, &atoms, &share);
-    let gradients = campaign.criterion.gradient(campaign, &information).ok_or_else(undetermined)?;
-    let value = campaign.criterion.value(campaign, &information).ok_or_else(undetermined)?;
+    let gradients = campaign.gradient_of(&information).ok_or_else(undetermined)?;
+    let value = campaign.value_of(&information).ok_or_else(undetermined)?;
     let spent = spent(&lists, &share, &candidates.gains(&gradients));
     let at = At { campaign, value, spent, gradients: &gradients, known: &known };
     let mut counts = vec![0.0; candidates.len()];
@@ -152,9 +152,8 @@ fn towards(
     share: &DVector<f64>,
 ) -> DVector<f64> {
     let with = |part: f64| share.scale(1.0 - part).push(part);
-    let at = |part: f64| {
-        campaign.criterion.value(campaign, &shares::mixed(known, atoms, &with(part))).unwrap_or(f64::INFINITY)
-    };
+    let at =
+        |part: f64| campaign.value_of(&shares::mixed(known, atoms, &with(part))).unwrap_or(f64::INFINITY);
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut low, mut high) = (0.0, 1.0 - 1e-6);
     for _ in 0..20 {

@@ -32,7 +32,7 @@ pub(super) fn best(
     atoms: &[Vec<DMatrix<f64>>],
     mut share: DVector<f64>,
 ) -> Option<DVector<f64>> {
-    let value = |share: &DVector<f64>| campaign.criterion.value(campaign, &mixed(known, atoms, share));
+    let value = |share: &DVector<f64>| campaign.value_of(&mixed(known, atoms, share));
     let mut now = value(&share)?;
     for _ in 0..STEPS {
         let free: Vec<usize> = (0..share.len()).filter(|&k| share[k] > 0.0).collect();
@@ -75,7 +75,7 @@ fn derivatives(
     atoms: &[Vec<DMatrix<f64>>],
     free: &[usize],
 ) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    let gradients = campaign.criterion.gradient(campaign, information)?;
+    let gradients = campaign.gradient_of(information)?;
     let count = free.len();
     let (mut first, mut second) = (DVector::zeros(count), DMatrix::zeros(count, count));
     for (channel, of) in gradients.iter().enumerate() {

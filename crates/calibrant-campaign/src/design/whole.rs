@@ -87,7 +87,7 @@ impl Search<'_> {
         for (sum, more) in information.iter_mut().zip(self.candidates.information(&soaks)) {
             *sum += more;
         }
-        self.campaign.criterion.value(self.campaign, &information).unwrap_or(f64::INFINITY)
+        self.campaign.value_of(&information).unwrap_or(f64::INFINITY)
     }
 
     /// What may stand at a place instead: the neighbours in wait and blocks, nothing, or a short soak.
@@ -111,7 +111,7 @@ impl Search<'_> {
         for (sum, more) in information.iter_mut().zip(self.candidates.information(&soaks)) {
             *sum += more;
         }
-        let gains = self.candidates.gains(&self.campaign.criterion.gradient(self.campaign, &information)?);
+        let gains = self.candidates.gains(&self.campaign.gradient_of(&information)?);
         let of = |k: Option<usize>| k.map_or((0.0, 0.0), |k| (gains[k], self.candidates.minutes(k)));
         let single: Vec<(usize, Option<usize>, f64, f64)> = (0..plan.len())
             .flat_map(|slot| self.instead(plan, slot).into_iter().map(move |to| (slot, to)))

@@ -1,14 +1,12 @@
 //! `[campaign]`: a campaign over temperature, in a chamber or a freezer.
 
+use super::Plan;
 use super::number::{Count, Within};
 use super::ranges::{
     BlockSd, Celsius, Duration, HoldSd, LagScatter, Minutes, PriorSd, Ramp, Spacing, TimeConstant, Wait,
 };
 use super::refused_key::{missing, refused};
-use super::{Experiment, Plan};
-use calibrant_campaign::{Campaign, CampaignCriterion, Channel, Direction};
 use calibrant_core::error::Result;
-use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::SensorKind;
 use serde::{Deserialize, Serialize};
 
@@ -117,18 +115,18 @@ pub struct CampaignSection {
 }
 
 /// What consumer MEMS sensors do: spread of the coefficients over 32 published calibrations of autopilots' IMUs.
-struct Usual {
-    name: &'static str,
-    unit: &'static str,
-    sensor_kind: SensorKind,
-    spread: &'static [f64],
-    beyond_sd: &'static [f64],
-    hysteresis_sd: &'static [f64],
-    lag_sd: &'static [f64],
-    soak_sd: f64,
+pub(super) struct Usual {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    pub(super) sensor_kind: SensorKind,
+    pub(super) spread: &'static [f64],
+    pub(super) beyond_sd: &'static [f64],
+    pub(super) hysteresis_sd: &'static [f64],
+    pub(super) lag_sd: &'static [f64],
+    pub(super) soak_sd: f64,
     /// Of a block of six faces of 10 s.
-    block_sd: f64,
-    goal_sd: f64,
+    pub(super) block_sd: f64,
+    pub(super) goal_sd: f64,
 }
 
 const USUAL: [Usual; 4] = [
@@ -182,26 +180,10 @@ const USUAL: [Usual; 4] = [
     },
 ];
 
-/// Holds of a block: six faces.
-const FACES: f64 = 6.0;
-/// The holds of [`Usual::block_sd`], s.
-const USUAL_HOLD_S: f64 = 10.0;
-/// The share of the lag's error that differs from soak to soak, where nothing is known.
-const LAG_SCATTER: f64 = 0.2;
 /// Highest order of a polynomial.
 const HIGHEST_ORDER: usize = 5;
 /// Most terms of hysteresis or lag.
 const MOST_TERMS: usize = 2;
-
-impl Experiment {
-    /// The campaign over temperature that `[campaign]` describes, where it is there.
-    ///
-    /// # Errors
-    /// [`Error::Experiment`](calibrant_core::Error::Experiment) with the key, where values contradict each other.
-    pub fn campaign(&self) -> Result<Option<Campaign>> {
-        self.campaign.as_ref().map(|section| section.campaign(self)).transpose()
-    }
-}
 
 impl CampaignSection {
     /// Checks what no type says.
@@ -216,13 +198,15 @@ impl CampaignSection {
             let message = format!("spacing_c is {spacing_c} K, and the range {} K", high - low);
             return Err(refused("campaign.spacing_c", message, "give a smaller spacing"));
         }
-        if (self.criterion == Some(CampaignLetter::C)) != self.at_c.is_some() {
-            return Err(match self.at_c {
-                Some(_) => {
-                    refused("campaign.at_c", "at_c is of criterion c", "criterion = \"c\", or leave it away")
-                }
-                None => missing("campaign.at_c", "the temperature of criterion c, °C: at_c = 25.0"),
-            });
+        match (self.criterion, self.at_c) {
+            (Some(CampaignLetter::C), None) => {
+                return Err(missing("campaign.at_c", "the temperature of criterion c, °C: at_c = 25.0"));
+            }
+            (Some(CampaignLetter::I | CampaignLetter::D), Some(_)) => {
+                let help = "leave the one or the other away";
+                return Err(refused("campaign.at_c", "at_c is of criterion c, and another is given", help));
+            }
+            _ => {}
         }
         for (of, section) in self.channels() {
             let Some(section) = section else { continue };
@@ -243,7 +227,7 @@ impl CampaignSection {
         Ok(())
     }
 
-    fn range_c(&self) -> Result<[f64; 2]> {
+    pub(super) fn range_c(&self) -> Result<[f64; 2]> {
         match self.range_c.as_slice() {
             [low, high] if low.get() < high.get() => Ok([low.get(), high.get()]),
             _ => Err(refused(
@@ -254,11 +238,11 @@ impl CampaignSection {
         }
     }
 
-    fn spacing_c(&self) -> f64 {
+    pub(super) fn spacing_c(&self) -> f64 {
         self.spacing_c.map_or(5.0, f64::from)
     }
 
-    fn channels(&self) -> [(&'static Usual, Option<&ChannelSection>); 4] {
+    pub(super) fn channels(&self) -> [(&'static Usual, Option<&ChannelSection>); 4] {
         let [ab, ak, gb, gk] = &USUAL;
         [
             (ab, self.accelerometer_bias.as_ref()),
@@ -268,7 +252,7 @@ impl CampaignSection {
         ]
     }
 
-    fn goal(&self, of: &Usual) -> f64 {
+    pub(super) fn goal(&self, of: &Usual) -> f64 {
         let goals = self.goals.clone().unwrap_or_default();
         let given = match of.name {
             "accelerometer.bias" => goals.accelerometer_bias,
@@ -278,67 +262,4 @@ impl CampaignSection {
         };
         given.map_or(of.goal_sd, f64::from)
     }
-
-    fn campaign(&self, experiment: &Experiment) -> Result<Campaign> {
-        let hold_s = self.hold_s.map_or(USUAL_HOLD_S, f64::from);
-        let there = |of: &Usual| of.sensor_kind == SensorKind::Accelerometer || experiment.imu.is_some();
-        let channel = |(of, section): (&Usual, Option<&ChannelSection>)| {
-            let usual = ChannelSection::default();
-            let section = section.unwrap_or(&usual);
-            let list = |given: &Option<Vec<Within<PriorSd>>>, usual: &[f64]| -> Vec<f64> {
-                given.as_ref().map_or_else(|| usual.to_vec(), |of| of.iter().map(|sd| sd.get()).collect())
-            };
-            let orders = [list(&section.spread, of.spread), list(&section.beyond_sd, of.beyond_sd)].concat();
-            Channel {
-                name: of.name.to_owned(),
-                unit: of.unit,
-                spread: std::iter::once(None).chain(orders.into_iter().map(Some)).collect(),
-                hysteresis_sd: list(&section.hysteresis_sd, of.hysteresis_sd),
-                lag_sd: list(&section.lag_sd, of.lag_sd),
-                lag_scatter: section.lag_scatter.map_or(LAG_SCATTER, f64::from),
-                soak_sd: section.soak_sd.map_or(of.soak_sd, f64::from),
-                block_sd: section.block_sd.map_or_else(|| block_sd(of, experiment, hold_s), f64::from),
-                goal_sd: self.goal(of),
-            }
-        };
-        Ok(Campaign {
-            channels: self.channels().into_iter().filter(|(of, _)| there(of)).map(channel).collect(),
-            range_c: self.range_c()?,
-            budget_min: self.budget_min.get(),
-            ramp_k_per_min: self.ramp_k_per_min.get(),
-            time_constant_min: self.time_constant_min.map_or(10.0, f64::from),
-            block_min: FACES * (hold_s + self.move_s.map_or(5.0, f64::from)) / 60.0,
-            directions: match self.directions {
-                Some(CampaignDirections::Up) => vec![Direction::Up],
-                Some(CampaignDirections::Both) | None => vec![Direction::Up, Direction::Down],
-            },
-            cycles: self.cycles.map_or(1, Count::size),
-            spacing_c: self.spacing_c(),
-            shortest_wait_min: self.shortest_wait_min.map_or(0.0, f64::from),
-            criterion: match (self.criterion, self.at_c) {
-                (Some(CampaignLetter::C), Some(at_c)) => CampaignCriterion::C(at_c.get()),
-                (Some(CampaignLetter::D), _) => CampaignCriterion::D,
-                _ => CampaignCriterion::I,
-            },
-            earlier: Vec::new(),
-        })
-    }
-}
-
-/// Standard deviation from a block of six faces: where the noise is stated, two holds tell a bias and a gain. Otherwise that of usual sensors.
-fn block_sd(of: &Usual, experiment: &Experiment, hold_s: f64) -> f64 {
-    let usual = of.block_sd * (USUAL_HOLD_S / hold_s).sqrt();
-    let Plan::Holds(holds) = &experiment.plan else { return usual };
-    let samples = (hold_s * holds.rate_hz).max(1.0);
-    let of_accelerometer = experiment.sensor.noise_mps2.map(|noise| {
-        (noise.amax() / samples.sqrt()).hypot(holds.between_holds_sd_mps2) / std::f64::consts::SQRT_2
-    });
-    let of_gyroscope = experiment.imu.as_ref().and_then(|imu| imu.gyroscope.noise);
-    let stated = match of.name {
-        "accelerometer.bias" => of_accelerometer,
-        "accelerometer.scale" => of_accelerometer.map(|sd| sd / Gravity::SOMEWHERE.magnitude_mps2),
-        "gyroscope.bias" => of_gyroscope.map(|noise| noise.amax() / (FACES * samples).sqrt()),
-        _ => None,
-    };
-    stated.unwrap_or(usual)
 }

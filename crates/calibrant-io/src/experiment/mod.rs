@@ -12,6 +12,7 @@
 mod accept;
 mod calibrate;
 mod campaign;
+mod campaign_problem;
 mod columns;
 pub(crate) mod datasheets;
 mod design;
