@@ -1,6 +1,7 @@
 //! `calibrant design`: finds the motion whose recording determines the parameters best.
 
 mod arguments;
+mod campaign;
 mod evaluate;
 mod job;
 mod output;
@@ -31,6 +32,7 @@ impl crate::run::Run for Arguments {
             "design.json",
             "motion.csv",
             "poses.csv",
+            "campaign.csv",
             "motion_dense.csv",
             "evaluation.json",
             "evaluation.html",
@@ -60,6 +62,10 @@ impl crate::run::Run for Arguments {
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let job = job::prepare(arguments)?;
+    let campaign = job.experiment.campaign().map_err(|error| error.in_experiment(&arguments.experiment))?;
+    if let Some(campaign) = campaign {
+        return campaign::run(arguments, &job, &campaign);
+    }
     if matches!(job.experiment.plan, Plan::Holds(_)) {
         return poses::run(arguments, &job);
     }

@@ -10,6 +10,7 @@
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | comparisons, inspections | | [`ComparisonFile`], [`InspectionFile`] |
 //! | `design.json` | | [`DesignFile`] |
+//! | `design.json` and `campaign.csv` of a campaign over temperature | | [`CampaignFile`], [`write_campaign_csv`] |
 //! | `design.json` and `evaluation.json` of poses | | [`PoseDesignFile`], [`PoseEvaluationFile`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`EvaluationFile`], [`SweepFile`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`NoiseFile`] |
@@ -62,6 +63,7 @@ pub use places::resume_key::ResumeKey;
 pub use places::sensor_naming::{NamedRecording, SensorNaming};
 pub use results::batch::{BatchEntry, calibrations_json};
 pub use results::calibration::CalibrationFile;
+pub use results::campaign::{CampaignFile, write_campaign_csv};
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};

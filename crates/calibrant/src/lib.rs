@@ -179,6 +179,7 @@ mod simulation;
 mod study_plan;
 mod trajectory_plan;
 
+pub use calibrant_campaign as campaign;
 pub use calibrant_core::{
     Error, Result, acceptance, arrowhead, budget, diagnostic, error, estimate, information, interruption,
     motion, noise, progress, sensor, simulate,

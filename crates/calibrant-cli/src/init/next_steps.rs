@@ -28,6 +28,9 @@ impl NextSteps {
             let needs = ", with your recording.csv";
             return Self { needs, commands: vec![calibrate(&file, "recording.csv", "")] };
         }
+        if matches!(experiment.campaign(), Ok(Some(_))) {
+            return Self { needs: "", commands: vec![format!("calibrant design {file} -o plan")] };
+        }
         let commands = match &experiment.plan {
             Plan::Motion(plan) => of_motion(plan, &file),
             Plan::Holds(_) => rehearsal(&file, None),

@@ -6,6 +6,7 @@ mod batch;
 mod batch_page;
 mod bench;
 mod broken;
+mod campaign;
 mod commands;
 mod compare;
 mod conventions;

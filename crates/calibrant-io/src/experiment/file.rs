@@ -2,6 +2,7 @@
 
 use super::accept::AcceptSection;
 use super::calibrate::CalibrateOptions;
+use super::campaign::CampaignSection;
 use super::columns::ColumnsSection;
 use super::design::DesignOptions;
 use super::gyroscope::{GyroscopeSection, KnownSection};
@@ -60,6 +61,8 @@ pub struct ExperimentFile {
     pub known: Option<KnownSection>,
     /// Temperature terms of an IMU.
     pub temperature: Option<TemperatureSection>,
+    /// A campaign over temperature.
+    pub campaign: Option<CampaignSection>,
     /// What the recordings' files do not state themselves.
     pub columns: Option<ColumnsSection>,
     /// How a recording is evaluated.

@@ -11,6 +11,8 @@
 
 mod accept;
 mod calibrate;
+mod campaign;
+mod campaign_problem;
 mod columns;
 pub(crate) mod datasheets;
 mod design;
@@ -75,6 +77,9 @@ pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
 /// The sections of an [`ExperimentFile`], and the types of their values.
 pub mod sections {
     pub use super::accept::{AcceptEntry, AcceptSection};
+    pub use super::campaign::{
+        CampaignDirections, CampaignLetter, CampaignSection, ChannelSection, GoalsSection,
+    };
     pub use super::columns::ColumnsSection;
     pub use super::direction::{Direction, WrittenDirection};
     pub use super::gyroscope::{GyroscopeSection, GyroscopeUnit, KnownPrior, KnownSection, TurnSection};

@@ -86,6 +86,10 @@ impl Experiment {
     #[must_use]
     pub fn assumed_noise(&self, earlier: &[EarlierCalibration]) -> Option<Diagnostic> {
         let Plan::Holds(plan) = &self.plan else { return None };
+        // a campaign has a scatter of blocks in its place
+        if self.campaign.is_some() {
+            return None;
+        }
         let is_found = between_mps2(plan, earlier) > 0.0 || noise_found(earlier).is_some();
         let is_assumed = !is_found && self.sensor.with_usual_noise().is_some();
         is_assumed.then(|| NoiseAssumed { noise_mps2: USUAL_NOISE_MPS2 }.into())

@@ -34,6 +34,7 @@ pub const PRESETS: &[Preset] = &[
     preset!("imu", "whole IMU, held and rotated by hand"),
     preset!("imu-counts", "whole IMU, held and rotated by hand, in unknown counts"),
     preset!("ferraris", "whole IMU, six faces and three turns, in a list of sections"),
+    preset!("campaign", "whole IMU over temperature, in a chamber or a freezer"),
     preset!("arm", "whole IMU on a robot arm, with the log of its joints"),
     preset!("rate-table", "whole IMU on a rate table, with the log of its joints"),
     preset!("gantry", "accelerometer on a gantry, with the log of its axes"),

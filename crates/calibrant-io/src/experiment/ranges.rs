@@ -109,6 +109,20 @@ ranges! {
     pub struct Weight: Bounds::from(0.0, 1e30, "");
     /// A temperature.
     pub struct Celsius: Bounds::from(*WORKING_C.start(), *WORKING_C.end(), "°C");
+    /// The time of a campaign.
+    pub struct Minutes: Bounds::above(0.0, 1e5, "min");
+    /// The wait before the first hold of a soak.
+    pub struct Wait: Bounds::from(0.0, 1e4, "min");
+    /// The rate of a chamber.
+    pub struct Ramp: Bounds::above(0.0, 1e3, "K/min");
+    /// The time constant between a chamber and a sense element.
+    pub struct TimeConstant: Bounds::above(0.0, 1e3, "min");
+    /// The distance of soaks.
+    pub struct Spacing: Bounds::from(0.5, 200.0, "K");
+    /// Standard deviation of a quantity from one block of holds.
+    pub struct BlockSd: Bounds::above(0.0, 100.0, "");
+    /// The share of a lag's error that differs from soak to soak.
+    pub struct LagScatter: Bounds::from(0.0, 10.0, "");
     /// A component of a lever arm. A longer one is hardly in m.
     pub struct Lever: Bounds::from(-20.0, 20.0, "m");
     /// Standard deviation of a lever arm.

@@ -1,6 +1,7 @@
 //! Reads an experiment file, and makes the experiment of its sections.
 
 use super::accept::{AcceptSection, acceptance_limits};
+use super::campaign::CampaignSection;
 use super::columns::ColumnsSection;
 use super::document::{Document, LARGEST, Setting};
 use super::file::ExperimentFile;
@@ -33,6 +34,8 @@ pub struct Experiment {
     pub plan: Plan,
     /// `[gyroscope]`, `[known]` and `[temperature]`, for an IMU.
     pub imu: Option<ImuPlan>,
+    /// `[campaign]`: a campaign over temperature, where the section is there.
+    pub(super) campaign: Option<CampaignSection>,
     /// `[columns]`: what the recordings' files do not state themselves; nothing where the section is absent.
     pub columns: ImuReadOptions,
     /// `[limits]`; none where the section is absent.
@@ -190,6 +193,7 @@ impl ExperimentFile {
         let sensor = self.sensor.sensor()?;
         let plan = self.plan(&sensor, directory)?;
         let imu = self.imu(&plan)?;
+        self.campaign.as_ref().map_or(Ok(()), |campaign| campaign.check(&plan))?;
         let calibrate = self.calibrate.clone().unwrap_or_default();
         if calibrate.prior == Prior::Datasheet {
             need_spreads("calibrate.prior", &sensor)?;
@@ -210,6 +214,7 @@ impl ExperimentFile {
             source,
             read: String::new(),
             limits: limits.flatten().unwrap_or_default(),
+            campaign: self.campaign.clone(),
             columns: options_of(self.columns.as_ref())?,
             calibrate,
             accept: limits_of(self.accept.as_ref())?,

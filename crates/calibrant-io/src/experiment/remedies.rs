@@ -22,6 +22,9 @@ pub(super) fn remedy(key: &str) -> &'static str {
         "holds.directions" => {
             "one for each of intervals_s, in the same order: [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]"
         }
+        "campaign.range_c" => "the lowest and the highest temperature of use, °C: range_c = [-20.0, 60.0]",
+        "campaign.budget_min" => "the time of the whole campaign, min: budget_min = 360.0",
+        "campaign.ramp_k_per_min" => "the rate of the chamber, K/min: ramp_k_per_min = 2.0",
         "gyroscope.turns" => "turns = [{ start_s = 10.0, end_s = 14.0, axis = \"x\", angle_deg = 360.0 }]",
         "machine.up" | "motion.gravity" => DIRECTION,
         "machine.base" | "machine.tip" => {

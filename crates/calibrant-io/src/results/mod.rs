@@ -2,6 +2,7 @@
 
 pub(crate) mod batch;
 pub(crate) mod calibration;
+pub(crate) mod campaign;
 pub(crate) mod comparison;
 pub(crate) mod design;
 pub(crate) mod earlier_calibration;

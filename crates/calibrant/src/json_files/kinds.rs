@@ -1,9 +1,10 @@
 //! The kinds of JSON files, each with its JSON Schema, from the types that are written.
 
 use calibrant_io::{
-    BatchEntry, CalibrationFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile,
-    JsonFile, MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
-    ReferenceInspectionFile, SweepFile, TrajectoryEvaluationFile, TrajectoryFile, TrajectorySweepFile, Truth,
+    BatchEntry, CalibrationFile, CampaignFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile,
+    InspectionFile, JsonFile, MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile,
+    PoseEvaluationFile, ReferenceInspectionFile, SweepFile, TrajectoryEvaluationFile, TrajectoryFile,
+    TrajectorySweepFile, Truth,
 };
 #[cfg(feature = "records")]
 use calibrant_records::{Fleet, KeptRecord, RecordFile, SensorDrift, SensorHistory};
@@ -52,6 +53,7 @@ impl FileKind {
         Self::of::<SweepFile<'static>>("sweep.json", "design"),
         Self::of::<PoseDesignFile<'static>>("design.json of poses", "design"),
         Self::of::<PoseEvaluationFile<'static>>("evaluation.json of holds", "design"),
+        Self::of::<CampaignFile<'static>>("design.json of a campaign over temperature", "design"),
         Self::of::<TrajectoryFile<'static>>("design.json of the trajectory of a machine", "design"),
         Self::of::<TrajectoryEvaluationFile<'static>>("evaluation.json of a trajectory", "design"),
         Self::of::<TrajectorySweepFile<'static>>("sweep.json of trajectories", "design"),

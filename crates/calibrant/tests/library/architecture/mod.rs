@@ -16,7 +16,7 @@ use modules::Modules;
 /// The crates from the lowest layer up; each uses crates of lower layers only.
 const LAYERS: &[&[&str]] = &[
     &["calibrant-core"],
-    &["calibrant-design", "calibrant-machine"],
+    &["calibrant-campaign", "calibrant-design", "calibrant-machine"],
     &["calibrant-machine-design", "calibrant-study"],
     &["calibrant-recording", "calibrant-report"],
     &["calibrant-io"],

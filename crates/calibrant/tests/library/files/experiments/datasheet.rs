@@ -49,7 +49,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "[motion]",
         "[zebra]",
-        "line 11, column 2: `zebra`: unknown key (the keys here are schema, sensor, motion, holds, machine, gyroscope, known, temperature, columns, calibrate, accept, limits, design, study)",
+        "line 11, column 2: `zebra`: unknown key (the keys here are schema, sensor, motion, holds, machine, gyroscope, known, temperature, campaign, columns, calibrate, accept, limits, design, study)",
     ),
     (
         r#"kind = "accelerometer""#,

@@ -1,0 +1,180 @@
+//! The sheet of a campaign over temperature: how good it is, beside what is usual, and its timetable.
+
+use super::figure::{DisplayUnit, sd_over_temperature, temperature_over_time};
+use super::report_context::About;
+use crate::number_format::{counted, plain, significant};
+use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
+use calibrant_campaign::{Campaign, CampaignCriterion, CampaignDesign, TimedSoak, UsualCampaign};
+use nalgebra::DMatrix;
+
+/// A campaign, and what is usual in its time.
+#[derive(Debug, Clone, Copy)]
+pub struct CampaignSheet<'a> {
+    /// Chamber, time and channels.
+    pub campaign: &'a Campaign,
+    /// The best campaign.
+    pub design: &'a CampaignDesign,
+    /// Its soaks in their time.
+    pub timetable: &'a [TimedSoak],
+    /// The usual campaigns.
+    pub usual: &'a [UsualCampaign],
+}
+
+/// The best campaign as a sheet.
+#[must_use]
+pub fn campaign_sheet<'a>(of: CampaignSheet<'a>, about: &'a About) -> Sheet<'a> {
+    let beyond = missed(of);
+    let (grade, word) = if beyond.is_empty() {
+        (Grade::Good, "✓ All goals are met.")
+    } else {
+        (Grade::Caution, "! Not all goals are met in this time.")
+    };
+    let verdict = SheetVerdict::new(grade, word, sentence(of))
+        .with("Goals", beyond)
+        .with("Findings", about.findings.clone());
+    let mut channels = Section::new("Standard deviations over the range").lead(
+        "Root of the mean variance over the range of temperatures. A campaign in the same time is beside it: evenly spaced soaks, as many blocks of holds in each as fit.",
+    );
+    channels.table(channel_table(of));
+    channels.figure(move || Some(sd_over_temperature(of.campaign, &campaigns(of))));
+    channels.line(usual_in_words(of));
+    let mut table = Section::new("Timetable").lead(
+        "Temperature of the chamber, from where it is reached, wait, and number of blocks (six faces each). Times count from the start at room temperature, at the stated rate.",
+    );
+    table.figure(move || Some(temperature_over_time(of.timetable)));
+    table.table(timetable(of.timetable));
+    table.explanation(
+        "An end of the range that is to be reached from beyond needs a few kelvin more, which are not counted. Directions and waits that a calibration uses come from the recorded temperature.",
+    );
+    let mut bound = Section::on_page("The lower bound");
+    bound.explanation(format!(
+        "The bound is that of the relaxed problem, in which soaks may be fractions: no campaign in this time has a lower criterion, with soaks at temperatures {} K apart. With soaks at \
+         any temperatures at least as far apart, examined in steps of 0.1 K, the bound is {}. The priors are as stated in [campaign].",
+        plain(of.campaign.spacing_c, 3),
+        significant(of.design.relaxed.lower_bound_anywhere, 4)
+    ));
+    about.sheet("Campaign", verdict, vec![channels, table, bound], MEANING)
+}
+
+/// What the numbers mean.
+const MEANING: &str = "q(T) = Σ c_m P_m(x) is the mean of both branches; sd is the standard deviation.";
+
+/// The channels whose goal is missed; a proof where the bound says that no campaign meets all.
+fn missed(of: CampaignSheet<'_>) -> Vec<String> {
+    let goals = of.campaign.channels.iter().zip(&of.design.sd).filter(|(channel, sd)| **sd > channel.goal_sd);
+    let mut missed: Vec<String> = goals
+        .map(|(channel, sd)| {
+            format!("{}: {} times the goal", channel.name, significant(sd / channel.goal_sd, 3))
+        })
+        .collect();
+    let (bound, count) = (of.design.relaxed.lower_bound, of.campaign.channels.len() as f64);
+    if of.campaign.criterion == CampaignCriterion::I && bound > count {
+        missed.push(format!(
+            "no campaign in this time meets all goals: the mean variance is at least {} times that of the goals",
+            significant(bound / count, 3)
+        ));
+    }
+    missed
+}
+
+fn sentence(of: CampaignSheet<'_>) -> String {
+    let gap = of.design.gap(of.campaign);
+    let above = if of.campaign.criterion.is_logarithm() {
+        format!("{} nats", significant(gap, 2))
+    } else {
+        format!("{} %", significant(100.0 * gap, 2))
+    };
+    format!(
+        "{} in {} min; the criterion is {above} above the bound that no campaign can beat. An hour more would lower the criterion by about {} of {}.",
+        counted(of.design.soaks.len(), "soak"),
+        plain(of.campaign.budget_min, 4),
+        significant(60.0 * of.design.relaxed.price_per_min, 2),
+        significant(of.design.value, 3)
+    )
+}
+
+/// The usual campaigns, compared by the criterion.
+fn usual_in_words(of: CampaignSheet<'_>) -> String {
+    let compared = of.usual.iter().filter_map(|usual| {
+        let value = of.campaign.value(&usual.soaks)?;
+        Some(if of.campaign.criterion.is_logarithm() {
+            format!("{}: {} nats more", name(usual), significant(value - of.design.value, 3))
+        } else {
+            format!("{}: {} times the criterion", name(usual), significant(value / of.design.value, 3))
+        })
+    });
+    let compared: Vec<String> = compared.collect();
+    if compared.is_empty() { "no usual campaign fits into this time".into() } else { compared.join("; ") }
+}
+
+fn name(usual: &UsualCampaign) -> String {
+    let way = if usual.both { "there and back" } else { "upwards" };
+    let wait = if usual.wait_min > 0.0 {
+        format!("{} min wait", plain(usual.wait_min, 3))
+    } else {
+        "no wait".into()
+    };
+    format!("every {} °C {way}, {wait}", plain(usual.every_c, 3))
+}
+
+/// The designed campaign, and the best of the usual ones there and back, and upwards.
+fn campaigns(of: CampaignSheet<'_>) -> Vec<(String, Vec<DMatrix<f64>>)> {
+    let best = |both: bool| {
+        let these = of.usual.iter().filter(move |usual| usual.both == both);
+        let valued = these.filter_map(|usual| Some((usual, of.campaign.value(&usual.soaks)?)));
+        valued.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(usual, _)| usual)
+    };
+    let usual = [best(true), best(false)].into_iter().flatten();
+    let usual = usual.map(|usual| (name(usual), of.campaign.information(&usual.soaks)));
+    std::iter::once(("this campaign".to_owned(), of.campaign.information(&of.design.soaks)))
+        .chain(usual)
+        .collect()
+}
+
+fn channel_table(of: CampaignSheet<'_>) -> Table {
+    let campaigns = campaigns(of);
+    let sds: Vec<_> = campaigns.iter().map(|(_, information)| of.campaign.sd(information)).collect();
+    let mut columns: Vec<Column> = vec!["quantity".into(), "unit".into(), "goal".into()];
+    columns.extend(campaigns.iter().map(|(name, _)| Column::new(name.clone())));
+    let mut table = Table::new(columns);
+    for (number, channel) in of.campaign.channels.iter().enumerate() {
+        let unit = DisplayUnit::suited_to(channel.unit, [of.design.sd[number]]);
+        let mut row = vec![
+            Cell::name(channel.name.clone()),
+            unit.cell(channel.unit),
+            Cell::sd(channel.goal_sd, unit.factor),
+        ];
+        row.extend(
+            sds.iter().map(|sd| sd.as_ref().map_or(Cell::Missing, |sd| Cell::sd(sd[number], unit.factor))),
+        );
+        table.row(row);
+    }
+    table
+}
+
+fn timetable(rows: &[TimedSoak]) -> Table {
+    let mut table = Table::new([
+        Column::new("soak"),
+        Column::new("temperature").in_unit("°C"),
+        Column::new("reached"),
+        Column::new("wait").in_unit("min"),
+        Column::new("blocks"),
+        Column::new("begin").in_unit("min"),
+        Column::new("end").in_unit("min"),
+    ]);
+    for (k, row) in rows.iter().enumerate() {
+        table.row(vec![
+            Cell::name((k + 1).to_string()),
+            Cell::fixed(row.soak.temperature_c, 1),
+            Cell::text(match row.soak.direction {
+                calibrant_campaign::Direction::Up => "from below",
+                calibrant_campaign::Direction::Down => "from above",
+            }),
+            Cell::fixed(row.soak.wait_min, 1),
+            Cell::count(row.soak.blocks),
+            Cell::fixed(row.begin_min, 1),
+            Cell::fixed(row.end_min, 1),
+        ]);
+    }
+    table
+}
