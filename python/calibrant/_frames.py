@@ -24,7 +24,7 @@ def is_frame(data: object) -> bool:
 
 def _read(data: Any) -> Any:
     # the index of a frame of pandas: as a column where it has a name, or is a time
-    index = getattr(data, "index", None)
+    index: Any = getattr(data, "index", None)
     if getattr(index, "name", None) is not None or type(index).__name__ in ("DatetimeIndex", "TimedeltaIndex"):
         if index.name not in data.columns:
             data = data.reset_index()
