@@ -83,7 +83,7 @@ fn too_few_holds() {
                 "of accelerometer.bias.x, accelerometer.bias.y, accelerometer.bias.z, accelerometer.scale.x",
                 "accelerometer.matrix.yz left free",
                 says,
-                "at least 12",
+                "at least 14",
             ],
         );
     }

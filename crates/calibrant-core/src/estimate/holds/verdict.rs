@@ -22,6 +22,8 @@ const CONDITION: f64 = 100.0;
 const SCATTERED_MPS2: f64 = 0.02;
 /// A scatter beyond this multiple of it refuses the model.
 const CONTRADICTED: f64 = 10.0;
+/// Fewer degrees of freedom hardly check a fit.
+const FEWEST_FREE: usize = 5;
 /// A correlation above which two parameters are hardly separated.
 const CORRELATED: f64 = 0.9;
 /// Holds lie in a plane or on a point if they extend by less than this share in one direction.
@@ -62,7 +64,7 @@ pub(super) fn explain(
         remedy: format!(
             "hold the sensor still, longer than holds.minimum_hold_s, in at least {} well-spread orientations: each axis up, down and at angles in \
              between{}",
-            list.len() + 3,
+            list.len() + FEWEST_FREE,
             match (holds.len(), cross_terms) {
                 (1, _) =>
                     "; one pose gives the bias where its direction is known and the gains are stated: holds.intervals_s with holds.directions, and prior = \"datasheet\" in [calibrate]",
@@ -116,7 +118,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
         warnings.push(
             NothingToCheck { holds: Some(used.len()), parameters: calibration.parameters.len() }.into(),
         );
-    } else if calibration.fit.degrees_of_freedom < 5 {
+    } else if calibration.fit.degrees_of_freedom < FEWEST_FREE {
         let degrees_of_freedom = calibration.fit.degrees_of_freedom;
         warnings.push(FewDegreesOfFreedom { degrees_of_freedom }.into());
     }

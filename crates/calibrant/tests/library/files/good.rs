@@ -344,8 +344,9 @@ fn every_key_is_in_a_preset() {
         for key in keys.iter().filter(|key| !elsewhere.contains(key)) {
             let as_section =
                 if section.is_empty() { format!("[{key}]") } else { format!("[{section}.{key}]") };
+            let quoted = if key.contains('.') { format!("\"{key}\" =") } else { format!("{key} =") };
             assert!(
-                texts.contains(&format!("{key} =")) || texts.contains(&as_section),
+                texts.contains(&quoted) || texts.contains(&as_section),
                 "`{section}.{key}` is in no preset"
             );
         }

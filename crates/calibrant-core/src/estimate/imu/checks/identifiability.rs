@@ -77,7 +77,7 @@ pub(crate) fn undetermined(model: &ImuModel<'_>, groups: &[Undetermined]) -> Not
                     (true, _) => by_temperature(found),
                     (false, true) => UndeterminedGroup {
                         reason: format!("the {} holds do not spread enough", model.holds.len()),
-                        remedy: "hold the sensor still in at least 12 well-spread orientations".into(),
+                        remedy: "hold the sensor still in at least 14 well-spread orientations".into(),
                         ..group(names(&found.parameters), found.free_combinations)
                     },
                     (false, false) => group(names(&found.parameters), found.free_combinations),

@@ -33,7 +33,7 @@ pub(crate) fn check(
             "{message}, but the holds hardly determine the accelerometer (condition number {:.0}): what is wrong cannot be told",
             holds.condition_number
         );
-        let help = "hold the sensor still in at least 12 well-spread orientations, each axis up, down and in between";
+        let help = "hold the sensor still in at least 14 well-spread orientations, each axis up, down and in between";
         return Err(Error::recording(InputError::new(Refusal::GravityMissed, message, help)));
     }
     if unit == ReadingUnit::RadianPerSecond {
