@@ -47,16 +47,16 @@ fn parts_of_a_session_give_together_what_the_whole_gives() {
 #[test]
 fn a_recording_of_which_nothing_is_used_is_named() {
     let bench = parts();
-    let in_mg = |line: &str| {
+    let in_another_unit = |line: &str| {
         let scaled = |value: &str| {
-            value.parse::<f64>().map_or_else(|_| value.to_owned(), |of| (of * 102.0).to_string())
+            value.parse::<f64>().map_or_else(|_| value.to_owned(), |of| (of * 90.0).to_string())
         };
         let mut values = line.split(',');
         let time = values.next().unwrap_or_default().to_owned();
         std::iter::once(time).chain(values.map(scaled)).collect::<Vec<_>>().join(",")
     };
     let text = bench.read("c.csv");
-    bench.write("c.csv", text.lines().map(in_mg).collect::<Vec<_>>().join("\n"));
+    bench.write("c.csv", text.lines().map(in_another_unit).collect::<Vec<_>>().join("\n"));
     let outcome = bench.run("calibrate poses.toml a.csv b.csv c.csv --together -o joined").done();
     assert!(outcome.stdout.contains("verdict: doubtful (recording-unused)"), "{}", outcome.stdout);
 }

@@ -28,7 +28,7 @@ pub const PRESETS: &[Preset] = &[
     preset!("report-unknown", "accelerometer on an arm, only the ends of its motion known"),
     preset!("report-noisy", "accelerometer on an arm, motion known up to process noise"),
     preset!("stage", "accelerometer on a linear stage, from rest to rest"),
-    preset!("static-poses", "accelerometer held by hand, in two dozen orientations or more"),
+    preset!("static-poses", "accelerometer held by hand, in two dozen orientations"),
     preset!("faces", "accelerometer on faces of known direction, 12 parameters"),
     preset!("static-poses-counts", "accelerometer held still by hand, in counts of unknown gain"),
     preset!("imu", "whole IMU, held and rotated by hand"),

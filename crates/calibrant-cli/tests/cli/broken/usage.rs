@@ -11,7 +11,7 @@ const CASES: &[(&str, &[&str])] = &[
         "init nosuch",
         &[
             "there is no preset `nosuch` (choose one of report, report-unknown,",
-            "imu-counts, ferraris, arm, rate-table, gantry, mocap)",
+            "imu-counts, ferraris, campaign, arm, rate-table, gantry, mocap)",
         ],
     ),
     ("init report extra", &["unexpected argument 'extra'"]),
