@@ -28,20 +28,11 @@ mod tests {
     #[test]
     fn they_are_orthogonal_with_their_mean_square() {
         const STEPS: usize = 20_000;
-        let mut sums = [[0.0; 6]; 6];
-        for step in 0..STEPS {
-            let p = legendre(-1.0 + (step as f64 + 0.5) * 2.0 / STEPS as f64, 6);
-            for i in 0..6 {
-                for j in 0..6 {
-                    sums[i][j] += p[i] * p[j] / STEPS as f64;
-                }
-            }
-        }
-        for i in 0..6 {
-            for j in 0..6 {
-                let expected = if i == j { mean_square(i) } else { 0.0 };
-                assert!((sums[i][j] - expected).abs() < 1e-6, "{i} {j}: {}", sums[i][j]);
-            }
+        let at = |step: usize| legendre(-1.0 + (step as f64 + 0.5) * 2.0 / STEPS as f64, 6);
+        let mean = |i: usize, j: usize| (0..STEPS).map(at).map(|p| p[i] * p[j]).sum::<f64>() / STEPS as f64;
+        for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+            let expected = if i == j { mean_square(i) } else { 0.0 };
+            assert!((mean(i, j) - expected).abs() < 1e-6, "{i} {j}: {}", mean(i, j));
         }
     }
 }
