@@ -76,20 +76,7 @@ fn whole_campaigns_are_near_the_bound_and_beside_the_reference() {
         ("imu-3h", campaign(imu(), 180.0, &BOTH), [0.56455, 0.56440, 0.57753]),
         ("imu-6h-upwards", campaign(imu(), 360.0, &[Direction::Up]), [1.59144, 1.58949, 1.60782]),
     ] {
-        let started = std::time::Instant::now();
         let found = design(&campaign).expect("found");
-        println!(
-            "{name}: {:.5} bound {:.5} anywhere {:.5} whole {:.5} ({:.2} %) {} soaks {:?} price/h {:.4} in {:?}",
-            found.relaxed.value,
-            found.relaxed.lower_bound,
-            found.relaxed.lower_bound_anywhere,
-            found.value,
-            100.0 * found.gap(&campaign),
-            found.soaks.len(),
-            found.sd,
-            60.0 * found.relaxed.price_per_min,
-            started.elapsed()
-        );
         let relaxed = &found.relaxed;
         assert!((relaxed.value / value - 1.0).abs() < 1e-3, "{name}: {}", relaxed.value);
         // two bounds of one optimum: each is below the other's value
@@ -149,7 +136,6 @@ fn random_campaigns_are_above_the_bound() {
         }
         least = least.min(campaign.value(&soaks).unwrap_or(f64::INFINITY));
     }
-    println!("least {least:.4}, bound {:.4}, anywhere {:.4}", bound.lower_bound, bound.lower_bound_anywhere);
     assert!(least > bound.lower_bound_anywhere && least < 2.0 * bound.lower_bound, "{least}");
 }
 

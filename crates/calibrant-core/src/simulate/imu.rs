@@ -37,16 +37,17 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
         if pose + 1 == poses {
             break;
         }
-        let (turn, wobble) = match &setup.directions {
+        let (axis, wobble, angle) = match &setup.directions {
             Some(directions) => {
                 let next = facing(&directions[pose + 1], rng);
-                ((world_from_sensor.inverse() * next).scaled_axis(), Vector3::zeros())
+                let turn = (world_from_sensor.inverse() * next).scaled_axis();
+                (turn.try_normalize(0.0).unwrap_or_else(Vector3::zeros), Vector3::zeros(), turn.norm())
             }
             None => {
                 let axis = random(rng).normalize();
                 let wobble = axis.cross(&random(rng)) * 0.3;
                 let angle = rng.random_range(1.0..3.0);
-                (axis * angle, wobble * angle)
+                (axis, wobble, angle)
             }
         };
         let count = samples(setup.turn_s);
@@ -54,7 +55,7 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
         let rate = |x: f64| {
             let bell = 1.0 - (std::f64::consts::TAU * x).cos();
             let swing = (2.0 * std::f64::consts::TAU * x).sin() * bell;
-            (turn * bell + wobble * swing) / (count as f64 * step)
+            (axis * bell + wobble * swing) * (angle / (count as f64 * step))
         };
         for k in 0..count {
             emit(&world_from_sensor, rate(k as f64 / count as f64));
