@@ -73,10 +73,10 @@ pub struct Campaign {
     pub shortest_wait_min: f64,
     /// What is minimised.
     pub criterion: CampaignCriterion,
-    /// Information about the coefficients of each channel from soaks that were recorded before, in the order of the channels; empty where there are none.
-    pub earlier: Vec<DMatrix<f64>>,
 }
 
+/// Where a campaign begins and ends, °C.
+pub(crate) const ROOM_C: f64 = 25.0;
 /// The longest wait, in time constants.
 const LONGEST_WAIT: f64 = 6.0;
 /// Steps of the waits, in time constants.
@@ -117,11 +117,13 @@ impl Campaign {
         over_range(self.range_c, temperature_c)
     }
 
-    /// Time of the ramps, min: a closed cycle over both ends passes each temperature once in each direction.
+    /// Time of the ramps, min: a closed cycle over both ends passes each temperature once in each direction. Where the room is outside the range, there and
+    /// back once more.
     #[must_use]
     pub fn travel_min(&self) -> f64 {
         let [low, high] = self.range_c;
-        2.0 * self.cycles as f64 * (high - low) / self.ramp_k_per_min
+        2.0 * (self.cycles as f64 * (high - low) + (ROOM_C - ROOM_C.clamp(low, high)).abs())
+            / self.ramp_k_per_min
     }
 
     /// Time that is left for waits and holds, min.
@@ -145,11 +147,7 @@ impl Campaign {
     /// What is known of the coefficients of each channel before the campaign.
     #[must_use]
     pub fn known(&self) -> Vec<DMatrix<f64>> {
-        let earlier = |k: usize| self.earlier.get(k);
-        let known = |(k, channel): (usize, &Channel)| {
-            earlier(k).map_or_else(|| channel.precision(), |earlier| channel.precision() + earlier)
-        };
-        self.channels.iter().enumerate().map(known).collect()
+        self.channels.iter().map(Channel::precision).collect()
     }
 
     /// What is known of the coefficients of each channel after these soaks.

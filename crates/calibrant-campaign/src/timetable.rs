@@ -1,9 +1,7 @@
 //! The order of soaks in a closed cycle, and when each begins.
 
+use crate::campaign::ROOM_C;
 use crate::{Campaign, Direction, Soak};
-
-/// Where a campaign begins and ends, °C.
-const ROOM_C: f64 = 25.0;
 
 /// A soak in its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +24,7 @@ pub fn timetable(campaign: &Campaign, soaks: &[Soak]) -> Vec<TimedSoak> {
     // what is soaked at several times has one in each cycle
     let mut left = soaks.to_vec();
     let mut rows = Vec::new();
-    let (mut now_min, mut at_c) = (0.0, ROOM_C.clamp(low, high));
+    let (mut now_min, mut at_c) = (0.0, ROOM_C);
     while !left.is_empty() {
         let mut cycle: Vec<Soak> = Vec::new();
         let is_there = |cycle: &[Soak], soak: &Soak| {
@@ -65,6 +63,14 @@ pub fn timetable(campaign: &Campaign, soaks: &[Soak]) -> Vec<TimedSoak> {
             now_min += campaign.minutes(soak);
             rows.push(TimedSoak { soak: *soak, begin_min, end_min: now_min });
         }
+        // the next cycle begins where this one ends, over both ends
+        let last = cycle.last().map_or(2, leg);
+        if !left.is_empty() && goes_down && last < 2 {
+            if last == 0 {
+                ramp(high, &mut now_min);
+            }
+            ramp(low, &mut now_min);
+        }
     }
     rows
 }
@@ -87,7 +93,6 @@ mod tests {
             spacing_c: 5.0,
             shortest_wait_min: 0.0,
             criterion: CampaignCriterion::I,
-            earlier: Vec::new(),
         }
     }
 

@@ -32,7 +32,8 @@ pub fn usual(campaign: &Campaign) -> Vec<UsualCampaign> {
     let goes_down = campaign.directions.contains(&Direction::Down);
     let of = |&(every_c, wait_min, both): &(f64, f64, bool)| {
         let steps = ((high - low) / every_c).round();
-        if steps < 1.0 || both && !goes_down {
+        let is_allowed = every_c >= campaign.spacing_c && wait_min >= campaign.shortest_wait_min;
+        if steps < 1.0 || both && !goes_down || !is_allowed {
             return None;
         }
         let temperature = |k: usize| low + (high - low) * k as f64 / steps;

@@ -44,12 +44,13 @@ pub fn campaign_sheet<'a>(of: CampaignSheet<'a>, about: &'a About) -> Sheet<'a> 
     table.figure(move || Some(temperature_over_time(of.timetable)));
     table.table(timetable(of.timetable));
     table.explanation(
-        "An end of the range that is to be reached from beyond needs a few kelvin more, which are not counted. Directions and waits that a calibration uses come from the recorded temperature.",
+        "The first soak, and an end of the range, are reached from the side that is said only if the chamber comes from a few kelvin beyond, which are not counted. Directions and waits that a calibration uses come from the recorded temperature.",
     );
     let mut bound = Section::on_page("The lower bound");
     bound.explanation(format!(
         "The bound is that of the relaxed problem, in which soaks may be fractions: no campaign in this time has a lower criterion, with soaks at temperatures {} K apart. With soaks at \
-         any temperatures at least as far apart, examined in steps of 0.1 K, the bound is {}. The priors are as stated in [campaign].",
+         any temperatures at least as far apart, examined in steps of 0.1 K, the bound is {}. Both are of waits in steps of half a time constant, up to six, and of at most 12 blocks in a soak. \
+         The priors are as stated in [campaign].",
         plain(of.campaign.spacing_c, 3),
         significant(of.design.relaxed.lower_bound_anywhere, 4)
     ));
@@ -79,17 +80,24 @@ fn missed(of: CampaignSheet<'_>) -> Vec<String> {
 
 fn sentence(of: CampaignSheet<'_>) -> String {
     let gap = of.design.gap(of.campaign);
+    let soaking_min: f64 = of.design.soaks.iter().map(|soak| of.campaign.minutes(soak)).sum();
     let above = if of.campaign.criterion.is_logarithm() {
         format!("{} nats", significant(gap, 2))
     } else {
         format!("{} %", significant(100.0 * gap, 2))
     };
+    let price = of.design.relaxed.price_per_min;
+    let more = if price > 0.0 {
+        format!("More time lowers it by {} per minute at first.", significant(price, 2))
+    } else {
+        "Each soak has as many blocks as it may: of more time, only more cycles make use.".to_owned()
+    };
     format!(
-        "{} in {} min; the criterion is {above} above the bound that no campaign can beat. An hour more would lower the criterion by about {} of {}.",
+        "{} in {} of {} min; the criterion, {}, is {above} above the bound. {more}",
         counted(of.design.soaks.len(), "soak"),
-        plain(of.campaign.budget_min, 4),
-        significant(60.0 * of.design.relaxed.price_per_min, 2),
-        significant(of.design.value, 3)
+        plain(of.campaign.travel_min() + soaking_min, 4),
+        plain(of.campaign.budget_min, 6),
+        significant(of.design.value, 4)
     )
 }
 

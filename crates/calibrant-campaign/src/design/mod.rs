@@ -10,7 +10,7 @@ mod whole;
 pub use relaxed::{RelaxedCampaign, RelaxedSoak, relaxed};
 
 use crate::{Campaign, Soak};
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::Result;
 
 /// The best campaign that was found, and the bound that none can beat.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,15 +37,13 @@ impl CampaignDesign {
 /// Finds the best campaign of whole soaks.
 ///
 /// # Errors
-/// [`Error::Experiment`] where there is no time for a soak, and [`Error::NotIdentifiable`] where no campaign determines the coefficients.
+/// [`Error::Experiment`] where there is no time for a soak, or where no campaign determines the coefficients.
 pub fn design(campaign: &Campaign) -> Result<CampaignDesign> {
     let relaxed = relaxed(campaign)?;
     let soaks = whole::whole(campaign, &relaxed);
     let information = campaign.information(&soaks);
     let (Some(value), Some(sd)) = (campaign.value(&soaks), campaign.sd(&information)) else {
-        let message = "no whole soaks in this time determine all coefficients";
-        let help = "give a longer budget_min, a smaller order, or a spread for the coefficients";
-        return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+        return Err(relaxed::undetermined());
     };
     Ok(CampaignDesign { soaks, value, sd, relaxed })
 }

@@ -163,8 +163,8 @@ fn towards(
     with(0.5 * (low + high))
 }
 
-fn undetermined() -> Error {
+pub(super) fn undetermined() -> Error {
     let message = "no campaign in this time determines all coefficients";
-    let help = "give a longer budget_min, a smaller order, or a spread for the coefficients";
+    let help = "give a longer budget_min, or smaller orders (fewer numbers in spread and beyond_sd)";
     Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help))
 }

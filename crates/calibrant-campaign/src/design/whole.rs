@@ -18,12 +18,13 @@ type Plan = Vec<Option<usize>>;
 pub(super) fn whole(campaign: &Campaign, relaxed: &RelaxedCampaign) -> Vec<Soak> {
     let search = Search { campaign, candidates: Candidates::of(campaign, &campaign.temperatures_c()) };
     let mut plan = search.within_time(search.rounded(relaxed));
+    search.fill(&mut plan, relaxed);
     let mut now = search.value(&plan);
     for _ in 0..MOVES {
         let Some((next, then)) = search.better(&plan, now) else { break };
         (plan, now) = (next, then);
     }
-    let mut soaks: Vec<Soak> = plan.iter().flatten().map(|&k| search.candidates.soak(k)).collect();
+    let mut soaks = search.soaks(&plan);
     let key = |soak: &Soak| (soak.direction, soak.direction.sign() * soak.temperature_c);
     soaks.sort_by(|one, other| {
         let ((d, t), (e, u)) = (key(one), key(other));
@@ -77,16 +78,35 @@ impl Search<'_> {
         plan
     }
 
+    /// Adds short soaks where the fractions are largest, as long as they fit, if the plan has none.
+    fn fill(&self, plan: &mut Plan, relaxed: &RelaxedCampaign) {
+        if plan.iter().any(Option::is_some) {
+            return;
+        }
+        let mut fractions: Vec<_> = relaxed.soaks.iter().collect();
+        fractions.sort_by(|one, other| other.count.total_cmp(&one.count));
+        for of in fractions {
+            let here =
+                |(t, d): &(f64, crate::Direction)| (*t, *d) == (of.soak.temperature_c, of.soak.direction);
+            let Some(place) = self.candidates.places.iter().position(here) else { continue };
+            let (slot, shortest) = (place * self.campaign.cycles, place * self.candidates.choices());
+            let before = plan[slot].replace(shortest);
+            if self.minutes(plan) > self.campaign.soaking_min() + 1e-9 {
+                plan[slot] = before;
+            }
+        }
+    }
+
     fn minutes(&self, plan: &Plan) -> f64 {
         plan.iter().flatten().map(|&k| self.candidates.minutes(k)).sum()
     }
 
+    fn soaks(&self, plan: &Plan) -> Vec<Soak> {
+        plan.iter().flatten().map(|&k| self.candidates.soak(k)).collect()
+    }
+
     fn value(&self, plan: &Plan) -> f64 {
-        let soaks: Vec<_> = plan.iter().flatten().map(|&k| (k, 1.0)).collect();
-        let mut information = self.campaign.known();
-        for (sum, more) in information.iter_mut().zip(self.candidates.information(&soaks)) {
-            *sum += more;
-        }
+        let information = self.campaign.information(&self.soaks(plan));
         self.campaign.value_of(&information).unwrap_or(f64::INFINITY)
     }
 
@@ -106,11 +126,7 @@ impl Search<'_> {
 
     /// The first of the most promising moves that lowers the criterion. To first order a move gains what its soaks gain; by convexity, never more.
     fn better(&self, plan: &Plan, now: f64) -> Option<(Plan, f64)> {
-        let soaks: Vec<_> = plan.iter().flatten().map(|&k| (k, 1.0)).collect();
-        let mut information = self.campaign.known();
-        for (sum, more) in information.iter_mut().zip(self.candidates.information(&soaks)) {
-            *sum += more;
-        }
+        let information = self.campaign.information(&self.soaks(plan));
         let gains = self.candidates.gains(&self.campaign.gradient_of(&information)?);
         let of = |k: Option<usize>| k.map_or((0.0, 0.0), |k| (gains[k], self.candidates.minutes(k)));
         let single: Vec<(usize, Option<usize>, f64, f64)> = (0..plan.len())
@@ -143,6 +159,6 @@ impl Search<'_> {
         });
         tried
             .min_by(|one, other| one.1.total_cmp(&other.1))
-            .filter(|(_, then)| *then < now * (1.0 - LOWER) || *then < now - LOWER && now <= 0.0)
+            .filter(|(_, then)| *then < now - LOWER * now.abs())
     }
 }

@@ -12,13 +12,9 @@ fn bench(edits: &[(&str, &str)]) -> Bench {
 fn a_campaign_has_a_timetable_a_bound_and_what_is_usual_beside_it() {
     let bench = bench(&[]);
     let outcome = bench.run("design campaign.toml -o plan").done();
-    for word in [
-        "34 soaks in 360 min",
-        "above the bound",
-        "every 10 °C there and back",
-        "from above",
-        "plan/campaign.csv",
-    ] {
+    for word in
+        ["34 soaks in", "above the bound", "every 10 °C there and back", "from above", "plan/campaign.csv"]
+    {
         assert!(outcome.printed().contains(word), "{word}\n{}", outcome.stdout);
     }
     let design = bench.json("plan/design.json");
@@ -37,6 +33,30 @@ fn a_campaign_has_a_timetable_a_bound_and_what_is_usual_beside_it() {
     assert_eq!(json.stdout.trim_end(), bench.read("plan/design.json").trim_end());
 }
 
+/// Time for one soak or two, and a room outside the range.
+#[test]
+fn short_campaigns_and_other_rooms_fit_their_time() {
+    for edits in [
+        [("budget_min = 360.0", "budget_min = 83.0"), ("# cycles = 1 ", "cycles = 1 ")],
+        [("budget_min = 360.0", "budget_min = 88.0"), ("# cycles = 1 ", "cycles = 1 ")],
+        [("range_c = [-20.0, 60.0]", "range_c = [40.0, 90.0]"), ("# cycles = 1 ", "cycles = 3 ")],
+    ] {
+        let bench = bench(&edits);
+        bench.run("design campaign.toml -o plan").done();
+        let table = bench.read("plan/campaign.csv");
+        let last: Vec<f64> =
+            table.lines().last().expect("a soak").split(',').filter_map(|of| of.parse().ok()).collect();
+        let [.., temperature_c, _, _, _, end_min] = last[..] else { panic!("{table}") };
+        let budget_min = bench
+            .read("campaign.toml")
+            .lines()
+            .find_map(|line| line.strip_prefix("budget_min = ")?.split(' ').next()?.parse::<f64>().ok());
+        // and home again
+        let home_min = end_min + (temperature_c - 25.0).abs() / 2.0;
+        assert!(home_min <= budget_min.expect("there") + 1e-6, "{home_min}: {table}");
+    }
+}
+
 #[test]
 fn what_cannot_be_designed_is_refused_with_what_to_do() {
     for (edit, status, says) in [
@@ -45,6 +65,7 @@ fn what_cannot_be_designed_is_refused_with_what_to_do() {
         (("ramp_k_per_min = 2.0 ", "ramp_k_per_min = 0.0 "), 2, "above 0 K/min"),
         (("# spacing_c = 5.0 ", "spacing_c = 100.0 "), 2, "give a smaller spacing"),
         (("# criterion = \"I\"", "criterion = \"c\"\n# "), 2, "at_c = 25.0"),
+        (("# at_c = 25.0 ", "at_c = 125.0 "), 2, "within range_c"),
     ] {
         bench(&[edit]).refuses("design campaign.toml -o plan", status, &[says]);
     }

@@ -206,6 +206,13 @@ impl CampaignSection {
                 let help = "leave the one or the other away";
                 return Err(refused("campaign.at_c", "at_c is of criterion c, and another is given", help));
             }
+            (_, Some(at_c)) if !(low..=high).contains(&at_c.get()) => {
+                return Err(refused(
+                    "campaign.at_c",
+                    "at_c is outside range_c",
+                    "give a temperature within range_c",
+                ));
+            }
             _ => {}
         }
         for (of, section) in self.channels() {

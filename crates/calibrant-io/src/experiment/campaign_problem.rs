@@ -9,6 +9,8 @@ use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::SensorKind;
 
+/// The range of what is usual, K.
+const USUAL_RANGE_K: f64 = 80.0;
 /// Holds of a block: six faces.
 const FACES: f64 = 6.0;
 /// The holds of [`Usual::block_sd`], s.
@@ -28,6 +30,8 @@ impl Experiment {
 impl CampaignSection {
     fn problem(&self, experiment: &Experiment) -> Result<Campaign> {
         let hold_s = self.hold_s.map_or(USUAL_HOLD_S, f64::from);
+        let [low, high] = self.range_c()?;
+        let half_range_share = (high - low) / USUAL_RANGE_K;
         let there = |of: &Usual| of.sensor_kind == SensorKind::Accelerometer || experiment.imu.is_some();
         let channel = |(of, section): (&Usual, Option<&ChannelSection>)| {
             let usual = ChannelSection::default();
@@ -35,7 +39,14 @@ impl CampaignSection {
             let list = |given: &Option<Vec<Within<PriorSd>>>, usual: &[f64]| -> Vec<f64> {
                 given.as_ref().map_or_else(|| usual.to_vec(), |of| of.iter().map(|sd| sd.get()).collect())
             };
-            let orders = [list(&section.spread, of.spread), list(&section.beyond_sd, of.beyond_sd)].concat();
+            // what is usual is that of the range from −20 to 60 °C: a polynomial over a smaller one bends less
+            let over_range = |usual: &[f64], first: usize| -> Vec<f64> {
+                let power = |k: usize| half_range_share.powi((first + k) as i32);
+                usual.iter().enumerate().map(|(k, sd)| sd * power(k)).collect()
+            };
+            let spread = list(&section.spread, &over_range(of.spread, 1));
+            let beyond_sd = list(&section.beyond_sd, &over_range(of.beyond_sd, 1 + spread.len()));
+            let orders = [spread, beyond_sd].concat();
             Channel {
                 name: of.name.to_owned(),
                 unit: of.unit,
@@ -50,7 +61,7 @@ impl CampaignSection {
         };
         Ok(Campaign {
             channels: self.channels().into_iter().filter(|(of, _)| there(of)).map(channel).collect(),
-            range_c: self.range_c()?,
+            range_c: [low, high],
             budget_min: self.budget_min.get(),
             ramp_k_per_min: self.ramp_k_per_min.get(),
             time_constant_min: self.time_constant_min.map_or(10.0, f64::from),
@@ -67,7 +78,6 @@ impl CampaignSection {
                 (Some(CampaignLetter::D), _) => CampaignCriterion::D,
                 _ => CampaignCriterion::I,
             },
-            earlier: Vec::new(),
         })
     }
 }

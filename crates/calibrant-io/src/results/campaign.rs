@@ -68,8 +68,8 @@ json_object! {
         gap: of.0.design.gap(of.0.campaign),
         /// The optimum in which soaks may be fractions.
         relaxed_value: of.0.design.relaxed.value,
-        /// By how much an hour more would lower the criterion.
-        price_of_an_hour: 60.0 * of.0.design.relaxed.price_per_min,
+        /// How fast more time lowers the criterion, per minute.
+        price_per_min: of.0.design.relaxed.price_per_min,
     }
 }
 

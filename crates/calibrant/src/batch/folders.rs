@@ -52,7 +52,20 @@ pub fn own_names(recordings: &[impl AsRef<Path>]) -> Vec<String> {
 fn parts(path: &Path) -> Vec<String> {
     let text = path.to_string_lossy();
     let is_part = |part: &&str| !matches!(*part, "" | "." | ".." | "?");
-    let mut parts = text.rsplit(['/', '\\']).filter(is_part);
+    // `..` leaves the folder before it
+    let mut left = 0;
+    let mut parts = text.rsplit(['/', '\\']).filter(|part| match *part {
+        ".." => {
+            left += 1;
+            false
+        }
+        "" | "." | "?" => false,
+        _ if left > 0 => {
+            left -= 1;
+            false
+        }
+        _ => true,
+    });
     let file = parts.next().unwrap_or_default();
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| if stem.is_empty() { file } else { stem });
     // the file name `...csv` leaves `..`
@@ -70,6 +83,7 @@ mod tests {
     fn the_parts_of_paths_that_differ_name_the_recordings() {
         let names = |paths: &[&str]| own_names(paths);
         assert_eq!(names(&["line/S1/rec.csv", "./line/S2/rec.csv"]), ["S1", "S2"]);
+        assert_eq!(names(&["line/S1/rec.csv", "line/S2/../S4/rec.csv"]), ["S1", "S4"]);
         assert_eq!(
             names(&["S1/left.csv", "S1/right.csv", "S2/left.csv"]),
             ["S1-left", "S1-right", "S2-left"]

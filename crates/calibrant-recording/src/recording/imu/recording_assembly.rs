@@ -2,6 +2,7 @@
 
 use super::column::ColumnMeaning;
 use super::column_values::Samples;
+use super::even_times::SampleTimes;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::packet_times::Packets;
@@ -74,7 +75,8 @@ pub(super) fn assemble(
     }
     let is_plain = draft.plain.is_some();
     let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));
-    if has_times && !is_plain && (0..samples.rows).all(alike) {
+    let may_be_even = !is_plain || options.times == Some(SampleTimes::Even);
+    if has_times && may_be_even && (0..samples.rows).all(alike) {
         sample_clock::make_even(&mut times, samples, options, &mut findings)?;
     }
     let mut of_rows = Vec::new();
