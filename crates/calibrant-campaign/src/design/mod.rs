@@ -37,7 +37,7 @@ impl CampaignDesign {
 /// Finds the best campaign of whole soaks.
 ///
 /// # Errors
-/// [`Error::Experiment`] where there is no time for a soak, or where no campaign determines the coefficients.
+/// [`Error::Experiment`](calibrant_core::Error::Experiment) where there is no time for a soak, or where no campaign determines the coefficients.
 pub fn design(campaign: &Campaign) -> Result<CampaignDesign> {
     let relaxed = relaxed(campaign)?;
     let soaks = whole::whole(campaign, &relaxed);
