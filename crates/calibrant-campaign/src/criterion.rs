@@ -37,6 +37,11 @@ impl CampaignCriterion {
         self == Self::D
     }
 
+    /// How far a value is above a bound: a share of it, or a difference for D.
+    pub(crate) fn gap(self, value: f64, bound: f64) -> f64 {
+        if self.is_logarithm() { value - bound } else { value / bound - 1.0 }
+    }
+
     /// `W_c`, what is of interest in a channel's covariance.
     pub(crate) fn interest(self, range_c: [f64; 2], channel: &Channel) -> DMatrix<f64> {
         let count = channel.coefficients();

@@ -7,7 +7,9 @@ mod campaign;
 mod channel;
 mod criterion;
 mod design;
+mod golden_section;
 mod legendre;
+mod planned;
 mod timetable;
 mod usual;
 
@@ -15,5 +17,6 @@ pub use campaign::{Campaign, Direction, Soak};
 pub use channel::Channel;
 pub use criterion::CampaignCriterion;
 pub use design::{CampaignDesign, RelaxedCampaign, RelaxedSoak, design, relaxed};
+pub use planned::PlannedCampaign;
 pub use timetable::{TimedSoak, timetable};
 pub use usual::{UsualCampaign, usual};

@@ -4,25 +4,12 @@ use super::figure::{DisplayUnit, sd_over_temperature, temperature_over_time};
 use super::report_context::About;
 use crate::number_format::{counted, plain, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
-use calibrant_campaign::{Campaign, CampaignCriterion, CampaignDesign, TimedSoak, UsualCampaign};
+use calibrant_campaign::{CampaignCriterion, PlannedCampaign, TimedSoak, UsualCampaign};
 use nalgebra::DMatrix;
-
-/// A campaign, and what is usual in its time.
-#[derive(Debug, Clone, Copy)]
-pub struct CampaignSheet<'a> {
-    /// Chamber, time and channels.
-    pub campaign: &'a Campaign,
-    /// The best campaign.
-    pub design: &'a CampaignDesign,
-    /// Its soaks in their time.
-    pub timetable: &'a [TimedSoak],
-    /// The usual campaigns.
-    pub usual: &'a [UsualCampaign],
-}
 
 /// The best campaign as a sheet.
 #[must_use]
-pub fn campaign_sheet<'a>(of: CampaignSheet<'a>, about: &'a About) -> Sheet<'a> {
+pub fn campaign_sheet<'a>(of: PlannedCampaign<'a>, about: &'a About) -> Sheet<'a> {
     let beyond = missed(of);
     let (grade, word) = if beyond.is_empty() {
         (Grade::Good, "✓ All goals are met.")
@@ -61,7 +48,7 @@ pub fn campaign_sheet<'a>(of: CampaignSheet<'a>, about: &'a About) -> Sheet<'a> 
 const MEANING: &str = "q(T) = Σ c_m P_m(x) is the mean of both branches; sd is the standard deviation.";
 
 /// The channels whose goal is missed; a proof where the bound says that no campaign meets all.
-fn missed(of: CampaignSheet<'_>) -> Vec<String> {
+fn missed(of: PlannedCampaign<'_>) -> Vec<String> {
     let goals = of.campaign.channels.iter().zip(&of.design.sd).filter(|(channel, sd)| **sd > channel.goal_sd);
     let mut missed: Vec<String> = goals
         .map(|(channel, sd)| {
@@ -78,7 +65,7 @@ fn missed(of: CampaignSheet<'_>) -> Vec<String> {
     missed
 }
 
-fn sentence(of: CampaignSheet<'_>) -> String {
+fn sentence(of: PlannedCampaign<'_>) -> String {
     let gap = of.design.gap(of.campaign);
     let soaking_min: f64 = of.design.soaks.iter().map(|soak| of.campaign.minutes(soak)).sum();
     let above = if of.campaign.criterion.is_logarithm() {
@@ -102,7 +89,7 @@ fn sentence(of: CampaignSheet<'_>) -> String {
 }
 
 /// The usual campaigns, compared by the criterion.
-fn usual_in_words(of: CampaignSheet<'_>) -> String {
+fn usual_in_words(of: PlannedCampaign<'_>) -> String {
     let compared = of.usual.iter().filter_map(|usual| {
         let value = of.campaign.value(&usual.soaks)?;
         Some(if of.campaign.criterion.is_logarithm() {
@@ -126,7 +113,7 @@ fn name(usual: &UsualCampaign) -> String {
 }
 
 /// The designed campaign, and the best of the usual ones there and back, and upwards.
-fn campaigns(of: CampaignSheet<'_>) -> Vec<(String, Vec<DMatrix<f64>>)> {
+fn campaigns(of: PlannedCampaign<'_>) -> Vec<(String, Vec<DMatrix<f64>>)> {
     let best = |both: bool| {
         let these = of.usual.iter().filter(move |usual| usual.both == both);
         let valued = these.filter_map(|usual| Some((usual, of.campaign.value(&usual.soaks)?)));
@@ -139,7 +126,7 @@ fn campaigns(of: CampaignSheet<'_>) -> Vec<(String, Vec<DMatrix<f64>>)> {
         .collect()
 }
 
-fn channel_table(of: CampaignSheet<'_>) -> Table {
+fn channel_table(of: PlannedCampaign<'_>) -> Table {
     let campaigns = campaigns(of);
     let sds: Vec<_> = campaigns.iter().map(|(_, information)| of.campaign.sd(information)).collect();
     let mut columns: Vec<Column> = vec!["quantity".into(), "unit".into(), "goal".into()];

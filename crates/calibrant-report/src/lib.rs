@@ -34,7 +34,7 @@ mod tests;
 
 pub use batch::{Batch, BatchParameter, BatchSensor, batch_sheet};
 pub use calibration::calibration_sheet;
-pub use campaign::{CampaignSheet, campaign_sheet};
+pub use campaign::campaign_sheet;
 pub use comparison::comparison_sheet;
 pub use design::{design_sheet, gap_in_words};
 pub use evaluation::evaluation_sheet;

@@ -4,8 +4,8 @@
 //! cell, at the best price of a minute, bounds what all gain, wherever they are.
 
 use super::candidates::Candidates;
-use crate::Campaign;
 use crate::criterion::Gradient;
+use crate::{Campaign, golden_section};
 
 /// Step of the temperatures within a cell, K.
 const STEP_C: f64 = 0.1;
@@ -43,11 +43,5 @@ pub(super) fn any_temperature(campaign: &Campaign, gradients: &[Gradient]) -> f6
     let per_minute = cells.iter().flat_map(|(candidates, gains)| {
         gains.iter().enumerate().map(|(k, gain)| gain / candidates.minutes(k))
     });
-    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = (0.0, per_minute.fold(0.0, f64::max));
-    for _ in 0..STEPS {
-        let (a, b) = (high - ratio * (high - low), low + ratio * (high - low));
-        (low, high) = if at(a) < at(b) { (low, b) } else { (a, high) };
-    }
-    at(0.5 * (low + high))
+    at(golden_section::least(at, [0.0, per_minute.fold(0.0, f64::max)], STEPS))
 }

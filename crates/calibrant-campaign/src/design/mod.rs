@@ -12,7 +12,7 @@ pub use relaxed::{RelaxedCampaign, RelaxedSoak, relaxed};
 use crate::{Campaign, Soak};
 use calibrant_core::error::Result;
 
-/// The best campaign that was found, and the bound that none can beat.
+/// The best campaign that was found, and the bound of the relaxed problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CampaignDesign {
     /// The soaks, upwards, then downwards.
@@ -29,8 +29,7 @@ impl CampaignDesign {
     /// How far the value is above the bound: a share of it, or a difference for D.
     #[must_use]
     pub fn gap(&self, campaign: &Campaign) -> f64 {
-        let bound = self.relaxed.lower_bound;
-        if campaign.criterion.is_logarithm() { self.value - bound } else { self.value / bound - 1.0 }
+        campaign.criterion.gap(self.value, self.relaxed.lower_bound)
     }
 }
 

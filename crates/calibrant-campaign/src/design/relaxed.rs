@@ -8,7 +8,7 @@ use super::candidates::Candidates;
 use super::continuum::any_temperature;
 use super::{knapsack, shares};
 use crate::criterion::Gradient;
-use crate::{Campaign, CampaignCriterion, Soak};
+use crate::{Campaign, CampaignCriterion, Soak, golden_section};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use nalgebra::{DMatrix, DVector};
 
@@ -28,7 +28,7 @@ pub struct RelaxedCampaign {
     pub soaks: Vec<RelaxedSoak>,
     /// The criterion.
     pub value: f64,
-    /// No campaign in this time, of soaks at these temperatures, has a lower criterion.
+    /// No campaign in this time has a lower criterion, of soaks at these temperatures, with waits of half a time constant to six, and up to twelve blocks.
     pub lower_bound: f64,
     /// The same for soaks at any temperatures as far apart, in steps of 0.1 K.
     pub lower_bound_anywhere: f64,
@@ -86,9 +86,7 @@ pub fn relaxed(campaign: &Campaign) -> Result<RelaxedCampaign> {
         if bound > lower_bound {
             (lower_bound, price) = (bound, vertex.price);
         }
-        let gap =
-            if campaign.criterion.is_logarithm() { value - lower_bound } else { value / lower_bound - 1.0 };
-        if gap < TOLERANCE || lists.len() == ROUNDS {
+        if campaign.criterion.gap(value, lower_bound) < TOLERANCE || lists.len() == ROUNDS {
             break;
         }
         atoms.push(candidates.information(&vertex.soaks));
@@ -154,13 +152,7 @@ fn towards(
     let with = |part: f64| share.scale(1.0 - part).push(part);
     let at =
         |part: f64| campaign.value_of(&shares::mixed(known, atoms, &with(part))).unwrap_or(f64::INFINITY);
-    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = (0.0, 1.0 - 1e-6);
-    for _ in 0..20 {
-        let (a, b) = (high - ratio * (high - low), low + ratio * (high - low));
-        (low, high) = if at(a) < at(b) { (low, b) } else { (a, high) };
-    }
-    with(0.5 * (low + high))
+    with(golden_section::least(at, [0.0, 1.0 - 1e-6], 20))
 }
 
 pub(super) fn undetermined() -> Error {

@@ -4,10 +4,10 @@ use super::Arguments;
 use crate::console;
 use crate::exit::Exit;
 use calibrant::DesignPlan;
-use calibrant::campaign::{Campaign, design, timetable, usual};
+use calibrant::campaign::{Campaign, PlannedCampaign, design, timetable, usual};
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{CampaignFile, to_json, write_campaign_csv, write_json, write_text};
-use calibrant::report::{About, CampaignSheet, campaign_sheet};
+use calibrant::report::{About, campaign_sheet};
 
 pub(super) fn run(arguments: &Arguments, job: &DesignPlan, campaign: &Campaign) -> calibrant::Result<Exit> {
     refuse_other_options(arguments, job)?;
@@ -17,7 +17,8 @@ pub(super) fn run(arguments: &Arguments, job: &DesignPlan, campaign: &Campaign) 
     let found = found.map_err(|error| error.in_experiment(&arguments.experiment))?;
     let (rows, usual) = (timetable(campaign, &found.soaks), usual(campaign));
     let output = &arguments.output;
-    let file = CampaignFile { campaign, design: &found, timetable: &rows, usual: &usual };
+    let planned = PlannedCampaign { campaign, design: &found, timetable: &rows, usual: &usual };
+    let file = CampaignFile(planned);
     write_json(&output.join("design.json"), &file)?;
     write_campaign_csv(&output.join("campaign.csv"), &rows)?;
     let range = campaign.range_c;
@@ -29,8 +30,7 @@ pub(super) fn run(arguments: &Arguments, job: &DesignPlan, campaign: &Campaign) 
     ];
     let facts = facts.map(|(name, value)| (name.to_owned(), value)).to_vec();
     let about = About { title: "Campaign over temperature".into(), facts, ..About::default() };
-    let sheet =
-        campaign_sheet(CampaignSheet { campaign, design: &found, timetable: &rows, usual: &usual }, &about);
+    let sheet = campaign_sheet(planned, &about);
     write_text(&output.join("report.html"), &sheet.html())?;
     let files = ["campaign.csv", "report.html"].map(|name| output.join(name));
     console::result(arguments.json, || to_json(&file), &sheet, None, &files)?;

@@ -5,6 +5,7 @@
 
 use super::file::CalibratedImuFile;
 use super::words::{input_error, singular, written_by};
+use super::yaml::line;
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::SensorKind;
 use calibrant_recording::text::decoding::Checked;
@@ -19,15 +20,12 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     }
     let sensor = imu.parameters.sensor(SensorKind::Accelerometer);
     let c = sensor.matrix.try_inverse().ok_or_else(|| singular(SensorKind::Accelerometer))?;
-    let list = |values: &[f64]| {
-        let values: Vec<_> = values.iter().map(|value| format!("{:?}", value + 0.0)).collect();
-        values.join(", ")
-    };
-    Ok(format!(
-        "# {}: corrected = SM raw - bias, in m/s^2\n# frame: {}\nSM: [{}]\nbias: [{}]\n",
+    let mut out = format!(
+        "# {}: corrected = SM raw - bias, in m/s^2\n# frame: {}\n",
         written_by(),
-        imu.frame.replace(['\n', '\r'], " ").trim(),
-        list(c.transpose().as_slice()),
-        list((c * sensor.bias).as_slice())
-    ))
+        imu.frame.replace(['\n', '\r'], " ").trim()
+    );
+    line(&mut out, "SM: ", c.transpose().as_slice());
+    line(&mut out, "bias: ", (c * sensor.bias).as_slice());
+    Ok(out)
 }

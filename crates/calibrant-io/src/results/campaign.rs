@@ -1,7 +1,7 @@
 //! The files of a campaign over temperature: `design.json`, and its timetable as `campaign.csv`.
 
 use super::heading::{Heading, JsonFile};
-use calibrant_campaign::{Campaign, CampaignDesign, Channel, RelaxedSoak, Soak, TimedSoak, UsualCampaign};
+use calibrant_campaign::{Campaign, Channel, PlannedCampaign, RelaxedSoak, Soak, TimedSoak, UsualCampaign};
 use calibrant_core::error::Result;
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
@@ -10,36 +10,27 @@ use std::path::Path;
 
 /// The content of the `design.json` of a campaign.
 #[derive(Debug, Clone, Copy)]
-pub struct CampaignFile<'a> {
-    /// Chamber, time and channels.
-    pub campaign: &'a Campaign,
-    /// The best campaign.
-    pub design: &'a CampaignDesign,
-    /// Its soaks in their time.
-    pub timetable: &'a [TimedSoak],
-    /// The usual campaigns in the same time.
-    pub usual: &'a [UsualCampaign],
-}
+pub struct CampaignFile<'a>(pub PlannedCampaign<'a>);
 
 json_object! {
     /// The best campaign over temperature.
     CampaignFile<'_> as file {
         heading: flat(Heading::<Self>::of()),
         /// `I`, `D` or `c`.
-        criterion: file.campaign.criterion.letter(),
+        criterion: file.0.campaign.criterion.letter(),
         /// Value of the criterion.
-        value: file.design.value,
+        value: file.0.design.value,
         /// Time of the whole campaign.
-        budget_min: file.campaign.budget_min,
-        range_c: file.campaign.range_c,
-        certificate: CampaignCertificate(*file),
+        budget_min: file.0.campaign.budget_min,
+        range_c: file.0.campaign.range_c,
+        certificate: CampaignCertificate(file.0),
         channels: file.channels(),
         /// The soaks in their order.
-        soaks: file.timetable.iter().map(TimedRow).collect::<Vec<_>>(),
+        soaks: file.0.timetable.iter().map(TimedRow).collect::<Vec<_>>(),
         /// The optimum in which soaks may be fractions.
-        relaxed: file.design.relaxed.soaks.iter().map(RelaxedRow).collect::<Vec<_>>(),
+        relaxed: file.0.design.relaxed.soaks.iter().map(RelaxedRow).collect::<Vec<_>>(),
         /// Campaigns without a design in the same time.
-        usual: file.usual.iter().map(|usual| UsualRow { campaign: file.campaign, usual }).collect::<Vec<_>>(),
+        usual: file.0.usual.iter().map(|usual| UsualRow { campaign: file.0.campaign, usual }).collect::<Vec<_>>(),
     }
 }
 
@@ -49,13 +40,13 @@ impl JsonFile for CampaignFile<'_> {
 
 impl<'a> CampaignFile<'a> {
     fn channels(&self) -> Vec<ChannelRow<'a>> {
-        let of = self.campaign.channels.iter().zip(&self.design.sd).zip(&self.design.relaxed.sd);
+        let of = self.0.campaign.channels.iter().zip(&self.0.design.sd).zip(&self.0.design.relaxed.sd);
         of.map(|((channel, sd), relaxed_sd)| ChannelRow { channel, sd: *sd, relaxed_sd: *relaxed_sd })
             .collect()
     }
 }
 
-struct CampaignCertificate<'a>(CampaignFile<'a>);
+struct CampaignCertificate<'a>(PlannedCampaign<'a>);
 
 json_object! {
     /// The bound that no campaign in this time can beat.

@@ -6,6 +6,7 @@ use super::sensors::Batch;
 use super::summary::yield_of;
 use super::tables;
 use crate::figure::{SENSORS, code_bars, drifts, parameter_histograms};
+use crate::number_format::capitalised;
 use crate::report_context::About;
 use crate::sheet::{Section, Sheet};
 use std::collections::BTreeMap;
@@ -64,8 +65,8 @@ fn worst(batch: &Batch) -> Section<'_> {
     section.table(table);
     let more = if further.on_page > 0 { format!("{} more, and ", further.on_page) } else { String::new() };
     section.drawn(move || {
-        format!("<p>{more}all numbers of all sensors are in <a href=\"summary.csv\">summary.csv</a>.</p>")
-            .replacen("<p>a", "<p>A", 1)
+        let lead = capitalised(&format!("{more}all numbers of all sensors are in"));
+        format!("<p>{lead} <a href=\"summary.csv\">summary.csv</a>.</p>")
     });
     if further.on_terminal > 0 {
         section.line(format!("… and {} more", further.on_terminal));

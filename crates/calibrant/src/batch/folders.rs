@@ -59,7 +59,7 @@ fn parts(path: &Path) -> Vec<String> {
             left += 1;
             false
         }
-        "" | "." | "?" => false,
+        part if !is_part(&part) => false,
         _ if left > 0 => {
             left -= 1;
             false
