@@ -185,7 +185,8 @@ impl Campaign {
     pub fn sd(&self, information: &[DMatrix<f64>]) -> Option<Vec<f64>> {
         let of = |(channel, information): (&Channel, &DMatrix<f64>)| {
             let inverse = information.clone().cholesky()?.inverse();
-            let mean = (0..channel.polynomial()).map(|m| inverse[(m, m)] * crate::legendre::mean_square(m));
+            let mean = (0..channel.polynomial())
+                .map(|m| inverse[(m, m)] * calibrant_core::sensor::legendre::mean_square(m));
             Some(mean.sum::<f64>().sqrt())
         };
         self.channels.iter().zip(information).map(of).collect()

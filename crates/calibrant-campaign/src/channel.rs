@@ -7,7 +7,7 @@
 //! `h` is half the difference of the two branches, a loop that closes at both ends. `l` is the error at the end of a ramp, when the chip's thermometer and its
 //! element are not at one temperature. `u ~ N(0, ω² + (r l_sd e)²)` does not average within a soak; `ε ~ N(0, σ²/n)` averages over its `n` blocks of holds.
 
-use crate::legendre::legendre;
+use calibrant_core::sensor::legendre::legendre;
 use nalgebra::{DMatrix, DVector};
 
 /// A quantity that follows temperature, alike on each axis, with what is known of it beforehand. All but `goal_sd` enters the information of a soak.

@@ -1,7 +1,7 @@
 //! What a campaign minimises.
 
 use crate::Channel;
-use crate::legendre::mean_square;
+use calibrant_core::sensor::legendre::mean_square;
 use nalgebra::DMatrix;
 
 /// The criterion of a campaign, from the information `M_c` of each channel.

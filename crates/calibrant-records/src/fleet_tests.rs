@@ -10,7 +10,8 @@ fn warm() -> CalibratedImu {
     let mut warm = imu(3);
     let terms = ImuQuantity::all_thermal(true, true);
     for (k, term) in terms.iter().enumerate() {
-        term.add_to(&mut warm.parameters, 1e-5 * (k as f64 % 7.0 - 3.0));
+        let ImuQuantity::Thermal(_, of) = term else { continue };
+        term.add_to(&mut warm.parameters, 1e-5 * (k as f64 % 7.0 - 3.0) / 20f64.powi(of.order as i32 - 1));
     }
     warm.parameters.thermal.reference_c = 25.0;
     warm.quantities.extend(terms);

@@ -36,6 +36,22 @@ checks! {
         plain(1e3 * largest_mps2, 2)
     );
 
+    /// A format of calibrations has polynomials of temperature of a lower order.
+    PolynomialShortened "polynomial-shortened" Warning {
+        /// The format.
+        format: &'static str,
+        /// Its highest order.
+        order: usize,
+        /// What each sensor errs by over the range, at most: `the accelerometer by up to 0.002 m/s²`.
+        errors: Vec<String>,
+    }
+    decided "The bias has a higher order than the format has powers."
+    remedy "Calibrate with this order, or take the C header or the JSON of calibrant."
+    says format!(
+        "{format} has biases up to order {order} in the temperature. The nearest polynomials of that order are written, which err: {}",
+        errors.join(", ")
+    );
+
     /// A format of calibrations needs what the calibration does not have.
     FormatNeeds "format-needs" Warning {
         /// The format.

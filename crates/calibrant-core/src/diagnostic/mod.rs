@@ -7,6 +7,7 @@
 mod check;
 
 pub mod acceptance;
+pub mod campaign;
 pub mod change;
 pub mod comparison;
 pub mod convention;

@@ -2,12 +2,12 @@
 
 use super::code::Code;
 use super::{
-    acceptance, change, comparison, convention, correction, datasheet, design, faces, files, fit, gyroscope,
-    holds, log, machine, motion, noise, reader, samples, settings, simulation, turns, validation,
+    acceptance, campaign, change, comparison, convention, correction, datasheet, design, faces, files, fit,
+    gyroscope, holds, log, machine, motion, noise, reader, samples, settings, simulation, turns, validation,
 };
 
 /// The codes of all areas.
-const AREAS: [&[Code]; 22] = [
+const AREAS: [&[Code]; 23] = [
     settings::CODES,
     samples::CODES,
     holds::CODES,
@@ -21,6 +21,7 @@ const AREAS: [&[Code]; 22] = [
     datasheet::CODES,
     change::CODES,
     validation::CODES,
+    campaign::CODES,
     acceptance::CODES,
     noise::CODES,
     reader::CODES,

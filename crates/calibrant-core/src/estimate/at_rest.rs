@@ -47,6 +47,7 @@ impl AtRest {
             fit: FitStatistics { noise_estimate, ..self.fit },
             recovered: Recovered::Holds(holds),
             gyroscope: None,
+            soak: None,
             changes: Vec::new(),
             warnings: Vec::new(),
         }

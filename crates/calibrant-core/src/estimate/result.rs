@@ -3,7 +3,7 @@
 use super::gravity_error::gravity_source;
 use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
-use super::{RecoveredClock, RecoveredGravity, datasheet};
+use super::{RecoveredClock, RecoveredGravity, SoakTemperature, datasheet};
 use crate::diagnostic::{Change, Diagnostic};
 use crate::estimate::budget::BudgetRow;
 use crate::motion::JerkControlledMotion;
@@ -57,6 +57,8 @@ pub struct Calibration {
     pub recovered: Recovered,
     /// The results of a gyroscope by hand, if there is one.
     pub gyroscope: Option<Box<GyroscopeCalibration>>,
+    /// The temperature over the holds, where the recording has one.
+    pub soak: Option<SoakTemperature>,
     /// Changes of a sensor within the recording.
     pub changes: Vec<Change>,
     /// Warnings for the user.

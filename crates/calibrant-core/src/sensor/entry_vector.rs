@@ -1,8 +1,8 @@
 //! The entries of an IMU's model as one vector: biases, matrices, g-sensitivity and temperature terms. It is
 //! the coordinate system of all changes of frame and reference.
 //!
-//! The order is `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9). Then come `b_1`, `b_2`,
-//! `k_1`, `k_2` (3 each) of each sensor, and the coefficients that bend the accelerometer's response (3 of each term). Derivatives of results that depend on an IMU are taken with respect
+//! The order is `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9). Then come `b_1`, `b_2` and so on,
+//! `k_1`, `k_2` and so on (3 each) of each sensor, and the coefficients that bend the accelerometer's response (3 of each term). Derivatives of results that depend on an IMU are taken with respect
 //! to these entries. A covariance of any list of quantities becomes a covariance of the entries.
 
 use super::{

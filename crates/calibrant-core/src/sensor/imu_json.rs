@@ -4,12 +4,13 @@
 //! Values stand twice. The sensors' matrices are complete. The list of parameters has the quantities of the covariance.
 
 use super::{
-    CalibratedImu, Correction, CovarianceDegrees, Gauge, ImuQuantity, NonlinearTerm, Nonlinearity, Quantity,
-    ReadingUnit, SensorKind, SensorThermal,
+    CalibratedImu, Correction, CovarianceDegrees, Gauge, HIGHEST_ORDER, ImuQuantity, NonlinearTerm,
+    Nonlinearity, PER_K, Quantity, ReadingUnit, SensorKind, SensorThermal,
 };
 use crate::form::{Form, block, finite, per_axis};
 use crate::json::{if_some, named, with_ending};
 use crate::json_object;
+use nalgebra::Vector3;
 
 /// The words of the field `direction`.
 const DIRECTION: &str =
@@ -239,7 +240,7 @@ impl CalibratedImu {
 }
 
 /// The formula that the file states.
-const FORMULA: &str = "with t = T - reference_c: b(T) = b + bias_per_k t + bias_per_k2 t^2, S(T) = diag(1 + scale_per_k t + scale_per_k2 t^2) S";
+const FORMULA: &str = "with t = T - reference_c: b(T) = b + bias_per_k t + bias_per_k2 t^2 + ..., S(T) = diag(1 + scale_per_k t + scale_per_k2 t^2 + ...) S";
 
 /// The temperature model of an IMU that has one.
 pub(super) struct ThermalOf<'a>(pub(super) &'a CalibratedImu);
@@ -270,10 +271,16 @@ struct TermsOf<'a> {
 }
 
 json_object! {
-    /// The temperature coefficients of one sensor: `bias_mps2_per_k`, `bias_mps2_per_k2` and so on in its unit.
+    /// The temperature coefficients of one sensor: `bias_mps2_per_k`, `bias_mps2_per_k2` and so on in its unit, `scale_per_k`, `scale_per_k2` and so on.
     TermsOf<'_> as of {
-        bias: named(["per_k", "per_k2"].iter().zip(&of.terms.bias).map(|(power, of_bias)| (format!("bias_{}_{power}", of.unit.suffix()), per_axis(of_bias, 3)))),
-        scale_per_k: per_axis(&of.terms.scale[0], 3),
-        scale_per_k2: per_axis(&of.terms.scale[1], 3),
+        bias: named(of_orders(&format!("bias_{}", of.unit.suffix()), &of.terms.bias)),
+        scale: named(of_orders("scale", &of.terms.scale)),
     }
+}
+
+/// Those of order 1 and 2, and up to the highest that is not zero.
+fn of_orders(name: &str, of: &[Vector3<f64>; HIGHEST_ORDER]) -> Vec<(String, Vec<f64>)> {
+    let there = of.iter().rposition(|of| *of != Vector3::zeros()).map_or(0, |highest| highest + 1);
+    let fields = PER_K.iter().zip(of).take(there.max(2));
+    fields.map(|(power, of)| (format!("{name}_{power}"), per_axis(of, 3))).collect()
 }

@@ -1,9 +1,8 @@
 //! The IMU at a given temperature, its temperature terms, and the change of a calibration's reference temperature: the same polynomials about another `T₀`, and their
 //! covariance.
 //!
-//! Let `d = T₀' − T₀` and `c = 1 + k_1 d + k_2 d²`. Then `b' = b + b_1 d + b_2 d²`, `b_1' = b_1 + 2 b_2 d`,
-//! `b_2' = b_2`. Further `S' = diag(c) S`, `k_1' = (k_1 + 2 k_2 d)/c`, `k_2' = k_2/c`. Readings stay the same
-//! at every temperature.
+//! Let `d = T₀' − T₀` and `c = 1 + Σ_n k_n dⁿ`. Then `b' = b + Σ_n b_n dⁿ` and `b_m' = Σ_{n ≥ m} (n over m) b_n d^{n−m}`. Further `S' = diag(c) S` and
+//! `k_m' = Σ_{n ≥ m} (n over m) k_n d^{n−m} / c`. Readings stay the same at every temperature.
 
 use super::entry_vector::EntryMatrix;
 use super::{
@@ -41,11 +40,8 @@ impl AtReference {
             sensor.bias += imu.thermal.sensor(sensor_kind).bias_change(change_k);
             sensor.matrix = Matrix3::from_diagonal(&factor) * sensor.matrix;
             let terms = &mut after.thermal[sensor_kind];
-            let second = terms.bias[1];
-            terms.bias[0] += second * (2.0 * change_k);
-            let second = terms.scale[1];
-            terms.scale[0] = (terms.scale[0] + second * (2.0 * change_k)).component_div(&factor);
-            terms.scale[1] = second.component_div(&factor);
+            terms.bias = moved(&terms.bias, change_k);
+            terms.scale = moved(&terms.scale, change_k).map(|of| of.component_div(&factor));
         }
         Ok(Self { before: *imu, after, change_k })
     }
@@ -57,7 +53,7 @@ impl AtReference {
         for sensor_kind in SensorKind::ALL {
             let (terms, by) = (self.before.thermal.sensor(sensor_kind), step.thermal.sensor(sensor_kind));
             let factor = terms.gain_factor(d);
-            let by_factor = by.scale[0] * d + by.scale[1] * (d * d);
+            let by_factor = by.gain_factor(d) - Vector3::repeat(1.0);
             let sensor = &mut out[sensor_kind];
             sensor.bias += by.bias_change(d);
             sensor.matrix = Matrix3::from_diagonal(&factor) * step.sensor(sensor_kind).matrix
@@ -67,9 +63,9 @@ impl AtReference {
                 (by_term - term.component_mul(&by_factor)).component_div(&factor)
             };
             let changed = &mut out.thermal[sensor_kind];
-            changed.bias[0] = by.bias[0] + by.bias[1] * (2.0 * d);
-            changed.scale[0] = quotient(by.scale[0] + by.scale[1] * (2.0 * d), after.scale[0]);
-            changed.scale[1] = quotient(by.scale[1], after.scale[1]);
+            changed.bias = moved(&by.bias, d);
+            let by_scale = moved(&by.scale, d);
+            changed.scale = std::array::from_fn(|m| quotient(by_scale[m], after.scale[m]));
         }
         out
     }
@@ -78,6 +74,20 @@ impl AtReference {
     fn jacobian(&self) -> EntryMatrix {
         entry_vector::jacobian(|step| self.step(step))
     }
+}
+
+/// The coefficients of the powers from 1 about a reference that is `d` higher: `Σ_{n ≥ m} (n over m) c_n d^{n−m}`.
+#[must_use]
+pub fn moved(of: &[Vector3<f64>; HIGHEST_ORDER], d: f64) -> [Vector3<f64>; HIGHEST_ORDER] {
+    let mut moved = [Vector3::zeros(); HIGHEST_ORDER];
+    for (n, coefficient) in (1_i32..).zip(of) {
+        let mut ways = 1.0;
+        for (m, moved) in (1_i32..=n).zip(&mut moved) {
+            ways *= f64::from(n - m + 1) / f64::from(m);
+            *moved += ways * d.powi(n - m) * coefficient;
+        }
+    }
+    moved
 }
 
 impl CalibratedImu {
@@ -256,20 +266,24 @@ pub(super) mod tests {
     use crate::sensor::{Condition, ReadingUnit};
     use nalgebra::{DMatrix, Vector3};
 
+    /// `τ^(m − 1)` and more for the place of a term of order `m`.
+    fn of_order(place: usize) -> f64 {
+        40f64.powi(((place - entry_vector::AT_REFERENCE) / 3 % HIGHEST_ORDER) as i32)
+    }
+
     /// The IMU of the gauge tests with terms of every kind.
     pub(in crate::sensor) fn warm() -> CalibratedImu {
         let mut imu = imu();
         for (k, quantity) in ImuQuantity::all_thermal(true, true).into_iter().enumerate() {
-            let size = match quantity {
-                ImuQuantity::Thermal(_, term) if term.part == ThermalPart::Scale => 1e-4,
-                _ => 2.0,
-            };
+            let ImuQuantity::Thermal(_, term) = quantity else { continue };
+            let first = if term.part == ThermalPart::Scale { 1e-4 } else { 2.0 };
+            let size = first / 40f64.powi(term.order as i32 - 1);
             quantity.add_to(&mut imu.parameters, size * (k as f64 % 5.0 - 2.3) / (1.0 + k as f64 % 3.0));
         }
         imu.quantities.extend(ImuQuantity::all_thermal(true, true));
         let n = imu.quantities.len();
         let root = DMatrix::from_fn(n, n, |i, j| {
-            let size = if i < entry_vector::AT_REFERENCE { 1.0 } else { 1e-4 };
+            let size = if i < entry_vector::AT_REFERENCE { 1.0 } else { 1e-4 / of_order(i) };
             size * (0.01 * ((7 * i + 3 * j) % 11) as f64 + f64::from(u8::from(i == j)))
         });
         imu.covariance = Some(&root * root.transpose());
@@ -295,7 +309,11 @@ pub(super) mod tests {
         let parameters = warm().parameters;
         let jacobian = AtReference::new(&parameters, 43.0).expect("positive gains").jacobian();
         for entry in 0..ENTRIES {
-            let h = if entry < 24 { 1e-2 } else { 1e-6 };
+            let h = match entry {
+                0..24 => 1e-2,
+                entry_vector::AT_REFERENCE..entry_vector::LINEAR => 1e-6 / of_order(entry).sqrt(),
+                _ => 1e-6,
+            };
             let at = |step: f64| {
                 let mut moved = entry_vector::from_parameters(&parameters);
                 moved[entry] += step;
@@ -348,7 +366,7 @@ pub(super) mod tests {
         let upper = warm().in_gauge(Gauge::Upper).expect("right-handed");
         assert_eq!(at(&upper, 43.0).frame, upper.frame);
         let mut steady = symmetric;
-        steady.parameters.thermal[SensorKind::Accelerometer].scale = [Vector3::zeros(); 2];
+        steady.parameters.thermal[SensorKind::Accelerometer].scale = [Vector3::zeros(); HIGHEST_ORDER];
         assert_eq!(at(&steady, 43.0).frame, steady.frame);
     }
 
@@ -360,7 +378,7 @@ pub(super) mod tests {
         assert_eq!(names[4], "gyroscope.bias_per_k2.y");
         assert_eq!(names[8], "gyroscope.scale_per_k.z");
         assert_eq!(list[4].unit(ReadingUnit::Counts), "counts/K²");
-        assert_eq!(ImuQuantity::all_thermal(true, true).len(), 24);
+        assert_eq!(ImuQuantity::all_thermal(true, true).len(), 2 * 2 * 3 * HIGHEST_ORDER);
     }
 
     #[test]

@@ -9,10 +9,26 @@ use super::{Axis, PerSensor, ReadingUnit, SensorKind};
 use nalgebra::Vector3;
 
 /// Highest power of τ.
-pub const HIGHEST_ORDER: usize = 2;
+pub const HIGHEST_ORDER: usize = 5;
+
+/// A unit per K, K² and so on.
+macro_rules! per_kelvin {
+    ($unit:literal) => {
+        [
+            concat!($unit, "/K"),
+            concat!($unit, "/K²"),
+            concat!($unit, "/K³"),
+            concat!($unit, "/K⁴"),
+            concat!($unit, "/K⁵"),
+        ]
+    };
+}
 
 /// The reference temperature where nothing follows temperature, °C.
 const ROOM_C: f64 = 25.0;
+
+/// How the names of each order end: those of fields, constants and columns.
+pub const PER_K: [&str; HIGHEST_ORDER] = ["per_k", "per_k2", "per_k3", "per_k4", "per_k5"];
 
 /// The temperature model of an IMU.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,23 +81,25 @@ impl ThermalTerm {
             ThermalPart::Bias => "bias",
             ThermalPart::Scale => "scale",
         };
-        let power = if self.order > 1 { self.order.to_string() } else { String::new() };
-        format!("{part}_per_k{power}.{}", self.axis)
+        format!("{part}_{}.{}", PER_K[self.order - 1], self.axis)
     }
 
     /// Its unit, for readings in this unit.
     #[must_use]
     pub fn unit(self, reading: ReadingUnit) -> &'static str {
-        match (self.part, reading, self.order) {
-            (ThermalPart::Bias, ReadingUnit::MetrePerSecondSquared, 1) => "m/s²/K",
-            (ThermalPart::Bias, ReadingUnit::MetrePerSecondSquared, _) => "m/s²/K²",
-            (ThermalPart::Bias, ReadingUnit::RadianPerSecond, 1) => "rad/s/K",
-            (ThermalPart::Bias, ReadingUnit::RadianPerSecond, _) => "rad/s/K²",
-            (ThermalPart::Bias, ReadingUnit::Counts, 1) => "counts/K",
-            (ThermalPart::Bias, ReadingUnit::Counts, _) => "counts/K²",
-            (ThermalPart::Scale, _, 1) => "1/K",
-            (ThermalPart::Scale, ..) => "1/K²",
-        }
+        let of_orders = match (self.part, reading) {
+            (ThermalPart::Bias, ReadingUnit::MetrePerSecondSquared) => per_kelvin!("m/s²"),
+            (ThermalPart::Bias, ReadingUnit::RadianPerSecond) => per_kelvin!("rad/s"),
+            (ThermalPart::Bias, ReadingUnit::Counts) => per_kelvin!("counts"),
+            (ThermalPart::Scale, _) => per_kelvin!("1"),
+        };
+        of_orders[self.order - 1]
+    }
+
+    /// `/K` of a first-order term, `/K²` of a second.
+    #[must_use]
+    pub fn per(self) -> &'static str {
+        per_kelvin!("")[self.order - 1]
     }
 
     /// `τ^m`.
@@ -113,6 +131,16 @@ impl SensorThermal {
     #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// The highest order of a part that is not zero.
+    #[must_use]
+    pub fn order(&self, part: ThermalPart) -> usize {
+        let of_orders = match part {
+            ThermalPart::Bias => &self.bias,
+            ThermalPart::Scale => &self.scale,
+        };
+        of_orders.iter().rposition(|of| *of != Vector3::zeros()).map_or(0, |highest| highest + 1)
     }
 
     /// `Σ_m b_m τ^m`, in the unit of the readings.

@@ -62,8 +62,8 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
 
 /// Draws the temperature terms among these quantities. `gains` are the nominal gains of accelerometer and
 /// gyroscope, in the unit of the readings. Over 25 K a bias moves by some 25 mm/s² or 0.15 °/s, and a gain
-/// changes by 0.1 %. A MEMS IMU of the middle class is about as sensitive. A second-order term is a twentieth
-/// of that per K².
+/// changes by 0.1 %. A MEMS IMU of the middle class is about as sensitive. Each further order has a twentieth
+/// of that per K.
 pub fn draw_thermal(
     imu: &mut ImuParameters,
     quantities: &[ImuQuantity],
@@ -79,7 +79,7 @@ pub fn draw_thermal(
             (ThermalPart::Bias, SensorKind::Gyroscope) => GYROSCOPE_BIAS_PER_K * gains[1][term.axis.index()],
             (ThermalPart::Scale, _) => SCALE_PER_K,
         };
-        quantity.add_to(imu, first * normal(rng) / if term.order == 2 { 20.0 } else { 1.0 });
+        quantity.add_to(imu, first * normal(rng) / 20f64.powi(term.order as i32 - 1));
     }
 }
 

@@ -12,8 +12,8 @@ use super::format::ImuFormat;
 use super::words::{input_error, written_by};
 use calibrant_core::error::Refusal;
 use calibrant_core::sensor::SensorKind;
+use calibrant_core::sensor::reference_temperature::moved;
 use calibrant_recording::text::decoding::Checked;
-use nalgebra::Vector3;
 
 /// The reference of the polynomials, °C.
 const REFERENCE_C: f64 = 35.0;
@@ -65,24 +65,11 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
         let Some(calibrated_c) = calibrated_c else { continue };
         put(format!("INS_{name}1_CALTEMP"), calibrated_c);
         let moved = moved(&thermal.sensor(sensor_kind).bias, REFERENCE_C - thermal.reference_c);
-        for (power, coefficients) in (1..).zip(&moved) {
+        for (power, coefficients) in (1..).zip(&moved[..POWERS]) {
             for (axis, value) in AXES.iter().zip(coefficients) {
                 put(format!("INS_TCAL1_{name}{power}_{axis}"), 1e6 * value);
             }
         }
     }
     Ok(out)
-}
-
-/// Coefficients of `Σ_m b_m (δ + d)^m` by the powers of δ from 1: `c_j = Σ_m b_m C(m, j) d^(m−j)`.
-fn moved(terms: &[Vector3<f64>], d: f64) -> [Vector3<f64>; POWERS] {
-    let mut moved = [Vector3::zeros(); POWERS];
-    for (m, term) in (1_i32..).zip(terms) {
-        let mut ways = 1.0;
-        for (j, coefficient) in (1_i32..=m).zip(&mut moved) {
-            ways *= f64::from(m - j + 1) / f64::from(j);
-            *coefficient += ways * d.powi(m - j) * term;
-        }
-    }
-    moved
 }

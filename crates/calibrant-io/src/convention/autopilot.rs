@@ -3,7 +3,7 @@
 
 use super::words::input_error;
 use calibrant_core::error::Refusal;
-use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, Thermal};
+use calibrant_core::sensor::{CalibratedImu, SensorKind, Thermal};
 use calibrant_recording::text::decoding::Checked;
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
@@ -12,7 +12,6 @@ use std::ops::RangeInclusive;
 pub(super) const AXES: [&str; 3] = ["X", "Y", "Z"];
 /// The highest power of temperature.
 pub(super) const POWERS: usize = 3;
-const _: () = assert!(HIGHEST_ORDER <= POWERS, "a power has no place");
 
 /// `k_i = C_ii` of the accelerometer, whose matrix is diagonal here.
 pub(super) fn gains(imu: &CalibratedImu, title: &str, bounds: RangeInclusive<f64>) -> Checked<Vector3<f64>> {

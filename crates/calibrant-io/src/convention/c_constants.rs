@@ -21,6 +21,11 @@ pub(super) fn numbers(text: &str, name: &str, count: usize) -> Checked<Option<Ve
     read_constant(text, &format!("{name}[3]"), count)
 }
 
+/// The two numbers of a constant with two.
+pub(super) fn pair(text: &str, name: &str) -> Checked<Option<[f64; 2]>> {
+    Ok(read_constant(text, &format!("{name}[2]"), 2)?.map(|found| [found[0], found[1]]))
+}
+
 /// The number of a constant with one number.
 pub(super) fn number(text: &str, name: &str) -> Checked<Option<f64>> {
     Ok(read_constant(text, &format!("CALIBRANT_REAL {name} ="), 1)?.map(|found| found[0]))

@@ -38,7 +38,6 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
             );
         }
     }
-    out.push_str(&c_temperature::head(imu));
     for input in &file.inputs {
         let _ = writeln!(out, " * recording: {} (SHA-256 {})", comment(&input.file), comment(&input.sha256));
     }
@@ -69,7 +68,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
         out.push_str(&c_temperature::coefficients(sensor_kind, terms, &unit));
         let function = |at_reference: &str| match terms.is_none() {
             true => at_reference.to_owned(),
-            false => c_temperature::with_temperature(sensor_kind, at_reference),
+            false => c_temperature::with_temperature(sensor_kind, terms, at_reference),
         };
         match sensor_kind {
             SensorKind::Accelerometer => {

@@ -1,43 +1,54 @@
 //! The temperature model in the C header: coefficients, and their use in the correction functions.
 
 use super::arrays::vector3;
-use super::c_constants::{HELP, number, numbers, vector};
+use super::c_constants::{HELP, number, numbers, pair, vector};
 use super::words::invalid;
-use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, SensorThermal, Thermal};
+use calibrant_core::sensor::{
+    CalibratedImu, HIGHEST_ORDER, PER_K, SensorKind, SensorThermal, Thermal, ThermalPart,
+};
 use calibrant_recording::text::decoding::Checked;
 use nalgebra::Vector3;
 use std::fmt::Write;
 
-/// The words before the range of temperature, in a comment of the header.
-const RANGE: &str = " * temperatures of the calibration: ";
+/// The name of the constant with the lowest and the highest temperature of the calibration.
+const RANGE: &str = "calibrant_range_c";
 /// The name of the constant with the reference temperature.
 const REFERENCE: &str = "calibrant_reference_c";
 
-/// The lines of the head of the file.
-pub(super) fn head(imu: &CalibratedImu) -> String {
-    match imu.parameters.thermal.range_c {
-        Some([low, high]) if imu.follows_temperature() => {
-            format!("{RANGE}{low:?} to {high:?} degrees Celsius\n")
-        }
-        _ => String::new(),
-    }
-}
-
-/// The reference temperature, before everything that needs it.
+/// The reference temperature and the difference from it, before everything that needs it.
 pub(super) fn reference(imu: &CalibratedImu) -> String {
-    if imu.parameters.thermal.is_none() {
+    let thermal = &imu.parameters.thermal;
+    if thermal.is_none() {
         return String::new();
     }
-    format!(
+    let mut out = format!(
         "\n/* Temperature at which biases and matrices are given, degrees Celsius. */\n\
          static const CALIBRANT_REAL {REFERENCE} = {:?};\n",
-        imu.parameters.thermal.reference_c
-    )
+        thermal.reference_c
+    );
+    let mut clamp = String::new();
+    if let Some([low, high]) = thermal.range_c {
+        let _ = write!(
+            out,
+            "\n/* Lowest and highest temperature of the calibration, degrees Celsius. Beyond them the correction is that of the\n   \
+             nearer one: polynomials go astray there. Define CALIBRANT_EXTRAPOLATE for the polynomials themselves. */\n\
+             static const CALIBRANT_REAL {RANGE}[2] = {{{low:?}, {high:?}}};\n"
+        );
+        clamp = format!(
+            "#ifndef CALIBRANT_EXTRAPOLATE\n    if (temperature_c < {RANGE}[0])\n        temperature_c = {RANGE}[0];\n    \
+             if (temperature_c > {RANGE}[1])\n        temperature_c = {RANGE}[1];\n#endif\n"
+        );
+    }
+    let _ = write!(
+        out,
+        "\n/* Temperature above the reference, K. */\n\
+         static inline CALIBRANT_REAL calibrant_tau(CALIBRANT_REAL temperature_c)\n{{\n{clamp}    return temperature_c - {REFERENCE};\n}}\n"
+    );
+    out
 }
 
 fn name(sensor_kind: SensorKind, part: &str, order: usize) -> String {
-    let power = if order > 1 { order.to_string() } else { String::new() };
-    format!("calibrant_{sensor_kind}_{part}_per_k{power}")
+    format!("calibrant_{sensor_kind}_{part}_{}", PER_K[order - 1])
 }
 
 /// The coefficients of a sensor; empty where it does not follow temperature.
@@ -46,8 +57,11 @@ pub(super) fn coefficients(sensor_kind: SensorKind, terms: &SensorThermal, unit:
     if terms.is_none() {
         return out;
     }
-    for (part, values, unit) in [("bias", &terms.bias, unit), ("scale", &terms.scale, "1")] {
-        for (m, value) in values.iter().enumerate() {
+    for (part, highest, values, unit) in [
+        ("bias", terms.order(ThermalPart::Bias), &terms.bias, unit),
+        ("scale", terms.order(ThermalPart::Scale), &terms.scale, "1"),
+    ] {
+        for (m, value) in values.iter().take(highest).enumerate() {
             let power = if m > 0 { format!("^{}", m + 1) } else { String::new() };
             let _ = writeln!(out, "\n/* What 1 K does to its {part}, ({unit}) per K{power}. */");
             let _ = writeln!(
@@ -62,14 +76,24 @@ pub(super) fn coefficients(sensor_kind: SensorKind, terms: &SensorThermal, unit:
 }
 
 /// The correction function of a sensor that follows temperature. The temperature is its second argument.
-pub(super) fn with_temperature(sensor_kind: SensorKind, function: &str) -> String {
-    let change = format!(
-        "    for (i = 0; i < 3; i++)\n        y[i] = (y[i] - tau * ({b1}[i] + tau * {b2}[i]))\n             / ((CALIBRANT_REAL)1 + tau * ({k1}[i] + tau * {k2}[i]));\n",
-        b1 = name(sensor_kind, "bias", 1),
-        b2 = name(sensor_kind, "bias", 2),
-        k1 = name(sensor_kind, "scale", 1),
-        k2 = name(sensor_kind, "scale", 2),
-    );
+pub(super) fn with_temperature(sensor_kind: SensorKind, terms: &SensorThermal, function: &str) -> String {
+    // Horner's scheme: tau * (b1 + tau * (b2 + tau * b3))
+    let polynomial = |part: &str, highest: usize| {
+        let name = |order| format!("{}[i]", name(sensor_kind, part, order));
+        let inner = (1..highest)
+            .rev()
+            .fold(name(highest), |inner, order| format!("({} + tau * {inner})", name(order)));
+        format!("tau * {inner}")
+    };
+    let mut change = "    for (i = 0; i < 3; i++)\n        y[i] = ".to_owned();
+    change += &match terms.order(ThermalPart::Bias) {
+        0 => "y[i]".to_owned(),
+        highest => format!("(y[i] - {})", polynomial("bias", highest)),
+    };
+    if let highest @ 1.. = terms.order(ThermalPart::Scale) {
+        change += &format!("\n             / ((CALIBRANT_REAL)1 + {})", polynomial("scale", highest));
+    }
+    change += ";\n";
     let result = match sensor_kind {
         SensorKind::Accelerometer => "    for (i = 0; i < 3; i++)\n        force[i] =",
         SensorKind::Gyroscope => "    for (i = 0; i < 3; i++)\n        rate[i] =",
@@ -83,7 +107,7 @@ pub(super) fn with_temperature(sensor_kind: SensorKind, function: &str) -> Strin
         .replacen(
             "    CALIBRANT_REAL y[3];\n",
             &format!(
-                "    const CALIBRANT_REAL tau = temperature_c - {REFERENCE};\n    CALIBRANT_REAL y[3];\n"
+                "    const CALIBRANT_REAL tau = calibrant_tau(temperature_c);\n    CALIBRANT_REAL y[3];\n"
             ),
             1,
         )
@@ -96,10 +120,7 @@ pub(super) fn read(text: &str) -> Checked<Thermal> {
     let mut thermal = Thermal::none();
     let Some(reference_c) = number(text, REFERENCE)? else { return Ok(thermal) };
     thermal.reference_c = reference_c;
-    thermal.range_c = text.lines().find_map(|line| {
-        let (low, high) = line.strip_prefix(RANGE)?.strip_suffix(" degrees Celsius")?.split_once(" to ")?;
-        Some([low.parse().ok()?, high.parse().ok()?])
-    });
+    thermal.range_c = pair(text, RANGE)?;
     for sensor_kind in SensorKind::ALL {
         let terms = &mut thermal[sensor_kind];
         for (part, values) in [("bias", &mut terms.bias), ("scale", &mut terms.scale)] {

@@ -3,14 +3,18 @@
 use super::file::{CalibratedImuFile, WrittenImu};
 use super::imu_noise::ImuNoise;
 use super::words::input_error;
-use super::{ImuFormat, usable_calibration};
+use super::{ImuFormat, autopilot, usable_calibration};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::diagnostic::convention::{FormatLoses, FrameTurned, ResponseStraightened};
+use calibrant_core::diagnostic::convention::{
+    FormatLoses, FrameTurned, PolynomialShortened, ResponseStraightened,
+};
 use calibrant_core::diagnostic::correction::BiasesSupposed;
 use calibrant_core::error::{Error, InputError, Refusal};
 use calibrant_core::motion::Gravity;
 use calibrant_core::number_format::plain;
-use calibrant_core::sensor::{CalibratedImu, Gauge, ImuPart, ReadingUnit, SensorKind};
+use calibrant_core::sensor::{
+    CalibratedImu, Gauge, ImuParameters, ImuPart, ReadingUnit, SensorKind, SensorThermal, ThermalPart,
+};
 use calibrant_recording::text::decoding::Checked;
 use std::path::PathBuf;
 
@@ -37,6 +41,16 @@ impl Prepared {
         }
         refuse_temperature(imu, format)?;
         refuse_parts(imu, format)?;
+        if matches!(format, ImuFormat::Px4 | ImuFormat::ArduPilot) {
+            let (order, shorter) = (autopilot::POWERS, imu.parameters.with_bias_order(autopilot::POWERS));
+            let too_high = |(_, of): (SensorKind, &SensorThermal)| of.order(ThermalPart::Bias) > order;
+            if imu.parameters.thermal.sensors.iter().any(too_high) && imu.parameters.thermal.range_c.is_some()
+            {
+                let errors = errors(imu, &shorter);
+                warnings.push(PolynomialShortened { format: title, order, errors }.into());
+                imu.parameters = shorter;
+            }
+        }
         let bends = &imu.parameters[SensorKind::Accelerometer].nonlinearity;
         if !bends.is_none() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
             let of_axis = |axis: usize| {
@@ -103,10 +117,22 @@ fn refuse_temperature(imu: &CalibratedImu, format: ImuFormat) -> Checked<()> {
     }
     // an IMU without a range has gains there
     let fixed = imu.at(imu.parameters.thermal.reference_c).map_err(input_error_of)?;
-    let errors: Vec<_> = imu
-        .units
+    let errors = errors(imu, &fixed.parameters);
+    let errors = if errors.is_empty() { String::new() } else { format!(": {}", errors.join(", ")) };
+    impossible(
+        format!(
+            "{} has no place for what temperature does to bias and gain, and the correction would be another without it{errors}",
+            format.title()
+        ),
+        "choose another format, or take the values at one temperature with option `temperature` CELSIUS",
+    )
+}
+
+/// What each sensor errs by if other parameters correct its readings.
+fn errors(imu: &CalibratedImu, other: &ImuParameters) -> Vec<String> {
+    imu.units
         .present()
-        .map(|(sensor_kind, _)| (sensor_kind, imu.parameters.omission_error(&fixed.parameters, sensor_kind)))
+        .map(|(sensor_kind, _)| (sensor_kind, imu.parameters.omission_error(other, sensor_kind)))
         .filter(|(_, error)| error.largest > 0.0)
         .map(|(kind, error)| {
             format!(
@@ -116,15 +142,7 @@ fn refuse_temperature(imu: &CalibratedImu, format: ImuFormat) -> Checked<()> {
                 error.over
             )
         })
-        .collect();
-    let errors = if errors.is_empty() { String::new() } else { format!(": {}", errors.join(", ")) };
-    impossible(
-        format!(
-            "{} has no place for what temperature does to bias and gain, and the correction would be another without it{errors}",
-            format.title()
-        ),
-        "choose another format, or take the values at one temperature with option `temperature` CELSIUS",
-    )
+        .collect()
 }
 
 /// Refuses what the format has no place for, each part with the error without it.

@@ -4,10 +4,10 @@
 
 use super::arrays::{missing, vector3};
 use super::words::invalid;
-use calibrant_core::sensor::{ReadingUnit, SensorKind, SensorThermal, Thermal};
+use calibrant_core::sensor::{PER_K, ReadingUnit, SensorKind, SensorThermal, Thermal};
 use calibrant_recording::text::decoding::Checked;
-use nalgebra::Vector3;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 #[derive(Debug, Deserialize)]
 pub(super) struct TemperatureCore {
@@ -17,18 +17,10 @@ pub(super) struct TemperatureCore {
     gyroscope: Option<TermsCore>,
 }
 
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct TermsCore {
-    bias_mps2_per_k: Option<Vec<f64>>,
-    bias_mps2_per_k2: Option<Vec<f64>>,
-    bias_radps_per_k: Option<Vec<f64>>,
-    bias_radps_per_k2: Option<Vec<f64>>,
-    bias_counts_per_k: Option<Vec<f64>>,
-    bias_counts_per_k2: Option<Vec<f64>>,
-    scale_per_k: Option<Vec<f64>>,
-    scale_per_k2: Option<Vec<f64>>,
-}
+/// Fields by their names: `bias_mps2_per_k`, `scale_per_k2`.
+#[derive(Debug, Deserialize)]
+#[serde(transparent)]
+struct TermsCore(BTreeMap<String, Vec<f64>>);
 
 impl TemperatureCore {
     /// The temperature model of the fields; units are those of the sensors.
@@ -68,22 +60,14 @@ impl TemperatureCore {
 }
 
 impl TermsCore {
-    fn bias(&mut self, unit: ReadingUnit) -> [&mut Option<Vec<f64>>; 2] {
-        match unit {
-            ReadingUnit::MetrePerSecondSquared => [&mut self.bias_mps2_per_k, &mut self.bias_mps2_per_k2],
-            ReadingUnit::RadianPerSecond => [&mut self.bias_radps_per_k, &mut self.bias_radps_per_k2],
-            ReadingUnit::Counts => [&mut self.bias_counts_per_k, &mut self.bias_counts_per_k2],
-        }
-    }
-
-    fn into_terms(mut self, sensor_kind: SensorKind, unit: ReadingUnit) -> Checked<SensorThermal> {
-        let vector = |values: Option<Vec<f64>>, name: &str| match values {
-            Some(values) => vector3(&values, &format!("temperature.{sensor_kind}.{name}")),
-            None => Ok(Vector3::zeros()),
+    fn into_terms(self, sensor_kind: SensorKind, unit: ReadingUnit) -> Checked<SensorThermal> {
+        let others = [ReadingUnit::MetrePerSecondSquared, ReadingUnit::RadianPerSecond, ReadingUnit::Counts]
+            .map(|other| format!("bias_{}_", other.suffix()));
+        let bias = format!("bias_{}", unit.suffix());
+        let is_other = |name: &String| {
+            others.iter().any(|other| name.starts_with(other)) && !name.starts_with(&format!("{bias}_"))
         };
-        let [first, second] = self.bias(unit).map(Option::take);
-        let others = [ReadingUnit::MetrePerSecondSquared, ReadingUnit::RadianPerSecond, ReadingUnit::Counts];
-        if others.into_iter().any(|other| self.bias(other).iter().any(|field| field.is_some())) {
+        if self.0.keys().any(is_other) {
             return Err(invalid(
                 format!(
                     "`temperature.{sensor_kind}` has a bias in another unit than its sensor, {}",
@@ -92,12 +76,15 @@ impl TermsCore {
                 "give it in the unit of the readings",
             ));
         }
-        Ok(SensorThermal {
-            bias: [vector(first, "bias_per_k")?, vector(second, "bias_per_k2")?],
-            scale: [
-                vector(self.scale_per_k.take(), "scale_per_k")?,
-                vector(self.scale_per_k2.take(), "scale_per_k2")?,
-            ],
-        })
+        let mut terms = SensorThermal::default();
+        for (start, of_orders) in [(&*bias, &mut terms.bias), ("scale", &mut terms.scale)] {
+            for (per, of_order) in PER_K.iter().zip(of_orders) {
+                let name = format!("{start}_{per}");
+                if let Some(values) = self.0.get(&name) {
+                    *of_order = vector3(values, &format!("temperature.{sensor_kind}.{name}"))?;
+                }
+            }
+        }
+        Ok(terms)
     }
 }

@@ -5,7 +5,7 @@ use calibrant_core::acceptance::{CheckedLimit, Decision};
 use calibrant_core::diagnostic::{Diagnostic, Verdict};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus, FitStatistics};
-use calibrant_core::sensor::Parameter;
+use calibrant_core::sensor::{PER_K, Parameter};
 use calibrant_recording::files::atomic_output::write_atomically;
 use calibrant_recording::spreadsheet_text;
 use serde::de::Error as _;
@@ -249,8 +249,8 @@ fn number(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
 }
 
-/// Units of parameters, each as it ends a column's name.
-const ENDINGS: [(&str, &str); 16] = [
+/// Units of parameters, each as it ends a column's name; those of temperature terms without the `/K`.
+const ENDINGS: [(&str, &str); 8] = [
     ("1", ""),
     ("m/s²", "_mps2"),
     ("counts", "_counts"),
@@ -258,21 +258,20 @@ const ENDINGS: [(&str, &str); 16] = [
     ("rad/s", "_radps"),
     ("counts/(rad/s)", "_counts_per_radps"),
     ("(rad/s)/(m/s²)", "_radps_per_mps2"),
-    ("m/s²/K", "_mps2_per_k"),
-    ("m/s²/K²", "_mps2_per_k2"),
-    ("rad/s/K", "_radps_per_k"),
-    ("rad/s/K²", "_radps_per_k2"),
-    ("counts/K", "_counts_per_k"),
-    ("counts/K²", "_counts_per_k2"),
     ("1/(m/s²)", "_per_mps2"),
-    ("1/K", "_per_k"),
-    ("1/K²", "_per_k2"),
 ];
 
 /// A unit as it ends a column's name.
 #[must_use]
-pub fn unit_ending(unit: &str) -> &'static str {
-    ENDINGS.iter().find(|(of, _)| *of == unit).map_or("", |(_, ending)| ending)
+pub fn unit_ending(unit: &str) -> String {
+    let ending = |unit: &str| ENDINGS.iter().find(|(of, _)| *of == unit).map_or("", |(_, ending)| ending);
+    match unit.split_once("/K") {
+        None => ending(unit).to_owned(),
+        Some((of, power)) => {
+            let order = ["", "²", "³", "⁴", "⁵"].iter().position(|of| *of == power).unwrap_or_default();
+            format!("{}_{}", ending(of), PER_K[order])
+        }
+    }
 }
 
 #[cfg(test)]
@@ -288,9 +287,9 @@ mod tests {
                 assert!(unit == "1" || !unit_ending(unit).is_empty(), "{unit} of {}", quantity.name());
             }
         }
-        let mut endings: Vec<&str> = ENDINGS.iter().map(|(_, ending)| *ending).collect();
-        endings.sort_unstable();
-        endings.dedup();
-        assert_eq!(endings.len(), ENDINGS.len());
+        assert_eq!(
+            ["m/s²/K", "1/K⁵", "counts/K³"].map(unit_ending),
+            ["_mps2_per_k", "_per_k5", "_counts_per_k3"]
+        );
     }
 }

@@ -155,8 +155,11 @@ mod tests {
         let mut parameters = ImuParameters::identity();
         parameters.thermal.reference_c = 20.0;
         for (k, quantity) in quantities.iter().enumerate() {
-            let is_thermal = matches!(quantity, ImuQuantity::Thermal(..));
-            quantity.add_to(&mut parameters, if is_thermal { 1e-4 } else { 1e-3 } * (k as f64 % 5.0 - 2.5));
+            let size = match quantity {
+                ImuQuantity::Thermal(_, term) => 1e-4 / 20f64.powi(term.order as i32 - 1),
+                _ => 1e-3,
+            };
+            quantity.add_to(&mut parameters, size * (k as f64 % 5.0 - 2.5));
         }
         let size = quantities.len();
         let variance =
@@ -186,8 +189,8 @@ mod tests {
     fn a_calibration_that_does_not_reach_the_reference_temperature_is_left_out() {
         let mut narrow = warm();
         // the gain of x is zero at 30 °C
-        narrow.parameters.thermal[SensorKind::Accelerometer].scale =
-            [[-0.1, 0.0, 0.0].into(), [0.0; 3].into()];
+        narrow.parameters.thermal[SensorKind::Accelerometer].scale = Default::default();
+        narrow.parameters.thermal[SensorKind::Accelerometer].scale[0].x = -0.1;
         let last = warm().at_reference_temperature(35.0).expect("positive gains");
         let of = |imus: &[&CalibratedImu]| {
             let dated = |(k, imu)| DatedCalibration { time_years: k as f64, imu, station: None };

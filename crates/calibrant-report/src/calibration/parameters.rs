@@ -96,7 +96,7 @@ fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> S
     let (axis, unit, per) = match quantity {
         ImuQuantity::GSensitivity(row, _) => (row, "(rad/s)/(m/s²)", ""),
         ImuQuantity::Thermal(_, term) => {
-            let per = if term.order == 1 { "/K" } else { "/K²" };
+            let per = term.per();
             match term.part {
                 ThermalPart::Bias => (term.axis, sensor_kind.stimulus_unit().symbol(), per),
                 ThermalPart::Scale => {

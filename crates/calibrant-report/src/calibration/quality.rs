@@ -8,7 +8,7 @@ use crate::sheet::Table;
 use calibrant_core::estimate::{
     Calibration, FaceTilt, RecordingBiases, Recovered, RecoveredMotion, TimeOffset, UncertainGravity,
 };
-use calibrant_core::sensor::{ReadingUnit, SensorKind};
+use calibrant_core::sensor::{ReadingUnit, SensorKind, SensorThermal, ThermalPart};
 
 /// A parameter with more than this share of its information from the prior is the prior.
 const ALL_PRIOR: f64 = 0.99;
@@ -123,6 +123,10 @@ pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> 
     calibration.holds()?.temperatures_c.as_ref()?;
     let thermal = &calibration.imu.thermal;
     let celsius = |t: f64| significant(t, 3);
+    let beyond = |(_, of): (SensorKind, &SensorThermal)| {
+        of.order(ThermalPart::Bias).max(of.order(ThermalPart::Scale)) > 2
+    };
+    let more = if thermal.sensors.iter().any(beyond) { " + …" } else { "" };
     let range = thermal.range_c.map_or_else(String::new, |[low, high]| {
         format!(". The holds were at {} to {} °C", celsius(low), celsius(high))
     });
@@ -133,8 +137,8 @@ pub(super) fn temperature_in_words(calibration: &Calibration) -> Option<String> 
         )
     });
     Some(format!(
-        "Biases and gains are those at T₀ = {} °C. With τ = T − T₀, a bias increases by bias_per_k τ + bias_per_k2 τ², and a gain is multiplied by \
-         1 + scale_per_k τ + scale_per_k2 τ²{range}{lag}.",
+        "Biases and gains are those at T₀ = {} °C. With τ = T − T₀, a bias increases by bias_per_k τ + bias_per_k2 τ²{more}, and a gain is multiplied by \
+         1 + scale_per_k τ + scale_per_k2 τ²{more}{range}{lag}.",
         celsius(thermal.reference_c)
     ))
 }

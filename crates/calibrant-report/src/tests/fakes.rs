@@ -145,6 +145,7 @@ fn calibrated(
             first_sample: 0,
         }),
         gyroscope: None,
+        soak: None,
         changes: Vec::new(),
         warnings: Vec::new(),
     }
@@ -249,6 +250,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
             change: None,
         }),
         gyroscope: None,
+        soak: None,
         changes: Vec::new(),
         warnings: vec![Diagnostic::from(HoldLeftOut {
             hold: HoldSpan { number: 18, start_s: 170.0, end_s: 175.0 },

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 /// The units that keys end in. The longest ending counts.
-const UNITS: [(&str, &str); 21] = [
+const UNITS: [(&str, &str); 20] = [
     ("_counts", "counts"),
     ("_deg", "°"),
     ("_hz", "Hz"),
@@ -19,7 +19,6 @@ const UNITS: [(&str, &str); 21] = [
     ("_m", "m"),
     ("_ppm", "ppm"),
     ("_per_k", "1/K"),
-    ("_per_k2", "1/K²"),
     ("_c", "°C"),
     ("_s", "s"),
     ("_in_sd", "sd"),

@@ -17,7 +17,9 @@ use super::validation::{on_recording, unless_too_few};
 use calibrant_core::diagnostic::samples::{CalibrationExtrapolated, KnocksKept};
 use calibrant_core::diagnostic::{Diagnostic, Severity};
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Calibration, CalibrationSettings, Validation, other_temperature};
+use calibrant_core::estimate::{
+    Calibration, CalibrationSettings, SoakTemperature, Validation, other_temperature,
+};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::{Sensor, SensorKind, Temperatures};
 use calibrant_io::{Experiment, Prior, file_name};
@@ -90,6 +92,7 @@ impl<'e> Task<'e> {
         }
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
         calibration.counts_per_unit = recorded.counts_per_unit;
+        calibration.soak = SoakTemperature::of(&recorded.recording, calibration.hold_results())?;
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(recorded.unused(calibration.hold_results()));
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));

@@ -59,5 +59,6 @@ pub use result::{GyroscopeCalibration, GyroscopeInHolds, RotationResult, TurnRes
 pub(super) use rotations::gravity_at_ends::TurnsInHolds;
 pub use stationary::intervals::{find_clean_imu_holds, find_imu_holds};
 pub(super) use temperature::{at_sensor, needed_temperatures};
+pub(super) use temperature_rate::temperature_rates;
 pub use thermometer::ThermometerLag;
 pub use white_noise_search::WhiteNoiseSearch;

@@ -32,6 +32,8 @@ json_object! {
         motion: if_some(of.motion()),
         /// The holds, if it is one of holds.
         holds: if_some(of.holds_in_unit()),
+        /// The temperature over the holds, where the recording has one.
+        soak: if_some(of.soak),
         still_gyroscope: if_some(of.gyroscope.as_deref().map(StillOf)),
         rotations: if_some(of.gyroscope.as_deref().map(|gyroscope| RotationsOf { calibration: of, gyroscope })),
         /// The turns of known angle.

@@ -147,6 +147,7 @@ fn assemble(
             first_sample,
         }),
         gyroscope: None,
+        soak: None,
         changes: Vec::new(),
         warnings: Vec::new(),
     };

@@ -71,9 +71,11 @@ fn is_that_of_differences(imu: &CalibratedImu, temperature_c: f64) {
                 quantity.add_to(&mut moved.parameters, step);
                 corrected(&moved)
             };
-            let is_small =
-                matches!(quantity, ImuQuantity::Thermal(..) | ImuQuantity::Of(_, Quantity::Nonlinear(..)));
-            let h = if is_small { 1e-6 } else { 1e-3 };
+            let h = match quantity {
+                ImuQuantity::Thermal(_, term) => 1e-6 / 10f64.powi(term.order as i32 - 1),
+                ImuQuantity::Of(_, Quantity::Nonlinear(..)) => 1e-6,
+                _ => 1e-3,
+            };
             let (up, down) = (moved(h), moved(-h));
             ((up.0 - down.0) / (2.0 * h), (up.1 - down.1) / (2.0 * h))
         })

@@ -131,6 +131,7 @@ fn sensors(
         fit,
         recovered: Recovered::OnMachine(found),
         gyroscope: None,
+        soak: None,
         changes: Vec::new(),
         warnings: Vec::new(),
     }

@@ -146,6 +146,7 @@ fn calibration(
         },
         recovered,
         gyroscope: None,
+        soak: None,
         changes: Vec::new(),
         warnings: vec![Diagnostic::from(WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] })],
     }

@@ -28,8 +28,8 @@ fn orders_and_reference_are_read() {
 #[test]
 fn what_is_not_there_or_out_of_range_is_said() {
     for (section, says) in [
-        ("gyroscope_bias = 3", "`temperature.gyroscope_bias`"),
-        ("gyroscope_bias = 3", "from 0 to 2"),
+        ("gyroscope_bias = 6", "`temperature.gyroscope_bias`"),
+        ("gyroscope_bias = 6", "from 0 to 5"),
         ("reference_c = 3000.0", "`temperature.reference_c`"),
         ("gyroscope_bais = 1", "did you mean `gyroscope_bias`?"),
         (

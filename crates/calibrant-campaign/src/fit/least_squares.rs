@@ -1,0 +1,121 @@
+//! Generalised least squares of all parameters over all soaks: each soak's own covariance, and the scatter of the channels.
+
+use super::entry::{Entry, Means};
+use super::scatter::{SoakScatter, added_variance};
+use super::soak::{SoakCalibration, SoakPath};
+use crate::{Campaign, Channel};
+use calibrant_core::sensor::ImuQuantity;
+use nalgebra::{DMatrix, DVector};
+
+/// What a soak measures: a value for each entry, their covariance without what all soaks share, and that as a root.
+pub(super) struct Measurement {
+    pub(super) values: DVector<f64>,
+    pub(super) covariance: DMatrix<f64>,
+    pub(super) shared: DMatrix<f64>,
+}
+
+impl Measurement {
+    /// Of a soak; `None` where it has no covariance.
+    pub(super) fn of(soak: &SoakCalibration, quantities: &[ImuQuantity], means: &Means) -> Option<Self> {
+        let imu = &soak.imu;
+        let sigma = imu.covariance.as_ref()?;
+        let mut values = DVector::zeros(quantities.len());
+        let mut jacobian = DMatrix::zeros(quantities.len(), quantities.len());
+        for (row, quantity) in quantities.iter().enumerate() {
+            let (value, slopes) = means.measured(*quantity, &imu.parameters);
+            values[row] = value;
+            for (of, slope) in slopes {
+                if let Some(column) = quantities.iter().position(|quantity| *quantity == of) {
+                    jacobian[(row, column)] += slope;
+                }
+            }
+        }
+        let shared = imu
+            .shared
+            .as_ref()
+            .map_or_else(|| DMatrix::zeros(quantities.len(), 0), |of| &jacobian * &of.root);
+        let covariance = &jacobian * sigma * jacobian.transpose() - &shared * shared.transpose();
+        Some(Self { values, covariance: 0.5 * (&covariance + covariance.transpose()), shared })
+    }
+}
+
+/// The coefficients of all entries.
+pub(super) struct Solution {
+    pub(super) coefficients: DVector<f64>,
+    /// Their covariance without what all soaks share.
+    pub(super) covariance: DMatrix<f64>,
+    /// What one standard deviation of each shared source does to them.
+    pub(super) shared: DMatrix<f64>,
+    /// Residuals of each soak, and their standard deviations.
+    pub(super) residuals: Vec<(DVector<f64>, DVector<f64>)>,
+}
+
+/// The problem of all entries.
+pub(super) struct Problem<'a> {
+    pub(super) campaign: &'a Campaign,
+    pub(super) channels: &'a [Channel],
+    pub(super) entries: &'a [Entry],
+    pub(super) scatters: &'a [SoakScatter],
+}
+
+impl Problem<'_> {
+    /// Number of coefficients.
+    fn size(&self) -> usize {
+        self.entries.last().map_or(0, |entry| entry.places.end)
+    }
+
+    /// What the coefficients make of a soak: a row for each entry.
+    fn rows(&self, path: &SoakPath) -> DMatrix<f64> {
+        let mut rows = DMatrix::zeros(self.entries.len(), self.size());
+        for (k, entry) in self.entries.iter().enumerate() {
+            let x = self.campaign.x(path.temperature_c);
+            let row = self.channels[entry.channel].row(x, path.direction, path.lag_left);
+            rows.row_mut(k).columns_mut(entry.places.start, row.len()).copy_from(&row.transpose());
+        }
+        rows
+    }
+
+    /// Covariance of what a soak measures about its rows.
+    fn covariance(&self, measurement: &Measurement, path: &SoakPath) -> DMatrix<f64> {
+        let mut covariance = measurement.covariance.clone();
+        for (k, entry) in self.entries.iter().enumerate() {
+            let (channel, scatter) = (&self.channels[entry.channel], &self.scatters[entry.channel]);
+            covariance[(k, k)] += added_variance(self.campaign, channel, scatter, path);
+        }
+        covariance
+    }
+
+    /// `None` where coefficients stay open.
+    pub(super) fn solve(&self, measurements: &[&Measurement], paths: &[SoakPath]) -> Option<Solution> {
+        let size = self.size();
+        let mut information = DMatrix::zeros(size, size);
+        for entry in self.entries {
+            let known = self.channels[entry.channel].precision();
+            information.view_mut((entry.places.start, entry.places.start), known.shape()).copy_from(&known);
+        }
+        let mut right = DVector::zeros(size);
+        let sources = measurements.first().map_or(0, |of| of.shared.ncols());
+        let mut right_shared = DMatrix::zeros(size, sources);
+        for (measurement, path) in measurements.iter().zip(paths) {
+            let rows = self.rows(path);
+            let weighted = self.covariance(measurement, path).cholesky()?.solve(&rows);
+            information += rows.transpose() * &weighted;
+            right += weighted.tr_mul(&measurement.values);
+            right_shared += weighted.tr_mul(&measurement.shared);
+        }
+        // each coefficient in its own unit
+        let scale = information.diagonal().map(|of| of.sqrt().recip());
+        let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
+        let inverse = scaled.cholesky()?.inverse();
+        let covariance = DMatrix::from_fn(size, size, |i, j| inverse[(i, j)] * scale[i] * scale[j]);
+        let coefficients = &covariance * right;
+        let residuals = measurements.iter().zip(paths).map(|(measurement, path)| {
+            let rows = self.rows(path);
+            let of_fit = &rows * &covariance * rows.transpose();
+            let variances = self.covariance(measurement, path).diagonal() - of_fit.diagonal();
+            (&measurement.values - &rows * &coefficients, variances.map(|of| of.max(0.0).sqrt()))
+        });
+        let residuals = residuals.collect();
+        Some(Solution { shared: &covariance * right_shared, residuals, coefficients, covariance })
+    }
+}

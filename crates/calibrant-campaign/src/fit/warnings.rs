@@ -1,0 +1,130 @@
+//! What was noticed in the soaks.
+
+use super::Prepared;
+use super::least_squares::Solution;
+use super::result::FittedChannel;
+use super::soak::CHANGES;
+use calibrant_core::diagnostic::campaign::{
+    Aged, DirectionUnknown, HysteresisLarge, HysteresisSeen, LagSeen, NotSettled, OneDirection, OrderTooLow,
+    SEEN, ScatterStated, SoakDisagrees,
+};
+use calibrant_core::diagnostic::{Diagnostic, Phrase};
+use calibrant_core::estimate::chi2_p_value;
+use calibrant_core::sensor::HIGHEST_ORDER;
+
+/// What speaks against a result must be less probable.
+const RARE: f64 = 1e-3;
+
+impl Prepared<'_> {
+    pub(super) fn warnings(&self, channels: &[FittedChannel], solution: &Solution) -> Vec<Diagnostic> {
+        let mut found: Vec<Diagnostic> = Vec::new();
+        for (number, channel) in channels.iter().enumerate() {
+            self.of_channel(number, channel, &mut found);
+        }
+        found.extend(self.disagreement(solution));
+        found.extend(self.one_direction(channels));
+        if self.channels.iter().all(|channel| channel.lag_sd.is_empty()) {
+            let still_changes = |(soak, path): (&super::SoakCalibration, &super::SoakPath)| {
+                let rate_k_per_min = soak.temperature.rate_k_per_min;
+                (path.lag_left > CHANGES)
+                    .then(|| NotSettled { soak: Phrase(soak.name.clone()), rate_k_per_min }.into())
+            };
+            found.extend(self.soaks.iter().zip(&self.paths).filter_map(still_changes));
+        }
+        let stated = channels.iter().filter(|channel| !channel.scatter.found);
+        let quantities: Vec<String> = stated.map(|channel| channel.channel.name.clone()).collect();
+        if !quantities.is_empty() {
+            found.push(ScatterStated { quantities }.into());
+        }
+        let unknown = self.soaks.iter().zip(&self.paths).filter(|(_, path)| path.direction == 0.0);
+        let soaks: Vec<String> = unknown.map(|(soak, _)| soak.name.clone()).collect();
+        if !soaks.is_empty() {
+            found.push(DirectionUnknown { soaks }.into());
+        }
+        found
+    }
+
+    fn of_channel(&self, number: usize, channel: &FittedChannel, found: &mut Vec<Diagnostic>) {
+        let axes = self.axes(number);
+        let data = self.data(number, &axes);
+        let quantity = Phrase(channel.channel.name.clone());
+        let (unit, goal) = (channel.channel.unit, channel.channel.goal_sd);
+        if let Some(test) = channel.hysteresis.as_ref().filter(|test| test.p_value < SEEN) {
+            let half_difference = data.half_difference(test);
+            found.push(match half_difference > goal {
+                true => HysteresisLarge { quantity: quantity.clone(), unit, half_difference, goal }.into(),
+                false => HysteresisSeen { quantity: quantity.clone(), unit, half_difference, goal }.into(),
+            });
+        }
+        if let Some(test) = channel.lag.as_ref().filter(|test| test.p_value < SEEN) {
+            let (at_ramp, lag_s) = (data.at_ramp(test), data.lag_s(test));
+            found.push(LagSeen { quantity: quantity.clone(), unit, at_ramp, lag_s }.into());
+        }
+        if data.beyond_p_value(channel.order).is_some_and(|p| p < RARE) && channel.order < HIGHEST_ORDER {
+            let (order, next) = (channel.order, channel.order + 1);
+            found.push(OrderTooLow { quantity: quantity.clone(), order, next }.into());
+        }
+        if let Some(test) = data.drift_test().filter(|test| test.p_value < RARE) {
+            let drift = test
+                .estimates
+                .iter()
+                .map(|of| of[0])
+                .fold(0.0, |most: f64, of| if of.abs() > most.abs() { of } else { most });
+            found.push(Aged { quantity, unit, drift }.into());
+        }
+    }
+
+    /// The residual that is farthest off, where it is too far among so many.
+    fn disagreement(&self, solution: &Solution) -> Option<Diagnostic> {
+        let mut worst = (0.0_f64, 0, 0);
+        let mut count = 0;
+        for (soak, (residuals, sds)) in solution.residuals.iter().enumerate() {
+            for entry in 0..residuals.len() {
+                // a soak that alone determines something has no residual
+                if sds[entry] > 1e-6 * self.measurements[soak].covariance[(entry, entry)].sqrt() {
+                    count += 1;
+                    let off = residuals[entry] / sds[entry];
+                    if off.abs() > worst.0.abs() {
+                        worst = (off, soak, entry);
+                    }
+                }
+            }
+        }
+        let (deviations, soak, entry) = worst;
+        let p = chi2_p_value(deviations * deviations, 1)? * f64::from(count);
+        if p > RARE {
+            return None;
+        }
+        let moves = self.solve(Some(soak)).map(|without| {
+            let change = &without.coefficients - &solution.coefficients;
+            let variances = without.covariance.diagonal();
+            let moved = change.iter().zip(variances.iter()).map(|(of, variance)| of.abs() / variance.sqrt());
+            moved.fold(0.0, f64::max)
+        });
+        let soak = Phrase(self.soaks[soak].name.clone());
+        let parameter = self.entries[entry].quantity.name();
+        Some(SoakDisagrees { soak, parameter, deviations, moves }.into())
+    }
+
+    /// The quantities whose hysteresis and lag count, where every temperature is reached in one direction.
+    fn one_direction(&self, channels: &[FittedChannel]) -> Option<Diagnostic> {
+        let near = |one: &super::SoakPath, other: &super::SoakPath| {
+            (one.temperature_c - other.temperature_c).abs() <= self.model.campaign.spacing_c
+        };
+        let opposite = |one: &super::SoakPath, other: &super::SoakPath| one.direction * other.direction < 0.0;
+        let both = self
+            .paths
+            .iter()
+            .any(|one| self.paths.iter().any(|other| near(one, other) && opposite(one, other)));
+        let most_left = self.paths.iter().map(|path| path.lag_left).fold(0.0, f64::max);
+        let counts = |channel: &&FittedChannel| {
+            let of = &channel.channel;
+            let half = of.hysteresis_sd.first().map_or(0.0, |sd| 0.5 * sd);
+            let lag = of.lag_sd.first().map_or(0.0, |sd| sd * most_left);
+            half.hypot(lag) > of.goal_sd
+        };
+        let quantities: Vec<String> =
+            channels.iter().filter(counts).map(|channel| channel.channel.name.clone()).collect();
+        (!both && !quantities.is_empty()).then(|| OneDirection { quantities }.into())
+    }
+}

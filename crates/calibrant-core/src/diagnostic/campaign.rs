@@ -1,0 +1,166 @@
+//! Checks of a calibration over temperature, from several soaks.
+
+use super::check::checks;
+use super::parts::Phrase;
+use crate::number_format::{plain, significant};
+
+/// The probability of a false alarm below which hysteresis, lag and drift count as seen.
+pub const SEEN: f64 = 0.01;
+
+checks! {
+    /// A quantity differs by the direction in which a temperature is reached: hysteresis.
+    HysteresisSeen "hysteresis-seen" Note {
+        /// The quantity: `accelerometer.bias`.
+        quantity: Phrase,
+        /// Unit of what follows.
+        unit: &'static str,
+        /// The greatest half difference of the branches.
+        half_difference: f64,
+        /// The wanted standard deviation.
+        goal: f64,
+    }
+    decided "A Wald test of the half difference, without its prior, over the axes: p < 0.01."
+    remedy "Add it to the uncertainty of the correction: in use nobody knows the direction."
+    says format!(
+        "{}: the branches from below and from above differ. Half the difference is up to {} {unit} (goal {}); the correction is the mean of both: add it to its uncertainty",
+        quantity.0, significant(*half_difference, 2), plain(*goal, 3)
+    );
+
+    /// Hysteresis is larger than the goal.
+    HysteresisLarge "hysteresis-large" Warning {
+        /// The quantity.
+        quantity: Phrase,
+        /// Unit of what follows.
+        unit: &'static str,
+        /// The greatest half difference of the branches.
+        half_difference: f64,
+        /// The wanted standard deviation.
+        goal: f64,
+    }
+    decided "It is seen, and the greatest half difference of the branches exceeds the goal."
+    remedy "No polynomial of temperature corrects it: take it into the uncertainty, set a wider goal in campaign.goals, or choose another sensor."
+    says format!(
+        "{}: half the difference of the branches is up to {} {unit}, more than the goal of {}: no polynomial of temperature corrects that",
+        quantity.0, significant(*half_difference, 2), plain(*goal, 3)
+    );
+
+    /// The thermometer and the sense element are not at one temperature after a ramp.
+    LagSeen "lag-seen" Note {
+        /// The quantity.
+        quantity: Phrase,
+        /// Unit of the error.
+        unit: &'static str,
+        /// The greatest error at the rate of the ramp.
+        at_ramp: f64,
+        /// By how much the thermometer lags, where the quantity determines it, s.
+        lag_s: Option<f64>,
+    }
+    decided "A Wald test of the lag, without its prior, over the axes: p < 0.01."
+    remedy "Nothing: the coefficients carry it. In use, the correction errs by that while the temperature changes so fast."
+    says {
+        let by = lag_s.map_or_else(String::new, |lag_s| format!(", as of a thermometer that lags by {} s", significant(lag_s, 2)));
+        format!("{}: the sensor lags its thermometer{by}. At the rate of the ramps the correction errs by up to {} {unit}", quantity.0, significant(*at_ramp, 2))
+    };
+
+    /// No temperature is reached in both directions.
+    OneDirection "one-direction" Warning {
+        /// The quantities whose hysteresis and lag count more than their goals.
+        quantities: Vec<String>,
+    }
+    decided "No two soaks within campaign.spacing_c are reached in different directions. Hysteresis and lag are then what their priors say, which exceeds the goals."
+    remedy "Reach some temperatures from above as well; `design` with directions = \"both\" says which."
+    says format!(
+        "every temperature is reached in one direction: hysteresis and lag are only what [campaign] supposes of them, which exceeds the goals of {}. Reach some from the other side, too",
+        quantities.join(", ")
+    );
+
+    /// The temperature still changes in a soak, and nothing is allowed for a lag.
+    NotSettled "not-settled" Warning {
+        /// The soak.
+        soak: Phrase,
+        /// Rate over its holds, K/min.
+        rate_k_per_min: f64,
+    }
+    decided "Its rate is more than a twentieth of the ramp's, and lag_sd of campaign is empty for every quantity."
+    remedy "Wait longer, or allow for a lag: lag_sd in [campaign]."
+    says format!("{} was not settled: its temperature changes by {} K/min, and lag_sd allows for no lag", soak.0, significant(*rate_k_per_min, 2));
+
+    /// A polynomial of the order does not follow a quantity.
+    OrderTooLow "order-too-low" Warning {
+        /// The quantity.
+        quantity: Phrase,
+        /// The order that is reported.
+        order: usize,
+        /// The next one.
+        next: usize,
+    }
+    decided "The coefficients above the order are more than beyond_sd of campaign allows: χ² with p < 0.001 over the axes."
+    remedy "Raise the order in [temperature] by one, up to 5."
+    says format!(
+        "{}: what lies above order {order} is more than beyond_sd allows, which then bends the fit. Set order {next} in [temperature]",
+        quantity.0
+    );
+
+    /// A soak does not agree with the others.
+    SoakDisagrees "soak-disagrees" Warning {
+        /// The soak.
+        soak: Phrase,
+        /// The parameter that is farthest off.
+        parameter: String,
+        /// By how many standard deviations.
+        deviations: f64,
+        /// By how many standard deviations of the result leaving it out moves a parameter, at most; none where that leaves parameters open.
+        moves: Option<f64>,
+    }
+    decided "A residual over its standard deviation, with p < 0.001 over all residuals."
+    remedy "Look at its own report. Leave it out where that explains it: a knock, a loose mount, a wrong temperature."
+    says {
+        let moved = match moves {
+            Some(moves) => format!("leaving it out moves the result by up to {} sd", significant(*moves, 2)),
+            None => "without it, parameters stay open".to_owned(),
+        };
+        format!("{} does not agree with the others: {parameter} is {} sd off; {moved}", soak.0, significant(*deviations, 2))
+    };
+
+    /// A quantity drifts from the first soak to the last.
+    Aged "aged" Warning {
+        /// The quantity.
+        quantity: Phrase,
+        /// Unit of the drift.
+        unit: &'static str,
+        /// From the first soak to the last, of the axis that drifts most.
+        drift: f64,
+    }
+    decided "A Wald test of a drift in the order of the soaks, over the axes: p < 0.001."
+    remedy "Repeat the first soak at the end, and find out what changed: a drift over the campaign is not temperature."
+    says format!("{} drifts by up to {} {unit} from the first soak to the last, which is not temperature: the sensor changed", quantity.0, significant(*drift, 2));
+
+    /// The scatter between soaks is stated, not found.
+    ScatterStated "scatter-stated" Note {
+        /// The quantities.
+        quantities: Vec<String>,
+    }
+    decided "There are fewer than three soaks more than coefficients."
+    remedy "Add soaks, or state soak_sd of campaign as earlier campaigns found it."
+    says format!("too few soaks to find the scatter between them: soak_sd of [campaign] is taken for {}", quantities.join(", "));
+
+    /// The direction in which a soak was reached is not known.
+    DirectionUnknown "direction-unknown" Note {
+        /// The soaks.
+        soaks: Vec<String>,
+    }
+    decided "Its temperature does not change, and the soak before it was as warm."
+    remedy "Nothing: what hysteresis may do there is part of its standard deviation."
+    says format!("nobody knows from where {} came to its temperature: the prior of hysteresis is added to its variance", soaks.join(", "));
+
+    /// A soak is not used.
+    SoakLeftOut "soak-left-out" Warning {
+        /// The soak.
+        soak: Phrase,
+        /// Why.
+        why: Phrase,
+    }
+    decided "Its own calibration failed, is bad, or has no temperature."
+    remedy "Look at its own report; mend it and calibrate again."
+    says format!("{} is left out: {}", soak.0, why.0);
+}
