@@ -73,6 +73,8 @@ pub struct Campaign {
     pub shortest_wait_min: f64,
     /// What is minimised.
     pub criterion: CampaignCriterion,
+    /// What soaks that are recorded already tell of the coefficients of each channel; empty where there are none.
+    pub recorded: Vec<DMatrix<f64>>,
 }
 
 /// Where a campaign begins and ends, °C.
@@ -117,6 +119,16 @@ impl Campaign {
         over_range(self.range_c, temperature_c)
     }
 
+    /// Standard deviation over sensors of the slope of a channel, per K, at the end of the range, where it is largest.
+    #[must_use]
+    pub fn slope_sd(&self, channel: &Channel) -> f64 {
+        let [low, high] = self.range_c;
+        // P_m'(1) = m (m + 1)/2
+        let slope = |(m, sd): (usize, &Option<f64>)| sd.unwrap_or(0.0) * (m * (m + 1)) as f64 / 2.0;
+        let square: f64 = channel.spread.iter().enumerate().map(slope).map(|slope| slope * slope).sum();
+        2.0 * square.sqrt() / (high - low)
+    }
+
     /// Time of the ramps, min: a closed cycle over both ends passes each temperature once in each direction. Where the room is outside the range, there and
     /// back once more.
     #[must_use]
@@ -147,7 +159,11 @@ impl Campaign {
     /// What is known of the coefficients of each channel before the campaign.
     #[must_use]
     pub fn known(&self) -> Vec<DMatrix<f64>> {
-        self.channels.iter().map(Channel::precision).collect()
+        let of = |(k, channel): (usize, &Channel)| match self.recorded.get(k) {
+            Some(recorded) => channel.precision() + recorded,
+            None => channel.precision(),
+        };
+        self.channels.iter().enumerate().map(of).collect()
     }
 
     /// What is known of the coefficients of each channel after these soaks.

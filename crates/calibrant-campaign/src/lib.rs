@@ -16,7 +16,9 @@ mod usual;
 pub use campaign::{Campaign, Direction, Soak};
 pub use channel::Channel;
 pub use criterion::CampaignCriterion;
-pub use design::{CampaignDesign, RelaxedCampaign, RelaxedSoak, design, relaxed};
-pub use planned::PlannedCampaign;
+pub use design::{
+    CampaignDesign, RelaxedCampaign, RelaxedSoak, design, design_over_cycles, relaxed, time_needed_min,
+};
+pub use planned::{CampaignSweep, PlannedCampaign, SweptCampaign};
 pub use timetable::{TimedSoak, timetable};
 pub use usual::{UsualCampaign, usual};

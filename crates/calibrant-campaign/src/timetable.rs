@@ -93,6 +93,7 @@ mod tests {
             spacing_c: 5.0,
             shortest_wait_min: 0.0,
             criterion: CampaignCriterion::I,
+            recorded: Vec::new(),
         }
     }
 

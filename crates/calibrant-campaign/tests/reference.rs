@@ -61,6 +61,7 @@ fn campaign(channels: Vec<Channel>, budget_min: f64, directions: &[Direction]) -
         spacing_c: 5.0,
         shortest_wait_min: 0.0,
         criterion: CampaignCriterion::I,
+        recorded: Vec::new(),
     }
 }
 

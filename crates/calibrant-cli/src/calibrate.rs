@@ -2,6 +2,7 @@
 
 mod arguments;
 mod batch;
+mod campaign;
 mod job;
 mod naming;
 mod one;
@@ -41,6 +42,7 @@ impl crate::run::Run for Arguments {
                 .iter()
                 .flat_map(of_folder)
                 .chain(["summary.csv", "batch.html"].map(|name| self.output.join(name)))
+                .chain(RESULT_FILES.map(|name| self.output.join(name)))
                 .chain(self.residuals.clone())
                 .collect(),
             inputs: inputs.cloned().collect(),
@@ -59,6 +61,9 @@ impl crate::run::Run for Arguments {
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = arguments.settings.read(&arguments.experiment)?;
     unused::warn(arguments, &experiment);
+    if campaign::is_one(arguments, &experiment) {
+        return campaign::run(arguments, &experiment);
+    }
     let batch = job::batch(arguments, &experiment)?;
     match batch.sources() {
         [source] => Ok(one::run(arguments, &batch, source)),

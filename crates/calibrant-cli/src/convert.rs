@@ -5,8 +5,11 @@ use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{ImuFormat, ResultPlaces, edit_calibrated_imu, imu_tk_files, write_calibrated_imu};
-use calibrant::sensor::{Gauge, ImuPart};
+use calibrant::io::{
+    ImuFormat, ResultPlaces, edit_calibrated_imu, imu_tk_files, write_calibrated_imu, write_temperature_table,
+};
+use calibrant::report::number_format;
+use calibrant::sensor::{CalibratedImu, Gauge, ImuPart};
 use calibrant::{Conversion, Error};
 use std::path::{Path, PathBuf};
 
@@ -53,6 +56,9 @@ pub(crate) struct Arguments {
     /// The same as --drop g-sensitivity.
     #[arg(long, hide = true)]
     drop_g_sensitivity: bool,
+    /// Write a table of biases and gains every so many K over the calibrated range, with their standard deviations: CSV, or arrays of a C header where OUT ends in .h.
+    #[arg(long, value_name = "K", value_parser = step, conflicts_with_all = ["to", "into", "temperature"])]
+    table: Option<f64>,
     /// Evaluate biases and gains at this temperature, °C, and omit the temperature terms.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
@@ -66,6 +72,11 @@ fn part(name: &str) -> Result<ImuPart, String> {
 fn rate(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
     value.ok_or_else(|| "a rate in Hz, greater than 0".into())
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| "a step in K, greater than 0".into())
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -134,7 +145,8 @@ impl Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let format = arguments.format()?;
+    // a table has no format of a calibration
+    let format = if arguments.table.is_some() { ImuFormat::CHeader } else { arguments.format()? };
     let mut file = arguments.reading.read(&arguments.input)?;
     let read =
         format!("{} ({}): {}\n", console::name(&arguments.input), file.format.title(), in_words(&file.imu));
@@ -151,6 +163,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         update_rate_hz: arguments.update_rate,
     };
     tell_all(&conversion.change(&mut file)?);
+    if let (Some(step_k), Some(output)) = (arguments.table, &arguments.output) {
+        console::print(&read);
+        return table(output, &file.imu, step_k).map_err(|error| error.in_experiment(&arguments.input));
+    }
     let written = match (&arguments.into, &arguments.output) {
         (Some(into), _) => edit_calibrated_imu(into, &file)?,
         (None, output) => write_calibrated_imu(output.as_deref().unwrap_or(Path::new("")), &file, format)?,
@@ -159,5 +175,20 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     tell_all(&written.warnings);
     let files: Vec<_> = written.files.iter().map(|path| console::name(path)).collect();
     console::print(&format!("{} ({}), true frame: {}\n", files.join(" and "), format.title(), written.frame));
+    Ok(Exit::DONE)
+}
+
+/// Writes the table over temperature, and says what its lines err by.
+fn table(output: &Path, imu: &CalibratedImu, step_k: f64) -> calibrant::Result<Exit> {
+    for error in write_temperature_table(output, imu, step_k)? {
+        console::print(&format!(
+            "{}: lines between the rows err by up to {} {} of the bias and {} of the gain\n",
+            error.sensor_kind,
+            number_format::significant(error.bias, 2),
+            imu.unit(error.sensor_kind).map_or("", |unit| unit.symbol()),
+            number_format::significant(error.scale, 2)
+        ));
+    }
+    console::print(&format!("{} (table)\n", console::name(output)));
     Ok(Exit::DONE)
 }

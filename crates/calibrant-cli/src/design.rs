@@ -66,6 +66,13 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(campaign) = campaign {
         return campaign::run(arguments, &job, &campaign);
     }
+    if arguments.add_min.is_some() {
+        let (message, help) = (
+            "--add-min is of a campaign over temperature, and this is none",
+            "see `calibrant init campaign`",
+        );
+        return Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+    }
     if matches!(job.experiment.plan, Plan::Holds(_)) {
         return poses::run(arguments, &job);
     }

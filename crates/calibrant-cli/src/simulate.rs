@@ -8,9 +8,10 @@ use crate::budget::budget;
 use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use calibrant::io::{ResultPlaces, read_poses};
+use calibrant::campaign::design;
+use calibrant::io::{Experiment, ResultPlaces, read_campaign_csv, read_poses};
 use calibrant::session::MotionSource;
-use calibrant::{SimulationOptions, simulate};
+use calibrant::{SimulatedCampaign, SimulationOptions, simulate, simulate_campaign};
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
@@ -22,6 +23,7 @@ impl crate::run::Run for Arguments {
             inputs: std::iter::once(&self.experiment)
                 .chain(&self.motion)
                 .chain(&self.poses)
+                .chain(&self.campaign)
                 .cloned()
                 .collect(),
         }
@@ -32,8 +34,35 @@ impl crate::run::Run for Arguments {
     }
 }
 
+/// Simulates the soaks of a campaign: those of the timetable, or of the best campaign.
+fn campaign(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Exit> {
+    let soaks = match &arguments.campaign {
+        Some(path) => read_campaign_csv(path)?,
+        None => {
+            experiment.campaign()?.map_or_else(|| Ok(Vec::new()), |campaign| Ok(design(&campaign)?.soaks))?
+        }
+    };
+    let simulated = simulate_campaign(experiment, &soaks, arguments.seed)?;
+    simulated.write(&arguments.output)?;
+    let names = SimulatedCampaign::names(soaks.len());
+    let ends = names
+        .first()
+        .zip(names.last())
+        .map_or_else(String::new, |(first, last)| format!("{first} to {last}"));
+    console::print(&format!(
+        "{} soaks, seed {}: {ends} in {}\n",
+        soaks.len(),
+        simulated.seed,
+        console::name(&arguments.output)
+    ));
+    Ok(Exit::DONE)
+}
+
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = arguments.settings.read(&arguments.experiment)?;
+    if experiment.campaign_section().is_some() && arguments.poses.is_none() {
+        return campaign(arguments, &experiment).map_err(|error| error.in_experiment(&arguments.experiment));
+    }
     let options = SimulationOptions {
         seed: arguments.seed,
         recording: arguments.recording.into(),

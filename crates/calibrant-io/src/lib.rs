@@ -33,9 +33,10 @@ mod truth;
 
 pub use calibrant_recording::*;
 pub use convention::{
-    CalibratedImuFile, ConventionOptions, ConvertedFile, ImuCore, ImuFormat, ImuNoise, RawUnits, WrittenImu,
-    calibrated_imu_texts, edit_calibrated_imu, imu_tk_files, parse_calibrated_imu, parse_estimates,
-    read_calibrated_imu, read_kalibr_noise, read_measured_noise, write_calibrated_imu,
+    CalibratedImuFile, ConventionOptions, ConvertedFile, ImuCore, ImuFormat, ImuNoise, RawUnits, ReadSoak,
+    TableError, WrittenImu, calibrated_imu_texts, edit_calibrated_imu, imu_tk_files, parse_calibrated_imu,
+    parse_estimates, parse_soak, read_calibrated_imu, read_kalibr_noise, read_measured_noise,
+    write_calibrated_imu, write_temperature_table,
 };
 pub use experiment::datasheets::{DATASHEETS, Datasheet};
 pub use experiment::presets::{PRESETS, Preset, preset};
@@ -63,7 +64,10 @@ pub use places::resume_key::ResumeKey;
 pub use places::sensor_naming::{NamedRecording, SensorNaming};
 pub use results::batch::{BatchEntry, calibrations_json};
 pub use results::calibration::CalibrationFile;
-pub use results::campaign::{CampaignFile, write_campaign_csv};
+pub use results::campaign::{
+    CampaignFile, CampaignSweepFile, read_campaign_csv, write_campaign_csv, write_campaign_sweep_csv,
+};
+pub use results::campaign_calibration::CampaignCalibrationFile;
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
@@ -77,6 +81,7 @@ pub use results::noise::NoiseFile;
 pub use results::origin::Origin;
 pub use results::pose_design::{PoseDesignFile, PoseEvaluationFile};
 pub use results::reach::{Reached, ReachedGoal};
+pub use results::recorded_campaign::with_recorded_soaks;
 #[cfg(feature = "study")]
 pub use results::study::StudyFile;
 pub use results::summary::{Failure, Summary, SummaryParameter, SummaryRow, unit_ending, write_summary};

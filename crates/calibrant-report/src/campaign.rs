@@ -1,10 +1,10 @@
 //! The sheet of a campaign over temperature: how good it is, beside what is usual, and its timetable.
 
-use super::figure::{DisplayUnit, sd_over_temperature, temperature_over_time};
+use super::figure::{DisplayUnit, sd_over_temperature, sd_over_time, temperature_over_time};
 use super::report_context::About;
 use crate::number_format::{counted, plain, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
-use calibrant_campaign::{CampaignCriterion, PlannedCampaign, TimedSoak, UsualCampaign};
+use calibrant_campaign::{CampaignCriterion, CampaignSweep, PlannedCampaign, TimedSoak, UsualCampaign};
 use nalgebra::DMatrix;
 
 /// The best campaign as a sheet.
@@ -60,6 +60,13 @@ fn missed(of: PlannedCampaign<'_>) -> Vec<String> {
         missed.push(format!(
             "no campaign in this time meets all goals: the mean variance is at least {} times that of the goals",
             significant(bound / count, 3)
+        ));
+    }
+    if let Some(minutes) = of.time_needed_min.filter(|_| !missed.is_empty()) {
+        missed.push(format!(
+            "about {} h meet them on average, and no campaign does in less: budget_min = {}",
+            significant(minutes / 60.0, 3),
+            plain((1.02 * minutes).ceil(), 6)
         ));
     }
     missed
@@ -172,4 +179,51 @@ fn timetable(rows: &[TimedSoak]) -> Table {
         ]);
     }
     table
+}
+
+/// The best campaigns over their time as a sheet.
+#[must_use]
+pub fn campaign_sweep_sheet<'a>(of: &'a CampaignSweep, about: &'a About) -> Sheet<'a> {
+    let mut times = Section::new("Standard deviations over time").lead(
+        "Root of the mean variance over the range of temperatures, of the best campaign that was found in each time; the bound is that of the criterion.",
+    );
+    let mut columns = vec![
+        Column::new("time").in_unit("h"),
+        Column::new("soaks"),
+        Column::new("criterion"),
+        Column::new("bound"),
+    ];
+    columns.extend(of.channels.iter().map(|channel| Column::new(channel.name.clone()).in_unit(channel.unit)));
+    let mut table = Table::new(columns);
+    for row in &of.rows {
+        let mut cells = vec![
+            Cell::fixed(row.budget_min / 60.0, 2),
+            Cell::count(row.design.soaks.len()),
+            Cell::significant(row.design.value, 4),
+            Cell::significant(row.design.relaxed.lower_bound, 4),
+        ];
+        cells.extend(row.design.sd.iter().map(|sd| Cell::sd(*sd, 1.0)));
+        table.row(cells);
+    }
+    times.figure(move || Some(sd_over_time(of)));
+    times.table(table);
+    let first = of.rows.first().zip(of.rows.last());
+    let sentence = first.map_or_else(String::new, |(first, last)| {
+        let ratio = |k: usize| last.design.sd[k] / first.design.sd[k];
+        let ratios: Vec<String> = (0..of.channels.len())
+            .map(|k| format!("{} {}", of.channels[k].name, significant(ratio(k), 2)))
+            .collect();
+        format!(
+            "From {} to {} h, standard deviations are multiplied: {}.",
+            significant(first.budget_min / 60.0, 3),
+            significant(last.budget_min / 60.0, 3),
+            ratios.join(", ")
+        )
+    });
+    about.sheet(
+        "Campaigns",
+        SheetVerdict::new(Grade::Good, "What time buys.", sentence),
+        vec![times],
+        MEANING,
+    )
 }

@@ -7,6 +7,7 @@ mod batch;
 mod budget;
 mod calibration;
 mod campaign;
+mod campaign_fit;
 mod cited;
 mod comparison;
 mod design;
@@ -34,7 +35,8 @@ mod tests;
 
 pub use batch::{Batch, BatchParameter, BatchSensor, batch_sheet};
 pub use calibration::calibration_sheet;
-pub use campaign::campaign_sheet;
+pub use campaign::{campaign_sheet, campaign_sweep_sheet};
+pub use campaign_fit::campaign_fit_sheet;
 pub use comparison::comparison_sheet;
 pub use design::{design_sheet, gap_in_words};
 pub use evaluation::evaluation_sheet;

@@ -162,6 +162,7 @@
 //! reach every task that takes long.
 
 pub mod batch;
+mod campaign_calibration;
 mod conversion;
 mod correction;
 mod design_plan;
@@ -193,6 +194,7 @@ pub use calibrant_records as records;
 pub use calibrant_report as report;
 #[cfg(feature = "study")]
 pub use calibrant_study as study;
+pub use campaign_calibration::CampaignCalibration;
 pub use conversion::Conversion;
 pub use correction::{Applied, apply, read_for_correction};
 pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};
@@ -206,7 +208,9 @@ pub use reached::ReachedDesign;
 #[cfg(feature = "study")]
 pub use rehearsal::RehearsalPlan;
 pub use session::{Outcome, Readings, Session, SessionOptions, Source};
-pub use simulation::{Simulation, SimulationOptions, commanded_motion, simulate};
+pub use simulation::{
+    SimulatedCampaign, Simulation, SimulationOptions, commanded_motion, simulate, simulate_campaign,
+};
 #[cfg(feature = "study")]
 pub use study_plan::{StudyChoice, StudyPlan};
 pub use trajectory_plan::TrajectoryPlan;

@@ -5,12 +5,15 @@ mod continuum;
 mod knapsack;
 mod relaxed;
 mod shares;
+mod time_needed;
 mod whole;
 
 pub use relaxed::{RelaxedCampaign, RelaxedSoak, relaxed};
+pub use time_needed::time_needed_min;
 
 use crate::{Campaign, Soak};
 use calibrant_core::error::Result;
+use std::ops::RangeInclusive;
 
 /// The best campaign that was found, and the bound of the relaxed problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,4 +48,31 @@ pub fn design(campaign: &Campaign) -> Result<CampaignDesign> {
         return Err(relaxed::undetermined());
     };
     Ok(CampaignDesign { soaks, value, sd, relaxed })
+}
+
+/// The best campaign over these numbers of cycles, with the campaign of that number. The bound is the least of them.
+///
+/// # Errors
+/// As [`design`], where no number of cycles gives a campaign.
+pub fn design_over_cycles(
+    campaign: &Campaign,
+    cycles: RangeInclusive<usize>,
+) -> Result<(Campaign, CampaignDesign)> {
+    let of = |cycles| {
+        let campaign = Campaign { cycles, ..campaign.clone() };
+        design(&campaign).map(|found| (campaign, found))
+    };
+    let (first, others) =
+        (of(*cycles.start()), (cycles.start() + 1..=*cycles.end()).filter_map(|cycles| of(cycles).ok()));
+    let mut best = first?;
+    for (campaign, found) in others {
+        let bounds = [&found, &best.1].map(|of| (of.relaxed.lower_bound, of.relaxed.lower_bound_anywhere));
+        let least = |of: fn(&(f64, f64)) -> f64| bounds.iter().map(of).fold(f64::INFINITY, f64::min);
+        if found.value < best.1.value {
+            best = (campaign, found);
+        }
+        best.1.relaxed.lower_bound = least(|bounds| bounds.0);
+        best.1.relaxed.lower_bound_anywhere = least(|bounds| bounds.1);
+    }
+    Ok(best)
 }

@@ -109,7 +109,7 @@ impl<'a> Prepared<'a> {
             (0..followed).filter_map(|channel| self.channel(channel, solution)).collect();
         let soaks = (0..self.soaks.len()).map(|soak| self.soak(soak, solution)).collect();
         let warnings = self.warnings(&channels, solution);
-        FittedCampaign { imu: self.imu(solution), channels, soaks, warnings }
+        FittedCampaign { imu: self.imu(solution), channels, soaks, warnings, with_gain: None }
     }
 
     fn imu(&self, solution: &Solution) -> CalibratedImu {
@@ -163,8 +163,7 @@ impl<'a> Prepared<'a> {
     /// `None` for a channel without parameters.
     fn channel(&self, channel: usize, solution: &Solution) -> Option<FittedChannel> {
         let entries: Vec<&Entry> = self.entries.iter().filter(|entry| entry.channel == channel).collect();
-        let shared = &solution.shared * solution.shared.transpose();
-        let covariance = &solution.covariance + shared;
+        let covariance = &solution.covariance;
         let axes = self.axes(channel);
         let data = self.data(channel, &axes);
         (!entries.is_empty()).then(|| FittedChannel {
@@ -207,6 +206,7 @@ impl<'a> Prepared<'a> {
             name: self.soaks[soak].name.clone(),
             path: self.paths[soak],
             values: of_channels(&self.measurements[soak].values),
+            sds: of_channels(&self.measurements[soak].covariance.diagonal().map(f64::sqrt)),
             residuals: of_channels(residuals),
             residual_sds: of_channels(sds),
         }

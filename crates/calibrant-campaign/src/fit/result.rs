@@ -5,7 +5,7 @@ use super::soak::SoakPath;
 use super::verdicts::WaldTest;
 use crate::Channel;
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::sensor::CalibratedImu;
+use calibrant_core::sensor::{Axis, CalibratedImu};
 use nalgebra::{DMatrix, DVector};
 
 /// A calibration over temperature, from several soaks.
@@ -19,6 +19,8 @@ pub struct FittedCampaign {
     pub soaks: Vec<FittedSoak>,
     /// What was noticed.
     pub warnings: Vec<Diagnostic>,
+    /// The axis whose bias contains its gain at 1 g, of a recording in one pose.
+    pub with_gain: Option<Axis>,
 }
 
 /// A quantity over temperature.
@@ -32,7 +34,7 @@ pub struct FittedChannel {
     pub scatter: SoakScatter,
     /// Coefficients of each axis: polynomial, hysteresis, lag.
     pub coefficients: Vec<DVector<f64>>,
-    /// Their covariance.
+    /// Their covariance, without what all soaks share, such as gravity.
     pub covariances: Vec<DMatrix<f64>>,
     /// Is there hysteresis? `None`: the soaks do not determine it.
     pub hysteresis: Option<WaldTest>,
@@ -49,6 +51,8 @@ pub struct FittedSoak {
     pub path: SoakPath,
     /// What it measures of each channel, for each axis.
     pub values: Vec<Vec<f64>>,
+    /// Their standard deviations by its own calibration.
+    pub sds: Vec<Vec<f64>>,
     /// Its residuals, for each channel and axis.
     pub residuals: Vec<Vec<f64>>,
     /// Their standard deviations.

@@ -52,6 +52,7 @@ pub(crate) fn campaign() -> Campaign {
         spacing_c: 5.0,
         shortest_wait_min: 0.0,
         criterion: CampaignCriterion::I,
+        recorded: Vec::new(),
     }
 }
 

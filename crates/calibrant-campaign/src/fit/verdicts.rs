@@ -66,10 +66,13 @@ impl ChannelData<'_> {
         ends.iter().flat_map(|x| test.estimates.iter().map(move |l| of((l, *x)))).fold(0.0, f64::max)
     }
 
-    /// The lag of the thermometer, s: what the first lag coefficient is over the slope in the middle, over axes with this weight.
+    /// The lag of the thermometer, s: the ratio of the first lag coefficient and the slope in the middle, by least squares over the axes. `None` where the axes
+    /// do not agree: a thermometer lags them all alike.
     pub(super) fn lag_s(&self, test: &WaldTest) -> Option<f64> {
         let [low, high] = self.campaign.range_c;
-        let (mut product, mut square) = (0.0, 0.0);
+        /// The share of the squares that may be left.
+        const LEFT: f64 = 0.1;
+        let (mut product, mut square, mut of_lag) = (0.0, 0.0, 0.0);
         for (fit, l) in self.fits(&self.channel.precision(), self.axes)?.iter().zip(&test.estimates) {
             let c = fit.information.clone().cholesky()?.solve(&fit.right);
             // P_1' = 1, P_3' = −3/2 and P_5' = 15/8 in the middle
@@ -78,9 +81,11 @@ impl ChannelData<'_> {
             let slope_per_k = slope_of_x.map(|(m, slope)| slope * c[m]).sum::<f64>() * 2.0 / (high - low);
             product += l[0] * slope_per_k;
             square += slope_per_k.powi(2);
+            of_lag += l[0].powi(2);
         }
         let per_ramp_min = product / square;
-        Some(60.0 * per_ramp_min / self.campaign.ramp_k_per_min).filter(|lag| lag.is_finite())
+        let agree = of_lag - product * per_ramp_min <= LEFT * of_lag;
+        Some(60.0 * per_ramp_min / self.campaign.ramp_k_per_min).filter(|lag| agree && *lag > 0.0)
     }
 
     /// Probability of what lies above an order by the priors of it; `None` where nothing lies above.

@@ -21,7 +21,7 @@ pub(super) fn batch(arguments: &Arguments, experiment: &Experiment) -> calibrant
     let options = BatchOptions {
         directory: Some(arguments.output.clone()),
         resume: arguments.resume,
-        keep_json: arguments.json,
+        keep_json: arguments.json || experiment.campaign_section().is_some(),
         records: arguments.records.clone(),
     };
     Batch::new(session, sources, options)

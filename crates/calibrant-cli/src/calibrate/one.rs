@@ -31,15 +31,37 @@ pub(super) fn run(arguments: &Arguments, batch: &Batch, source: &Source) -> Exit
                 Ok(()) => rules().exit_of(&outcome.verdict()),
             }
         }
-        Err(error) => {
-            match batch.session().experiment().imu {
-                Some(_) => console::error(&error),
-                None => console::error_in(&error, source.path()),
-            }
-            write_page(arguments, batch, source, &error);
-            Exit::of(&error)
-        }
+        Err(error) if error.is_not_identifiable() => match in_one_pose(arguments, batch, source) {
+            Some(exit) => exit,
+            None => told(arguments, batch, source, &error),
+        },
+        Err(error) => told(arguments, batch, source, &error),
     }
+}
+
+/// Biases over temperature, where the recording is in one pose. `None` where it is not.
+fn in_one_pose(arguments: &Arguments, batch: &Batch, source: &Source) -> Option<Exit> {
+    let found = batch.session().one_pose(source).transpose()?;
+    let shown = found.and_then(|found| {
+        tell_all(&found.fitted.warnings);
+        found.write(&arguments.output, !arguments.no_report)?;
+        console::result(arguments.json, || found.json(), &found.sheet(), None, &[arguments.main_result()])?;
+        Ok(rules().exit_of(&found.verdict()))
+    });
+    Some(shown.unwrap_or_else(|error| {
+        console::error(&error);
+        Exit::of(&error)
+    }))
+}
+
+/// Says why there is no calibration.
+fn told(arguments: &Arguments, batch: &Batch, source: &Source, error: &Error) -> Exit {
+    match batch.session().experiment().imu {
+        Some(_) => console::error(error),
+        None => console::error_in(error, source.path()),
+    }
+    write_page(arguments, batch, source, error);
+    Exit::of(error)
 }
 
 /// Writes the page about the error, where there is a recording to show, and says so.

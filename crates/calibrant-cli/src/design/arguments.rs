@@ -10,6 +10,9 @@ use std::path::PathBuf;
 /// With [holds] in the experiment it finds the best poses, and writes design.json, poses.csv and report.html, a checklist to print. --evaluate RECORDING says how
 /// efficient recorded holds were. --from calibration.json --add 3 says which poses to record next. [design] says what is known of directions, and which are allowed.
 ///
+/// With [campaign] it finds the best soaks over temperature, and writes design.json, campaign.csv and report.html. --sweep budget=120,240,480 says what time buys.
+/// --from calibration.json --add-min 60 says which soaks to add.
+///
 /// With joints in [machine] it finds the best trajectory of the machine, proves its limits for all times, and writes trajectory.csv, follow_joint_trajectory.yaml (ROS 2),
 /// trajectory.script (Universal Robots), design.json and report.html. `simulate` and `calibrate` take trajectory.csv as --motion.
 ///
@@ -33,7 +36,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "CSV", conflicts_with_all = ["sweep", "reach"])]
     pub(super) evaluate: Option<PathBuf>,
     /// Design for several values of one quantity: duration=5,10,20, or duration=FROM:TO:COUNT (geometric), or FROM:TO:COUNT:linear. Other quantities:
-    /// acceleration, jerk, intercept, velocity, displacement, rate, noise. A machine is swept over its duration.
+    /// acceleration, jerk, intercept, velocity, displacement, rate, noise. A machine is swept over its duration, a campaign over temperature over its budget, min.
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep::parse)]
     pub(super) sweep: Option<sweep::Request>,
     /// Find the fewest poses, or the shortest motion, with which a parameter has this standard deviation: scale.x=50ppm, bias.z=0.2mg. Repeatable. It proves a
@@ -42,8 +45,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME=SD", value_parser = GoalRequest::parse, conflicts_with_all = ["sweep", "evaluate"])]
     pub(super) reach: Vec<GoalRequest>,
     /// Number of poses, in place of holds.poses: those to add to an earlier calibration (--from).
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200), conflicts_with_all = ["sweep", "evaluate", "reach"])]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200), conflicts_with_all = ["sweep", "evaluate", "reach", "add_min"])]
     pub(super) add: Option<u32>,
+    /// The time to add to a campaign over temperature that is recorded already (--from), min, ramps included.
+    #[arg(long, value_name = "MIN", value_parser = rate, requires = "from", conflicts_with = "sweep")]
+    pub(super) add_min: Option<f64>,
     /// Criterion to minimise: A, D, E, M, c or I (default: from [design]).
     #[arg(long, value_name = "LETTER", value_parser = letter)]
     pub(super) criterion: Option<CriterionLetter>,

@@ -15,6 +15,7 @@ pub(super) fn prepare(arguments: &Arguments) -> calibrant::Result<DesignPlan> {
     // of a machine another part of the file counts
     let earlier = match experiment.plan {
         Plan::Machine(_) => Vec::new(),
+        _ if experiment.campaign_section().is_some() => Vec::new(),
         _ => arguments.from.iter().map(|path| read_calibration(path)).collect::<Result<_, _>>()?,
     };
     let choice = DesignChoice {

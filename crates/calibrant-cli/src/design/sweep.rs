@@ -20,7 +20,7 @@ pub(super) fn run(
 ) -> calibrant::Result<Exit> {
     let bar = console::progress(request.values.len() as u64, "values");
     let outcome =
-        job.sweep(problem, request.variable, &request.values, &|number| bar.set_position(number as u64));
+        job.sweep(problem, request.of_motion()?, &request.values, &|number| bar.set_position(number as u64));
     bar.finish_and_clear();
     let swept = outcome.map_err(|error| error.in_experiment(&arguments.experiment))?;
     if interruption::is_asked() {

@@ -1,14 +1,20 @@
 //! Parses the request of `calibrant design --sweep`.
 
+use calibrant::Error;
 use calibrant::design::SweepVariable;
+use calibrant::error::{InputError, Refusal};
 
 /// Largest number of values of a sweep.
 const MOST: usize = 1000;
 
+/// The time of a campaign over temperature, min.
+const BUDGET: &str = "budget";
+
 /// The quantity of a sweep, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Request {
-    pub(super) variable: SweepVariable,
+    /// `None`: the time of a campaign over temperature.
+    pub(super) variable: Option<SweepVariable>,
     pub(super) values: Vec<f64>,
 }
 
@@ -16,10 +22,16 @@ pub(crate) struct Request {
 pub(crate) fn parse(text: &str) -> Result<Request, String> {
     let (name, values) =
         text.split_once('=').ok_or("write NAME=VALUES, for example duration=5,10,20 or velocity=2:20:6")?;
-    let variable = SweepVariable::named(name.trim()).ok_or_else(|| {
-        let names: Vec<_> = SweepVariable::ALL.iter().map(|variable| variable.name()).collect();
-        format!("\"{name}\" cannot be swept; what can is {}", names.join(", "))
-    })?;
+    let variable = match name.trim() {
+        BUDGET => None,
+        name => Some(SweepVariable::named(name).ok_or_else(|| {
+            let names: Vec<_> = SweepVariable::ALL.iter().map(|variable| variable.name()).collect();
+            format!(
+                "\"{name}\" cannot be swept; what can is {}, and {BUDGET} of a campaign",
+                names.join(", ")
+            )
+        })?),
+    };
     let number = |text: &str| {
         let number: Option<f64> = text.trim().parse().ok();
         number
@@ -61,6 +73,17 @@ pub(crate) fn parse(text: &str) -> Result<Request, String> {
         return Err(format!("{} values; at most {MOST}", values.len()));
     }
     Ok(Request { variable, values })
+}
+
+impl Request {
+    /// What is swept of a motion.
+    pub(super) fn of_motion(&self) -> calibrant::Result<SweepVariable> {
+        self.variable.ok_or_else(|| {
+            let help = "sweep its duration: --sweep duration=5,10,20";
+            let message = "budget is the time of a campaign over temperature, and this is none";
+            Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help))
+        })
+    }
 }
 
 #[cfg(test)]

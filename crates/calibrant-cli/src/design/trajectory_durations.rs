@@ -18,7 +18,7 @@ pub(super) fn sweep(
 ) -> calibrant::Result<Exit> {
     let bar = console::progress(request.values.len() as u64, "durations");
     bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let swept = plan.sweep(request.variable, &request.values, &|done| bar.set_position(done as u64));
+    let swept = plan.sweep(request.of_motion()?, &request.values, &|done| bar.set_position(done as u64));
     bar.finish_and_clear();
     let swept = swept?;
     let (finished, all) = (swept.points.len(), request.values.len());

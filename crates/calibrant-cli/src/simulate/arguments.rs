@@ -11,6 +11,9 @@ use std::path::PathBuf;
 /// times. Spreads that the file does not give are those of common MEMS sensors. With [temperature] the sensor warms by 24 K, centred on the reference, and the recording
 /// has a column temp_c.
 ///
+/// A campaign over temperature ([campaign]) gives a recording of each soak, soak_01.csv and so on: of a sensor whose polynomials, hysteresis and lag are drawn from
+/// what the file says of them.
+///
 /// A sensor on a machine ([machine]) adds the log: joints.csv, or poses.csv without a urdf. What the experiment has a standard deviation for is drawn: lever arm,
 /// mounting, tilt, delays, clock rate, geometry. Without --motion, the joints go between random way-points within the limits of position and speed in the
 /// urdf, and a body is moved as by hand; [machine.simulate] has durations, rates and noise. Noise that the file does not give: 0.01 m/s² and 0.002 rad/s for the
@@ -36,6 +39,9 @@ pub(crate) struct Arguments {
     /// The poses of a sensor that is held by hand, such as those of `design`: columns up_x, up_y, up_z (default: random ones, those of an accelerometer alone spread over the sphere).
     #[arg(long, value_name = "CSV")]
     pub(super) poses: Option<PathBuf>,
+    /// The timetable of a campaign over temperature, such as that of `design` (default: the best campaign).
+    #[arg(long, value_name = "CSV")]
+    pub(super) campaign: Option<PathBuf>,
     /// Seed of all random numbers (default: from [study], else 1).
     #[arg(long, allow_negative_numbers = true)]
     pub(super) seed: Option<u64>,

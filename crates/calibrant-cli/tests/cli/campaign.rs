@@ -1,6 +1,7 @@
-//! Tests of `calibrant design` of a campaign over temperature.
+//! Tests of campaigns over temperature: design, simulation, calibration, exports.
 
 use crate::bench::Bench;
+use std::fmt::Write;
 
 fn bench(edits: &[(&str, &str)]) -> Bench {
     let bench = Bench::new();
@@ -8,9 +9,12 @@ fn bench(edits: &[(&str, &str)]) -> Bench {
     bench
 }
 
+/// The block of the reference cases.
+const FACES: (&str, &str) = ("poses = \"corners\" ", "poses = \"faces\" ");
+
 #[test]
 fn a_campaign_has_a_timetable_a_bound_and_what_is_usual_beside_it() {
-    let bench = bench(&[]);
+    let bench = bench(&[FACES]);
     let outcome = bench.run("design campaign.toml -o plan").done();
     for word in
         ["34 soaks in", "above the bound", "every 10 °C there and back", "from above", "plan/campaign.csv"]
@@ -37,9 +41,9 @@ fn a_campaign_has_a_timetable_a_bound_and_what_is_usual_beside_it() {
 #[test]
 fn short_campaigns_and_other_rooms_fit_their_time() {
     for edits in [
-        [("budget_min = 360.0", "budget_min = 83.0"), ("# cycles = 1 ", "cycles = 1 ")],
-        [("budget_min = 360.0", "budget_min = 88.0"), ("# cycles = 1 ", "cycles = 1 ")],
-        [("range_c = [-20.0, 60.0]", "range_c = [40.0, 90.0]"), ("# cycles = 1 ", "cycles = 3 ")],
+        [FACES, ("budget_min = 360.0", "budget_min = 83.0"), ("# cycles = 1 ", "cycles = 1 ")],
+        [FACES, ("budget_min = 360.0", "budget_min = 88.0"), ("# cycles = 1 ", "cycles = 1 ")],
+        [FACES, ("range_c = [-20.0, 60.0]", "range_c = [40.0, 90.0]"), ("# cycles = 1 ", "cycles = 3 ")],
     ] {
         let bench = bench(&edits);
         bench.run("design campaign.toml -o plan").done();
@@ -67,11 +71,141 @@ fn what_cannot_be_designed_is_refused_with_what_to_do() {
         (("# criterion = \"I\"", "criterion = \"c\"\n# "), 2, "at_c = 25.0"),
         (("# at_c = 25.0 ", "at_c = 125.0 "), 2, "within range_c"),
     ] {
-        bench(&[edit]).refuses("design campaign.toml -o plan", status, &[says]);
+        bench(&[FACES, edit]).refuses("design campaign.toml -o plan", status, &[says]);
     }
     bench(&[]).refuses(
         "design campaign.toml --sweep duration=5,10 -o plan",
         2,
-        &["--sweep is not for a campaign"],
+        &["--sweep budget=120,240,480"],
     );
+}
+
+/// Short holds: a campaign that a test can simulate.
+const SHORT: [(&str, &str); 5] = [
+    ("budget_min = 360.0", "budget_min = 110.0"),
+    ("range_c = [-20.0, 60.0]", "range_c = [0.0, 40.0]"),
+    ("# hold_s = 10.0 ", "hold_s = 2.5 "),
+    ("# move_s = 5.0 ", "move_s = 1.5 "),
+    ("# rate_hz = 100.0 ", "rate_hz = 50.0 "),
+];
+
+/// Design, simulation, one calibration over all soaks, and its exports.
+#[test]
+fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
+    let bench = bench(&SHORT);
+    bench.run("design campaign.toml -o plan").done();
+    bench.run("simulate campaign.toml --campaign plan/campaign.csv --seed 3 -o sim").done();
+    let soaks = bench.read("plan/campaign.csv").lines().count() - 1;
+    let recordings: Vec<String> = (1..=soaks).map(|soak| format!("sim/soak_{soak:02}.csv")).collect();
+    let outcome = bench.run(&format!("calibrate campaign.toml {} -o result", recordings.join(" "))).done();
+    assert!(
+        outcome.printed().contains("Over temperature") && outcome.printed().contains("soak_01"),
+        "{outcome:?}"
+    );
+    let found = bench.json("result/calibration.json");
+    assert_eq!(found["kind"], "campaign-calibration");
+    assert_eq!(found["soaks"].as_array().map(Vec::len), Some(soaks));
+    // the truth lies within the stated standard deviations
+    let compared = bench.run("compare sim/truth.json result/calibration.json --json").json();
+    let off = compared["quantities"].as_array().expect("a list").iter();
+    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
+    assert!(off.len() > 30 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    // from the calibrations of the soaks, the same
+    let files: Vec<String> =
+        (1..=soaks).map(|soak| format!("result/soak_{soak:02}/calibration.json")).collect();
+    bench.run(&format!("calibrate campaign.toml {} --no-report -o again", files.join(" "))).done();
+    let again = bench.json("again/calibration.json");
+    assert_eq!(again["covariance"], found["covariance"]);
+    assert_eq!(again["parameters"], found["parameters"]);
+    // what to add
+    bench.run("design campaign.toml --from result/calibration.json --add-min 60 -o more").done();
+    let value = |file: &str, pointer: &str| {
+        bench.json(file).pointer(pointer).and_then(|of| of.as_f64()).expect("there")
+    };
+    assert!(value("more/design.json", "/value") < value("plan/design.json", "/value"));
+    bench.run("design campaign.toml --sweep budget=90,150 -o sweep").done();
+    assert!(
+        value("sweep/sweep.json", "/campaigns/1/value") < value("sweep/sweep.json", "/campaigns/0/value")
+    );
+    // the firmware
+    bench.run("convert result/calibration.json imu.h").done();
+    assert!(bench.read("imu.h").contains("calibrant_accelerometer_bias_per_k3[3]"));
+    bench
+        .run("convert result/calibration.json imu.params --drop cross-axis,gyroscope-matrix,gain-temperature")
+        .done();
+    assert!(bench.read("imu.params").contains("TC_A0_X3_2"));
+    let printed = bench.run("convert result/calibration.json table.csv --table 5").done();
+    assert!(printed.printed().contains("lines between the rows err by up to"), "{}", printed.stdout);
+    let table = bench.read("table.csv");
+    let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    assert!(rows[0].starts_with("temperature_c,accelerometer.bias.x_mps2,"), "{table}");
+    assert_eq!(rows.len(), 10);
+    bench.run("convert result/calibration.json table.h --table 5").done();
+    assert!(bench.read("table.h").contains("#define CALIBRANT_TABLE_ROWS 9"));
+    // one soak is no campaign, and soaks without a temperature are none
+    bench.refuses(
+        &format!("calibrate campaign.toml {} {} -o one", files[0], files[1]),
+        4,
+        &["lower the orders in [temperature] to 1"],
+    );
+}
+
+/// A board that lies on its desk while it warms up: what autopilots record.
+#[test]
+fn a_warm_up_in_one_pose_gives_the_biases_over_temperature() {
+    let bench = Bench::new();
+    let orders = [
+        ("# accelerometer_bias = 1 ", "accelerometer_bias = 2 "),
+        ("# gyroscope_bias = 1 ", "gyroscope_bias = 2 "),
+    ];
+    bench.preset("imu", "imu.toml", &orders);
+    let mut text = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps,temp_c\n".to_owned();
+    let mut noise = 1_u64;
+    let mut noise = |size: f64| {
+        noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        size * ((noise >> 33) as f64 / f64::from(u32::MAX >> 1) - 1.0)
+    };
+    for k in 0..30_000 {
+        let time_s = f64::from(k) * 0.05;
+        let celsius = 44.0 - 40.0 * (-time_s / 500.0).exp();
+        let tau = celsius - 25.0;
+        let bias = [2e-3 * tau, 1e-3 * tau - 5e-5 * tau * tau, 4e-3 * tau];
+        let rate = [1e-4 * tau, 0.01 - 2e-4 * tau, 2e-6 * tau * tau];
+        let _ = writeln!(
+            text,
+            "{time_s:.2},{:.6},{:.6},{:.6},{:.7},{:.7},{:.7},{celsius:.2}",
+            0.2 + bias[0] + noise(0.03),
+            -0.1 + bias[1] + noise(0.03),
+            9.7 + bias[2] + noise(0.03),
+            rate[0] + noise(2e-3),
+            rate[1] + noise(2e-3),
+            rate[2] + noise(2e-3)
+        );
+    }
+    bench.write("warm.csv", text);
+    let outcome = bench.run("calibrate imu.toml warm.csv -o result").done();
+    outcome.says("what temperature does to the bias of z contains what it does to its gain");
+    let found = bench.json("result/calibration.json");
+    assert_eq!(found["with_gain"], "z");
+    let parameter = |name: &str| {
+        let all = found["parameters"].as_array().expect("a list");
+        let of = all.iter().find(|of| of["name"] == name).unwrap_or_else(|| panic!("{name}"));
+        [of["value"].as_f64().expect("a number"), of["sd"].as_f64().expect("a number")]
+    };
+    for (name, truth) in [
+        ("accelerometer.bias_per_k.x", 2e-3),
+        ("accelerometer.bias_per_k.z", 4e-3),
+        ("accelerometer.bias_per_k2.y", -5e-5),
+        ("gyroscope.bias.y", 0.01),
+        ("gyroscope.bias_per_k.y", -2e-4),
+        ("gyroscope.bias_per_k2.z", 2e-6),
+    ] {
+        let [value, sd] = parameter(name);
+        assert!((value - truth).abs() < 4.0 * sd, "{name}: {value} ± {sd}, {truth}");
+    }
+    assert!(!bench.read("result/calibration.json").contains("\"accelerometer.bias.x\""));
+    // PX4 takes the polynomial alone, and keeps its own offset
+    bench.run("convert result/calibration.json imu.params --drop gain-temperature").done();
+    let params = bench.read("imu.params");
+    assert!(params.contains("TC_A0_X1_0") && !params.contains("CAL_ACC0_XOFF"), "{params}");
 }

@@ -3,6 +3,12 @@
 use super::check::checks;
 use super::parts::Phrase;
 use crate::number_format::{plain, significant};
+use crate::sensor::Axis;
+
+/// A number with its unit, which may be 1.
+fn with_unit(value: f64, unit: &str) -> String {
+    if unit == "1" { significant(value, 2) } else { format!("{} {unit}", significant(value, 2)) }
+}
 
 /// The probability of a false alarm below which hysteresis, lag and drift count as seen.
 pub const SEEN: f64 = 0.01;
@@ -22,8 +28,8 @@ checks! {
     decided "A Wald test of the half difference, without its prior, over the axes: p < 0.01."
     remedy "Add it to the uncertainty of the correction: in use nobody knows the direction."
     says format!(
-        "{}: the branches from below and from above differ. Half the difference is up to {} {unit} (goal {}); the correction is the mean of both: add it to its uncertainty",
-        quantity.0, significant(*half_difference, 2), plain(*goal, 3)
+        "{}: the branches from below and from above differ. Half the difference is up to {} (goal {}); the correction is the mean of both: add it to its uncertainty",
+        quantity.0, with_unit(*half_difference, unit), plain(*goal, 3)
     );
 
     /// Hysteresis is larger than the goal.
@@ -40,8 +46,8 @@ checks! {
     decided "It is seen, and the greatest half difference of the branches exceeds the goal."
     remedy "No polynomial of temperature corrects it: take it into the uncertainty, set a wider goal in campaign.goals, or choose another sensor."
     says format!(
-        "{}: half the difference of the branches is up to {} {unit}, more than the goal of {}: no polynomial of temperature corrects that",
-        quantity.0, significant(*half_difference, 2), plain(*goal, 3)
+        "{}: half the difference of the branches is up to {}, more than the goal of {}: no polynomial of temperature corrects that",
+        quantity.0, with_unit(*half_difference, unit), plain(*goal, 3)
     );
 
     /// The thermometer and the sense element are not at one temperature after a ramp.
@@ -59,7 +65,7 @@ checks! {
     remedy "Nothing: the coefficients carry it. In use, the correction errs by that while the temperature changes so fast."
     says {
         let by = lag_s.map_or_else(String::new, |lag_s| format!(", as of a thermometer that lags by {} s", significant(lag_s, 2)));
-        format!("{}: the sensor lags its thermometer{by}. At the rate of the ramps the correction errs by up to {} {unit}", quantity.0, significant(*at_ramp, 2))
+        format!("{}: the sensor lags its thermometer{by}. At the rate of the ramps the correction errs by up to {}", quantity.0, with_unit(*at_ramp, unit))
     };
 
     /// No temperature is reached in both directions.
@@ -133,7 +139,7 @@ checks! {
     }
     decided "A Wald test of a drift in the order of the soaks, over the axes: p < 0.001."
     remedy "Repeat the first soak at the end, and find out what changed: a drift over the campaign is not temperature."
-    says format!("{} drifts by up to {} {unit} from the first soak to the last, which is not temperature: the sensor changed", quantity.0, significant(*drift, 2));
+    says format!("{} drifts by up to {} from the first soak to the last, which is not temperature: the sensor changed", quantity.0, with_unit(*drift, unit));
 
     /// The scatter between soaks is stated, not found.
     ScatterStated "scatter-stated" Note {
@@ -163,4 +169,14 @@ checks! {
     decided "Its own calibration failed, is bad, or has no temperature."
     remedy "Look at its own report; mend it and calibrate again."
     says format!("{} is left out: {}", soak.0, why.0);
+
+    /// In one pose, the bias of the axis that is up and its gain are one number.
+    GainNotSeparable "gain-not-separable" Note {
+        axis: Axis,
+    }
+    decided "The recording is in one pose: gravity acts along one axis all the time."
+    remedy "Correct recordings by the result (`apply`), then calibrate gain and bias at one temperature (`convert --after` makes one of both). For gains over         temperature, hold the sensor in several orientations at each: `calibrant init campaign`."
+    says format!(
+        "one pose: what temperature does to the bias of {axis} contains what it does to its gain, at 1 g. Gains over temperature stay open, and the accelerometer's biases at the reference: calibrate those at one temperature"
+    );
 }

@@ -34,21 +34,30 @@ impl SoakTemperature {
     /// # Errors
     /// As [`Temperatures::of`].
     pub fn of(recording: &ImuRecording, holds: &[HoldResult]) -> Result<Option<Self>> {
-        let Some(temperatures) = Temperatures::of(recording)? else { return Ok(None) };
-        let rates = temperature_rates(temperatures.times_s, temperatures.values_c);
-        let rates = Temperatures { times_s: temperatures.times_s, values_c: &rates };
-        let over = |of: Temperatures<'_>| -> Vec<f64> {
-            let used = holds.iter().filter(|hold| hold.used);
-            used.map(|hold| of.mean(hold.hold.start_s, hold.hold.end_s)).collect()
-        };
-        let (of_holds, rates) = (over(temperatures), over(rates));
-        let range_c =
-            of_holds.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
-        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
-        Ok(range_c.map(|range_c| Self {
-            mean_c: mean(&of_holds),
-            rate_k_per_min: 60.0 * mean(&rates),
+        let used = holds.iter().filter(|hold| hold.used).map(|hold| (hold.hold.start_s, hold.hold.end_s));
+        let each = Self::each(recording, used)?;
+        let count = each.len() as f64;
+        let mean = |of: fn(&Self) -> f64| each.iter().map(of).sum::<f64>() / count;
+        let range = each.iter().map(|of| of.range_c).reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
+        Ok(range.map(|range_c| Self {
+            mean_c: mean(|of| of.mean_c),
+            rate_k_per_min: mean(|of| of.rate_k_per_min),
             range_c,
         }))
+    }
+
+    /// Between each of these times, s; none where the recording has no temperature.
+    ///
+    /// # Errors
+    /// As [`Temperatures::of`].
+    pub fn each(recording: &ImuRecording, spans: impl Iterator<Item = (f64, f64)>) -> Result<Vec<Self>> {
+        let Some(temperatures) = Temperatures::of(recording)? else { return Ok(Vec::new()) };
+        let rates = temperature_rates(temperatures.times_s, temperatures.values_c);
+        let rates = Temperatures { times_s: temperatures.times_s, values_c: &rates };
+        let of = |(start_s, end_s)| {
+            let mean_c = temperatures.mean(start_s, end_s);
+            Self { mean_c, rate_k_per_min: 60.0 * rates.mean(start_s, end_s), range_c: [mean_c; 2] }
+        };
+        Ok(spans.map(of).collect())
     }
 }

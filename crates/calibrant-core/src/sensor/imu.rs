@@ -351,8 +351,11 @@ impl CalibratedImu {
     #[must_use]
     pub fn has_bias(&self, sensor_kind: SensorKind) -> bool {
         let listed = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, Quantity::Bias(_)) if *of == sensor_kind);
+        // in one pose, only what temperature does to it is known
+        let changes = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Thermal(of, term) if *of == sensor_kind && term.part == ThermalPart::Bias);
+        let known = self.covariance.is_some() && !self.quantities.iter().any(changes);
         self.unit(sensor_kind).is_some()
-            && (self.covariance.is_some() || self.quantities.is_empty() || self.quantities.iter().any(listed))
+            && (known || self.quantities.is_empty() || self.quantities.iter().any(listed))
     }
 
     /// One sensor alone; the gyroscope keeps its g-sensitivity.

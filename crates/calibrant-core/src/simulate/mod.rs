@@ -23,7 +23,7 @@ pub use initial_motion::initial_motion;
 pub use power_law_noise::simulate_noise;
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;
-pub use recording::{TrueGravity, draw_gravity, perturb, simulate_recording};
+pub use recording::{TrueGravity, draw_gravity, normal, perturb, simulate_recording};
 pub use table_recording::{TableAction, TableStep, simulate_table};
 
 /// The purpose of a random stream. Streams of different purposes never overlap.

@@ -85,7 +85,8 @@ pub fn simulate_recording(
 }
 
 /// A number of the normal distribution of mean 0 and variance 1.
-pub(super) fn normal(rng: &mut Rng) -> f64 {
+#[must_use]
+pub fn normal(rng: &mut Rng) -> f64 {
     StandardNormal.sample(rng)
 }
 

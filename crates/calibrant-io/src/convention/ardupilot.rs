@@ -54,10 +54,12 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
             SensorKind::Gyroscope => "GYR",
         };
         let here = imu.parameters.at(calibrated_c.unwrap_or(thermal.reference_c));
-        for (axis, bias) in AXES.iter().zip(&here.sensor(sensor_kind).bias) {
+        // a warm-up in one pose has no offset of the accelerometer, and no gain
+        let has_bias = imu.has_bias(sensor_kind);
+        for (axis, bias) in AXES.iter().zip(&here.sensor(sensor_kind).bias).filter(|_| has_bias) {
             put(format!("INS_{name}OFFS_{axis}"), *bias);
         }
-        if sensor_kind == SensorKind::Accelerometer {
+        if sensor_kind == SensorKind::Accelerometer && has_bias {
             for (axis, gain) in AXES.iter().zip(&gains(imu, title, 0.8..=1.2)?) {
                 put(format!("INS_ACCSCAL_{axis}"), *gain);
             }

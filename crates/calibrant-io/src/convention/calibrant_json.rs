@@ -13,6 +13,7 @@ use super::usable_calibration::{plausible_covariance, usable};
 use super::words::{input_error, invalid};
 use super::{CalibratedImuFile, ImuFormat, truth};
 use crate::results::calibration::CalibrationFile;
+use crate::results::campaign_calibration::CampaignCalibrationFile;
 use crate::results::heading::{Heading, JsonFile, RECORD_KIND};
 use crate::results::json;
 use crate::results::machine_calibration::MachineCalibrationFile;
@@ -28,8 +29,13 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 /// The kinds of files with a calibration. All said `calibration` once.
-const KINDS: [&str; 4] =
-    [CalibrationFile::KIND, MachineCalibrationFile::KIND, ConvertedFile::KIND, RECORD_KIND];
+const KINDS: [&str; 5] = [
+    CalibrationFile::KIND,
+    CampaignCalibrationFile::KIND,
+    MachineCalibrationFile::KIND,
+    ConvertedFile::KIND,
+    RECORD_KIND,
+];
 /// The remedy for a broken file, or one of another kind.
 const HELP: &str = "give a calibration.json that `calibrant calibrate` wrote";
 
@@ -53,7 +59,7 @@ impl JsonFile for ConvertedFile<'_> {
 
 /// The fields beside the core. A file of the estimator has more, which this reader ignores.
 #[derive(Deserialize)]
-struct Header {
+pub(super) struct Header {
     schema: Option<serde_json::Value>,
     kind: Option<String>,
     status: Option<String>,
@@ -112,7 +118,7 @@ pub fn parse_estimates(text: &str) -> Checked<CalibratedImu> {
 }
 
 impl Header {
-    fn of(text: &str) -> Checked<Self> {
+    pub(super) fn of(text: &str) -> Checked<Self> {
         serde_json::from_str(text).map_err(|error| broken(&error))
     }
 
@@ -127,7 +133,7 @@ impl Header {
     }
 
     /// What is missing, and a verdict that forbids its use.
-    fn findings(&self) -> Vec<Diagnostic> {
+    pub(super) fn findings(&self) -> Vec<Diagnostic> {
         let mut findings: Vec<Diagnostic> = Vec::new();
         let mut supposed = |what, supposed: &str| {
             findings.push(FormatSupposed { what, supposed: Phrase(supposed.to_owned()) }.into());
@@ -135,7 +141,8 @@ impl Header {
         if self.kind.is_none() {
             supposed("its kind", "it is taken for a calibration");
         }
-        let is_judged = [CalibrationFile::KIND, MachineCalibrationFile::KIND, RECORD_KIND];
+        let is_judged =
+            [CalibrationFile::KIND, CampaignCalibrationFile::KIND, MachineCalibrationFile::KIND, RECORD_KIND];
         let usability = self.verdict.as_ref().and_then(|verdict| verdict["usability"].as_str());
         let is_one_of_them = self.kind.as_ref().is_none_or(|kind| is_judged.contains(&kind.as_str()));
         if usability.is_none() && is_one_of_them {
@@ -150,7 +157,7 @@ impl Header {
     }
 
     /// The core of a file of this schema, of a calibration that converged.
-    fn core(&self, text: &str) -> Checked<ImuCore> {
+    pub(super) fn core(&self, text: &str) -> Checked<ImuCore> {
         if self.is_truth() {
             let message = "this is the truth of a simulation, not a calibration: it has no covariance";
             return Err(invalid(message, HELP));
@@ -181,7 +188,7 @@ impl Header {
     }
 }
 
-fn broken(error: &serde_json::Error) -> Box<InputError> {
+pub(super) fn broken(error: &serde_json::Error) -> Box<InputError> {
     json::broken(error, "a calibration of calibrant", HELP).into()
 }
 

@@ -30,11 +30,15 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<Diagnostic>) ->
             SensorKind::Accelerometer => ("ACC", "A"),
             SensorKind::Gyroscope => ("GYRO", "G"),
         };
-        ids.push(format!("CAL_{name}0_ID"));
-        for (axis, bias) in AXES.iter().zip(&sensor.bias) {
+        // a warm-up in one pose has no offset of the accelerometer, and no gain
+        let has_bias = imu.has_bias(sensor_kind);
+        if has_bias {
+            ids.push(format!("CAL_{name}0_ID"));
+        }
+        for (axis, bias) in AXES.iter().zip(&sensor.bias).filter(|_| has_bias) {
             put(format!("CAL_{name}0_{axis}OFF"), single(*bias), float);
         }
-        if sensor_kind == SensorKind::Accelerometer {
+        if sensor_kind == SensorKind::Accelerometer && has_bias {
             for (axis, gain) in AXES.iter().zip(&gains(imu, ImuFormat::Px4.title(), 0.1..=3.0)?) {
                 put(format!("CAL_{name}0_{axis}SCALE"), single(*gain), float);
             }

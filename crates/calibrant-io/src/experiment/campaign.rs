@@ -1,13 +1,15 @@
 //! `[campaign]`: a campaign over temperature, in a chamber or a freezer.
 
 use super::Plan;
-use super::number::{Count, Within};
+use super::campaign_block::CampaignPoses;
+use super::campaign_cycles::Cycles;
+use super::number::Within;
 use super::ranges::{
     BlockSd, Celsius, Duration, HoldSd, LagScatter, Minutes, PriorSd, Ramp, Spacing, TimeConstant, Wait,
 };
 use super::refused_key::{missing, refused};
 use calibrant_core::error::Result;
-use calibrant_core::sensor::SensorKind;
+use calibrant_core::sensor::{HIGHEST_ORDER, SensorKind};
 use serde::{Deserialize, Serialize};
 
 /// In which directions temperatures are reached.
@@ -86,10 +88,12 @@ pub struct CampaignSection {
     pub hold_s: Option<Within<Duration>>,
     /// Duration of the move to the next hold; 5 s without it.
     pub move_s: Option<Within<Duration>>,
+    /// The poses of a block of holds; six faces without it.
+    pub poses: Option<CampaignPoses>,
     /// Soaks of one pass are at least this far apart; 5 K without it.
     pub spacing_c: Option<Within<Spacing>>,
     /// Closed cycles over the range; 1 without it.
-    pub cycles: Option<Count<1, 3>>,
+    pub cycles: Option<Cycles>,
     /// Directions in which temperatures are reached; both without it.
     pub directions: Option<CampaignDirections>,
     /// The shortest wait; 0 without it.
@@ -129,7 +133,7 @@ pub(super) struct Usual {
     pub(super) goal_sd: f64,
 }
 
-const USUAL: [Usual; 4] = [
+pub(super) const USUAL: [Usual; 4] = [
     Usual {
         name: "accelerometer.bias",
         unit: "m/s²",
@@ -180,8 +184,6 @@ const USUAL: [Usual; 4] = [
     },
 ];
 
-/// Highest order of a polynomial.
-const HIGHEST_ORDER: usize = 5;
 /// Most terms of hysteresis or lag.
 const MOST_TERMS: usize = 2;
 

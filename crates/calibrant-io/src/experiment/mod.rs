@@ -12,6 +12,8 @@
 mod accept;
 mod calibrate;
 mod campaign;
+mod campaign_block;
+mod campaign_cycles;
 mod campaign_problem;
 mod columns;
 pub(crate) mod datasheets;
@@ -80,6 +82,8 @@ pub mod sections {
     pub use super::campaign::{
         CampaignDirections, CampaignLetter, CampaignSection, ChannelSection, GoalsSection,
     };
+    pub use super::campaign_block::CampaignPoses;
+    pub use super::campaign_cycles::Cycles;
     pub use super::columns::ColumnsSection;
     pub use super::direction::{Direction, WrittenDirection};
     pub use super::gyroscope::{GyroscopeSection, GyroscopeUnit, KnownPrior, KnownSection, TurnSection};

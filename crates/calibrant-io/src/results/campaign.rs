@@ -1,11 +1,15 @@
 //! The files of a campaign over temperature: `design.json`, and its timetable as `campaign.csv`.
 
 use super::heading::{Heading, JsonFile};
-use calibrant_campaign::{Campaign, Channel, PlannedCampaign, RelaxedSoak, Soak, TimedSoak, UsualCampaign};
-use calibrant_core::error::Result;
+use calibrant_campaign::{
+    Campaign, CampaignSweep, Channel, Direction, PlannedCampaign, RelaxedSoak, Soak, SweptCampaign,
+    TimedSoak, UsualCampaign,
+};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::json::flat;
 use calibrant_core::json_object;
 use calibrant_recording::files::atomic_output::write_atomically;
+use serde::Deserialize;
 use std::path::Path;
 
 /// The content of the `design.json` of a campaign.
@@ -166,6 +170,114 @@ pub fn write_campaign_csv(path: &Path, timetable: &[TimedSoak]) -> Result<()> {
             let [temperature, wait, begin, end] = numbers;
             let (number, blocks) = ((k + 1).to_string(), soak.blocks.to_string());
             csv.write_record([number, temperature, soak.direction.name().into(), wait, blocks, begin, end])?;
+        }
+        csv.flush()
+    })
+}
+
+/// A row of `campaign.csv`, as far as a soak needs it.
+#[derive(Deserialize)]
+struct CampaignRow {
+    temperature_c: f64,
+    direction: String,
+    wait_min: f64,
+    blocks: usize,
+}
+
+/// Reads the soaks of `campaign.csv`: columns `temperature_c`, `direction` (`up` or `down`), `wait_min` and `blocks`.
+///
+/// # Errors
+/// [`Error::Experiment`] with the line, where it cannot be read.
+pub fn read_campaign_csv(path: &Path) -> Result<Vec<Soak>> {
+    let refused = |message: String, line: Option<u64>| {
+        let help = "give the campaign.csv of `calibrant design`, or the columns temperature_c,direction,wait_min,blocks";
+        let error = InputError::new(Refusal::ValueInvalid, message, help).in_file(path);
+        Error::experiment(line.map_or(error.clone(), |line| error.at_line(line as usize)))
+    };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_path(path);
+    let reader = reader.as_mut().map_err(|error| refused(error.to_string(), None))?;
+    let mut soaks = Vec::new();
+    for row in reader.deserialize() {
+        let line = |soaks: &[Soak]| Some(soaks.len() as u64 + 2);
+        let row: CampaignRow = row.map_err(|error| {
+            refused(error.to_string(), error.position().map(csv::Position::line).or(line(&soaks)))
+        })?;
+        let direction = match row.direction.as_str() {
+            "up" => Direction::Up,
+            "down" => Direction::Down,
+            other => {
+                return Err(refused(format!("the direction {other:?} is neither up nor down"), line(&soaks)));
+            }
+        };
+        let is_usual = (-100.0..=250.0).contains(&row.temperature_c) && (0.0..1e5).contains(&row.wait_min);
+        if !is_usual || !(1..=1000).contains(&row.blocks) {
+            let message = "a soak needs a temperature from -100 to 250 °C, a wait of 0 min or more, and 1 to 1000 blocks";
+            return Err(refused(message.to_owned(), line(&soaks)));
+        }
+        soaks.push(Soak {
+            temperature_c: row.temperature_c,
+            direction,
+            wait_min: row.wait_min,
+            blocks: row.blocks,
+        });
+    }
+    Ok(soaks)
+}
+
+/// The content of the `sweep.json` of campaigns.
+#[derive(Debug, Clone, Copy)]
+pub struct CampaignSweepFile<'a>(pub &'a CampaignSweep);
+
+json_object! {
+    /// The best campaigns over their time.
+    CampaignSweepFile<'_> as file {
+        heading: flat(Heading::<Self>::of()),
+        /// The quantities, in the order of the standard deviations.
+        quantities: file.0.channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>(),
+        /// Their units.
+        units: file.0.channels.iter().map(|channel| channel.unit).collect::<Vec<_>>(),
+        campaigns: file.0.rows.iter().map(SweptRow).collect::<Vec<_>>(),
+    }
+}
+
+impl JsonFile for CampaignSweepFile<'_> {
+    const KIND: &'static str = "campaign-sweep";
+}
+
+struct SweptRow<'a>(&'a SweptCampaign);
+
+json_object! {
+    /// The best campaign of a time.
+    SweptRow<'_> as of {
+        budget_min: of.0.budget_min,
+        cycles: of.0.cycles,
+        soaks: of.0.design.soaks.len(),
+        /// Value of the criterion.
+        value: of.0.design.value,
+        lower_bound: of.0.design.relaxed.lower_bound,
+        /// Root of the mean variance over the range, for each quantity.
+        sd: &of.0.design.sd,
+    }
+}
+
+/// Writes `sweep.csv`: a row for each time.
+///
+/// # Errors
+/// [`Error::Output`] where it cannot be written.
+pub fn write_campaign_sweep_csv(path: &Path, sweep: &CampaignSweep) -> Result<()> {
+    write_atomically(path, |out| {
+        let mut csv = csv::Writer::from_writer(out);
+        let mut header =
+            ["budget_min", "cycles", "soaks", "value", "lower_bound"].map(str::to_owned).to_vec();
+        header.extend(sweep.channels.iter().map(|channel| format!("{}_sd", channel.name)));
+        csv.write_record(&header)?;
+        for row in &sweep.rows {
+            let (cycles, soaks) = (row.cycles.to_string(), row.design.soaks.len().to_string());
+            let mut fields = vec![format!("{:?}", row.budget_min), cycles, soaks];
+            fields
+                .extend([row.design.value, row.design.relaxed.lower_bound].map(|value| format!("{value:?}")));
+            fields.extend(row.design.sd.iter().map(|sd| format!("{sd:?}")));
+            csv.write_record(&fields)?;
         }
         csv.flush()
     })

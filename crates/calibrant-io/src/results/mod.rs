@@ -3,6 +3,7 @@
 pub(crate) mod batch;
 pub(crate) mod calibration;
 pub(crate) mod campaign;
+pub(crate) mod campaign_calibration;
 pub(crate) mod comparison;
 pub(crate) mod design;
 pub(crate) mod earlier_calibration;
@@ -18,6 +19,7 @@ pub(crate) mod noise;
 pub(crate) mod origin;
 pub(crate) mod pose_design;
 pub(crate) mod reach;
+pub(crate) mod recorded_campaign;
 #[cfg(feature = "study")]
 pub(crate) mod study;
 pub(crate) mod summary;

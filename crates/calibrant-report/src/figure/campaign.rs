@@ -3,7 +3,7 @@
 use super::panel::{Panel, Series, Shape};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_campaign::{Campaign, Direction, TimedSoak};
+use calibrant_campaign::{Campaign, CampaignSweep, Direction, TimedSoak};
 use nalgebra::DMatrix;
 
 /// Places over the range.
@@ -56,4 +56,24 @@ pub(crate) fn temperature_over_time(rows: &[TimedSoak]) -> Figure {
         .with(Series::dots("reached from above", colour::BLUE, (Shape::Square, 3.4), of(Direction::Down)));
     let caption = "Level pieces are soaks, wait and holds; a marker stands at the end of each.";
     Figure::new("The chamber over time", vec![panel], caption.to_owned())
+}
+
+/// Standard deviation of each quantity over the time of the campaign.
+pub(crate) fn sd_over_time(of: &CampaignSweep) -> Figure {
+    let panel = |(number, channel): (usize, &calibrant_campaign::Channel)| {
+        let points: Vec<_> =
+            of.rows.iter().map(|row| (row.budget_min / 60.0, row.design.sd[number])).collect();
+        let unit = DisplayUnit::suited_to(channel.unit, points.iter().map(|(_, sd)| *sd));
+        let scaled: Vec<_> = points.iter().map(|(t, sd)| (*t, sd * unit.factor)).collect();
+        let ends = [points.first(), points.last()].into_iter().flatten();
+        let goal = ends.map(|(t, _)| (*t, channel.goal_sd * unit.factor)).collect();
+        Panel::new(channel.name.clone(), "time (h)", unit.label("sd"))
+            .with(Series::line("best campaign", colour::BLUE, scaled.clone()))
+            .with(Series::dots("", colour::BLUE, (Shape::Circle, 3.0), scaled))
+            .with(Series::stroke("goal", colour::BLACK, (1.0, "1 3"), goal))
+            .log_or_from_zero(true)
+    };
+    let panels = of.channels.iter().enumerate().map(panel).collect();
+    let caption = "Standard deviation, root of the mean variance over the range, of the best campaign in each time. The vertical axes are logarithmic.";
+    Figure::new("Standard deviation over time", panels, caption.to_owned()).with_columns(2)
 }

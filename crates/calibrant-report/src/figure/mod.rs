@@ -10,6 +10,7 @@ mod batch;
 mod before_after;
 mod budget;
 mod campaign;
+mod campaign_fit;
 mod colour;
 mod correlation;
 #[cfg(feature = "study")]
@@ -53,7 +54,8 @@ pub(super) use bars::Bars;
 pub(super) use batch::{SENSORS, code_bars, drifts, parameter_histograms};
 pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
 pub(super) use budget::{budget_bars, source_in_words};
-pub(super) use campaign::{sd_over_temperature, temperature_over_time};
+pub(super) use campaign::{sd_over_temperature, sd_over_time, temperature_over_time};
+pub(super) use campaign_fit::{curves_over_temperature, residuals_of_soaks};
 pub(super) use correlation::correlation_map;
 #[cfg(feature = "study")]
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};

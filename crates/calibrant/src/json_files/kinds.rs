@@ -1,10 +1,10 @@
 //! The kinds of JSON files, each with its JSON Schema, from the types that are written.
 
 use calibrant_io::{
-    BatchEntry, CalibrationFile, CampaignFile, ComparisonFile, ConvertedFile, DesignFile, EvaluationFile,
-    InspectionFile, JsonFile, MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile,
-    PoseEvaluationFile, ReferenceInspectionFile, SweepFile, TrajectoryEvaluationFile, TrajectoryFile,
-    TrajectorySweepFile, Truth,
+    BatchEntry, CalibrationFile, CampaignCalibrationFile, CampaignFile, CampaignSweepFile, ComparisonFile,
+    ConvertedFile, DesignFile, EvaluationFile, InspectionFile, JsonFile, MachineCalibrationFile, MachineFile,
+    NoiseFile, PoseDesignFile, PoseEvaluationFile, ReferenceInspectionFile, SweepFile,
+    TrajectoryEvaluationFile, TrajectoryFile, TrajectorySweepFile, Truth,
 };
 #[cfg(feature = "records")]
 use calibrant_records::{Fleet, KeptRecord, RecordFile, SensorDrift, SensorHistory};
@@ -43,6 +43,10 @@ impl FileKind {
             "calibration.json of an accelerometer or of an IMU",
             "calibrate",
         ),
+        Self::of::<CampaignCalibrationFile<'static>>(
+            "calibration.json of a campaign over temperature",
+            "calibrate",
+        ),
         Self::of::<MachineCalibrationFile<'static>>("calibration.json of a sensor on a machine", "calibrate"),
         Self::list::<Vec<BatchEntry>>("batch", "the calibrations of several recordings", "calibrate"),
         Self::of::<ConvertedFile<'static>>("a calibration as calibrant JSON", "convert"),
@@ -54,6 +58,7 @@ impl FileKind {
         Self::of::<PoseDesignFile<'static>>("design.json of poses", "design"),
         Self::of::<PoseEvaluationFile<'static>>("evaluation.json of holds", "design"),
         Self::of::<CampaignFile<'static>>("design.json of a campaign over temperature", "design"),
+        Self::of::<CampaignSweepFile<'static>>("sweep.json of campaigns over their time", "design"),
         Self::of::<TrajectoryFile<'static>>("design.json of the trajectory of a machine", "design"),
         Self::of::<TrajectoryEvaluationFile<'static>>("evaluation.json of a trajectory", "design"),
         Self::of::<TrajectorySweepFile<'static>>("sweep.json of trajectories", "design"),

@@ -57,6 +57,7 @@ mod machine_limits;
 mod machine_log;
 mod motion_source;
 mod noise;
+mod one_pose;
 mod options;
 mod outcome;
 mod prepared;

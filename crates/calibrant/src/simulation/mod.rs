@@ -2,6 +2,7 @@
 //!
 //! The seed draws the sensor from the spread of its datasheet. The number of the recording draws everything else: noise, poses, motion.
 
+mod campaign;
 mod gains;
 mod imu;
 mod length;
@@ -15,6 +16,7 @@ mod random;
 mod simulated;
 mod table;
 
+pub use campaign::{SimulatedCampaign, simulate_campaign};
 pub use motion::commanded_motion;
 pub use options::SimulationOptions;
 pub use simulated::Simulation;

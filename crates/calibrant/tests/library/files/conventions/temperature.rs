@@ -89,12 +89,16 @@ fn c_takes_the_temperature(imu: &CalibratedImu) {
         .output()
         .expect("a compiler");
     assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
-    let temperatures = [-12.0, 3.25, 31.5, 57.0];
+    // beyond the range it corrects as at the nearer end
+    let temperatures = [-40.0, -12.0, 3.25, 31.5, 57.0, 90.0];
     let mut lines = String::new();
     let mut expected = Vec::new();
     for temperature in temperatures {
-        let here = ImuCorrection::of(imu).and_then(|of| of.at(temperature)).expect("regular");
-        for [a, g] in readings(&imu.at(temperature).expect("positive gains"), 50, 4) {
+        let [low, high] = imu.parameters.thermal.range_c.expect("there");
+        let counted: f64 = temperature;
+        let counted = counted.clamp(low, high);
+        let here = ImuCorrection::of(imu).and_then(|of| of.at(counted)).expect("regular");
+        for [a, g] in readings(&imu.at(counted).expect("positive gains"), 50, 4) {
             lines +=
                 &format!("{temperature:?} {:?} {:?} {:?} {:?} {:?} {:?}\n", a.x, a.y, a.z, g.x, g.y, g.z);
             let force = here.force(&a).expect("there");

@@ -26,7 +26,7 @@ fn random(rng: &mut ChaCha8Rng) -> CalibratedImu {
     for (kind, bias) in [(SensorKind::Accelerometer, 0.5), (SensorKind::Gyroscope, 0.05)] {
         p[kind].matrix = Matrix3::identity() + Matrix3::from_fn(|_, _| random(0.03));
         p[kind].bias = Vector3::from_fn(|_, _| random(bias));
-        for (order, size) in [(0, 0.01), (1, 1e-4)] {
+        for (order, size) in [(0, 0.01), (1, 1e-4), (2, 1e-6)] {
             p.thermal[kind].bias[order] = Vector3::from_fn(|_, _| random(bias * size));
             p.thermal[kind].scale[order] = Vector3::from_fn(|_, _| random(0.01 * size));
         }
@@ -132,6 +132,47 @@ fn autopilots_correct_as_we_do_below_in_and_above_the_temperatures() {
                 same(&plain, format, [celsius, counted], 1e-6, seed as u64);
             }
             same(&cold(&plain), format, [85.0, 25.0], 1e-6, seed as u64);
+        }
+    }
+}
+
+/// Of an order that they do not have, the nearest polynomial is written, and the stated error bounds what a reader errs by.
+#[test]
+fn a_higher_order_is_projected_with_its_largest_error() {
+    for imu in calibrations().take(20) {
+        let mut plain = ImuPart::ALL.into_iter().fold(imu, |imu, part| imu.without(part));
+        for (kind, size) in [(SensorKind::Accelerometer, 1e-8), (SensorKind::Gyroscope, 1e-9)] {
+            plain.parameters.thermal[kind].bias[3] = Vector3::new(size, -size, 0.0);
+            plain.parameters.thermal[kind].bias[4] = Vector3::new(0.0, 0.02 * size, -0.01 * size);
+        }
+        let directory = tempfile::tempdir().expect("a directory");
+        for format in AUTOPILOTS {
+            let written = write_calibrated_imu(&directory.path().join("out"), &file(plain.clone()), format);
+            let warnings = written.expect("written").warnings;
+            let said =
+                warnings.iter().find(|found| found.code().name() == "polynomial-shortened").expect("said");
+            let stated = |kind: &str| -> f64 {
+                let message = said.message();
+                let after = message.split_once(&format!("the {kind} by up to ")).expect("stated").1;
+                after.split(' ').next().and_then(|number| number.parse().ok()).expect("a number")
+            };
+            let theirs = corrected(&file(plain.clone()), format);
+            let mut largest = [0.0_f64; 2];
+            for celsius in (-10..=60).map(f64::from) {
+                let ours = ImuCorrection::of(&plain).and_then(|of| of.at(celsius)).expect("regular");
+                let raw = &readings(&cold(&plain), 1, 3)[0];
+                let force = ours.force(&raw[0]).expect("there");
+                let expected = [force, ours.rate(&raw[1], &force).expect("there")];
+                for ((found, expected), largest) in
+                    theirs(raw, celsius).iter().zip(expected).zip(&mut largest)
+                {
+                    *largest = largest.max((found - expected).amax());
+                }
+            }
+            for (kind, found) in ["accelerometer", "gyroscope"].into_iter().zip(largest) {
+                let stated = stated(kind);
+                assert!(found <= 1.01 * stated + 3e-6 && stated <= 2.0 * found, "{kind}: {found} {stated}");
+            }
         }
     }
 }

@@ -1,0 +1,125 @@
+//! One calibration over temperature from the calibrations of several soaks: reads, fits, judges, writes.
+
+use calibrant_campaign::fit::{CampaignModel, FittedCampaign, fit};
+use calibrant_core::diagnostic::campaign::SoakLeftOut;
+use calibrant_core::diagnostic::{Code, Diagnostic, Phrase, Verdict};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_io::{
+    CampaignCalibrationFile, Experiment, Judgement, Origin, ReadSoak, parse_soak, to_json, write_json,
+    write_text,
+};
+use calibrant_report::{About, Sheet, campaign_fit_sheet};
+use std::path::Path;
+
+/// A calibration over temperature with everything that stands beside it.
+#[derive(Debug, Clone)]
+pub struct CampaignCalibration {
+    /// The calibration.
+    pub fitted: FittedCampaign,
+    /// What was fitted.
+    pub model: CampaignModel,
+    /// The sensor, and the files of all soaks.
+    pub origin: Origin,
+    /// Diagnostics that the files mark as allowed.
+    pub allowed: Vec<Code>,
+    about: About,
+}
+
+impl CampaignCalibration {
+    /// From the `calibration.json` of each soak: its name, and its text or why there is none. Soaks that cannot be used are left out, and named. They are taken
+    /// in the order of their times where all have one, otherwise as they are given.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the experiment has no `[campaign]`. As [`fit`] where the soaks are not alike, or leave coefficients open.
+    pub fn of_soaks(
+        experiment: &Experiment,
+        soaks: impl IntoIterator<Item = (String, std::result::Result<String, String>)>,
+        allowed: &[Code],
+    ) -> Result<Self> {
+        let model = experiment.campaign_model()?.ok_or_else(|| {
+            let help = "see `calibrant init campaign`";
+            Error::experiment(InputError::new(Refusal::KeyMissing, "the experiment has no [campaign]", help))
+        })?;
+        let (mut kept, mut left_out): (Vec<ReadSoak>, Vec<Diagnostic>) = (Vec::new(), Vec::new());
+        for (name, text) in soaks {
+            let read = text.and_then(|text| {
+                let soak = parse_soak(&text, &name).map_err(|error| error.to_string())?;
+                soak.bad.as_ref().map_or(Ok(soak.clone()), |bad| Err(bad.without_file()))
+            });
+            match read {
+                Ok(soak) => kept.push(soak),
+                Err(why) => left_out.push(SoakLeftOut { soak: Phrase(name), why: Phrase(why) }.into()),
+            }
+        }
+        if kept.is_empty() {
+            let why: Vec<String> = left_out.iter().map(Diagnostic::without_file).collect();
+            let message =
+                format!("no soak can be used{}{}", if why.is_empty() { "" } else { ": " }, why.join("; "));
+            let help = "look at the report of each soak";
+            return Err(Error::recording(InputError::new(Refusal::RecordingsUnlike, message, help)));
+        }
+        if kept.iter().all(|soak| soak.recorded.is_some()) {
+            kept.sort_by_key(|soak| soak.recorded.map(|time| time.seconds()));
+        }
+        let calibrations: Vec<_> = kept.iter().map(|soak| soak.calibration.clone()).collect();
+        let mut fitted = fit(&model, &calibrations)?;
+        fitted.warnings.extend(left_out);
+        let first = kept[0].sensor.clone();
+        let origin = Origin {
+            sensor: first.filter(|first| kept.iter().all(|soak| soak.sensor.as_ref() == Some(first))),
+            recorded: kept.iter().filter_map(|soak| soak.recorded).min_by_key(|time| time.seconds()),
+            experiment: Some(experiment.origin()),
+            inputs: kept.iter().flat_map(|soak| soak.inputs.clone()).collect(),
+            ..Origin::default()
+        };
+        let soaks = format!("{}, from {} files", kept.len(), origin.inputs.len());
+        Ok(Self::of("Calibration over temperature", ("Soaks", soaks), (fitted, model), origin, allowed))
+    }
+
+    pub(crate) fn of(
+        title: &str,
+        (what, which): (&str, String),
+        (fitted, model): (FittedCampaign, CampaignModel),
+        origin: Origin,
+        allowed: &[Code],
+    ) -> Self {
+        let experiment = origin.experiment.as_ref().map(|of| ("Experiment".to_owned(), of.file.clone()));
+        let facts = experiment.into_iter().chain([(what.to_owned(), which)]).collect();
+        let about = About { title: title.to_owned(), facts, ..About::default() };
+        let mut found = Self { fitted, model, origin, allowed: allowed.to_vec(), about };
+        found.about.verdict = Some(found.verdict());
+        found
+    }
+
+    /// May the result be used?
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        Verdict::on(self.fitted.warnings.iter().map(Diagnostic::code), &self.allowed)
+    }
+
+    fn file(&self) -> CampaignCalibrationFile<'_> {
+        let judgement = Judgement { allowed: &self.allowed, ..Judgement::default() };
+        CampaignCalibrationFile { fitted: &self.fitted, model: &self.model, origin: &self.origin, judgement }
+    }
+
+    /// The text of `calibration.json`.
+    #[must_use]
+    pub fn json(&self) -> String {
+        to_json(&self.file())
+    }
+
+    /// The calibration for people.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet<'_> {
+        campaign_fit_sheet(&self.fitted, &self.model, &self.about)
+    }
+
+    /// Writes `calibration.json` and, where it is wanted, `report.html`.
+    ///
+    /// # Errors
+    /// [`Error::Output`] where a file cannot be written.
+    pub fn write(&self, directory: &Path, report: bool) -> Result<()> {
+        write_json(&directory.join("calibration.json"), &self.file())?;
+        if report { write_text(&directory.join("report.html"), &self.sheet().html()) } else { Ok(()) }
+    }
+}
