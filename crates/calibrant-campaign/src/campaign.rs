@@ -119,14 +119,20 @@ impl Campaign {
         over_range(self.range_c, temperature_c)
     }
 
-    /// Standard deviation over sensors of the slope of a channel, per K, at the end of the range, where it is largest.
+    /// Standard deviation over sensors of the coefficient of a power of temperature, 1 or 2, at the end of the range, where it is largest.
     #[must_use]
-    pub fn slope_sd(&self, channel: &Channel) -> f64 {
+    pub fn power_sd(&self, channel: &Channel, order: usize) -> f64 {
         let [low, high] = self.range_c;
-        // P_m'(1) = m (m + 1)/2
-        let slope = |(m, sd): (usize, &Option<f64>)| sd.unwrap_or(0.0) * (m * (m + 1)) as f64 / 2.0;
-        let square: f64 = channel.spread.iter().enumerate().map(slope).map(|slope| slope * slope).sum();
-        2.0 * square.sqrt() / (high - low)
+        // P_m'(1) = m (m + 1)/2 and P_m''(1)/2 = (m − 1) m (m + 1) (m + 2)/16
+        let of = |(m, sd): (usize, &Option<f64>)| {
+            let at_end = match order {
+                1 => (m * (m + 1)) as f64 / 2.0,
+                _ => (m.saturating_sub(1) * m * (m + 1) * (m + 2)) as f64 / 16.0,
+            };
+            sd.unwrap_or(0.0) * at_end
+        };
+        let square: f64 = channel.spread.iter().enumerate().map(of).map(|sd| sd * sd).sum();
+        square.sqrt() * (2.0 / (high - low)).powi(order as i32)
     }
 
     /// Time of the ramps, min: a closed cycle over both ends passes each temperature once in each direction. Where the room is outside the range, there and

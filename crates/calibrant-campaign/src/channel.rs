@@ -62,7 +62,7 @@ impl Channel {
         let powers = |of: &[f64], factor: f64| -> Vec<f64> {
             (0..of.len()).map(|k| factor * x.powi(k as i32)).collect()
         };
-        row.extend(powers(&self.hysteresis_sd, 0.5 * direction * (1.0 - x * x)));
+        row.extend(powers(&self.hysteresis_sd, 0.5 * direction * (1.0 - x * x).max(0.0)));
         row.extend(powers(&self.lag_sd, direction * lag_left));
         DVector::from_vec(row)
     }

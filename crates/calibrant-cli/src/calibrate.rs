@@ -64,6 +64,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if campaign::is_one(arguments, &experiment) {
         return campaign::run(arguments, &experiment);
     }
+    // without orders of its own, a recording of a campaign is one soak
+    let is_soak = experiment.campaign_section().is_some()
+        && experiment.imu.as_ref().is_some_and(|imu| imu.thermal.is_none());
+    let experiment = if is_soak && !arguments.together { experiment.of_one_soak()? } else { experiment };
     let batch = job::batch(arguments, &experiment)?;
     match batch.sources() {
         [source] => Ok(one::run(arguments, &batch, source)),

@@ -16,7 +16,8 @@ pub fn campaign_fit_sheet<'a>(
 ) -> Sheet<'a> {
     let usability = about.verdict.as_ref().map_or(Usability::Ok, |verdict| verdict.usability);
     let (grade, word) = match usability {
-        Usability::Ok => (Grade::Good, "✓ Usable."),
+        Usability::Ok if missed(of).is_empty() => (Grade::Good, "✓ Usable."),
+        Usability::Ok => (Grade::Caution, "! Usable, but short of the goals."),
         Usability::Doubtful => (Grade::Caution, "! Doubtful: read the warnings first."),
         Usability::Bad => (Grade::Bad, "✗ Do not use it."),
     };
@@ -50,18 +51,7 @@ const MEANING: &str = "Readings are y = S(T) s + b(T) + ν (true → raw); the p
 
 fn sentence(of: &FittedCampaign, model: &CampaignModel) -> String {
     let range = of.imu.parameters.thermal.range_c.unwrap_or(model.campaign.range_c);
-    let missed: Vec<String> = of
-        .channels
-        .iter()
-        .filter(|channel| channel.sd() > channel.channel.goal_sd)
-        .map(|channel| {
-            format!(
-                "{} {} times",
-                channel.channel.name,
-                significant(channel.sd() / channel.channel.goal_sd, 2)
-            )
-        })
-        .collect();
+    let missed = missed(of);
     let goals = if missed.is_empty() {
         "All goals are met.".to_owned()
     } else {
@@ -73,6 +63,13 @@ fn sentence(of: &FittedCampaign, model: &CampaignModel) -> String {
         plain(range[0], 3),
         plain(range[1], 3)
     )
+}
+
+/// The channels whose goal is missed, by how many times.
+fn missed(of: &FittedCampaign) -> Vec<String> {
+    let missed = of.channels.iter().filter(|channel| channel.sd() > channel.channel.goal_sd);
+    let times = missed.map(|channel| (&channel.channel.name, channel.sd() / channel.channel.goal_sd));
+    times.map(|(name, times)| format!("{name} {} times", significant(times, 2))).collect()
 }
 
 fn channel_table(of: &FittedCampaign) -> Table {

@@ -27,7 +27,8 @@ pub struct CampaignCalibration {
 
 impl CampaignCalibration {
     /// From the `calibration.json` of each soak: its name, and its text or why there is none. Soaks that cannot be used are left out, and named. They are taken
-    /// in the order of their times where all have one, otherwise as they are given.
+    /// in the order of their times where all have one, otherwise as they are given. What is left out goes to `notes`, so that it is known even where an error ends the work; otherwise it is among
+    /// the warnings of the result.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the experiment has no `[campaign]`. As [`fit`] where the soaks are not alike, or leave coefficients open.
@@ -35,12 +36,13 @@ impl CampaignCalibration {
         experiment: &Experiment,
         soaks: impl IntoIterator<Item = (String, std::result::Result<String, String>)>,
         allowed: &[Code],
+        notes: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let model = experiment.campaign_model()?.ok_or_else(|| {
             let help = "see `calibrant init campaign`";
             Error::experiment(InputError::new(Refusal::KeyMissing, "the experiment has no [campaign]", help))
         })?;
-        let (mut kept, mut left_out): (Vec<ReadSoak>, Vec<Diagnostic>) = (Vec::new(), Vec::new());
+        let mut kept: Vec<ReadSoak> = Vec::new();
         for (name, text) in soaks {
             let read = text.and_then(|text| {
                 let soak = parse_soak(&text, &name).map_err(|error| error.to_string())?;
@@ -48,22 +50,20 @@ impl CampaignCalibration {
             });
             match read {
                 Ok(soak) => kept.push(soak),
-                Err(why) => left_out.push(SoakLeftOut { soak: Phrase(name), why: Phrase(why) }.into()),
+                Err(why) => notes.push(SoakLeftOut { soak: Phrase(name), why: Phrase(why) }.into()),
             }
         }
         if kept.is_empty() {
-            let why: Vec<String> = left_out.iter().map(Diagnostic::without_file).collect();
-            let message =
-                format!("no soak can be used{}{}", if why.is_empty() { "" } else { ": " }, why.join("; "));
-            let help = "look at the report of each soak";
+            let (message, help) = ("no soak can be used", "look at the report of each soak");
             return Err(Error::recording(InputError::new(Refusal::RecordingsUnlike, message, help)));
         }
+        refuse_repeated(&kept)?;
         if kept.iter().all(|soak| soak.recorded.is_some()) {
             kept.sort_by_key(|soak| soak.recorded.map(|time| time.seconds()));
         }
         let calibrations: Vec<_> = kept.iter().map(|soak| soak.calibration.clone()).collect();
         let mut fitted = fit(&model, &calibrations)?;
-        fitted.warnings.extend(left_out);
+        fitted.warnings.append(notes);
         let first = kept[0].sensor.clone();
         let origin = Origin {
             sensor: first.filter(|first| kept.iter().all(|soak| soak.sensor.as_ref() == Some(first))),
@@ -122,4 +122,25 @@ impl CampaignCalibration {
         write_json(&directory.join("calibration.json"), &self.file())?;
         if report { write_text(&directory.join("report.html"), &self.sheet().html()) } else { Ok(()) }
     }
+}
+
+/// Refuses two calibrations of one recording: it would count twice.
+fn refuse_repeated(soaks: &[ReadSoak]) -> Result<()> {
+    for (k, soak) in soaks.iter().enumerate() {
+        let same = |other: &&ReadSoak| {
+            other.inputs.iter().any(|input| soak.inputs.iter().any(|own| own.sha256 == input.sha256))
+        };
+        if let Some(other) = soaks[..k].iter().find(same) {
+            let message = format!(
+                "{} and {} are of one recording: it would count twice",
+                other.calibration.name, soak.calibration.name
+            );
+            return Err(Error::recording(InputError::new(
+                Refusal::RecordingRepeated,
+                message,
+                "give each soak once",
+            )));
+        }
+    }
+    Ok(())
 }

@@ -1,10 +1,11 @@
 //! Are these soaks of one sensor, and do they determine the coefficients?
 
+use super::model::{constant, name_of};
 use super::soak::{SoakCalibration, SoakPath};
 use crate::{Campaign, Channel};
 use calibrant_core::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use calibrant_core::number_format::{plain, significant};
-use calibrant_core::sensor::{Gauge, ImuQuantity, Quantity, ReadingUnit};
+use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, Quantity, ReadingUnit};
 
 /// Biases that differ by so many standard deviations at one temperature are of two sensors.
 const OF_TWO_SENSORS: f64 = 20.0;
@@ -65,43 +66,38 @@ pub(super) fn check(campaign: &Campaign, soaks: &[SoakCalibration]) -> Result<Ve
     Ok(wanted)
 }
 
-/// Refuses soaks at one temperature whose biases differ by more than hysteresis, lag and slope can explain.
+/// Refuses soaks whose angles between axes differ, and soaks at one temperature whose biases differ by more than hysteresis, lag and slope can explain.
 fn one_sensor(campaign: &Campaign, soaks: &[SoakCalibration]) -> Result<()> {
     for (k, soak) in soaks.iter().enumerate() {
         for other in &soaks[..k] {
-            let apart_c = soak.temperature.mean_c - other.temperature.mean_c;
-            if apart_c.abs() > campaign.spacing_c {
-                continue;
-            }
-            for channel in campaign.channels.iter().filter(|channel| channel.name.ends_with(".bias")) {
-                let first_sd = |of: &[f64]| of.first().copied().unwrap_or_default();
-                let [low, high] = campaign.range_c;
-                let slope = channel.spread.iter().skip(1).flatten().map(|sd| sd.powi(2)).sum::<f64>().sqrt();
-                let by_slope = slope * 2.0 * apart_c / (high - low);
-                let by_path = first_sd(&channel.hysteresis_sd).hypot(2.0 * first_sd(&channel.lag_sd));
-                for (quantity, of) in biases(soak, &channel.name) {
-                    let Some((_, before)) =
-                        biases(other, &channel.name).into_iter().find(|(q, _)| *q == quantity)
-                    else {
-                        continue;
-                    };
-                    let variance = of[1]
-                        + before[1]
-                        + by_slope.powi(2)
-                        + by_path.powi(2)
-                        + 2.0 * channel.soak_sd.powi(2);
-                    let apart = (of[0] - before[0]).abs();
-                    if apart > OF_TWO_SENSORS * variance.sqrt() {
-                        let message = format!(
-                            "{} is {} {} from that of {}, at {} °C both: these are two sensors",
-                            quantity.name(),
-                            significant(apart, 3),
-                            channel.unit,
-                            other.name,
-                            plain(soak.temperature.mean_c, 3)
-                        );
-                        return Err(unlike(soak, message, "give the soaks of one sensor"));
-                    }
+            let apart_c = (soak.temperature.mean_c - other.temperature.mean_c).abs();
+            for (place, quantity) in soak.imu.quantities.iter().enumerate() {
+                let Some(before) = other.imu.quantities.iter().position(|of| of == quantity) else {
+                    continue;
+                };
+                let Some((unit, soak_sd, allowed)) = differs_by(campaign, *quantity, apart_c) else {
+                    continue;
+                };
+                // counts become what their sensors feel
+                let gain = gain_of(&soak.imu, *quantity);
+                let of = |soak: &SoakCalibration, place: usize| {
+                    let variance = soak.imu.covariance.as_ref().map_or(0.0, |sigma| sigma[(place, place)]);
+                    (quantity.value(&soak.imu.parameters) / gain, variance / gain.powi(2))
+                };
+                let ((here, variance), (there, other_variance)) = (of(soak, place), of(other, before));
+                let sd = (variance + other_variance + 2.0 * soak_sd.powi(2)).sqrt();
+                let apart = (here - there).abs();
+                if apart > OF_TWO_SENSORS * sd + allowed {
+                    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+                    let message = format!(
+                        "{} is {}{unit} from that of {}, at {} and {} °C: these are two sensors",
+                        quantity.name(),
+                        significant(apart, 3),
+                        other.name,
+                        plain(soak.temperature.mean_c, 3),
+                        plain(other.temperature.mean_c, 3)
+                    );
+                    return Err(unlike(soak, message, "give the soaks of one sensor"));
                 }
             }
         }
@@ -109,21 +105,37 @@ fn one_sensor(campaign: &Campaign, soaks: &[SoakCalibration]) -> Result<()> {
     Ok(())
 }
 
-/// The biases of a channel in its stimulus, each with its variance.
-fn biases(soak: &SoakCalibration, channel: &str) -> Vec<(ImuQuantity, [f64; 2])> {
-    let imu = &soak.imu;
-    let of = |(k, quantity): (usize, &ImuQuantity)| {
-        let ImuQuantity::Of(kind, Quantity::Bias(axis)) = *quantity else { return None };
-        if format!("{kind}.bias") != channel {
-            return None;
+/// Unit and scatter of a parameter that tells sensors apart, and what one sensor may differ by between two soaks; `None` for what does not tell.
+fn differs_by(campaign: &Campaign, quantity: ImuQuantity, apart_c: f64) -> Option<(&'static str, f64, f64)> {
+    /// So many standard deviations of what is known of sensors: their slopes have heavy tails.
+    const BY_PATH: f64 = 4.0;
+    const BY_SLOPE: f64 = 12.0;
+    match quantity {
+        ImuQuantity::Of(_, Quantity::CrossAxis(..)) => {
+            let constant = constant(quantity);
+            Some((constant.unit, constant.soak_sd, 0.0))
         }
-        let counts = imu.unit(kind) == Some(ReadingUnit::Counts);
-        let gain =
-            if counts { imu.parameters.sensor(kind).matrix[(axis.index(), axis.index())] } else { 1.0 };
-        let variance = imu.covariance.as_ref().map_or(0.0, |sigma| sigma[(k, k)]);
-        Some((*quantity, [quantity.value(&imu.parameters) / gain, variance / gain.powi(2)]))
+        ImuQuantity::Of(_, Quantity::Bias(_)) if apart_c <= campaign.spacing_c => {
+            let name = name_of(quantity)?;
+            let channel = campaign.channels.iter().find(|channel| channel.name == name)?;
+            let first_sd = |of: &[f64]| of.first().copied().unwrap_or_default();
+            let by_slope = campaign.power_sd(channel, 1) * apart_c;
+            let by_path = first_sd(&channel.hysteresis_sd).hypot(2.0 * first_sd(&channel.lag_sd));
+            Some((channel.unit, channel.soak_sd, (BY_SLOPE * by_slope).hypot(BY_PATH * by_path)))
+        }
+        _ => None,
+    }
+}
+
+/// By what a parameter of readings in counts is divided.
+fn gain_of(imu: &CalibratedImu, quantity: ImuQuantity) -> f64 {
+    let kind = quantity.sensor_kind();
+    let row = match quantity {
+        ImuQuantity::Of(_, Quantity::Bias(axis) | Quantity::CrossAxis(axis, _)) => axis.index(),
+        _ => return 1.0,
     };
-    imu.quantities.iter().enumerate().filter_map(of).collect()
+    let counts = imu.unit(kind) == Some(ReadingUnit::Counts);
+    if counts { imu.parameters.sensor(kind).matrix[(row, row)].abs() } else { 1.0 }
 }
 
 /// A soak without terms of its own over temperature.
@@ -136,7 +148,10 @@ pub(super) fn at_its_temperature(soak: &SoakCalibration) -> Result<SoakCalibrati
 }
 
 fn counted(temperatures: usize) -> String {
-    if temperatures == 1 { "one temperature".into() } else { format!("{temperatures} temperatures") }
+    match temperatures {
+        1 => "all soaks are at one temperature".into(),
+        count => format!("the soaks have {count} temperatures that differ by 1 K or more"),
+    }
 }
 
 /// The error about coefficients that stay open.
@@ -158,10 +173,7 @@ pub(super) fn open(channels: &[Channel], paths: &[SoakPath]) -> Error {
         groups: vec![UndeterminedGroup {
             free_combinations: open.len(),
             parameters: open,
-            reason: format!(
-                "the soaks have {} that differ by {SAME_K} K or more",
-                counted(temperatures.len())
-            ),
+            reason: counted(temperatures.len()),
             remedy: format!(
                 "soak at more temperatures, or lower the orders in [temperature] to {}",
                 temperatures.len().saturating_sub(1)

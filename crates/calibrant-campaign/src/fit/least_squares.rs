@@ -8,6 +8,7 @@ use calibrant_core::sensor::ImuQuantity;
 use nalgebra::{DMatrix, DVector};
 
 /// What a soak measures: a value for each entry, their covariance without what all soaks share, and that as a root.
+#[derive(Clone)]
 pub(super) struct Measurement {
     pub(super) values: DVector<f64>,
     pub(super) covariance: DMatrix<f64>,
@@ -86,7 +87,7 @@ impl Problem<'_> {
     }
 
     /// `None` where coefficients stay open.
-    pub(super) fn solve(&self, measurements: &[&Measurement], paths: &[SoakPath]) -> Option<Solution> {
+    pub(super) fn solve(&self, measurements: &[Measurement], paths: &[SoakPath]) -> Option<Solution> {
         let size = self.size();
         let mut information = DMatrix::zeros(size, size);
         for entry in self.entries {
@@ -118,4 +119,31 @@ impl Problem<'_> {
         let residuals = residuals.collect();
         Some(Solution { shared: &covariance * right_shared, residuals, coefficients, covariance })
     }
+
+    /// What a solution predicts of a soak that it does not contain.
+    pub(super) fn prediction(
+        &self,
+        solution: &Solution,
+        measurement: &Measurement,
+        path: &SoakPath,
+    ) -> Option<Prediction> {
+        let rows = self.rows(path);
+        let variances = (&rows * &solution.covariance * rows.transpose()).diagonal()
+            + self.covariance(measurement, path).diagonal();
+        let off = &measurement.values - &rows * &solution.coefficients;
+        Some(Prediction {
+            deviations: off.zip_map(&variances, |off, variance| off / variance.sqrt()),
+            coefficients: solution.coefficients.clone(),
+            variances: solution.covariance.diagonal(),
+        })
+    }
+}
+
+/// A soak beside what the others predict of it.
+pub(super) struct Prediction {
+    /// Over their standard deviations.
+    pub(super) deviations: DVector<f64>,
+    /// Coefficients of the others, and their variances.
+    pub(super) coefficients: DVector<f64>,
+    pub(super) variances: DVector<f64>,
 }

@@ -5,6 +5,7 @@ mod check;
 mod entry;
 mod least_squares;
 mod model;
+mod prepared;
 mod result;
 mod scatter;
 mod soak;
@@ -19,29 +20,9 @@ pub use scatter::SoakScatter;
 pub use soak::{SoakCalibration, SoakPath};
 pub use verdicts::WaldTest;
 
-use crate::Channel;
 use calibrant_core::error::Result;
-use calibrant_core::sensor::{CalibratedImu, CovarianceDegrees, ImuQuantity, SharedErrors};
 use check::{at_its_temperature, check, open};
-use entry::{AtReference, Entry, Means};
-use least_squares::{Measurement, Problem, Solution};
-use nalgebra::DVector;
-use scatter::{AxisData, scatter};
-use soak::paths;
-use verdicts::ChannelData;
-
-/// Everything that is known before the least squares.
-struct Prepared<'a> {
-    model: &'a CampaignModel,
-    soaks: &'a [SoakCalibration],
-    paths: Vec<SoakPath>,
-    means: Means,
-    /// Channels that follow temperature, then the constants.
-    channels: Vec<Channel>,
-    entries: Vec<Entry>,
-    measurements: Vec<Measurement>,
-    scatters: Vec<SoakScatter>,
-}
+use prepared::Prepared;
 
 /// One calibration over all soaks, which are in the order of time.
 ///
@@ -52,187 +33,6 @@ pub fn fit(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<FittedCam
     let quantities = check(&model.campaign, soaks)?;
     let at: Vec<SoakCalibration> = soaks.iter().map(at_its_temperature).collect::<Result<_>>()?;
     let prepared = Prepared::of(model, &at, &quantities)?;
-    let solution = prepared.solve(None).ok_or_else(|| open(&prepared.channels, &prepared.paths))?;
+    let solution = prepared.solve().ok_or_else(|| open(&prepared.channels, &prepared.paths))?;
     Ok(prepared.result(&solution))
-}
-
-impl<'a> Prepared<'a> {
-    fn of(
-        model: &'a CampaignModel,
-        soaks: &'a [SoakCalibration],
-        quantities: &[ImuQuantity],
-    ) -> Result<Self> {
-        let campaign = &model.campaign;
-        let means = Means::of(&soaks.iter().map(|soak| &soak.imu).collect::<Vec<_>>());
-        let (channels, entries) = layout(model, quantities);
-        let paths = paths(campaign, soaks);
-        let measurements: Vec<Measurement> =
-            soaks.iter().filter_map(|soak| Measurement::of(soak, quantities, &means)).collect();
-        let mut prepared =
-            Self { model, soaks, paths, means, channels, entries, measurements, scatters: Vec::new() };
-        let of_channel = |channel| {
-            let found =
-                scatter(campaign, &prepared.channels[channel], &prepared.axes(channel), &prepared.paths);
-            found.ok_or_else(|| open(&prepared.channels[channel..=channel], &prepared.paths))
-        };
-        prepared.scatters = (0..prepared.channels.len()).map(of_channel).collect::<Result<_>>()?;
-        Ok(prepared)
-    }
-
-    /// The measurements of a channel, for each of its axes.
-    fn axes(&self, channel: usize) -> Vec<AxisData> {
-        let of_channel = (0..self.entries.len()).filter(|k| self.entries[*k].channel == channel);
-        let of = |k: usize, of: fn(&Measurement, usize) -> f64| {
-            DVector::from_iterator(self.measurements.len(), self.measurements.iter().map(|one| of(one, k)))
-        };
-        of_channel
-            .map(|k| AxisData {
-                values: of(k, |one, k| one.values[k]),
-                variances: of(k, |one, k| one.covariance[(k, k)]),
-            })
-            .collect()
-    }
-
-    /// The coefficients of all soaks, or of all but one.
-    fn solve(&self, without: Option<usize>) -> Option<Solution> {
-        let kept: Vec<usize> = (0..self.soaks.len()).filter(|soak| Some(*soak) != without).collect();
-        let measurements: Vec<&Measurement> = kept.iter().map(|soak| &self.measurements[*soak]).collect();
-        let paths: Vec<SoakPath> = kept.iter().map(|soak| self.paths[*soak]).collect();
-        let (campaign, channels) = (&self.model.campaign, &self.channels);
-        let problem = Problem { campaign, channels, entries: &self.entries, scatters: &self.scatters };
-        problem.solve(&measurements, &paths)
-    }
-
-    fn result(&self, solution: &Solution) -> FittedCampaign {
-        let followed = self.model.campaign.channels.len();
-        let channels: Vec<FittedChannel> =
-            (0..followed).filter_map(|channel| self.channel(channel, solution)).collect();
-        let soaks = (0..self.soaks.len()).map(|soak| self.soak(soak, solution)).collect();
-        let warnings = self.warnings(&channels, solution);
-        FittedCampaign { imu: self.imu(solution), channels, soaks, warnings, with_gain: None }
-    }
-
-    fn imu(&self, solution: &Solution) -> CalibratedImu {
-        let first = &self.soaks[0].imu;
-        let campaign = &self.model.campaign;
-        let (range_c, reference_c) = (campaign.range_c, self.model.reference_c);
-        let at = AtReference::of(&self.entries, &self.means, &solution.coefficients, range_c, reference_c);
-        let mut parameters = first.parameters;
-        let temperatures = self.paths.iter().map(|path| path.temperature_c);
-        parameters.thermal.reference_c = reference_c;
-        parameters.thermal.range_c =
-            temperatures.map(|t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
-        for (quantity, value) in at.quantities.iter().zip(&at.values) {
-            let before = quantity.value(&parameters);
-            quantity.add_to(&mut parameters, value - before);
-        }
-        let root = &at.jacobian * &solution.shared;
-        let covariance =
-            &at.jacobian * &solution.covariance * at.jacobian.transpose() + &root * root.transpose();
-        let shared =
-            first.shared.as_ref().map(|shared| SharedErrors { sources: shared.sources.clone(), root });
-        CalibratedImu {
-            parameters,
-            quantities: at.quantities,
-            covariance: Some(0.5 * (&covariance + covariance.transpose())),
-            degrees_of_freedom: Some(self.degrees()),
-            shared,
-            ..first.clone()
-        }
-    }
-
-    /// Those of the scatter between soaks; infinite where that is as stated.
-    fn degrees(&self) -> CovarianceDegrees {
-        let of = |names: &[&str]| {
-            let these = self
-                .channels
-                .iter()
-                .zip(&self.scatters)
-                .filter(|(channel, _)| names.contains(&&*channel.name));
-            let degrees =
-                these.map(|(_, scatter)| if scatter.found { scatter.degrees } else { f64::INFINITY });
-            degrees.fold(f64::INFINITY, f64::min)
-        };
-        CovarianceDegrees {
-            accelerometer: of(&["accelerometer.bias", "accelerometer.scale"]),
-            gyroscope_at_rest: of(&["gyroscope.bias"]),
-            gyroscope_matrix: of(&["gyroscope.scale"]),
-        }
-    }
-
-    /// `None` for a channel without parameters.
-    fn channel(&self, channel: usize, solution: &Solution) -> Option<FittedChannel> {
-        let entries: Vec<&Entry> = self.entries.iter().filter(|entry| entry.channel == channel).collect();
-        let covariance = &solution.covariance;
-        let axes = self.axes(channel);
-        let data = self.data(channel, &axes);
-        (!entries.is_empty()).then(|| FittedChannel {
-            channel: self.channels[channel].clone(),
-            order: self.model.orders[channel],
-            scatter: self.scatters[channel],
-            coefficients: entries
-                .iter()
-                .map(|entry| solution.coefficients.rows_range(entry.places.clone()).into_owned())
-                .collect(),
-            covariances: entries
-                .iter()
-                .map(|entry| covariance.view_range(entry.places.clone(), entry.places.clone()).into_owned())
-                .collect(),
-            hysteresis: data.hysteresis_test(),
-            lag: data.lag_test(),
-        })
-    }
-
-    fn data<'b>(&'b self, channel: usize, axes: &'b [AxisData]) -> ChannelData<'b> {
-        ChannelData {
-            campaign: &self.model.campaign,
-            channel: &self.channels[channel],
-            axes,
-            paths: &self.paths,
-            scatter: &self.scatters[channel],
-        }
-    }
-
-    fn soak(&self, soak: usize, solution: &Solution) -> FittedSoak {
-        let (residuals, sds) = &solution.residuals[soak];
-        let of_channels = |of: &DVector<f64>| -> Vec<Vec<f64>> {
-            let of_channel = |channel| {
-                let these = self.entries.iter().zip(of.iter()).filter(|(entry, _)| entry.channel == channel);
-                these.map(|(_, value)| *value).collect()
-            };
-            (0..self.model.campaign.channels.len()).map(of_channel).collect()
-        };
-        FittedSoak {
-            name: self.soaks[soak].name.clone(),
-            path: self.paths[soak],
-            values: of_channels(&self.measurements[soak].values),
-            sds: of_channels(&self.measurements[soak].covariance.diagonal().map(f64::sqrt)),
-            residuals: of_channels(residuals),
-            residual_sds: of_channels(sds),
-        }
-    }
-}
-
-/// Channels and entries of these parameters.
-fn layout(model: &CampaignModel, quantities: &[ImuQuantity]) -> (Vec<Channel>, Vec<Entry>) {
-    let mut channels = model.channels();
-    let mut entries: Vec<Entry> = Vec::new();
-    let mut end = 0;
-    for quantity in quantities {
-        let followed = model::name_of(*quantity);
-        let named =
-            |name: &str, channels: &[Channel]| channels.iter().position(|channel| channel.name == name);
-        let channel = followed.and_then(|name| named(&name, &channels)).unwrap_or_else(|| {
-            let constant = model::constant(*quantity);
-            named(&constant.name, &channels).unwrap_or_else(|| {
-                channels.push(constant);
-                channels.len() - 1
-            })
-        });
-        let of = &channels[channel];
-        let places = end..end + of.coefficients();
-        end = places.end;
-        entries.push(Entry { quantity: *quantity, channel, places, polynomial: of.polynomial() });
-    }
-    (channels, entries)
 }

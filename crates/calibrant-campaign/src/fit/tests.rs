@@ -1,10 +1,13 @@
 //! Tests of the fit against drawn sensors: coverage, the scatter, and what each verdict says of a defect.
 
 use super::*;
+use crate::Channel;
 use crate::{Campaign, CampaignCriterion, Direction, Soak};
 use calibrant_core::estimate::SoakTemperature;
 use calibrant_core::sensor::{Axis, ImuParameters, Quantity, ReadingUnit, SensorKind};
+use calibrant_core::sensor::{CalibratedImu, ImuQuantity};
 use nalgebra::DMatrix;
+use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -205,7 +208,7 @@ fn with(defect: impl Fn(&mut Vec<SoakCalibration>)) -> Vec<&'static str> {
 fn each_defect_is_named() {
     let bias = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(Axis::Y));
     assert!(!with(|_| ()).iter().any(|code| *code != "hysteresis-large"));
-    let knocked = with(|soaks| bias.add_to(&mut soaks[11].imu.parameters, 0.05));
+    let knocked = with(|soaks| bias.add_to(&mut soaks[11].imu.parameters, 0.012));
     assert!(knocked.contains(&"soak-disagrees"), "{knocked:?}");
     let aged = with(|soaks| {
         let count = soaks.len() as f64;
@@ -226,7 +229,7 @@ fn each_defect_is_named() {
     let bent = with(|soaks| {
         for soak in soaks {
             let x = campaign().x(soak.temperature.mean_c);
-            bias.add_to(&mut soak.imu.parameters, 0.5 * calibrant_core::sensor::legendre::legendre(x, 5)[4]);
+            bias.add_to(&mut soak.imu.parameters, 0.1 * calibrant_core::sensor::legendre::legendre(x, 5)[4]);
         }
     });
     assert!(bent.contains(&"order-too-low"), "{bent:?}");

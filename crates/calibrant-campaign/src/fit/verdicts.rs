@@ -48,22 +48,27 @@ impl ChannelData<'_> {
         self.without_prior(self.lag())
     }
 
-    /// The greatest half difference of the branches, over range and axes.
-    pub(super) fn half_difference(&self, test: &WaldTest) -> f64 {
+    /// The greatest half difference of the branches, over range and axes, by the fitted coefficients of each axis: estimates without their prior are too large where
+    /// they are seen just so.
+    pub(super) fn half_difference(&self, coefficients: &[DVector<f64>]) -> f64 {
+        let of_axis = |c: &DVector<f64>| c.rows_range(self.hysteresis()).into_owned();
+        let estimates: Vec<DVector<f64>> = coefficients.iter().map(of_axis).collect();
         let steps = (-50..=50).map(|k| f64::from(k) / 50.0);
         let of = |(h, x): (&DVector<f64>, f64)| {
             let shape: f64 = (0..h.len()).map(|k| h[k] * x.powi(k as i32)).sum();
             (0.5 * (1.0 - x * x) * shape).abs()
         };
-        steps.flat_map(|x| test.estimates.iter().map(move |h| of((h, x)))).fold(0.0, f64::max)
+        steps.flat_map(|x| estimates.iter().map(move |h| of((h, x)))).fold(0.0, f64::max)
     }
 
-    /// The greatest error at the rate of the ramps.
-    pub(super) fn at_ramp(&self, test: &WaldTest) -> f64 {
+    /// The greatest error at the rate of the ramps, by the fitted coefficients of each axis.
+    pub(super) fn at_ramp(&self, coefficients: &[DVector<f64>]) -> f64 {
+        let estimates: Vec<DVector<f64>> =
+            coefficients.iter().map(|c| c.rows_range(self.lag()).into_owned()).collect();
         let ends = [-1.0, 1.0];
         let of =
             |(l, x): (&DVector<f64>, f64)| (0..l.len()).map(|k| l[k] * x.powi(k as i32)).sum::<f64>().abs();
-        ends.iter().flat_map(|x| test.estimates.iter().map(move |l| of((l, *x)))).fold(0.0, f64::max)
+        ends.iter().flat_map(|x| estimates.iter().map(move |l| of((l, *x)))).fold(0.0, f64::max)
     }
 
     /// The lag of the thermometer, s: the ratio of the first lag coefficient and the slope in the middle, by least squares over the axes. `None` where the axes

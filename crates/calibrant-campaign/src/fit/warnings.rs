@@ -1,12 +1,12 @@
 //! What was noticed in the soaks.
 
-use super::Prepared;
 use super::least_squares::Solution;
+use super::prepared::Prepared;
 use super::result::FittedChannel;
-use super::soak::CHANGES;
+use super::soak::{CHANGES, SoakCalibration, SoakPath};
 use calibrant_core::diagnostic::campaign::{
     Aged, DirectionUnknown, HysteresisLarge, HysteresisSeen, LagSeen, NotSettled, OneDirection, OrderTooLow,
-    SEEN, ScatterStated, SoakDisagrees,
+    RangeNotCovered, SEEN, ScatterStated, SoakDisagrees,
 };
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::estimate::chi2_p_value;
@@ -23,8 +23,9 @@ impl Prepared<'_> {
         }
         found.extend(self.disagreement(solution));
         found.extend(self.one_direction(channels));
+        found.extend(self.range());
         if self.channels.iter().all(|channel| channel.lag_sd.is_empty()) {
-            let still_changes = |(soak, path): (&super::SoakCalibration, &super::SoakPath)| {
+            let still_changes = |(soak, path): (&SoakCalibration, &SoakPath)| {
                 let rate_k_per_min = soak.temperature.rate_k_per_min;
                 (path.lag_left > CHANGES)
                     .then(|| NotSettled { soak: Phrase(soak.name.clone()), rate_k_per_min }.into())
@@ -49,22 +50,24 @@ impl Prepared<'_> {
         let data = self.data(number, &axes);
         let quantity = Phrase(channel.channel.name.clone());
         let (unit, goal) = (channel.channel.unit, channel.channel.goal_sd);
-        if let Some(test) = channel.hysteresis.as_ref().filter(|test| test.p_value < SEEN) {
-            let half_difference = data.half_difference(test);
+        if channel.hysteresis.as_ref().is_some_and(|test| test.p_value < SEEN) {
+            let half_difference = data.half_difference(&channel.coefficients);
             found.push(match half_difference > goal {
                 true => HysteresisLarge { quantity: quantity.clone(), unit, half_difference, goal }.into(),
                 false => HysteresisSeen { quantity: quantity.clone(), unit, half_difference, goal }.into(),
             });
         }
         if let Some(test) = channel.lag.as_ref().filter(|test| test.p_value < SEEN) {
-            let (at_ramp, lag_s) = (data.at_ramp(test), data.lag_s(test));
+            let (at_ramp, lag_s) = (data.at_ramp(&channel.coefficients), data.lag_s(test));
             found.push(LagSeen { quantity: quantity.clone(), unit, at_ramp, lag_s }.into());
         }
         if data.beyond_p_value(channel.order).is_some_and(|p| p < RARE) && channel.order < HIGHEST_ORDER {
             let (order, next) = (channel.order, channel.order + 1);
             found.push(OrderTooLow { quantity: quantity.clone(), order, next }.into());
         }
-        if let Some(test) = data.drift_test().filter(|test| test.p_value < RARE) {
+        // in one direction alone, time is temperature
+        let drift = self.both_directions().then(|| data.drift_test()).flatten();
+        if let Some(test) = drift.filter(|test| test.p_value < RARE) {
             let drift = test
                 .estimates
                 .iter()
@@ -74,48 +77,56 @@ impl Prepared<'_> {
         }
     }
 
-    /// The residual that is farthest off, where it is too far among so many.
+    /// The soak that is farthest from what the others say of it, where it is too far among so many. A soak that is off widens the scatter that is found with it: so the
+    /// others are fitted without it.
     fn disagreement(&self, solution: &Solution) -> Option<Diagnostic> {
-        let mut worst = (0.0_f64, 0, 0);
-        let mut count = 0;
-        for (soak, (residuals, sds)) in solution.residuals.iter().enumerate() {
+        let (mut worst, mut count) = (0.0_f64, 0);
+        let mut soak = None;
+        for (k, (residuals, sds)) in solution.residuals.iter().enumerate() {
             for entry in 0..residuals.len() {
                 // a soak that alone determines something has no residual
-                if sds[entry] > 1e-6 * self.measurements[soak].covariance[(entry, entry)].sqrt() {
+                if sds[entry] > 1e-6 * self.measurements[k].covariance[(entry, entry)].sqrt() {
                     count += 1;
-                    let off = residuals[entry] / sds[entry];
-                    if off.abs() > worst.0.abs() {
-                        worst = (off, soak, entry);
+                    let off = (residuals[entry] / sds[entry]).abs();
+                    if off > worst {
+                        (worst, soak) = (off, Some(k));
                     }
                 }
             }
         }
-        let (deviations, soak, entry) = worst;
+        let soak = soak?;
+        let name =
+            |entry: usize| (Phrase(self.soaks[soak].name.clone()), self.entries[entry].quantity.name());
+        let others = self.without(soak)?;
+        let prediction = others.prediction(&self.measurements[soak], &self.paths[soak])?;
+        let (entry, deviations) = prediction
+            .deviations
+            .iter()
+            .copied()
+            .enumerate()
+            .max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         let p = chi2_p_value(deviations * deviations, 1)? * f64::from(count);
         if p > RARE {
             return None;
         }
-        let moves = self.solve(Some(soak)).map(|without| {
-            let change = &without.coefficients - &solution.coefficients;
-            let variances = without.covariance.diagonal();
-            let moved = change.iter().zip(variances.iter()).map(|(of, variance)| of.abs() / variance.sqrt());
-            moved.fold(0.0, f64::max)
-        });
-        let soak = Phrase(self.soaks[soak].name.clone());
-        let parameter = self.entries[entry].quantity.name();
-        Some(SoakDisagrees { soak, parameter, deviations, moves }.into())
+        let change = &prediction.coefficients - &solution.coefficients;
+        let moved =
+            change.iter().zip(prediction.variances.iter()).map(|(of, variance)| of.abs() / variance.sqrt());
+        let (soak, parameter) = name(entry);
+        Some(SoakDisagrees { soak, parameter, deviations, moves: moved.fold(0.0, f64::max) }.into())
+    }
+
+    /// Is a temperature reached in both directions?
+    fn both_directions(&self) -> bool {
+        let near = |one: &SoakPath, other: &SoakPath| {
+            (one.temperature_c - other.temperature_c).abs() <= self.model.campaign.spacing_c
+        };
+        let opposite = |one: &SoakPath, other: &SoakPath| one.direction * other.direction < 0.0;
+        self.paths.iter().any(|one| self.paths.iter().any(|other| near(one, other) && opposite(one, other)))
     }
 
     /// The quantities whose hysteresis and lag count, where every temperature is reached in one direction.
     fn one_direction(&self, channels: &[FittedChannel]) -> Option<Diagnostic> {
-        let near = |one: &super::SoakPath, other: &super::SoakPath| {
-            (one.temperature_c - other.temperature_c).abs() <= self.model.campaign.spacing_c
-        };
-        let opposite = |one: &super::SoakPath, other: &super::SoakPath| one.direction * other.direction < 0.0;
-        let both = self
-            .paths
-            .iter()
-            .any(|one| self.paths.iter().any(|other| near(one, other) && opposite(one, other)));
         let most_left = self.paths.iter().map(|path| path.lag_left).fold(0.0, f64::max);
         let counts = |channel: &&FittedChannel| {
             let of = &channel.channel;
@@ -125,6 +136,19 @@ impl Prepared<'_> {
         };
         let quantities: Vec<String> =
             channels.iter().filter(counts).map(|channel| channel.channel.name.clone()).collect();
-        (!both && !quantities.is_empty()).then(|| OneDirection { quantities }.into())
+        (!self.both_directions() && !quantities.is_empty()).then(|| OneDirection { quantities }.into())
+    }
+
+    /// Do the soaks cover the range, and not more?
+    fn range(&self) -> Option<Diagnostic> {
+        /// A part of the range that may be missing at an end, or lie beyond it.
+        const PART: f64 = 0.1;
+        let [low, high] = self.model.campaign.range_c;
+        let temperatures = self.paths.iter().map(|path| path.temperature_c);
+        let [coldest_c, hottest_c] =
+            temperatures.map(|t| [t, t]).reduce(|[l, h], [t, _]| [l.min(t), h.max(t)])?;
+        let off = (coldest_c - low).abs().max((hottest_c - high).abs());
+        (off > PART * (high - low))
+            .then(|| RangeNotCovered { coldest_c, hottest_c, low_c: low, high_c: high }.into())
     }
 }

@@ -6,7 +6,9 @@ use crate::console;
 use crate::diagnostics::{rules, tell_all, tell_in};
 use crate::exit::Exit;
 use calibrant::CampaignCalibration;
+use calibrant::Error;
 use calibrant::batch::{BatchResults, folder_names};
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, write_summary};
 use calibrant::progress::Progress;
 use std::path::Path;
@@ -19,10 +21,39 @@ pub(super) fn is_one(arguments: &Arguments, experiment: &Experiment) -> bool {
 
 /// Are the soaks calibrated already? Then their calibrations are given in place of the recordings.
 pub(super) fn are_calibrated(arguments: &Arguments) -> bool {
-    arguments.recordings.iter().all(|path| path.extension().is_some_and(|ending| ending == "json"))
+    arguments.recordings.iter().all(|path| is_calibration(path))
+}
+
+fn is_calibration(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "json")
+}
+
+/// Refuses what is of one recording, and calibrations among recordings.
+fn refuse_other_options(arguments: &Arguments) -> calibrant::Result<()> {
+    let given = [
+        ("--validate", arguments.validate.is_some()),
+        ("--folds", arguments.folds.is_some()),
+        ("--residuals", arguments.residuals.is_some()),
+        ("--records", arguments.records.is_some()),
+        ("--accept", arguments.accept.is_some()),
+    ];
+    let refused = |message: String, help: &str| {
+        Err(Error::experiment(InputError::new(Refusal::OptionsContradict, message, help)))
+    };
+    if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
+        let help =
+            "leave it away; the report of the campaign shows what each soak differs by from the others";
+        return refused(format!("{option} is not for a campaign over temperature"), help);
+    }
+    if !are_calibrated(arguments) && arguments.recordings.iter().any(|path| is_calibration(path)) {
+        let help = "give the recordings of all soaks, or the calibration.json of each";
+        return refused("some soaks are recordings, and some are calibrations".to_owned(), help);
+    }
+    Ok(())
 }
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Exit> {
+    refuse_other_options(arguments)?;
     let (soaks, mut exit) = if are_calibrated(arguments) {
         let names = folder_names(&arguments.recordings);
         let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
@@ -30,7 +61,10 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment) -> calibrant::
     } else {
         each(arguments, experiment)?
     };
-    let found = CampaignCalibration::of_soaks(experiment, soaks, rules().allowed())?;
+    let mut notes = Vec::new();
+    let found = CampaignCalibration::of_soaks(experiment, soaks, rules().allowed(), &mut notes);
+    tell_all(&notes);
+    let found = found?;
     tell_all(&found.fitted.warnings);
     found.write(&arguments.output, !arguments.no_report)?;
     console::result(arguments.json, || found.json(), &found.sheet(), None, &[arguments.main_result()])?;

@@ -87,9 +87,9 @@ checks! {
         /// Rate over its holds, K/min.
         rate_k_per_min: f64,
     }
-    decided "Its rate is more than a twentieth of the ramp's, and lag_sd of campaign is empty for every quantity."
+    decided "Its rate is more than a twentieth of the ramp's, and lag_sd is empty for every quantity of campaign."
     remedy "Wait longer, or allow for a lag: lag_sd in [campaign]."
-    says format!("{} was not settled: its temperature changes by {} K/min, and lag_sd allows for no lag", soak.0, significant(*rate_k_per_min, 2));
+    says format!("{} was not settled: its temperature changes by {} K/min, and no quantity of [campaign] has a lag_sd", soak.0, significant(*rate_k_per_min, 2));
 
     /// A polynomial of the order does not follow a quantity.
     OrderTooLow "order-too-low" Warning {
@@ -115,18 +115,33 @@ checks! {
         parameter: String,
         /// By how many standard deviations.
         deviations: f64,
-        /// By how many standard deviations of the result leaving it out moves a parameter, at most; none where that leaves parameters open.
-        moves: Option<f64>,
+        /// By how many standard deviations of the result leaving it out moves a parameter, at most.
+        moves: f64,
     }
-    decided "A residual over its standard deviation, with p < 0.001 over all residuals."
+    decided "What the other soaks predict of it, over its standard deviation, with p < 0.001 over all residuals."
     remedy "Look at its own report. Leave it out where that explains it: a knock, a loose mount, a wrong temperature."
-    says {
-        let moved = match moves {
-            Some(moves) => format!("leaving it out moves the result by up to {} sd", significant(*moves, 2)),
-            None => "without it, parameters stay open".to_owned(),
-        };
-        format!("{} does not agree with the others: {parameter} is {} sd off; {moved}", soak.0, significant(*deviations, 2))
-    };
+    says format!(
+        "{} does not agree with the others: {parameter} is {} sd off; leaving it out moves the result by up to {} sd",
+        soak.0, significant(*deviations, 2), significant(*moves, 2)
+    );
+
+    /// The soaks do not cover the range of use, or lie outside it.
+    RangeNotCovered "range-not-covered" Warning {
+        /// The coldest soak, °C.
+        coldest_c: f64,
+        /// The hottest soak, °C.
+        hottest_c: f64,
+        /// The range of use, °C.
+        low_c: f64,
+        /// Its upper end, °C.
+        high_c: f64,
+    }
+    decided "The coldest or the hottest soak is more than a tenth of the range from its end."
+    remedy "Soak at the ends of the range, or set campaign.range_c to what was soaked. Is the temperature in °C?"
+    says format!(
+        "the soaks are from {} to {} °C, and campaign.range_c is from {} to {}: goals and standard deviations are of the latter. Soak at its ends, or set it to what was soaked",
+        plain(*coldest_c, 3), plain(*hottest_c, 3), plain(*low_c, 3), plain(*high_c, 3)
+    );
 
     /// A quantity drifts from the first soak to the last.
     Aged "aged" Warning {
@@ -171,11 +186,12 @@ checks! {
     says format!("{} is left out: {}", soak.0, why.0);
 
     /// In one pose, the bias of the axis that is up and its gain are one number.
-    GainNotSeparable "gain-not-separable" Note {
+    GainInBias "gain-in-bias" Note {
         axis: Axis,
     }
     decided "The recording is in one pose: gravity acts along one axis all the time."
-    remedy "Correct recordings by the result (`apply`), then calibrate gain and bias at one temperature (`convert --after` makes one of both). For gains over         temperature, hold the sensor in several orientations at each: `calibrant init campaign`."
+    remedy "Correct a recording of several orientations at one temperature by the result, calibrate from it, and put both together (option `after`). For gains over \
+        temperature, hold the sensor in several orientations at each: `calibrant init campaign`."
     says format!(
         "one pose: what temperature does to the bias of {axis} contains what it does to its gain, at 1 g. Gains over temperature stay open, and the accelerometer's biases at the reference: calibrate those at one temperature"
     );

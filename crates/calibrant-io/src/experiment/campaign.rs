@@ -8,6 +8,7 @@ use super::ranges::{
     BlockSd, Celsius, Duration, HoldSd, LagScatter, Minutes, PriorSd, Ramp, Spacing, TimeConstant, Wait,
 };
 use super::refused_key::{missing, refused};
+use super::temperature::TemperatureSection;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{HIGHEST_ORDER, SensorKind};
 use serde::{Deserialize, Serialize};
@@ -116,6 +117,9 @@ pub struct CampaignSection {
     /// Its gains, relative.
     #[serde(rename = "gyroscope.scale")]
     pub gyroscope_scale: Option<ChannelSection>,
+    /// The orders that `[temperature]` states, of the quantities in their order.
+    #[serde(skip)]
+    pub(super) orders: [Option<usize>; 4],
 }
 
 /// What consumer MEMS sensors do: spread of the coefficients over 32 published calibrations of autopilots' IMUs.
@@ -188,6 +192,11 @@ pub(super) const USUAL: [Usual; 4] = [
 const MOST_TERMS: usize = 2;
 
 impl CampaignSection {
+    /// The same with the orders that `[temperature]` states.
+    pub(super) fn with_orders(self, temperature: Option<&TemperatureSection>) -> Self {
+        Self { orders: temperature.map(TemperatureSection::orders).unwrap_or_default(), ..self }
+    }
+
     /// Checks what no type says.
     pub(super) fn check(&self, plan: &Plan) -> Result<()> {
         if !matches!(plan, Plan::Holds(_)) {

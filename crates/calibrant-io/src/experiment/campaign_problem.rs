@@ -40,7 +40,7 @@ impl Experiment {
         self.campaign.as_ref()
     }
 
-    /// What is fitted to the soaks of the campaign: its quantities with the orders of `[temperature]`, or as many as `spread` has numbers.
+    /// What is fitted to the soaks of the campaign: its quantities each with the order of `[temperature]`, or as many as its `spread` has numbers.
     ///
     /// # Errors
     /// As [`campaign`](Self::campaign).
@@ -48,18 +48,12 @@ impl Experiment {
         let Some((section, campaign)) = self.campaign.as_ref().zip(self.campaign()?) else { return Ok(None) };
         let thermal = self.imu.as_ref().map(|imu| imu.thermal).unwrap_or_default();
         let [low, high] = campaign.range_c;
-        let orders = [
-            thermal.accelerometer_bias,
-            thermal.accelerometer_scale,
-            thermal.gyroscope_bias,
-            thermal.gyroscope_scale,
-        ];
-        let order = |((of, section), order): ((&Usual, Option<&ChannelSection>), usize)| {
+        let order = |((of, channel), stated): ((&Usual, Option<&ChannelSection>), Option<usize>)| {
             let spread =
-                section.and_then(|section| section.spread.as_ref()).map_or(of.spread.len(), Vec::len);
-            if thermal.is_none() { spread } else { order }
+                channel.and_then(|channel| channel.spread.as_ref()).map_or(of.spread.len(), Vec::len);
+            stated.unwrap_or(spread)
         };
-        let there = section.channels().into_iter().zip(orders).take(campaign.channels.len());
+        let there = section.channels().into_iter().zip(section.orders).take(campaign.channels.len());
         let reference_c = thermal.reference_c.unwrap_or(REFERENCE_C.clamp(low, high));
         Ok(Some(CampaignModel { orders: there.map(order).collect(), reference_c, campaign }))
     }
@@ -99,7 +93,8 @@ impl Experiment {
         })
     }
 
-    /// The experiment of one soak: what its own small change of temperature does is linear, with the spread of sensors as prior, about the mean over its holds.
+    /// The experiment of one soak: what its own small change of temperature does is a parabola of the biases and a line of the gains, with the
+    /// spread of sensors as prior, about the mean over its holds.
     ///
     /// # Errors
     /// As [`campaign`](Self::campaign).
@@ -108,9 +103,9 @@ impl Experiment {
         let (Some(campaign), Some(imu)) = (self.campaign()?, soak.imu.as_mut()) else { return Ok(soak) };
         imu.thermal = ThermalModel {
             reference_c: None,
-            accelerometer_bias: 1,
+            accelerometer_bias: 2,
             accelerometer_scale: 1,
-            gyroscope_bias: 1,
+            gyroscope_bias: 2,
             gyroscope_scale: 1,
         };
         // the campaign itself finds a lag
@@ -119,27 +114,24 @@ impl Experiment {
         let gains = counts
             .map(|(unit, gain)| if *unit == ReadingUnit::Counts { gain } else { Some(Vector3::repeat(1.0)) });
         for (sensor_kind, gain) in SensorKind::ALL.into_iter().zip(gains) {
-            let slope = |part: &str| {
+            let of_order = |part: &str, order: usize| {
                 let name = format!("{sensor_kind}.{part}");
-                campaign
-                    .channels
-                    .iter()
-                    .find(|channel| channel.name == name)
-                    .map_or(0.0, |channel| campaign.slope_sd(channel))
+                let channel = campaign.channels.iter().find(|channel| channel.name == name);
+                channel.map_or(0.0, |channel| campaign.power_sd(channel, order))
             };
-            for quantity in ImuQuantity::thermal_list(sensor_kind, 1, 1) {
+            for quantity in ImuQuantity::thermal_list(sensor_kind, 2, 1) {
                 let sd = match quantity {
-                    ImuQuantity::Thermal(_, ThermalTerm { part: ThermalPart::Bias, axis, .. }) => {
-                        gain.map(|gain| slope("bias") * gain[axis.index()].abs())
+                    ImuQuantity::Thermal(_, ThermalTerm { part: ThermalPart::Bias, axis, order }) => {
+                        gain.map(|gain| of_order("bias", order) * gain[axis.index()].abs())
                     }
-                    _ => Some(slope("scale")),
+                    _ => Some(of_order("scale", 1)),
                 };
                 // of counts whose gain nobody knows, none
                 let sd = sd.filter(|sd| *sd > 0.0);
                 imu.known.push(KnownTerm { quantity, value: 0.0, sd });
             }
         }
-        Ok(soak)
+        Ok(soak.as_read())
     }
 }
 

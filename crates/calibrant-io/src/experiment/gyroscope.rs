@@ -15,7 +15,7 @@ use super::temperature::TemperatureSection;
 use crate::ImuUnit;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, ThermometerLag, Turn};
-use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
+use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel, ThermalPart};
 use calibrant_recording::text::similar_word::nearest;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -292,9 +292,12 @@ fn known_terms(section: &KnownSection, thermal: &ThermalModel) -> Result<Vec<Kno
                 );
                 return Err(refused(key, format!("no quantity is named \"{name}\""), help));
             };
-            if matches!(quantity, ImuQuantity::Thermal(..)) && !thermal.quantities().contains(&quantity) {
+            if let ImuQuantity::Thermal(of, term) = quantity
+                && !thermal.quantities().contains(&quantity)
+            {
                 let message = format!("\"{name}\" is known, and no such term is asked for");
-                let help = "raise its order in [temperature]: gyroscope_bias = 1, for example";
+                let part = if term.part == ThermalPart::Bias { "bias" } else { "scale" };
+                let help = format!("raise its order in [temperature]: {of}_{part} = {}", term.order);
                 return Err(refused(key, message, help));
             }
             let (value, sd) = match value {

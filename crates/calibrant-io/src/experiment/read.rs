@@ -214,7 +214,7 @@ impl ExperimentFile {
             source,
             read: String::new(),
             limits: limits.flatten().unwrap_or_default(),
-            campaign: self.campaign.clone(),
+            campaign: self.campaign.clone().map(|campaign| campaign.with_orders(self.temperature.as_ref())),
             columns: options_of(self.columns.as_ref())?,
             calibrate,
             accept: limits_of(self.accept.as_ref())?,
@@ -315,6 +315,12 @@ impl Experiment {
             text.is_some_and(|of| of.content().sha256 == self.content().sha256)
         };
         ["report", "report-unknown", "report-noisy"].into_iter().any(is_preset)
+    }
+
+    /// States the text from which it was read as its origin, whatever was changed since.
+    pub(super) fn as_read(mut self) -> Self {
+        self.read = self.content().sha256;
+        self
     }
 
     fn content(&self) -> HashedFile {

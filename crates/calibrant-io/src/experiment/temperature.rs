@@ -42,6 +42,12 @@ impl TemperatureSection {
         }
     }
 
+    /// The orders that are stated: bias and gains of the accelerometer, then of the gyroscope.
+    pub(super) fn orders(&self) -> [Option<usize>; 4] {
+        [self.accelerometer_bias, self.accelerometer_scale, self.gyroscope_bias, self.gyroscope_scale]
+            .map(|order| order.map(Count::size))
+    }
+
     /// What is known of the thermometer.
     pub(super) fn thermometer(&self) -> ThermometerLag {
         let unknown = ThermometerLag::default();

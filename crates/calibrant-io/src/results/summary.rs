@@ -5,7 +5,7 @@ use calibrant_core::acceptance::{CheckedLimit, Decision};
 use calibrant_core::diagnostic::{Diagnostic, Verdict};
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus, FitStatistics};
-use calibrant_core::sensor::{PER_K, Parameter};
+use calibrant_core::sensor::{ImuQuantity, PER_K, Parameter, ReadingUnit};
 use calibrant_recording::files::atomic_output::write_atomically;
 use calibrant_recording::spreadsheet_text;
 use serde::de::Error as _;
@@ -79,7 +79,10 @@ type KnownUnit = &'static str;
 
 fn known_unit<'de, D: Deserializer<'de>>(deserializer: D) -> std::result::Result<&'static str, D::Error> {
     let symbol = String::deserialize(deserializer)?;
-    let known = ENDINGS.iter().find(|(of, _)| *of == symbol).map(|(unit, _)| *unit);
+    let all = ImuQuantity::all(true, true).into_iter().flat_map(|quantity| {
+        [quantity.sensor_kind().stimulus_unit(), ReadingUnit::Counts].map(|reading| quantity.unit(reading))
+    });
+    let known = all.into_iter().find(|unit| *unit == symbol);
     known.ok_or_else(|| D::Error::custom(format!("`{symbol}` is no unit of a parameter")))
 }
 
@@ -277,7 +280,6 @@ pub fn unit_ending(unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use calibrant_core::sensor::{ImuQuantity, ReadingUnit};
 
     #[test]
     fn every_unit_of_a_parameter_has_an_ending_of_its_own() {

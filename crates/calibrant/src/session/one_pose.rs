@@ -5,7 +5,7 @@ use super::run::Session;
 use super::source::Source;
 use crate::CampaignCalibration;
 use calibrant_campaign::fit::{FittedCampaign, SoakCalibration, fit};
-use calibrant_core::diagnostic::campaign::GainNotSeparable;
+use calibrant_core::diagnostic::campaign::GainInBias;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::SoakTemperature;
 use calibrant_core::sensor::{
@@ -66,7 +66,7 @@ impl Session {
             }
             fitted.imu = without_level(&fitted.imu);
             fitted.with_gain = Some(up);
-            fitted.warnings.insert(0, GainNotSeparable { axis: up }.into());
+            fitted.warnings.insert(0, GainInBias { axis: up }.into());
             let named = self.options().naming.of(source.path())?;
             let origin = recorded.origin(source);
             let origin = Origin {

@@ -48,6 +48,7 @@ fn each_code_has_a_producer() {
     let mut produced = String::new();
     let folders = [
         "calibrant-core",
+        "calibrant-campaign",
         "calibrant-machine",
         "calibrant-recording",
         "calibrant-io",

@@ -18,7 +18,7 @@ pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Resu
     Temperatures::of(recording)?.ok_or_else(|| {
         Error::recording(InputError::new(Refusal::TemperatureMissing,
             "the calibration is to follow temperature, and the recording has none",
-            "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
+            "name its column with temperature = \"…\" in [columns], or take [temperature] (or [campaign]) out of the experiment",
         ))
     })
 }

@@ -37,7 +37,7 @@ fn what_is_not_there_or_out_of_range_is_said() {
             "\"gyroscope.bias_per_k.x\" is known, and no such term is asked for",
         ),
         (
-            "gyroscope_bias = 1\n[known]\n\"gyroscope.bias_per_k3.x\" = 0.0",
+            "gyroscope_bias = 1\n[known]\n\"gyroscope.bias_per_k6.x\" = 0.0",
             "did you mean \"gyroscope.bias_per_k",
         ),
     ] {
