@@ -10,6 +10,7 @@ mod design;
 pub mod fit;
 mod golden_section;
 mod planned;
+mod rehearsal;
 mod timetable;
 mod usual;
 
@@ -20,5 +21,6 @@ pub use design::{
     CampaignDesign, RelaxedCampaign, RelaxedSoak, design, design_over_cycles, relaxed, time_needed_min,
 };
 pub use planned::{CampaignSweep, PlannedCampaign, SweptCampaign};
+pub use rehearsal::{CampaignRehearsal, RehearsedCampaign, RehearsedChannel, rehearse};
 pub use timetable::{TimedSoak, timetable};
 pub use usual::{UsualCampaign, usual};

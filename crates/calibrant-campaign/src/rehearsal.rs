@@ -81,7 +81,8 @@ pub fn rehearse(
             for code in warnings.map(|found| found.code().name()) {
                 *rehearsed.warnings.entry(code).or_default() += 1;
             }
-            for ((fitted, truth), channel) in fitted.channels.iter().zip(&truth).zip(&mut rehearsed.channels) {
+            for ((fitted, truth), channel) in fitted.channels.iter().zip(&truth).zip(&mut rehearsed.channels)
+            {
                 for (axis, truth) in truth.iter().enumerate() {
                     for place in 0..PLACES {
                         let x = -1.0 + 2.0 * place as f64 / (PLACES - 1) as f64;
@@ -136,7 +137,8 @@ pub(crate) fn measure(
     truth: &[Vec<DVector<f64>>],
     rng: &mut Rng,
 ) -> Vec<SoakCalibration> {
-    let parameters: Vec<(SensorKind, ImuQuantity)> = campaign.channels.iter().flat_map(parameters_of).collect();
+    let parameters: Vec<(SensorKind, ImuQuantity)> =
+        campaign.channels.iter().flat_map(parameters_of).collect();
     let quantities: Vec<ImuQuantity> = parameters.iter().map(|(_, quantity)| *quantity).collect();
     let of_kind = |kind| parameters.iter().any(|(of, _)| *of == kind).then(|| kind.stimulus_unit());
     let units: PerSensor<Option<ReadingUnit>> = PerSensor::from_fn(of_kind);
@@ -144,7 +146,11 @@ pub(crate) fn measure(
         let (x, left) = (campaign.x(soak.temperature_c), campaign.lag_left(soak.wait_min));
         let mut imu = ImuParameters::identity();
         let mut covariance = DMatrix::zeros(quantities.len(), quantities.len());
-        let of_axes = campaign.channels.iter().zip(truth).flat_map(|(channel, axes)| axes.iter().map(move |c| (channel, c)));
+        let of_axes = campaign
+            .channels
+            .iter()
+            .zip(truth)
+            .flat_map(|(channel, axes)| axes.iter().map(move |c| (channel, c)));
         for (place, (channel, c)) in of_axes.enumerate() {
             let row = channel.row(x, soak.direction.sign(), left);
             let value = row.dot(c) + channel.variance(soak.blocks, left).sqrt() * normal(rng);

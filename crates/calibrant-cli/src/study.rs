@@ -4,9 +4,13 @@ use crate::budget::budget;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use crate::{console, interruption};
+use calibrant::campaign::fit::CampaignModel;
+use calibrant::campaign::{design_over_cycles, rehearse, usual};
 use calibrant::error::{Error, InputError, Refusal};
-use calibrant::io::{Experiment, Plan, ResultPlaces, StudyFile, preset, to_json, write_json, write_text};
-use calibrant::report::{About, study_sheet};
+use calibrant::io::{
+    CampaignStudyFile, Experiment, Plan, ResultPlaces, StudyFile, preset, to_json, write_json, write_text,
+};
+use calibrant::report::{About, campaign_study_sheet, study_sheet, usual_name};
 use calibrant::session::MotionSource;
 use calibrant::study::Studies;
 use calibrant::{DesignChoice, RehearsalPlan, StudyChoice, StudyPlan, TrajectoryPlan};
@@ -19,7 +23,8 @@ const DEFAULT: &str = "report";
 ///
 /// Each sensor is calibrated on a random motion. The best motion is designed at this estimate, and the sensor is calibrated on it. If no motion can be
 /// designed (trust "unknown", or limits that do not bound it), the sensors are calibrated once. With joints in [machine] it rehearses the machine: the best trajectory
-/// is designed, and each simulated sensor is calibrated from a recording of a plain routine and of that trajectory. Without EXPERIMENT, the command repeats chapters 3 and 4
+/// is designed, and each simulated sensor is calibrated from a recording of a plain routine and of that trajectory. With [campaign] it rehearses campaigns over
+/// temperature: the best one beside what is usual, of sensors that are drawn from what the file says of them. Without EXPERIMENT, the command repeats chapters 3 and 4
 /// of the thesis (vamvaka2021 in references.bib), which `calibrant init report` describes. Writes study.json and report.html.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -67,6 +72,9 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => arguments.settings.read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
     };
+    if let Some(model) = experiment.campaign_model()? {
+        return campaign(arguments, &experiment, &model);
+    }
     let of_thesis = experiment.is_of_thesis();
     let studies = match experiment.plan {
         Plan::Machine(_) => rehearsed(arguments, experiment)?,
@@ -136,4 +144,31 @@ fn rehearsed(arguments: &Arguments, experiment: Experiment) -> calibrant::Result
     let outcome = rehearsal.run(&design?, &|done| bar.inc(done));
     bar.finish_and_clear();
     outcome
+}
+
+/// The rehearsal of a campaign over temperature: the best one, and the usual ones in the same time.
+fn campaign(
+    arguments: &Arguments,
+    experiment: &Experiment,
+    model: &CampaignModel,
+) -> calibrant::Result<Exit> {
+    let cycles = experiment.campaign_section().map_or(1..=1, |section| section.cycles());
+    let (campaign, best) = design_over_cycles(&model.campaign, cycles)?;
+    let best = std::iter::once(("this campaign".to_owned(), best.soaks));
+    let usual = usual(&campaign).into_iter().map(|usual| (usual_name(&usual), usual.soaks));
+    let campaigns: Vec<_> = best.chain(usual).collect();
+    let sensors = arguments.sensors.map_or(30, |sensors| sensors as usize);
+    let seed = arguments.seed.unwrap_or(experiment.study.seed);
+    let bar = console::progress(sensors as u64, "sensors");
+    let found = rehearse(model, &campaigns, sensors, seed, |done| bar.set_position(done as u64));
+    bar.finish_and_clear();
+    let found = found?;
+    write_json(&arguments.output.join("study.json"), &CampaignStudyFile(&found))?;
+    let report = arguments.output.join("report.html");
+    let path = arguments.experiment.as_ref().map_or_else(String::new, |path| path.display().to_string());
+    let about = About { title: format!("Study of {path}"), ..About::default() };
+    let sheet = campaign_study_sheet(&found, &about);
+    write_text(&report, &sheet.html())?;
+    console::result(arguments.json, || to_json(&CampaignStudyFile(&found)), &sheet, None, &[report])?;
+    Ok(Exit::DONE)
 }

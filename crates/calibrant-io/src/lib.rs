@@ -68,6 +68,7 @@ pub use results::campaign::{
     CampaignFile, CampaignSweepFile, read_campaign_csv, write_campaign_csv, write_campaign_sweep_csv,
 };
 pub use results::campaign_calibration::CampaignCalibrationFile;
+pub use results::campaign_study::CampaignStudyFile;
 pub use results::comparison::ComparisonFile;
 pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};

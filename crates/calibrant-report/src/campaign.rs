@@ -4,7 +4,9 @@ use super::figure::{DisplayUnit, sd_over_temperature, sd_over_time, temperature_
 use super::report_context::About;
 use crate::number_format::{counted, plain, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
-use calibrant_campaign::{CampaignCriterion, CampaignSweep, PlannedCampaign, TimedSoak, UsualCampaign};
+use calibrant_campaign::{
+    CampaignCriterion, CampaignRehearsal, CampaignSweep, PlannedCampaign, TimedSoak, UsualCampaign,
+};
 use nalgebra::DMatrix;
 
 /// The best campaign as a sheet.
@@ -100,16 +102,18 @@ fn usual_in_words(of: PlannedCampaign<'_>) -> String {
     let compared = of.usual.iter().filter_map(|usual| {
         let value = of.campaign.value(&usual.soaks)?;
         Some(if of.campaign.criterion.is_logarithm() {
-            format!("{}: {} nats more", name(usual), significant(value - of.design.value, 3))
+            format!("{}: {} nats more", usual_name(usual), significant(value - of.design.value, 3))
         } else {
-            format!("{}: {} times the criterion", name(usual), significant(value / of.design.value, 3))
+            format!("{}: {} times the criterion", usual_name(usual), significant(value / of.design.value, 3))
         })
     });
     let compared: Vec<String> = compared.collect();
     if compared.is_empty() { "no usual campaign fits into this time".into() } else { compared.join("; ") }
 }
 
-fn name(usual: &UsualCampaign) -> String {
+/// A usual campaign in words.
+#[must_use]
+pub fn usual_name(usual: &UsualCampaign) -> String {
     let way = if usual.both { "there and back" } else { "upwards" };
     let wait = if usual.wait_min > 0.0 {
         format!("{} min wait", plain(usual.wait_min, 3))
@@ -127,7 +131,7 @@ fn campaigns(of: PlannedCampaign<'_>) -> Vec<(String, Vec<DMatrix<f64>>)> {
         valued.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(usual, _)| usual)
     };
     let usual = [best(true), best(false)].into_iter().flatten();
-    let usual = usual.map(|usual| (name(usual), of.campaign.information(&usual.soaks)));
+    let usual = usual.map(|usual| (usual_name(usual), of.campaign.information(&usual.soaks)));
     std::iter::once(("this campaign".to_owned(), of.campaign.information(&of.design.soaks)))
         .chain(usual)
         .collect()
@@ -224,6 +228,53 @@ pub fn campaign_sweep_sheet<'a>(of: &'a CampaignSweep, about: &'a About) -> Shee
         "Campaigns",
         SheetVerdict::new(Grade::Good, "What time buys.", sentence),
         vec![times],
+        MEANING,
+    )
+}
+
+/// What campaigns would have shown of many sensors, as a sheet.
+#[must_use]
+pub fn campaign_study_sheet<'a>(of: &CampaignRehearsal, about: &'a About) -> Sheet<'a> {
+    let mut errors = Section::new("Errors over the range").lead(
+        "Root mean square error of the mean of both branches over range, axes and sensors, the standard deviation that the calibrations state, and the share of their 95 % intervals that hold the truth.",
+    );
+    let mut table = Table::new([
+        Column::new("quantity"),
+        Column::new("campaign"),
+        Column::new("rms error"),
+        Column::new("stated sd"),
+        Column::new("unit"),
+        Column::new("coverage").in_unit("%"),
+    ]);
+    for number in 0..of.campaigns.first().map_or(0, |campaign| campaign.channels.len()) {
+        for campaign in &of.campaigns {
+            let channel = &campaign.channels[number];
+            let unit = DisplayUnit::suited_to(channel.unit, [channel.rms]);
+            table.row(vec![
+                Cell::name(channel.name.clone()),
+                Cell::text(campaign.name.clone()),
+                Cell::sd(channel.rms, unit.factor),
+                Cell::sd(channel.stated_sd, unit.factor),
+                unit.cell(channel.unit),
+                Cell::fixed(100.0 * channel.coverage, 1),
+            ]);
+        }
+    }
+    errors.table(table);
+    for campaign in &of.campaigns {
+        let warnings: Vec<String> =
+            campaign.warnings.iter().map(|(code, count)| format!("{code} {count}")).collect();
+        let warnings = if warnings.is_empty() { "none".to_owned() } else { warnings.join(", ") };
+        errors.line(format!("{}, {}: warnings {warnings}", campaign.name, counted(campaign.soaks, "soak")));
+    }
+    let sentence = format!(
+        "{} drawn from what [campaign] says of them; warnings count the sensors.",
+        counted(of.sensors, "sensor")
+    );
+    about.sheet(
+        "Rehearsal of campaigns",
+        SheetVerdict::new(Grade::Good, "Rehearsed.", sentence),
+        vec![errors],
         MEANING,
     )
 }

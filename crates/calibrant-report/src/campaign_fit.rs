@@ -59,7 +59,7 @@ fn sentence(of: &FittedCampaign, model: &CampaignModel) -> String {
     };
     format!(
         "{} from {} to {} °C. {goals}",
-        counted(of.soaks.len(), "soak"),
+        counted(of.soaks.len(), if of.with_gain.is_some() { "piece" } else { "soak" }),
         plain(range[0], 3),
         plain(range[1], 3)
     )

@@ -35,7 +35,7 @@ mod tests;
 
 pub use batch::{Batch, BatchParameter, BatchSensor, batch_sheet};
 pub use calibration::calibration_sheet;
-pub use campaign::{campaign_sheet, campaign_sweep_sheet};
+pub use campaign::{campaign_sheet, campaign_study_sheet, campaign_sweep_sheet, usual_name};
 pub use campaign_fit::campaign_fit_sheet;
 pub use comparison::comparison_sheet;
 pub use design::{design_sheet, gap_in_words};

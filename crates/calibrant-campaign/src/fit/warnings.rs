@@ -3,7 +3,7 @@
 use super::least_squares::Solution;
 use super::prepared::Prepared;
 use super::result::FittedChannel;
-use super::soak::{CHANGES, SoakCalibration, SoakPath};
+use super::soak::{CHANGES, SoakPath};
 use calibrant_core::diagnostic::campaign::{
     Aged, DirectionUnknown, HysteresisLarge, HysteresisSeen, LagSeen, NotSettled, OneDirection, OrderTooLow,
     RangeNotCovered, SEEN, ScatterStated, SoakDisagrees,
@@ -24,14 +24,7 @@ impl Prepared<'_> {
         found.extend(self.disagreement(solution));
         found.extend(self.one_direction(channels));
         found.extend(self.range());
-        if self.channels.iter().all(|channel| channel.lag_sd.is_empty()) {
-            let still_changes = |(soak, path): (&SoakCalibration, &SoakPath)| {
-                let rate_k_per_min = soak.temperature.rate_k_per_min;
-                (path.lag_left > CHANGES)
-                    .then(|| NotSettled { soak: Phrase(soak.name.clone()), rate_k_per_min }.into())
-            };
-            found.extend(self.soaks.iter().zip(&self.paths).filter_map(still_changes));
-        }
+        found.extend(self.not_settled());
         let stated = channels.iter().filter(|channel| !channel.scatter.found);
         let quantities: Vec<String> = stated.map(|channel| channel.channel.name.clone()).collect();
         if !quantities.is_empty() {
@@ -43,6 +36,18 @@ impl Prepared<'_> {
             found.push(DirectionUnknown { soaks }.into());
         }
         found
+    }
+
+    /// The soaks whose temperature still changes, where no channel has a lag.
+    fn not_settled(&self) -> Option<Diagnostic> {
+        if self.channels.iter().any(|channel| !channel.lag_sd.is_empty()) {
+            return None;
+        }
+        let changing = || self.soaks.iter().zip(&self.paths).filter(|(_, path)| path.lag_left > CHANGES);
+        let soaks: Vec<String> = changing().map(|(soak, _)| soak.name.clone()).collect();
+        let rates = changing().map(|(soak, _)| soak.temperature.rate_k_per_min.abs());
+        let rate_k_per_min = rates.fold(0.0, f64::max);
+        (!soaks.is_empty()).then(|| NotSettled { soaks, rate_k_per_min }.into())
     }
 
     fn of_channel(&self, number: usize, channel: &FittedChannel, found: &mut Vec<Diagnostic>) {

@@ -127,6 +127,15 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     assert!(
         value("sweep/sweep.json", "/campaigns/1/value") < value("sweep/sweep.json", "/campaigns/0/value")
     );
+    // how well it does beside what is usual
+    let study = bench.run("study campaign.toml --sensors 4 -o study").done();
+    assert!(
+        study.printed().contains("this campaign") && study.printed().contains("coverage"),
+        "{}",
+        study.stdout
+    );
+    let coverage = value("study/study.json", "/campaigns/0/quantities/0/coverage");
+    assert!((0.6..=1.0).contains(&coverage), "{coverage}");
     // the firmware
     bench.run("convert result/calibration.json imu.h").done();
     assert!(bench.read("imu.h").contains("calibrant_accelerometer_bias_per_k3[3]"));
@@ -155,8 +164,8 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
 fn a_warm_up_in_one_pose_gives_the_biases_over_temperature() {
     let bench = Bench::new();
     let orders = [
-        ("# accelerometer_bias = 1 ", "accelerometer_bias = 2 "),
-        ("# gyroscope_bias = 1 ", "gyroscope_bias = 2 "),
+        ("# accelerometer_bias = 1", "accelerometer_bias = 2"),
+        ("# gyroscope_bias = 1", "gyroscope_bias = 2"),
     ];
     bench.preset("imu", "imu.toml", &orders);
     let mut text = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps,temp_c\n".to_owned();

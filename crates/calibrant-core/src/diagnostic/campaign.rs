@@ -80,16 +80,19 @@ checks! {
         quantities.join(", ")
     );
 
-    /// The temperature still changes in a soak, and nothing is allowed for a lag.
+    /// The temperature still changes in soaks, and nothing is allowed for a lag.
     NotSettled "not-settled" Warning {
-        /// The soak.
-        soak: Phrase,
-        /// Rate over its holds, K/min.
+        /// The soaks.
+        soaks: Vec<String>,
+        /// Greatest rate over the holds of one, K/min.
         rate_k_per_min: f64,
     }
     decided "Its rate is more than a twentieth of the ramp's, and lag_sd is empty for every quantity of campaign."
-    remedy "Wait longer, or allow for a lag: lag_sd in [campaign]."
-    says format!("{} was not settled: its temperature changes by {} K/min, and no quantity of [campaign] has a lag_sd", soak.0, significant(*rate_k_per_min, 2));
+    remedy "Wait longer, or allow for a lag: lag_sd of the quantities in [campaign]."
+    says format!(
+        "not settled, with up to {} K/min, and no quantity of [campaign] has a lag_sd: {}",
+        significant(*rate_k_per_min, 2), soaks.join(", ")
+    );
 
     /// A polynomial of the order does not follow a quantity.
     OrderTooLow "order-too-low" Warning {

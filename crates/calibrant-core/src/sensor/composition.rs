@@ -3,10 +3,18 @@
 //! The first corrects a reading, `y = S₁ y' + b₁`, and the second was made of what came out, `y' = S₂ s + b₂`. Together `y = S₁ S₂ s + S₁ b₂ + b₁`.
 //! The first's correction of the gyroscope takes away `Γ₁ f'` with `f' = S₂ f + b₂` of the accelerometer, so that `Γ = S₁ Γ₂ + Γ₁ S₂` and its bias gains `Γ₁ b₂`.
 //!
-//! The numbers of the first are those that the readings were corrected with, whatever their uncertainty. The covariance is that of the second.
+//! Where the first follows temperature, `S₁(T) = diag(1 + k(T)) S₁`: the second's bias goes with the gains, `b(T) = b₁(T) + diag(1 + k(T)) S₁ b₂`. The second then
+//! has to be of one temperature.
+//!
+//! The numbers of the first are those that the readings were corrected with, whatever their uncertainty. The covariance is that of the second,
+//! beside that of the first's terms of temperature.
 
-use super::{CalibratedImu, ImuParameters, ImuQuantity, PerSensor, ReadingUnit, SensorKind, entry_vector};
+use super::{
+    CalibratedImu, ImuParameters, ImuQuantity, PerSensor, ReadingUnit, SensorKind, SharedErrors, ThermalPart,
+    entry_vector,
+};
 use crate::error::{Error, InputError, Refusal, Result};
+use nalgebra::{DMatrix, Matrix3};
 
 impl ImuParameters {
     /// The linear effect of the second calibration's entries on those of both together.
@@ -27,7 +35,7 @@ impl CalibratedImu {
     /// This calibration, made of readings that `first` had corrected, as one of raw readings: the sensors are those of this one.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where `first` has not the same sensors, where this one is of counts, or where either follows temperature or bends the response.
+    /// [`Error::Experiment`] where `first` has not the same sensors, where this one is of counts, where this one follows temperature, or where either bends the response.
     ///
     /// # Examples
     /// ```
@@ -59,15 +67,16 @@ impl CalibratedImu {
                 return refuse(message, "calibrate what `calibrant apply` wrote");
             }
         }
-        for imu in [first, self] {
-            if imu.follows_temperature() || !imu.parameters[a].nonlinearity.is_none() {
-                return refuse(
-                    "terms of temperature, or that bend the response, are not carried through a second calibration".into(),
-                    "take both at one temperature first, with option `temperature`; or calibrate raw readings of both sessions again",
-                );
-            }
+        let bends = [first, self].iter().any(|imu| !imu.parameters[a].nonlinearity.is_none());
+        let gains_follow = first.parameters.thermal[g].order(ThermalPart::Scale) > 0;
+        let felt_follows = gains_follow && self.parameters.g_sensitivity != Matrix3::zeros();
+        if self.follows_temperature() || bends || felt_follows {
+            return refuse(
+                "terms of temperature of the second calibration, or that bend the response, are not carried through".into(),
+                "take it at one temperature first, with option `temperature`; or calibrate raw readings of both sessions again",
+            );
         }
-        let felt = first.parameters.g_sensitivity != nalgebra::Matrix3::zeros();
+        let felt = first.parameters.g_sensitivity != Matrix3::zeros();
         if self.unit(g).is_some() && self.unit(a).is_none() && felt {
             return refuse(
                 "the earlier correction of the gyroscope takes the accelerometer's readings, and this calibration has no accelerometer".into(),
@@ -77,6 +86,14 @@ impl CalibratedImu {
         let mut parameters = first.parameters.through(&self.parameters);
         let mut quantities = ImuQuantity::full_list(self.unit(a).is_some(), self.unit(g).is_some(), true);
         for (kind, _) in self.units.present() {
+            parameters.thermal.reference_c = first.parameters.thermal.reference_c;
+            parameters.thermal.range_c = first.parameters.thermal.range_c;
+            let terms = first.parameters.thermal[kind];
+            parameters.thermal[kind] = terms;
+            let bias = first.parameters[kind].matrix * self.parameters[kind].bias;
+            for (of_bias, of_gain) in parameters.thermal[kind].bias.iter_mut().zip(&terms.scale) {
+                *of_bias += of_gain.component_mul(&bias);
+            }
             parameters[kind].bias += first.parameters[kind].bias;
         }
         let jacobian = || entry_vector::jacobian(|step| first.parameters.through(step));
@@ -89,6 +106,12 @@ impl CalibratedImu {
             quantities.clone_from(&self.quantities);
         }
         let (covariance, shared) = entry_vector::transformed(self, jacobian, &quantities);
+        let terms = first.quantities.iter().enumerate().filter(
+            |(_, quantity)| matches!(quantity, ImuQuantity::Thermal(kind, _) if self.unit(*kind).is_some()),
+        );
+        let terms: Vec<(usize, ImuQuantity)> = terms.map(|(k, quantity)| (k, *quantity)).collect();
+        let (covariance, shared) = beside(covariance, shared, &terms, first);
+        quantities.extend(terms.iter().map(|(_, quantity)| *quantity));
         Ok(Self {
             parameters,
             units: PerSensor::from_fn(|kind| self.unit(kind).and_then(|_| first.unit(kind))),
@@ -103,11 +126,32 @@ impl CalibratedImu {
     }
 }
 
+/// The covariance with that of the first's terms of temperature beside it.
+fn beside(
+    covariance: Option<DMatrix<f64>>,
+    shared: Option<SharedErrors>,
+    terms: &[(usize, ImuQuantity)],
+    first: &CalibratedImu,
+) -> (Option<DMatrix<f64>>, Option<SharedErrors>) {
+    let (Some(covariance), false) = (&covariance, terms.is_empty()) else { return (covariance, shared) };
+    let (own, size) = (covariance.nrows(), covariance.nrows() + terms.len());
+    let of_terms =
+        |i: usize, j: usize| first.covariance.as_ref().map_or(0.0, |sigma| sigma[(terms[i].0, terms[j].0)]);
+    let both = DMatrix::from_fn(size, size, |i, j| match (i.checked_sub(own), j.checked_sub(own)) {
+        (None, None) => covariance[(i, j)],
+        (Some(i), Some(j)) => of_terms(i, j),
+        _ => 0.0,
+    });
+    let shared =
+        shared.map(|shared| SharedErrors { root: shared.root.resize_vertically(size, 0.0), ..shared });
+    (Some(both), shared)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::sensor::ImuCorrection;
-    use nalgebra::{DMatrix, Matrix3, Vector3};
+    use nalgebra::Vector3;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -126,12 +170,23 @@ mod tests {
     #[test]
     fn one_correction_does_what_two_in_turn_do() {
         let mut rng = ChaCha8Rng::seed_from_u64(8);
-        let (first, second) = (random(&mut rng), random(&mut rng));
+        let (mut first, mut second) = (random(&mut rng), random(&mut rng));
+        // the gains of a gyroscope that follow temperature would take its g-sensitivity along
+        second.parameters.g_sensitivity = Matrix3::zeros();
+        for kind in SensorKind::ALL {
+            for order in 0..3 {
+                let size = 1e-3 / 20f64.powi(order as i32);
+                first.parameters.thermal[kind].bias[order] = Vector3::new(size, -2.0 * size, 0.5 * size);
+                first.parameters.thermal[kind].scale[order] = Vector3::new(-size, 0.3 * size, size);
+            }
+        }
         let both = second.after(&first).expect("composed");
+        let felt = random(&mut rng).after(&first).expect_err("the second's g-sensitivity").to_string();
+        assert!(felt.contains("option `temperature`"), "{felt}");
         let raw: [Vector3<f64>; 2] =
             [9.0, 1.0].map(|size| Vector3::from_fn(|_, _| rng.random_range(-size..size)));
         let corrected = |imu: &CalibratedImu, [a, g]: [Vector3<f64>; 2]| {
-            let of = ImuCorrection::of(imu).and_then(|of| of.at(25.0)).expect("regular");
+            let of = ImuCorrection::of(imu).and_then(|of| of.at(41.0)).expect("regular");
             let force = of.force(&a).expect("there");
             [force, of.rate(&g, &force).expect("there")]
         };

@@ -4,6 +4,7 @@ pub(crate) mod batch;
 pub(crate) mod calibration;
 pub(crate) mod campaign;
 pub(crate) mod campaign_calibration;
+pub(crate) mod campaign_study;
 pub(crate) mod comparison;
 pub(crate) mod design;
 pub(crate) mod earlier_calibration;

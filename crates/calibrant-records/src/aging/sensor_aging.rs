@@ -156,7 +156,7 @@ mod tests {
         parameters.thermal.reference_c = 20.0;
         for (k, quantity) in quantities.iter().enumerate() {
             let size = match quantity {
-                ImuQuantity::Thermal(_, term) => 1e-4 / 20f64.powi(term.order as i32 - 1),
+                ImuQuantity::Thermal(_, term) => 1e-4 / 60f64.powi(term.order as i32 - 1),
                 _ => 1e-3,
             };
             quantity.add_to(&mut parameters, size * (k as f64 % 5.0 - 2.5));
@@ -179,7 +179,7 @@ mod tests {
         let dated: Vec<_> = imus.iter().enumerate().map(dated).collect();
         let agings = aging_of(&dated);
         let thermal = agings.iter().filter(|of| matches!(of.invariant, Invariant::Thermal(..)));
-        assert_eq!((agings.len(), thermal.count()), (9 + 12, 12));
+        assert_eq!((agings.len(), thermal.count()), (9 + 30, 30));
         for of in agings {
             assert!(of.aging.per_year.abs() < 1e-9 * of.aging.sd, "{of:?}");
         }

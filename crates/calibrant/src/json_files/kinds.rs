@@ -1,10 +1,10 @@
 //! The kinds of JSON files, each with its JSON Schema, from the types that are written.
 
 use calibrant_io::{
-    BatchEntry, CalibrationFile, CampaignCalibrationFile, CampaignFile, CampaignSweepFile, ComparisonFile,
-    ConvertedFile, DesignFile, EvaluationFile, InspectionFile, JsonFile, MachineCalibrationFile, MachineFile,
-    NoiseFile, PoseDesignFile, PoseEvaluationFile, ReferenceInspectionFile, SweepFile,
-    TrajectoryEvaluationFile, TrajectoryFile, TrajectorySweepFile, Truth,
+    BatchEntry, CalibrationFile, CampaignCalibrationFile, CampaignFile, CampaignStudyFile, CampaignSweepFile,
+    ComparisonFile, ConvertedFile, DesignFile, EvaluationFile, InspectionFile, JsonFile,
+    MachineCalibrationFile, MachineFile, NoiseFile, PoseDesignFile, PoseEvaluationFile,
+    ReferenceInspectionFile, SweepFile, TrajectoryEvaluationFile, TrajectoryFile, TrajectorySweepFile, Truth,
 };
 #[cfg(feature = "records")]
 use calibrant_records::{Fleet, KeptRecord, RecordFile, SensorDrift, SensorHistory};
@@ -59,6 +59,7 @@ impl FileKind {
         Self::of::<PoseEvaluationFile<'static>>("evaluation.json of holds", "design"),
         Self::of::<CampaignFile<'static>>("design.json of a campaign over temperature", "design"),
         Self::of::<CampaignSweepFile<'static>>("sweep.json of campaigns over their time", "design"),
+        Self::of::<CampaignStudyFile<'static>>("study.json of campaigns over temperature", "study"),
         Self::of::<TrajectoryFile<'static>>("design.json of the trajectory of a machine", "design"),
         Self::of::<TrajectoryEvaluationFile<'static>>("evaluation.json of a trajectory", "design"),
         Self::of::<TrajectorySweepFile<'static>>("sweep.json of trajectories", "design"),
