@@ -86,8 +86,10 @@ pub fn rehearse(
                 for (axis, truth) in truth.iter().enumerate() {
                     for place in 0..PLACES {
                         let x = -1.0 + 2.0 * place as f64 / (PLACES - 1) as f64;
-                        let (value, sd) = fitted.at(axis, x);
-                        channel.add(value - fitted.channel.polynomial_row(x).dot(truth), sd);
+                        let ((value, sd), mean) = (fitted.at(axis, x), fitted.relative_to[axis]);
+                        let found =
+                            if channel.name.ends_with(".bias") { value } else { mean * (1.0 + value) - 1.0 };
+                        channel.add(found - fitted.channel.polynomial_row(x).dot(truth), mean * sd);
                     }
                 }
             }

@@ -31,6 +31,14 @@ impl Means {
         Self { gains, units }
     }
 
+    /// The mean gain that a gain is relative to; 1 of other parameters.
+    pub(super) fn relative_to(&self, quantity: ImuQuantity) -> f64 {
+        match quantity {
+            ImuQuantity::Of(kind, Quantity::Scale(axis)) => self.gains[kind][axis.index()],
+            _ => 1.0,
+        }
+    }
+
     /// What a parameter of an IMU measures, and its derivatives by the parameters.
     pub(super) fn measured(
         &self,

@@ -168,6 +168,7 @@ impl<'a> Prepared<'a> {
             channel: self.channels[channel].clone(),
             order: self.model.orders[channel],
             scatter: self.scatters[channel],
+            relative_to: entries.iter().map(|entry| self.means.relative_to(entry.quantity)).collect(),
             coefficients: entries
                 .iter()
                 .map(|entry| solution.coefficients.rows_range(entry.places.clone()).into_owned())

@@ -32,6 +32,8 @@ pub struct FittedChannel {
     pub order: usize,
     /// What does not average within a soak.
     pub scatter: SoakScatter,
+    /// The mean gain over the soaks that the gain of each axis is relative to; 1 of a bias.
+    pub relative_to: Vec<f64>,
     /// Coefficients of each axis: polynomial, hysteresis, lag.
     pub coefficients: Vec<DVector<f64>>,
     /// Their covariance, without what all soaks share, such as gravity.
