@@ -9,6 +9,7 @@ use calibrant_io::{
     write_text,
 };
 use calibrant_report::{About, Sheet, campaign_fit_sheet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A calibration over temperature with everything that stands beside it.
@@ -43,6 +44,7 @@ impl CampaignCalibration {
             Error::experiment(InputError::new(Refusal::KeyMissing, "the experiment has no [campaign]", help))
         })?;
         let mut kept: Vec<ReadSoak> = Vec::new();
+        let mut left_out: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for (name, text) in soaks {
             let read = text.and_then(|text| {
                 let soak = parse_soak(&text, &name).map_err(|error| error.to_string())?;
@@ -50,9 +52,10 @@ impl CampaignCalibration {
             });
             match read {
                 Ok(soak) => kept.push(soak),
-                Err(why) => notes.push(SoakLeftOut { soak: Phrase(name), why: Phrase(why) }.into()),
+                Err(why) => left_out.entry(why).or_default().push(name),
             }
         }
+        notes.extend(left_out.into_iter().map(|(why, soaks)| SoakLeftOut { soaks, why: Phrase(why) }.into()));
         if kept.is_empty() {
             let (message, help) = ("no soak can be used", "look at the report of each soak");
             return Err(Error::recording(InputError::new(Refusal::RecordingsUnlike, message, help)));

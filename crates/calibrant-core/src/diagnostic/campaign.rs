@@ -177,16 +177,16 @@ checks! {
     remedy "Nothing: what hysteresis may do there is part of its standard deviation."
     says format!("nobody knows from where {} came to its temperature: the prior of hysteresis is added to its variance", soaks.join(", "));
 
-    /// A soak is not used.
+    /// Soaks are not used.
     SoakLeftOut "soak-left-out" Warning {
-        /// The soak.
-        soak: Phrase,
+        /// The soaks.
+        soaks: Vec<String>,
         /// Why.
         why: Phrase,
     }
     decided "Its own calibration failed, is bad, or has no temperature."
     remedy "Look at its own report; mend it and calibrate again."
-    says format!("{} is left out: {}", soak.0, why.0);
+    says format!("left out: {}: {}", soaks.join(", "), why.0);
 
     /// In one pose, the bias of the axis that is up and its gain are one number.
     GainInBias "gain-in-bias" Note {

@@ -11,7 +11,7 @@ use crate::text::decoding::{Checked, refuse};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::reader::{ColumnsIgnored, UnitUnexpected};
 use calibrant_core::error::Refusal;
-use calibrant_core::sensor::{Axis, SensorKind};
+use calibrant_core::sensor::{Axis, ImuRecording, SensorKind};
 
 /// The layout of a plain text of one accelerometer: a time and `ax,ay,az`, or `t x y z` without a header. `None`
 /// for any other file, and where `[columns]` names the columns.
@@ -103,5 +103,7 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
         found.push(UnitUnexpected { stated: recording.unit(), expected }.into());
     }
     file.findings.splice(0..0, found.into_iter().map(|found: Diagnostic| found.at_line(draft.line)));
-    Ok(ImuFile { recording: recording.into(), ..file })
+    // a temperature that nobody names says nothing of an accelerometer
+    let temperature_c = file.recording.temperature_c.take().filter(|_| options.columns.temperature.is_some());
+    Ok(ImuFile { recording: ImuRecording { temperature_c, ..recording.into() }, ..file })
 }
