@@ -52,13 +52,15 @@ const MEANING: &str = "Readings are y = S(T) s + b(T) + ν (true → raw); the p
 fn sentence(of: &FittedCampaign, model: &CampaignModel) -> String {
     let range = of.imu.parameters.thermal.range_c.unwrap_or(model.campaign.range_c);
     let missed = missed(of);
-    let goals = if missed.is_empty() {
-        "All goals are met.".to_owned()
+    let goals = if of.with_gain.is_some() {
+        String::new()
+    } else if missed.is_empty() {
+        " All goals are met.".to_owned()
     } else {
-        format!("Goals are exceeded: {}.", missed.join(", "))
+        format!(" Goals are exceeded: {}.", missed.join(", "))
     };
     format!(
-        "{} from {} to {} °C. {goals}",
+        "{} from {} to {} °C.{goals}",
         counted(of.soaks.len(), if of.with_gain.is_some() { "piece" } else { "soak" }),
         plain(range[0], 3),
         plain(range[1], 3)
@@ -67,7 +69,9 @@ fn sentence(of: &FittedCampaign, model: &CampaignModel) -> String {
 
 /// The channels whose goal is missed, by how many times.
 fn missed(of: &FittedCampaign) -> Vec<String> {
-    let missed = of.channels.iter().filter(|channel| channel.sd() > channel.channel.goal_sd);
+    // a recording in one pose has no goals
+    let has_goals = of.with_gain.is_none();
+    let missed = of.channels.iter().filter(|channel| has_goals && channel.sd() > channel.channel.goal_sd);
     let times = missed.map(|channel| (&channel.channel.name, channel.sd() / channel.channel.goal_sd));
     times.map(|(name, times)| format!("{name} {} times", significant(times, 2))).collect()
 }

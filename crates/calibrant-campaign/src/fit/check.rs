@@ -1,6 +1,6 @@
 //! Are these soaks of one sensor, and do they determine the coefficients?
 
-use super::model::{constant, name_of};
+use super::model::{CampaignModel, constant, name_of};
 use super::soak::{SoakCalibration, SoakPath};
 use crate::{Campaign, Channel};
 use calibrant_core::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
@@ -15,7 +15,7 @@ fn unlike(soak: &SoakCalibration, message: String, help: &str) -> Error {
 }
 
 /// Checks that the soaks are alike. Gives the parameters that all have.
-pub(super) fn check(campaign: &Campaign, soaks: &[SoakCalibration]) -> Result<Vec<ImuQuantity>> {
+pub(super) fn check(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<Vec<ImuQuantity>> {
     let Some(first) = soaks.first() else { return Ok(Vec::new()) };
     let quantities = |soak: &SoakCalibration| -> Vec<ImuQuantity> {
         let of = soak.imu.quantities.iter().copied();
@@ -62,7 +62,9 @@ pub(super) fn check(campaign: &Campaign, soaks: &[SoakCalibration]) -> Result<Ve
             return Err(unlike(soak, message, "calibrate all soaks with one experiment file"));
         }
     }
-    one_sensor(campaign, soaks)?;
+    if !model.one_recording {
+        one_sensor(&model.campaign, soaks)?;
+    }
     Ok(wanted)
 }
 
@@ -169,6 +171,9 @@ pub(super) fn open(channels: &[Channel], paths: &[SoakPath]) -> Error {
             (temperatures.len()..free(channel)).map(|m| format!("{} of order {m}", channel.name))
         })
         .collect();
+    // otherwise all are, together
+    let all = || channels.iter().map(|channel| channel.name.clone()).collect();
+    let open: Vec<String> = if open.is_empty() { all() } else { open };
     Error::NotIdentifiable(Box::new(NotIdentifiable {
         groups: vec![UndeterminedGroup {
             free_combinations: open.len(),

@@ -30,7 +30,7 @@ use prepared::Prepared;
 /// [`Error::Recording`](calibrant_core::Error::Recording) where the soaks are of different sensors, gauges or units;
 /// [`Error::NotIdentifiable`](calibrant_core::Error::NotIdentifiable) with the coefficients that they leave open.
 pub fn fit(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<FittedCampaign> {
-    let quantities = check(&model.campaign, soaks)?;
+    let quantities = check(model, soaks)?;
     let at: Vec<SoakCalibration> = soaks.iter().map(at_its_temperature).collect::<Result<_>>()?;
     let prepared = Prepared::of(model, &at, &quantities)?;
     let solution = prepared.solve().ok_or_else(|| open(&prepared.channels, &prepared.paths))?;

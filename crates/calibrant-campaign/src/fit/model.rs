@@ -12,6 +12,8 @@ pub struct CampaignModel {
     pub orders: Vec<usize>,
     /// The temperature at which biases and gains are given, °C.
     pub reference_c: f64,
+    /// Are the soaks pieces of one recording? They are then of one sensor.
+    pub one_recording: bool,
 }
 
 impl CampaignModel {

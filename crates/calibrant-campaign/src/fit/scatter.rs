@@ -14,6 +14,8 @@ const WIDER: f64 = 3.0;
 const MORE_SOAKS: usize = 3;
 /// Waits differ where the shares of the lag that are left do by this much.
 const DIFFERING_LAG: f64 = 0.3;
+/// The largest share of the lag's error that may differ from soak to soak.
+const MOST_SCATTER: f64 = 2.0;
 /// Steps of a golden section.
 const STEPS: usize = 30;
 /// Rounds of the two searches in turn.
@@ -149,8 +151,13 @@ pub(super) fn scatter(
         found.soak_sd = least(|soak_sd| value(&SoakScatter { soak_sd, ..found }), [0.0, top], STEPS);
         if waits_differ {
             found.lag_scatter =
-                least(|lag_scatter| value(&SoakScatter { lag_scatter, ..found }), [0.0, 2.0], STEPS);
+                least(|lag_scatter| value(&SoakScatter { lag_scatter, ..found }), [0.0, MOST_SCATTER], STEPS);
         }
+    }
+    // a golden section ends beside the edge
+    let none = SoakScatter { soak_sd: 0.0, ..found };
+    if value(&none) <= value(&found) {
+        found = none;
     }
     Some(SoakScatter { degrees: degrees(&found)?, ..found })
 }

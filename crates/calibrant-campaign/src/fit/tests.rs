@@ -55,7 +55,7 @@ pub(crate) fn campaign() -> Campaign {
 }
 
 fn model() -> CampaignModel {
-    CampaignModel { campaign: campaign(), orders: vec![3, 2], reference_c: 25.0 }
+    CampaignModel { campaign: campaign(), orders: vec![3, 2], reference_c: 25.0, one_recording: false }
 }
 
 /// Every 5 K there and back with waits of 0, 5 and 10 min in turn.

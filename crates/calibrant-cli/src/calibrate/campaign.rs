@@ -7,7 +7,9 @@ use crate::diagnostics::{rules, tell_all, tell_in};
 use crate::exit::Exit;
 use calibrant::CampaignCalibration;
 use calibrant::Error;
-use calibrant::batch::{BatchResults, folder_names};
+use calibrant::batch::{BatchResults, BatchRow, folder_names};
+use calibrant::diagnostic::Check;
+use calibrant::diagnostic::fit::NothingToCheck;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, write_summary};
 use calibrant::progress::Progress;
@@ -81,18 +83,26 @@ fn each(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<(So
     let batch = job::batch(arguments, &of_one)?;
     let bar = console::progress(arguments.recordings.len() as u64, "calibrating soaks");
     let shown = bar.clone();
-    let results: BatchResults = batch.run(&Progress::to(move |step| shown.set_position(step.done)));
+    let mut results: BatchResults = batch.run(&Progress::to(move |step| shown.set_position(step.done)));
     bar.finish_and_clear();
+    // twice the same is a mistake, and the soak would be lost
+    let is_repeated = |error: &Error| error.code() == Refusal::RecordingRepeated;
+    let repeated = results.rows.iter().position(|row| row.outcome.as_ref().is_err_and(is_repeated));
+    if let Some(Err(error)) = repeated.map(|number| results.rows.swap_remove(number).outcome) {
+        return Err(error);
+    }
     let mut exit = Exit::DONE;
     for row in &results.rows {
-        row.told().iter().for_each(|found| tell_in(found, Some(&row.folder)));
+        // what checks a soak are the others
+        let told = row.told().iter().filter(|found| found.code() != NothingToCheck::CODE);
+        told.for_each(|found| tell_in(found, Some(&row.folder)));
         if let Err(error) = &row.outcome {
             console::error_in(error, &row.recording);
             exit = exit.max(Exit::of(error));
         }
     }
     write_summary(&arguments.output.join("summary.csv"), &results.summary())?;
-    let soak = |row: calibrant::batch::BatchRow| {
+    let soak = |row: BatchRow| {
         let text = row.outcome.map(|result| result.json).map_err(|error| error.to_string());
         (row.folder, text)
     };

@@ -76,7 +76,7 @@ checks! {
     decided "No two soaks within campaign.spacing_c are reached in different directions. Hysteresis and lag are then what their priors say, which exceeds the goals."
     remedy "Reach some temperatures from above as well; `design` with directions = \"both\" says which."
     says format!(
-        "every temperature is reached in one direction: hysteresis and lag are only what [campaign] supposes of them, which exceeds the goals of {}. Reach some from the other side, too",
+        "every temperature is reached in one direction: hysteresis and lag are only what is supposed of them ([campaign], or usual sensors), which matters for {}. Reach some from the other side, too",
         quantities.join(", ")
     );
 
@@ -141,10 +141,17 @@ checks! {
     }
     decided "The coldest or the hottest soak is more than a tenth of the range from its end."
     remedy "Soak at the ends of the range, or set campaign.range_c to what was soaked. Is the temperature in °C?"
-    says format!(
-        "the soaks are from {} to {} °C, and campaign.range_c is from {} to {}: goals and standard deviations are of the latter. Soak at its ends, or set it to what was soaked",
-        plain(*coldest_c, 3), plain(*hottest_c, 3), plain(*low_c, 3), plain(*high_c, 3)
-    );
+    says {
+        let near = |of: f64, to: f64| ((of - 32.0) / 1.8 - to).abs() < 0.1 * (high_c - low_c);
+        let asked = match near(*coldest_c, *low_c) && near(*hottest_c, *high_c) {
+            true => "Is the temperature in °F? Then convert it",
+            false => "Soak at its ends, or set it to what was soaked",
+        };
+        format!(
+            "the soaks are from {} to {} °C, and campaign.range_c is from {} to {}: goals and standard deviations are of the latter. {asked}",
+            plain(*coldest_c, 3), plain(*hottest_c, 3), plain(*low_c, 3), plain(*high_c, 3)
+        )
+    };
 
     /// A quantity drifts from the first soak to the last.
     Aged "aged" Warning {

@@ -7,11 +7,12 @@
 //! has to be of one temperature.
 //!
 //! The numbers of the first are those that the readings were corrected with, whatever their uncertainty. The covariance is that of the second,
-//! beside that of the first's terms of temperature.
+//! beside that of the first's terms of temperature. Nobody knows at which temperature the second was made: its biases get the largest variance that the first's
+//! polynomials have in their range.
 
 use super::{
-    CalibratedImu, ImuParameters, ImuQuantity, PerSensor, ReadingUnit, SensorKind, SharedErrors, ThermalPart,
-    entry_vector,
+    CalibratedImu, ImuParameters, ImuQuantity, PerSensor, Quantity, ReadingUnit, SensorKind, SharedErrors,
+    ThermalPart, entry_vector,
 };
 use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::{DMatrix, Matrix3};
@@ -110,7 +111,7 @@ impl CalibratedImu {
             |(_, quantity)| matches!(quantity, ImuQuantity::Thermal(kind, _) if self.unit(*kind).is_some()),
         );
         let terms: Vec<(usize, ImuQuantity)> = terms.map(|(k, quantity)| (k, *quantity)).collect();
-        let (covariance, shared) = beside(covariance, shared, &terms, first);
+        let (covariance, shared) = beside(covariance, shared, &terms, (first, &quantities));
         quantities.extend(terms.iter().map(|(_, quantity)| *quantity));
         Ok(Self {
             parameters,
@@ -126,18 +127,43 @@ impl CalibratedImu {
     }
 }
 
+/// The largest variance over the range of what temperature does to a bias; 0 of other quantities.
+fn largest_variance(imu: &CalibratedImu, quantity: ImuQuantity) -> f64 {
+    const STEPS: i32 = 40;
+    let ImuQuantity::Of(kind, Quantity::Bias(axis)) = quantity else { return 0.0 };
+    let thermal = &imu.parameters.thermal;
+    let (Some(sigma), Some([low, high])) = (&imu.covariance, thermal.range_c) else { return 0.0 };
+    let term = |of: &ImuQuantity| match of {
+        ImuQuantity::Thermal(of, term)
+            if *of == kind && term.part == ThermalPart::Bias && term.axis == axis =>
+        {
+            Some(term.order as i32)
+        }
+        _ => None,
+    };
+    let orders: Vec<(usize, i32)> =
+        imu.quantities.iter().enumerate().filter_map(|(k, of)| Some((k, term(of)?))).collect();
+    let variance = |tau_k: f64| -> f64 {
+        let pairs = orders.iter().flat_map(|one| orders.iter().map(move |other| (one, other)));
+        pairs.map(|((i, m), (j, n))| sigma[(*i, *j)] * tau_k.powi(m + n)).sum()
+    };
+    let taus = (0..=STEPS).map(|k| thermal.tau_k(low + (high - low) * f64::from(k) / f64::from(STEPS)));
+    taus.map(variance).fold(0.0, f64::max)
+}
+
 /// The covariance with that of the first's terms of temperature beside it.
 fn beside(
     covariance: Option<DMatrix<f64>>,
     shared: Option<SharedErrors>,
     terms: &[(usize, ImuQuantity)],
-    first: &CalibratedImu,
+    (first, quantities): (&CalibratedImu, &[ImuQuantity]),
 ) -> (Option<DMatrix<f64>>, Option<SharedErrors>) {
     let (Some(covariance), false) = (&covariance, terms.is_empty()) else { return (covariance, shared) };
     let (own, size) = (covariance.nrows(), covariance.nrows() + terms.len());
     let of_terms =
         |i: usize, j: usize| first.covariance.as_ref().map_or(0.0, |sigma| sigma[(terms[i].0, terms[j].0)]);
     let both = DMatrix::from_fn(size, size, |i, j| match (i.checked_sub(own), j.checked_sub(own)) {
+        (None, None) if i == j => covariance[(i, i)] + largest_variance(first, quantities[i]),
         (None, None) => covariance[(i, j)],
         (Some(i), Some(j)) => of_terms(i, j),
         _ => 0.0,

@@ -63,7 +63,7 @@ pub(super) fn coefficients(sensor_kind: SensorKind, terms: &SensorThermal, unit:
     ] {
         for (m, value) in values.iter().take(highest).enumerate() {
             let power = if m > 0 { format!("^{}", m + 1) } else { String::new() };
-            let _ = writeln!(out, "\n/* What 1 K does to its {part}, ({unit}) per K{power}. */");
+            let _ = writeln!(out, "\n/* Coefficient of tau{power} of its {part}, ({unit}) per K{power}. */");
             let _ = writeln!(
                 out,
                 "static const CALIBRANT_REAL {}[3] = {};",

@@ -127,6 +127,11 @@ impl Header {
         self.seed.is_some()
     }
 
+    /// Is it the calibration of a campaign?
+    pub(super) fn is_of_several_soaks(&self) -> bool {
+        self.kind.as_deref() == Some(CampaignCalibrationFile::KIND)
+    }
+
     /// Did it converge, or is there nothing to converge?
     fn has_converged(&self) -> bool {
         self.status.as_ref().is_none_or(|status| status == CalibrationStatus::Converged.name())

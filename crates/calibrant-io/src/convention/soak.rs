@@ -47,6 +47,10 @@ struct SoakCore {
 /// The text is no calibration of calibrant that converged, or its recording had no temperature.
 pub fn parse_soak(text: &str, name: &str) -> Checked<ReadSoak> {
     let header = Header::of(text)?;
+    if header.is_of_several_soaks() {
+        let message = "this is the calibration of several soaks already";
+        return Err(invalid(message, "give the calibration.json of each soak, or its recording"));
+    }
     let (imu, inputs) = header.core(text)?.into_imu()?;
     let fields: SoakFields =
         serde_json::from_str(text).map_err(|error| super::calibrant_json::broken(&error))?;

@@ -5,9 +5,11 @@ use super::c_constants::vector;
 use super::words::written_by;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::number_format::plain;
-use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{
+    Axis, CalibratedImu, ImuParameters, ImuQuantity, Quantity, SensorKind, ThermalPart,
+};
 use calibrant_recording::files::atomic_output::write_text;
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -72,22 +74,33 @@ pub fn write_temperature_table(path: &Path, imu: &CalibratedImu, step_k: f64) ->
 
 fn row(imu: &CalibratedImu, kind: SensorKind, celsius: f64) -> Result<Row> {
     let at = imu.at(celsius)?;
-    let sd = |of: fn(calibrant_core::sensor::Axis) -> Quantity| {
-        Vector3::from_iterator(calibrant_core::sensor::Axis::ALL.map(|axis| {
-            let place =
-                at.quantities.iter().position(|quantity| *quantity == ImuQuantity::Of(kind, of(axis)));
-            let variance = place.zip(at.covariance.as_ref()).map_or(0.0, |(k, sigma)| sigma[(k, k)]);
-            variance.max(0.0).sqrt()
-        }))
-    };
-    let before = imu.parameters.sensor(kind).matrix.diagonal();
-    let after = at.parameters.sensor(kind);
+    let thermal = &imu.parameters.thermal;
+    let bias_sd = Axis::ALL.map(|axis| {
+        let bias = ImuQuantity::Of(kind, Quantity::Bias(axis));
+        let place = at.quantities.iter().position(|quantity| *quantity == bias);
+        place.zip(at.covariance.as_ref()).map_or(0.0, |(k, sigma)| sigma[(k, k)]).max(0.0).sqrt()
+    });
     Ok(Row {
-        bias: after.bias,
-        bias_sd: sd(Quantity::Bias),
-        factor: after.matrix.diagonal().component_div(&before),
-        factor_sd: sd(Quantity::Scale).component_div(&before.map(f64::abs)),
+        bias: at.parameters.sensor(kind).bias,
+        bias_sd: bias_sd.into(),
+        factor: thermal.sensor(kind).gain_factor(thermal.tau_k(celsius)),
+        factor_sd: Axis::ALL.map(|axis| factor_sd(imu, kind, axis, thermal.tau_k(celsius))).into(),
     })
+}
+
+/// Standard deviation of the gain of an axis over that at the reference: of its terms of temperature alone.
+fn factor_sd(imu: &CalibratedImu, kind: SensorKind, axis: Axis, tau_k: f64) -> f64 {
+    let Some(sigma) = &imu.covariance else { return 0.0 };
+    let power = |quantity: &ImuQuantity| match quantity {
+        ImuQuantity::Thermal(of, term)
+            if *of == kind && term.part == ThermalPart::Scale && term.axis == axis =>
+        {
+            term.power(tau_k)
+        }
+        _ => 0.0,
+    };
+    let row = DVector::from_iterator(imu.quantities.len(), imu.quantities.iter().map(power));
+    row.dot(&(sigma * &row)).max(0.0).sqrt()
 }
 
 /// What lines between the rows err by.
@@ -137,7 +150,7 @@ fn csv(
     out.push_str("temperature_c");
     for kind in kinds {
         let unit = imu.unit(*kind).map_or("", |unit| unit.suffix());
-        for (what, ending) in [("bias", format!("_{unit}")), ("gain", String::new())] {
+        for (what, ending) in [("bias", format!("_{unit}")), ("gain_factor", String::new())] {
             for (sd, axis) in ["", "_sd"].into_iter().flat_map(|sd| ["x", "y", "z"].map(|axis| (sd, axis))) {
                 let _ = write!(out, ",{kind}.{what}.{axis}{sd}{ending}");
             }
@@ -171,10 +184,11 @@ fn header(
     }
     let _ = write!(
         out,
-        " *\n * A reading y becomes (y - bias) / gain of its axis at the temperature; the matrix of the correction at the reference follows.\n */\n\
+        " *\n * A reading y becomes (y - bias) / gain of its axis at the temperature: gains are over those at {:?} degrees Celsius.\n * The matrix of the C header, which is of that temperature, then corrects it.\n */\n\
          #ifndef CALIBRANT_TABLE_H\n#define CALIBRANT_TABLE_H\n\n#ifndef CALIBRANT_REAL\n#define CALIBRANT_REAL double\n#endif\n\n\
          #define CALIBRANT_TABLE_ROWS {count}\n\n/* Temperatures of the rows, degrees Celsius. */\n\
          static const CALIBRANT_REAL calibrant_table_c[CALIBRANT_TABLE_ROWS] = {{{}}};\n",
+        imu.parameters.thermal.reference_c,
         temperatures.iter().map(|celsius| format!("{celsius:?}")).collect::<Vec<_>>().join(", ")
     );
     for (kind, of_sensor) in kinds.iter().zip(rows) {

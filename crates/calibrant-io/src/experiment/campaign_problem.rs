@@ -55,7 +55,8 @@ impl Experiment {
         };
         let there = section.channels().into_iter().zip(section.orders).take(campaign.channels.len());
         let reference_c = thermal.reference_c.unwrap_or(REFERENCE_C.clamp(low, high));
-        Ok(Some(CampaignModel { orders: there.map(order).collect(), reference_c, campaign }))
+        let orders = there.map(order).collect();
+        Ok(Some(CampaignModel { orders, reference_c, campaign, one_recording: false }))
     }
 
     /// What is fitted to a recording in one pose whose temperature goes over this range, at this rate at most: the biases, with the orders of `[temperature]`. `None`
@@ -89,6 +90,7 @@ impl Experiment {
         orders.iter().any(|order| *order > 0).then(|| CampaignModel {
             campaign,
             orders: orders.to_vec(),
+            one_recording: true,
             reference_c,
         })
     }

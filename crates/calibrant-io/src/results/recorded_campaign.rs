@@ -9,6 +9,9 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// The least scatter that is planned with, over the stated one.
+const LEAST: f64 = 0.5;
+
 #[derive(Deserialize)]
 struct Recorded {
     kind: Option<String>,
@@ -50,7 +53,9 @@ pub fn with_recorded_soaks(campaign: &Campaign, path: &Path) -> Result<Campaign>
     let mut campaign = campaign.clone();
     for channel in &mut campaign.channels {
         if let Some(found) = recorded.channels.iter().find(|found| found.name == channel.name) {
-            (channel.soak_sd, channel.lag_scatter) = (found.soak_sd, found.lag_scatter);
+            // none that is seen in few soaks is not none
+            channel.soak_sd = found.soak_sd.max(LEAST * channel.soak_sd);
+            channel.lag_scatter = found.lag_scatter;
         }
     }
     let known = campaign.recorded.clone();

@@ -135,7 +135,7 @@ const FRAME: &str = "that of each sensor: one pose shows no axis";
 /// Mean of the readings between two times, and its variance for white noise; `None` with fewer than two samples.
 fn mean_between(sensor: &Recording, (start_s, end_s): (f64, f64)) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let first = sensor.times_s().partition_point(|t| *t < start_s);
-    let end = sensor.times_s().partition_point(|t| *t <= end_s);
+    let end = sensor.times_s().partition_point(|t| *t < end_s);
     let readings = sensor.readings().get(first..end).filter(|readings| readings.len() > 1)?;
     let count = readings.len() as f64;
     let steps = readings.windows(2).map(|pair| (pair[1] - pair[0]).map(|step| 0.5 * step * step));
