@@ -9,6 +9,7 @@ from __future__ import annotations
 from . import fleet
 from ._calibrate import calibrate
 from ._calibration import Calibration, Converted, Parameter, ResidualSeries
+from ._campaign import CampaignDesign, SimulatedCampaign, Soak, design_campaign, simulate_campaign
 from ._compare import Comparison, compare
 from ._design import Design, assess, design
 from ._diagnostic import Diagnostic
@@ -52,6 +53,7 @@ __all__ = [
     "CalibrantError",
     "Calibration",
     "CalibrationWarning",
+    "CampaignDesign",
     "Comparison",
     "Converted",
     "Design",
@@ -76,7 +78,9 @@ __all__ = [
     "ResidualSeries",
     "Samples",
     "SensorNoise",
+    "SimulatedCampaign",
     "Simulation",
+    "Soak",
     "Study",
     "Sweep",
     "TrajectoryAssessment",
@@ -90,6 +94,7 @@ __all__ = [
     "codes",
     "compare",
     "design",
+    "design_campaign",
     "design_poses",
     "design_trajectory",
     "explain",
@@ -100,6 +105,7 @@ __all__ = [
     "read_recording",
     "recording",
     "simulate",
+    "simulate_campaign",
     "study",
     "sweep",
 ]

@@ -13,7 +13,7 @@ from ._exceptions import CalibrationWarning, experiment_error
 from ._experiment import Experiment, presets
 from ._motion import as_native_motion
 from ._progress import Progress, Told
-from ._recording import Recording, as_readings, as_source, like_of, origin_of, read_recording
+from ._recording import Recording, as_readings, as_soak, as_source, like_of, origin_of, read_recording
 
 AnyExperiment = Any
 """An :class:`Experiment`, a path of an experiment file, the name of a preset, or ``"auto"``."""
@@ -47,8 +47,10 @@ def calibrate(
 
     Parameters
     ----------
-    recording : path, bytes, frame or Recording
+    recording : path, bytes, frame or Recording; or a list of them
         The recording. What a file does not state goes to :func:`read_recording`, or to ``[columns]`` of the experiment.
+        A list is of the soaks of a campaign over temperature, in the order of time, each a recording of its own: the experiment has ``[campaign]``, and the result is
+        one calibration over temperature. Calibrations of the soaks do in place of their recordings.
     experiment : Experiment, path or str
         What is known of the sensor, and what was done with it: an :class:`Experiment`, an experiment file, the name of a preset,
         or ``"auto"``: turned by hand and held still, an accelerometer or an IMU, as the recording has it.
@@ -86,7 +88,8 @@ def calibrate(
     Returns
     -------
     Calibration
-        With a :exc:`CalibrationWarning` where its verdict is not ``ok``.
+        With a :exc:`CalibrationWarning` where its verdict is not ``ok``. A recording in one pose whose temperature changes gives the biases over temperature,
+        where ``[temperature]`` has their orders.
 
     Raises
     ------
@@ -107,16 +110,15 @@ def calibrate(
     >>> abs(cal["accelerometer.scale.x"].value - simulated.truth["accelerometer.scale.x"]) < 5 * cal["accelerometer.scale.x"].sd
     True
     """
-    made = _experiment_of(recording, experiment)
+    soaks = list(recording) if isinstance(recording, (list, tuple)) else None
+    made = _experiment_of(recording, experiment) if soaks is None else _of_campaign(experiment)
     if gravity_mps2 is not None:
         made = made.replace(**{made.kind: {"gravity_mps2": gravity_mps2}})
     if motion is not None and log is not None:
         raise experiment_error("`motion` and `log` are both there", "leave one of them away", code="options-contradict")
-    source, reading = as_source(recording, sections=sections, further=together)
-    other = None if validate is None else _native.Source(as_readings(validate))
     options: dict[str, Any] = {
         "experiment_file": made._path or "",
-        "reading": {**reading, "rows_are_holds": rows_are_holds},
+        "reading": {"rows_are_holds": rows_are_holds},
         "folds": folds,
         "accept": None if accept is None else os.fspath(accept),
         "allow": list(allow or ()),
@@ -126,6 +128,18 @@ def calibrate(
         "station": station,
         "report": True,
     }
+    if soaks is not None:
+        of_one = {
+            "motion": motion, "log": log, "validate": validate, "validate_log": validate_log, "folds": folds,
+            "sections": sections, "together": together or None, "rows_are_holds": rows_are_holds or None, "accept": accept,
+        }
+        refused = [name for name, value in of_one.items() if value is not None]
+        if refused:
+            raise experiment_error(f"`{refused[0]}` is not for a campaign over temperature", "leave it away", code="options-contradict")
+        return _judged(_over_temperature(soaks, made, options, threads, progress))
+    source, reading = as_source(recording, sections=sections, further=together)
+    options["reading"].update(reading, rows_are_holds=rows_are_holds)
+    other = None if validate is None else _native.Source(as_readings(validate))
     with Told(progress) as told:
         outcome = _native.calibrate(
             made._native,
@@ -137,11 +151,54 @@ def calibrate(
             threads=thread_count(threads),
             progress=told,
         )
-    found = Calibration(outcome.json(), outcome, like=like_of(recording))
+    return _judged(Calibration(outcome.json(), outcome, like=like_of(recording)))
+
+
+def _judged(found: Calibration) -> Calibration:
     if found.verdict != "ok":
         codes = ", ".join((found.data.get("verdict") or {}).get("codes") or ())
-        warnings.warn(f"the calibration is {found.verdict}: {codes}; see its diagnostics", CalibrationWarning, stacklevel=2)
+        warnings.warn(f"the calibration is {found.verdict}: {codes}; see its diagnostics", CalibrationWarning, stacklevel=3)
     return found
+
+
+def _of_campaign(experiment: AnyExperiment) -> Experiment:
+    remedy = (
+        "give the further recordings as `together=` where they are of one temperature, and an experiment with [campaign] "
+        'where they are soaks: see `Experiment.preset("campaign")`'
+    )
+    if isinstance(experiment, str) and experiment == "auto":
+        raise experiment_error("several recordings are given, and no experiment", remedy, code="experiment-unsuited")
+    made = as_experiment(experiment)
+    if not made._is_campaign:
+        message = "several recordings are given, and the experiment has no [campaign]"
+        raise experiment_error(message, remedy, code="experiment-unsuited")
+    return made
+
+
+def _over_temperature(
+    soaks: list[Any], made: Experiment, options: dict[str, Any], threads: int | None, progress: Progress
+) -> Calibration:
+    calibrated = [of for of in soaks if isinstance(of, Calibration)]
+    if not soaks:
+        raise experiment_error("there is no soak", "give the recordings of all soaks", code="recording-missing")
+    if not calibrated:
+        sources = [as_soak(of, number) for number, of in enumerate(soaks, 1)]
+        with Told(progress) as told:
+            outcome = _native.calibrate_campaign(
+                made._native, sources, as_json(options), threads=thread_count(threads), progress=told
+            )
+        return Calibration(outcome.json(), outcome, like=like_of(soaks[0]))
+    if len(calibrated) < len(soaks):
+        message = "some soaks are recordings, and some are calibrations"
+        raise experiment_error(message, "give the recordings of all soaks, or the calibration of each", code="options-contradict")
+    named = [(_name_of(of, number), of.to_json()) for number, of in enumerate(calibrated, 1)]
+    outcome = _native.calibrate_soaks(made._native, named, as_json(options))
+    return Calibration(outcome.json(), outcome, like=calibrated[0]._like)
+
+
+def _name_of(soak: Calibration, number: int) -> str:
+    files = [of.get("file") for of in soak.data.get("inputs") or ()]
+    return str(files[0]) if files and files[0] not in (None, "recording") else f"soak {number}"
 
 
 def as_experiment(experiment: AnyExperiment) -> Experiment:
@@ -157,17 +214,22 @@ def as_experiment(experiment: AnyExperiment) -> Experiment:
     )
 
 
-_DESIGNS = {"holds": "design_poses", "motion": "design", "machine": "design_trajectory"}
+_DESIGNS = {
+    "holds": "`design_poses(…)`, or `assess_poses(…)` for what you have",
+    "campaign": "`design_campaign(…)`",
+    "motion": "`design(…)`, or `assess(…)` for what you have",
+    "machine": "`design_trajectory(…)`, or `assess_trajectory(…)` for what you have",
+}
 
 
 def experiment_of_kind(experiment: AnyExperiment, kind: str) -> Experiment:
-    """An experiment whose sensor is moved in this way: ``"holds"``, ``"motion"`` or ``"machine"``."""
+    """An experiment whose sensor is moved in this way: ``"holds"``, ``"campaign"``, ``"motion"`` or ``"machine"``."""
     made = as_experiment(experiment)
-    if made.kind != kind:
-        message = f"the experiment has [{made.kind}], and this is for [{kind}]"
-        design = _DESIGNS[made.kind]
-        remedy = f"use `{design}(…)`, or `{design.replace('design', 'assess')}(…)` for what you have"
-        raise experiment_error(message, remedy, code="experiment-unsuited")
+    own = "campaign" if made._is_campaign else made.kind
+    if own != kind:
+        message = f"the experiment has [{own}], and this is for [{kind}]"
+        preset = 'see `Experiment.preset("campaign")`; for this one ' if kind == "campaign" else ""
+        raise experiment_error(message, f"{preset}use {_DESIGNS[own]}", code="experiment-unsuited")
     return made
 
 

@@ -155,7 +155,12 @@ class Calibration:
     @property
     def correlation(self) -> Array:
         """Correlation, (p, p)."""
-        return self._matrix("correlation")
+        if "correlation" in self.data:
+            return self._matrix("correlation")
+        covariance = self.covariance
+        sd = np.sqrt(np.diag(covariance))
+        correlation: Array = covariance / np.outer(sd, sd)
+        return correlation
 
     @property
     def budget(self) -> dict[str, Array]:
@@ -302,6 +307,12 @@ class Calibration:
         from ._plots import correlation
 
         return correlation(self, ax)
+
+    def plot_temperature(self, ax: Axes | None = None, *, sensor: Literal["accelerometer", "gyroscope"] = "accelerometer") -> Axes:
+        """Draw the bias of each axis of a sensor over temperature, with two standard deviations; returns the axes."""
+        from ._plots import temperature
+
+        return temperature(self, sensor, ax)
 
     # its use
 
@@ -469,7 +480,7 @@ class Calibration:
             with open(path, encoding="utf-8") as file:
                 own = file.read()
             data = json.loads(own)
-            if isinstance(data, dict) and data.get("kind") in ("calibration", "machine"):
+            if isinstance(data, dict) and data.get("kind") in ("calibration", "campaign-calibration", "machine"):
                 text = own
         except (OSError, ValueError):
             pass

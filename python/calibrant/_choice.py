@@ -16,19 +16,24 @@ Known = Union[Calibration, Iterable[Calibration]]
 
 def choice(*, known: Known = (), certificate: bool = True, reach: Reach | None = None, **others: Any) -> str:
     """The choice as JSON. What is ``None`` is as the experiment says."""
-    earlier = [known] if isinstance(known, Calibration) else list(known or ())
-    for calibration in earlier:
-        if not isinstance(calibration, Calibration):
-            raise experiment_error(f"`known` has {type(calibration).__name__}", "give calibrations")
     goals = [] if reach is None else [_goal(name, sd) for name, sd in _items(reach)]
     return as_json(
         {
-            "known": [calibration.to_json() for calibration in earlier],
+            "known": texts_of(known),
             "without_certificate": not certificate,
             "reach": goals,
             **others,
         }
     )
+
+
+def texts_of(known: Known) -> list[str]:
+    """The texts of earlier calibrations."""
+    earlier = [known] if isinstance(known, Calibration) else list(known or ())
+    for calibration in earlier:
+        if not isinstance(calibration, Calibration):
+            raise experiment_error(f"`known` has {type(calibration).__name__}", "give calibrations")
+    return [calibration.to_json() for calibration in earlier]
 
 
 def _items(reach: Reach) -> Iterable[tuple[str, float | str]]:

@@ -23,7 +23,7 @@ class Experiment:
     Parameters
     ----------
     **sections
-        ``sensor``, one of ``holds``, ``motion`` and ``machine``, and where needed ``gyroscope``, ``limits``, ``accept``, ``design``, ``known``, ``temperature``, ``columns``, ``calibrate``, ``study``.
+        ``sensor``, one of ``holds``, ``motion`` and ``machine``, and where needed ``gyroscope``, ``limits``, ``accept``, ``design``, ``known``, ``temperature``, ``campaign``, ``columns``, ``calibrate``, ``study``.
 
     Raises
     ------
@@ -90,6 +90,10 @@ class Experiment:
     def kind(self) -> str:
         """How the sensor is moved: ``"holds"``, ``"motion"`` or ``"machine"``."""
         return str(self._about["plan"]).strip("[]")
+
+    @property
+    def _is_campaign(self) -> bool:
+        return bool(self._about["is_campaign"])
 
     @property
     def _files(self) -> list[str]:

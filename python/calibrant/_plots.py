@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ._calibration import Calibration
+    from ._campaign import CampaignDesign
     from ._compare import Comparison
     from ._design import Design
     from ._motion import Joints
@@ -121,6 +122,81 @@ def correlation(calibration: Calibration, ax: Axes | None) -> Axes:
     ax.set_yticks(range(len(names)), names, fontsize="x-small")
     ax.figure.colorbar(image, ax=ax, label="correlation", shrink=0.8)
     return ax
+
+
+def temperature(calibration: Calibration, sensor: str, ax: Axes | None) -> Axes:
+    """Bias of each axis over temperature, with a band of two standard deviations."""
+    powers = ("bias", "bias_per_k", *(f"bias_per_k{order}" for order in range(2, 6)))
+    names, thermal = list(calibration), calibration.data.get("temperature") or {}
+    reference_c = float(thermal.get("reference_c", 0.0))
+    low, high = thermal.get("range_c") or (reference_c - 25.0, reference_c + 25.0)
+    celsius = np.linspace(low, high, 201)
+    of_axis = {
+        axis: {order: names.index(f"{sensor}.{part}.{axis}") for order, part in enumerate(powers) if f"{sensor}.{part}.{axis}" in names}
+        for axis in "xyz"
+    }
+    if not any(order > 0 for places in of_axis.values() for order in places):
+        message = f"no bias of the {sensor} follows temperature in this calibration"
+        raise experiment_error(message, "set its order in [temperature], or draw the other `sensor`", code="calibration-unsuited")
+    ax, (values, covariance) = _axes(ax), (calibration.values, calibration.covariance)
+    is_change = False
+    for axis, places in of_axis.items():
+        if not places:
+            continue
+        is_change |= 0 not in places
+        rows = np.stack([(celsius - reference_c) ** order for order in places], axis=1)
+        listed = list(places.values())
+        bias = rows @ values[listed]
+        sd = np.sqrt(np.maximum(np.einsum("ti,ij,tj->t", rows, covariance[np.ix_(listed, listed)], rows), 0.0))
+        ax.plot(celsius, bias, color=AXES[axis], label=axis)
+        ax.fill_between(celsius, bias - 2.0 * sd, bias + 2.0 * sd, color=AXES[axis], alpha=0.2, linewidth=0)
+    ax.set_xlabel("temperature (°C)")
+    unit = (calibration.data.get(sensor) or {}).get("reading_unit") or ""
+    what = f"bias less that at {reference_c:g} °C" if is_change else "bias"
+    ax.set_ylabel(f"{what} of the {sensor} ({unit}), ±2 sd")
+    _legend(ax, columns=3)
+    return _clean(ax)
+
+
+_ROOM_C = 25.0
+
+
+def chamber(design: CampaignDesign, ramp_k_per_min: float, ax: Axes | None) -> Axes:
+    """Temperature of the chamber over time, and the holds in it."""
+    ax = _axes(ax)
+    ends = tuple(design.data["range_c"])
+    at_min, at_c = 0.0, _ROOM_C
+    times, temperatures = [at_min], [at_c]
+    for soak in design.soaks:
+        for celsius in _way(at_c, soak.temperature_c, ramp_k_per_min * (soak.begin_min - at_min), ends):
+            at_min, at_c = at_min + abs(celsius - at_c) / ramp_k_per_min, celsius
+            times.append(at_min)
+            temperatures.append(at_c)
+        at_min = soak.end_min
+        times.append(at_min)
+        temperatures.append(at_c)
+    times.append(at_min + abs(_ROOM_C - at_c) / ramp_k_per_min)
+    temperatures.append(_ROOM_C)
+    ax.plot(times, temperatures, color=GREY, linewidth=1.0)
+    for direction, colour in (("up", VERMILLION), ("down", BLUE)):
+        side = {"up": "below", "down": "above"}[direction]
+        label: str | None = f"holds, reached from {side}"
+        for soak in design.soaks:
+            if soak.direction == direction:
+                span = [soak.begin_min + soak.wait_min, soak.end_min]
+                ax.plot(span, [soak.temperature_c] * 2, color=colour, linewidth=4.0, solid_capstyle="butt", label=label)
+                label = None
+    ax.set_xlabel("time (min)")
+    ax.set_ylabel("temperature of the chamber (°C)")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize="small", frameon=False)
+    return _clean(ax)
+
+
+def _way(from_c: float, to_c: float, length_k: float, ends: tuple[float, ...]) -> list[float]:
+    """Where the chamber turns on its way of this length: at an end of the range, at both, or nowhere."""
+    low, high = ends
+    ways = [[to_c], [high, to_c], [low, to_c], [high, low, to_c]]
+    return min(ways, key=lambda way: abs(sum(abs(b - a) for a, b in zip([from_c, *way], way)) - length_k))
 
 
 def motion(design: Design, ax: Axes | None) -> Axes:

@@ -414,6 +414,19 @@ def as_readings(source: Any) -> _native.Readings:
     return _readings_of((None, [_part(source)]))[0][0]
 
 
+def as_soak(source: Any, number: int) -> _native.Source:
+    """A recording among others; one without a name gets that of a soak."""
+    soak = f"soak {number}"
+    if not isinstance(source, Recording):
+        part = _part(source)
+        return _native.Source(_readings_of((None if part[0] == "path" else soak, [part]))[0][0])
+    called = soak if source.name == "recording" else source.name
+    if source._reading:
+        return _native.Source(source._read.readings(called))
+    readings, _ = _readings_of((called if source._rebuild[1][0][0] != "path" else None, source._rebuild[1]))
+    return _native.Source(readings[0], readings[1] if len(readings) > 1 else None)
+
+
 def like_of(source: Any) -> Any:
     """The library of a frame, also of one that was read."""
     if isinstance(source, Recording):

@@ -62,6 +62,7 @@ def page_html(page: str) -> str:
 
 
 _HEAD = ("parameter", "value", "sd", "unit")
+_MOST_FILES = 4
 
 
 def _facts(calibration: Calibration) -> list[tuple[str, str]]:
@@ -74,11 +75,14 @@ def _facts(calibration: Calibration) -> list[tuple[str, str]]:
     if calibration.sensor:
         facts.append(("sensor", calibration.sensor))
     inputs = data.get("inputs") or []
-    if inputs:
+    if len(inputs) > _MOST_FILES:
+        facts.append(("recordings", f"{len(inputs)}: {inputs[0].get('file')} … {inputs[-1].get('file')}"))
+    elif inputs:
         facts.append(("recording", ", ".join(str(of.get("file")) for of in inputs)))
         facts.append(("samples", ", ".join(f"{of['samples']} at {of['rate_hz']:g} Hz" for of in inputs if "samples" in of)))
     if data.get("status"):
-        facts.append(("estimation", f"{data['status']} in {data.get('iterations')} iterations"))
+        iterations = data.get("iterations")
+        facts.append(("estimation", str(data["status"]) + ("" if iterations is None else f" in {iterations} iterations")))
     if fit.get("chi2") is not None:
         text = f"{significant(fit['chi2'])} for {fit.get('degrees_of_freedom')} degrees of freedom"
         if fit.get("p_value") is not None:

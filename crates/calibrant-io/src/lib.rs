@@ -65,7 +65,8 @@ pub use places::sensor_naming::{NamedRecording, SensorNaming};
 pub use results::batch::{BatchEntry, calibrations_json};
 pub use results::calibration::CalibrationFile;
 pub use results::campaign::{
-    CampaignFile, CampaignSweepFile, read_campaign_csv, write_campaign_csv, write_campaign_sweep_csv,
+    CampaignFile, CampaignRow, CampaignSweepFile, read_campaign_csv, write_campaign_csv,
+    write_campaign_sweep_csv,
 };
 pub use results::campaign_calibration::CampaignCalibrationFile;
 pub use results::campaign_study::CampaignStudyFile;
@@ -82,7 +83,7 @@ pub use results::noise::NoiseFile;
 pub use results::origin::Origin;
 pub use results::pose_design::{PoseDesignFile, PoseEvaluationFile};
 pub use results::reach::{Reached, ReachedGoal};
-pub use results::recorded_campaign::with_recorded_soaks;
+pub use results::recorded_campaign::{with_recorded_soaks, with_soaks_of};
 #[cfg(feature = "study")]
 pub use results::study::StudyFile;
 pub use results::summary::{Failure, Summary, SummaryParameter, SummaryRow, unit_ending, write_summary};

@@ -7,14 +7,23 @@ use crate::motion::Motion;
 use crate::options::{Calibrate, parsed};
 use crate::source::Source;
 use crate::work::{How, Run, run, run_as};
+use calibrant::diagnostic::Diagnostic;
+use calibrant::error::{InputError, Refusal};
 use calibrant::session::{Given, Outcome as Found, Session, SessionOptions};
+use calibrant::{CampaignCalibration, Error};
 use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
 
 /// A calibration with its report and its residuals.
 #[pyclass(frozen)]
-pub(crate) struct Outcome(Arc<Found>);
+pub(crate) struct Outcome(Arc<Kept>);
+
+enum Kept {
+    OfRecording(Box<Found>),
+    /// With what was noticed beside it.
+    OverTemperature(Box<CampaignCalibration>, Vec<Diagnostic>),
+}
 
 /// Kind, sensor, axis and unit of residuals; then times, residuals, standard deviations, and weights.
 type Series<'py> = ((&'static str, &'static str, Option<&'static str>, &'static str), [Numbers<'py>; 4]);
@@ -52,48 +61,98 @@ pub(crate) fn calibrate(
         };
         let mut notes = given.unused_by(&experiment.read);
         let options = SessionOptions { interruption, progress, ..options };
-        let session = Session::with(experiment.read, options)?;
-        let mut outcome = session.calibrate(&source)?;
+        // without orders of its own, a recording of a campaign is one soak
+        let is_soak = experiment.read.campaign_section().is_some()
+            && experiment.read.imu.as_ref().is_some_and(|imu| imu.thermal.is_none());
+        let read = if is_soak && source.further.is_empty() {
+            experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?
+        } else {
+            experiment.read
+        };
+        let session = Session::with(read, options)?;
         notes.extend_from_slice(session.notes());
-        outcome.notes.splice(0..0, notes);
-        Ok(Outcome(Arc::new(outcome)))
+        match session.calibrate(&source) {
+            Ok(mut outcome) => {
+                outcome.notes.splice(0..0, notes);
+                Ok(Outcome(Arc::new(Kept::OfRecording(Box::new(outcome)))))
+            }
+            Err(error) if error.is_not_identifiable() => match session.one_pose(&source)? {
+                Some(found) => Ok(Outcome::over_temperature(found, notes)),
+                None => Err(error),
+            },
+            Err(error) => Err(error),
+        }
     })
+}
+
+impl Outcome {
+    pub(crate) fn over_temperature(found: CampaignCalibration, notes: Vec<Diagnostic>) -> Self {
+        Self(Arc::new(Kept::OverTemperature(Box::new(found), notes)))
+    }
 }
 
 #[pymethods]
 impl Outcome {
     /// The text of `calibration.json`.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let found = Arc::clone(&self.0);
-        run(py, move || Ok(found.json()))
+        self.of(py, |kept| match kept {
+            Kept::OfRecording(found) => Ok(found.json()),
+            Kept::OverTemperature(found, _) => Ok(found.json()),
+        })
     }
 
     /// What was noticed beside the warnings, which the text of the calibration has.
     fn notes(&self) -> String {
-        json!(self.0.notes).to_string()
+        let notes = match self.0.as_ref() {
+            Kept::OfRecording(found) => &found.notes,
+            Kept::OverTemperature(_, notes) => notes,
+        };
+        json!(notes).to_string()
     }
 
     /// The text of `report.html`.
     fn html(&self, py: Python<'_>) -> PyResult<String> {
-        let found = Arc::clone(&self.0);
-        run(py, move || Ok(found.report_html()))
+        self.of(py, |kept| match kept {
+            Kept::OfRecording(found) => Ok(found.report_html()),
+            Kept::OverTemperature(found, _) => Ok(found.sheet().html()),
+        })
     }
 
     /// The sheet as text.
     fn text(&self, py: Python<'_>, width: usize) -> PyResult<String> {
-        let found = Arc::clone(&self.0);
-        run(py, move || Ok(found.sheet().text(width)))
+        self.of(py, move |kept| match kept {
+            Kept::OfRecording(found) => Ok(found.sheet().text(width)),
+            Kept::OverTemperature(found, _) => Ok(found.sheet().text(width)),
+        })
     }
 
     /// The residuals.
     fn residuals<'py>(&self, py: Python<'py>) -> PyResult<Vec<Series<'py>>> {
-        let found = Arc::clone(&self.0);
-        let residuals = run(py, move || Ok(found.residuals()))?;
+        let residuals = self.of(py, |kept| match kept {
+            Kept::OfRecording(found) => Ok(found.residuals()),
+            Kept::OverTemperature(..) => Err(Error::experiment(InputError::new(
+                Refusal::CalibrationUnsuited,
+                "a calibration over temperature has no residuals over time",
+                "see `data[\"soaks\"]`: what each soak differs by from the fit",
+            ))),
+        })?;
         let series = residuals.series.iter().map(|of| {
             let axis = of.axis.map(|axis| ["x", "y", "z"][axis.index()]);
             let columns = [&of.times_s, &of.residuals, &of.sd, &of.weights].map(|list| as_array(py, list));
             ((of.kind, of.sensor.name(), axis, of.unit), columns)
         });
         Ok(series.collect())
+    }
+}
+
+impl Outcome {
+    /// What a look at it gives.
+    fn of<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        look: impl FnOnce(&Kept) -> calibrant::Result<T> + Send + 'static,
+    ) -> PyResult<T> {
+        let kept = Arc::clone(&self.0);
+        run(py, move || look(&kept))
     }
 }

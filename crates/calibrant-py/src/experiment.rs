@@ -27,7 +27,7 @@ impl Experiment {
         Ok(Self { read, file: path.unwrap_or_default() })
     }
 
-    /// Kind of plan, sensors, hash, and the files that it names.
+    /// Kind of plan, whether it is a campaign, sensors, hash, and the files that it names.
     fn about(&self) -> String {
         let of = &self.read;
         let files = match &of.plan {
@@ -35,7 +35,7 @@ impl Experiment {
             _ => Vec::new(),
         };
         json!({
-            "plan": of.plan.section(), "is_imu": of.imu.is_some(), "sha256": of.origin().sha256, "files": files,
+            "plan": of.plan.section(), "is_campaign": of.campaign_section().is_some(), "is_imu": of.imu.is_some(), "sha256": of.origin().sha256, "files": files,
         })
         .to_string()
     }

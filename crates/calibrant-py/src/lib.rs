@@ -11,6 +11,7 @@ mod arrays;
 mod batch;
 mod calibrate;
 mod calibration;
+mod campaign;
 mod choice;
 mod design;
 mod experiment;
@@ -26,6 +27,7 @@ mod recording;
 mod records;
 mod series;
 mod simulate;
+mod soaks;
 mod source;
 mod study;
 mod sweep;
@@ -60,6 +62,8 @@ mod _native {
     #[pymodule_export]
     use crate::calibration::{Correction, compare, convert_calibration, read_calibration};
     #[pymodule_export]
+    use crate::campaign::{CampaignSimulation, design_campaign, simulate_campaign};
+    #[pymodule_export]
     use crate::design::{assess, design};
     #[pymodule_export]
     use crate::experiment::{Experiment, merged, preset_text, presets, sections_of};
@@ -79,6 +83,8 @@ mod _native {
     use crate::records::Records;
     #[pymodule_export]
     use crate::simulate::{Simulation, simulate};
+    #[pymodule_export]
+    use crate::soaks::{calibrate_campaign, calibrate_soaks};
     #[pymodule_export]
     use crate::source::{Readings, Source};
     #[pymodule_export]

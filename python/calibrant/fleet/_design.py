@@ -83,6 +83,9 @@ class DesignTask:
 def _designed(experiment: Experiment, choice: str, threads: int | None) -> dict[str, Any]:
     found: Design | PoseDesign | TrajectoryDesign
     times: Any = None
+    if experiment._is_campaign:
+        message = "campaigns over temperature are designed one by one"
+        raise experiment_error(message, "use `design_campaign(…)`", code="experiment-unsuited")
     if experiment.kind == "machine":
         found = TrajectoryDesign(*_native.design_trajectory(experiment._native, choice, threads=threads))
         times, axes, track = found.joints.t_s, list(found.joints.names), found.joints.positions

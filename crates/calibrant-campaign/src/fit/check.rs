@@ -184,6 +184,5 @@ pub(super) fn open(channels: &[Channel], paths: &[SoakPath]) -> Error {
                 temperatures.len().saturating_sub(1)
             ),
         }],
-        ..NotIdentifiable::default()
     }))
 }

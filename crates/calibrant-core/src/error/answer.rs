@@ -32,6 +32,7 @@ options! {
     Accept "accept" "A file with the limits that a result must keep.";
     AccelerometerUnit "accelerometer_unit" "Unit of the accelerometer's readings.";
     Add "add" "Number of poses to add to those of earlier calibrations.";
+    After "after" "The calibration that had corrected the readings of another one.";
     Columns "columns" "A file that says what the columns of a recording hold.";
     Drop "drop" "Leave out parts of a calibration on purpose.";
     Folds "folds" "The number of parts of the recording that validate it.";

@@ -176,12 +176,37 @@ pub fn write_campaign_csv(path: &Path, timetable: &[TimedSoak]) -> Result<()> {
 }
 
 /// A row of `campaign.csv`, as far as a soak needs it.
-#[derive(Deserialize)]
-struct CampaignRow {
+#[derive(Debug, Clone, Deserialize)]
+pub struct CampaignRow {
     temperature_c: f64,
     direction: String,
     wait_min: f64,
     blocks: usize,
+}
+
+impl CampaignRow {
+    /// The soak.
+    ///
+    /// # Errors
+    /// What makes no sense of it.
+    pub fn soak(&self) -> std::result::Result<Soak, String> {
+        let direction = match self.direction.as_str() {
+            "up" => Direction::Up,
+            "down" => Direction::Down,
+            other => return Err(format!("the direction {other:?} is neither up nor down")),
+        };
+        let is_usual = (-100.0..=250.0).contains(&self.temperature_c) && (0.0..1e5).contains(&self.wait_min);
+        if !is_usual || !(1..=1000).contains(&self.blocks) {
+            let message = "a soak needs a temperature from -100 to 250 °C, a wait of 0 min or more, and 1 to 1000 blocks";
+            return Err(message.to_owned());
+        }
+        Ok(Soak {
+            temperature_c: self.temperature_c,
+            direction,
+            wait_min: self.wait_min,
+            blocks: self.blocks,
+        })
+    }
 }
 
 /// Reads the soaks of `campaign.csv`: columns `temperature_c`, `direction` (`up` or `down`), `wait_min` and `blocks`.
@@ -202,24 +227,7 @@ pub fn read_campaign_csv(path: &Path) -> Result<Vec<Soak>> {
         let row: CampaignRow = row.map_err(|error| {
             refused(error.to_string(), error.position().map(csv::Position::line).or(line(&soaks)))
         })?;
-        let direction = match row.direction.as_str() {
-            "up" => Direction::Up,
-            "down" => Direction::Down,
-            other => {
-                return Err(refused(format!("the direction {other:?} is neither up nor down"), line(&soaks)));
-            }
-        };
-        let is_usual = (-100.0..=250.0).contains(&row.temperature_c) && (0.0..1e5).contains(&row.wait_min);
-        if !is_usual || !(1..=1000).contains(&row.blocks) {
-            let message = "a soak needs a temperature from -100 to 250 °C, a wait of 0 min or more, and 1 to 1000 blocks";
-            return Err(refused(message.to_owned(), line(&soaks)));
-        }
-        soaks.push(Soak {
-            temperature_c: row.temperature_c,
-            direction,
-            wait_min: row.wait_min,
-            blocks: row.blocks,
-        });
+        soaks.push(row.soak().map_err(|message| refused(message, line(&soaks)))?);
     }
     Ok(soaks)
 }

@@ -39,14 +39,27 @@ struct RecordedSoak {
 /// A campaign with what the soaks of this `calibration.json` tell, and with the scatter between soaks that they show.
 ///
 /// # Errors
-/// [`Error::Experiment`] where the file is no calibration over temperature.
+/// As [`with_soaks_of`], with the file.
 pub fn with_recorded_soaks(campaign: &Campaign, path: &Path) -> Result<Campaign> {
-    let refused = |message: String| {
-        let help = "give the calibration.json that `calibrate` wrote from several soaks";
-        Error::experiment(InputError::new(Refusal::CalibrationInvalid, message, help).in_file(path))
-    };
-    let text = std::fs::read_to_string(path).map_err(|error| refused(error.to_string()))?;
-    let recorded: Recorded = serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?;
+    let text = std::fs::read_to_string(path).map_err(|error| refused(error.to_string()));
+    let found = text.and_then(|text| with_soaks_of(campaign, &text));
+    found.map_err(|error| match error {
+        Error::Experiment(input_error) => Error::experiment(input_error.in_file(path)),
+        other => other,
+    })
+}
+
+fn refused(message: String) -> Error {
+    let help = "give the calibration.json that `calibrate` wrote from several soaks";
+    Error::experiment(InputError::new(Refusal::CalibrationInvalid, message, help))
+}
+
+/// The same, of the text of a `calibration.json`.
+///
+/// # Errors
+/// [`Error::Experiment`] where it is no calibration over temperature.
+pub fn with_soaks_of(campaign: &Campaign, text: &str) -> Result<Campaign> {
+    let recorded: Recorded = serde_json::from_str(text).map_err(|error| refused(error.to_string()))?;
     if recorded.kind.as_deref() != Some(CampaignCalibrationFile::KIND) || recorded.soaks.is_empty() {
         return Err(refused("this is no calibration over temperature from several soaks".to_owned()));
     }
