@@ -8,7 +8,7 @@ use crate::budget::budget;
 use crate::console;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
-use calibrant::campaign::design;
+use calibrant::campaign::{Soak, design_over_cycles, timetable};
 use calibrant::io::{Experiment, ResultPlaces, read_campaign_csv, read_poses};
 use calibrant::session::MotionSource;
 use calibrant::{SimulatedCampaign, SimulationOptions, simulate, simulate_campaign};
@@ -34,13 +34,20 @@ impl crate::run::Run for Arguments {
     }
 }
 
+/// The soaks of the best campaign, in their order.
+fn best(experiment: &Experiment) -> calibrant::Result<Vec<Soak>> {
+    let Some((campaign, section)) = experiment.campaign()?.zip(experiment.campaign_section()) else {
+        return Ok(Vec::new());
+    };
+    let (campaign, found) = design_over_cycles(&campaign, section.cycles())?;
+    Ok(timetable(&campaign, &found.soaks).into_iter().map(|row| row.soak).collect())
+}
+
 /// Simulates the soaks of a campaign: those of the timetable, or of the best campaign.
 fn campaign(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Exit> {
     let soaks = match &arguments.campaign {
         Some(path) => read_campaign_csv(path)?,
-        None => {
-            experiment.campaign()?.map_or_else(|| Ok(Vec::new()), |campaign| Ok(design(&campaign)?.soaks))?
-        }
+        None => best(experiment)?,
     };
     let simulated = simulate_campaign(experiment, &soaks, arguments.seed)?;
     simulated.write(&arguments.output)?;

@@ -106,9 +106,7 @@ pub(super) fn with_temperature(sensor_kind: SensorKind, terms: &SensorThermal, f
         )
         .replacen(
             "    CALIBRANT_REAL y[3];\n",
-            &format!(
-                "    const CALIBRANT_REAL tau = calibrant_tau(temperature_c);\n    CALIBRANT_REAL y[3];\n"
-            ),
+            "    const CALIBRANT_REAL tau = calibrant_tau(temperature_c);\n    CALIBRANT_REAL y[3];\n",
             1,
         )
         .replacen(result, &format!("{change}{result}"), 1)

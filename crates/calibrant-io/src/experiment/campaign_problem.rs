@@ -133,7 +133,8 @@ impl Experiment {
                 imu.known.push(KnownTerm { quantity, value: 0.0, sd });
             }
         }
-        Ok(soak.as_read())
+        soak.stated_as_read();
+        Ok(soak)
     }
 }
 

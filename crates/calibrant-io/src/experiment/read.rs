@@ -318,9 +318,8 @@ impl Experiment {
     }
 
     /// States the text from which it was read as its origin, whatever was changed since.
-    pub(super) fn as_read(mut self) -> Self {
+    pub(super) fn stated_as_read(&mut self) {
         self.read = self.content().sha256;
-        self
     }
 
     fn content(&self) -> HashedFile {
