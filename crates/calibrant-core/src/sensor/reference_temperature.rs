@@ -109,7 +109,8 @@ impl CalibratedImu {
     /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind};
     /// let mut parameters = ImuParameters::identity();
     /// parameters.thermal.reference_c = 20.0;
-    /// parameters.thermal[SensorKind::Accelerometer].bias = [[0.01, 0.0, 0.0].into(), [0.001, 0.0, 0.0].into()];
+    /// parameters.thermal[SensorKind::Accelerometer].bias[0].x = 0.01;
+    /// parameters.thermal[SensorKind::Accelerometer].bias[1].x = 0.001;
     /// let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
     /// let imu = CalibratedImu::new(parameters, units, vec![], "");
     /// let warm = imu.at_reference_temperature(30.0)?.parameters;
