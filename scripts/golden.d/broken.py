@@ -57,7 +57,7 @@ IMU_EDITS = [
     ("too-many-samples", "poses = 24", "poses = 1000000"),
     ("known-name", "\n[holds]", '\n[known]\n"gyroscope.bais.x" = 0.1\n[holds]'),
     ("known-sd", "\n[holds]", '\n[known]\n"gyroscope.scale.x" = { value = 1.0, sd = 1e-200 }\n[holds]'),
-    ("temperature-order", "\n[holds]", "\n[temperature]\ngyroscope_bias = 3\n[holds]"),
+    ("temperature-order", "\n[holds]", "\n[temperature]\ngyroscope_bias = 6\n[holds]"),
     ("columns-unit", "\n[holds]", '\n[columns]\naccelerometer_unit = "furlong"\n[holds]'),
     ("turn-axis", "g_sensitivity = true", 'turns = [{ start_s = 7.0, end_s = 11.0, axis = "w", angle_deg = 360.0 }]'),
     ("interval-backwards", "poses = 24", "intervals_s = [[5.0, 1.0], [6.0, 9.0]]"),
