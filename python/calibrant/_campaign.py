@@ -5,18 +5,19 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Iterable, Literal, Mapping, Union
 
 from . import _native
-from ._arrays import Path, as_json, numbers, thread_count, whole
+from ._arrays import Path, as_json, thread_count, whole
 from ._calibrate import experiment_of_kind
 from ._choice import Known, texts_of
 from ._exceptions import experiment_error
 from ._experiment import Experiment
 from ._frames import frame, library_of
 from ._page import Page, make_directory
-from ._recording import Recording, Samples, of_samples
-from ._simulate import Truth
+from ._recording import Recording
+from ._simulate import Truth, recording_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -161,13 +162,8 @@ class SimulatedCampaign:
         self.recordings: list[Recording] = [self._recording(number, name) for number, name in enumerate(about["names"])]
 
     def _recording(self, number: int, name: str) -> Recording:
-        found: dict[str, Samples] = {}
-        for sensor in ("accelerometer", "gyroscope"):
-            samples = Samples._of(self._made.samples(number, sensor))
-            if samples is not None:
-                found[sensor] = samples
-        temperature = self._made.temperature_c(number)
-        return of_samples(name, found, None if temperature is None else numbers(temperature), 3)
+        samples = partial(self._made.samples, number)
+        return recording_of(name, samples, self._made.temperature_c(number), 3)
 
     def save(self, directory: Path) -> None:
         """Write the files of ``calibrant simulate``: ``soak_01.csv`` and so on, and ``truth.json``."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Iterator, Mapping
+from typing import Any, Callable, Iterator, Mapping
 
 import numpy.typing as npt
 
@@ -81,13 +81,7 @@ class Simulation:
     @property
     def recording(self) -> Recording:
         """What the sensor would have reported."""
-        found: dict[str, Samples] = {}
-        for sensor in ("accelerometer", "gyroscope"):
-            samples = Samples._of(self._made.samples(sensor))
-            if samples is not None:
-                found[sensor] = samples
-        temperature = self._made.temperature_c()
-        return of_samples("recording", found, None if temperature is None else numbers(temperature), self._axes)
+        return recording_of("recording", self._made.samples, self._made.temperature_c(), self._axes)
 
     def save(self, directory: Path) -> None:
         """Write the files of ``calibrant simulate``: ``recording.csv``, ``truth.json``, and ``motion.csv``, ``joints.csv`` or ``poses.csv``."""
@@ -100,6 +94,16 @@ class Simulation:
 
     def __repr__(self) -> str:
         return f"Simulation(seed {self.seed})"
+
+
+def recording_of(name: str, samples: Callable[[str], Any], temperature: Any, axes: int) -> Recording:
+    """A simulated recording; `samples` gives those of a sensor by its name."""
+    found: dict[str, Samples] = {}
+    for sensor in ("accelerometer", "gyroscope"):
+        of_sensor = Samples._of(samples(sensor))
+        if of_sensor is not None:
+            found[sensor] = of_sensor
+    return of_samples(name, found, None if temperature is None else numbers(temperature), axes)
 
 
 def simulate(

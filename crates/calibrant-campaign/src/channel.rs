@@ -8,6 +8,7 @@
 //! element are not at one temperature. `u ~ N(0, ω² + (r l_sd e)²)` does not average within a soak; `ε ~ N(0, σ²/n)` averages over its `n` blocks of holds.
 
 use calibrant_core::sensor::legendre::legendre;
+use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector};
 
 /// A quantity that follows temperature, alike on each axis, with what is known of it beforehand. All but `goal_sd` enters the information of a soak.
@@ -39,6 +40,21 @@ impl Channel {
     #[must_use]
     pub fn polynomial(&self) -> usize {
         self.spread.len()
+    }
+
+    /// Number of the coefficients of which nothing is known.
+    #[must_use]
+    pub fn free(&self) -> usize {
+        self.spread.iter().filter(|sd| sd.is_none()).count()
+    }
+
+    /// The parameters that it is of, one for each axis, by its name; none of a channel that is no bias and no gain.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<ImuQuantity> {
+        let Some((kind, part)) = self.name.split_once('.') else { return Vec::new() };
+        let Some(kind) = SensorKind::ALL.into_iter().find(|of| of.name() == kind) else { return Vec::new() };
+        let of = |axis: Axis| if part == "bias" { Quantity::Bias(axis) } else { Quantity::Scale(axis) };
+        Axis::ALL.map(|axis| ImuQuantity::Of(kind, of(axis))).to_vec()
     }
 
     /// Number of all coefficients: polynomial, hysteresis, lag.

@@ -5,9 +5,7 @@ use crate::{Campaign, Channel, Soak};
 use calibrant_core::diagnostic::Severity;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::SoakTemperature;
-use calibrant_core::sensor::{
-    Axis, CalibratedImu, ImuParameters, ImuQuantity, PerSensor, Quantity, ReadingUnit, SensorKind,
-};
+use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, PerSensor, ReadingUnit, SensorKind};
 use calibrant_core::simulate::{Purpose, Rng, normal, stream};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
@@ -139,10 +137,9 @@ pub(crate) fn measure(
     truth: &[Vec<DVector<f64>>],
     rng: &mut Rng,
 ) -> Vec<SoakCalibration> {
-    let parameters: Vec<(SensorKind, ImuQuantity)> =
-        campaign.channels.iter().flat_map(parameters_of).collect();
-    let quantities: Vec<ImuQuantity> = parameters.iter().map(|(_, quantity)| *quantity).collect();
-    let of_kind = |kind| parameters.iter().any(|(of, _)| *of == kind).then(|| kind.stimulus_unit());
+    let quantities: Vec<ImuQuantity> = campaign.channels.iter().flat_map(Channel::parameters).collect();
+    let of_kind =
+        |kind: SensorKind| quantities.iter().any(|of| of.sensor_kind() == kind).then(|| kind.stimulus_unit());
     let units: PerSensor<Option<ReadingUnit>> = PerSensor::from_fn(of_kind);
     let soak = |(number, soak): (usize, &Soak)| {
         let (x, left) = (campaign.x(soak.temperature_c), campaign.lag_left(soak.wait_min));
@@ -171,12 +168,4 @@ pub(crate) fn measure(
         }
     };
     soaks.iter().enumerate().map(soak).collect()
-}
-
-/// The parameters of a channel, one for each axis.
-fn parameters_of(channel: &Channel) -> Vec<(SensorKind, ImuQuantity)> {
-    let Some((kind, part)) = channel.name.split_once('.') else { return Vec::new() };
-    let Some(kind) = SensorKind::ALL.into_iter().find(|of| of.name() == kind) else { return Vec::new() };
-    let of = |axis: Axis| if part == "bias" { Quantity::Bias(axis) } else { Quantity::Scale(axis) };
-    Axis::ALL.map(|axis| (kind, ImuQuantity::Of(kind, of(axis)))).to_vec()
 }

@@ -16,7 +16,7 @@ fn unlike(soak: &SoakCalibration, message: String, help: &str) -> Error {
 
 /// Checks that the soaks are alike. Gives the parameters that all have.
 pub(super) fn check(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<Vec<ImuQuantity>> {
-    let Some(first) = soaks.first() else { return Ok(Vec::new()) };
+    let Some(first) = soaks.first() else { return Err(open(&model.channels(), &[])) };
     let quantities = |soak: &SoakCalibration| -> Vec<ImuQuantity> {
         let of = soak.imu.quantities.iter().copied();
         of.filter(|quantity| !matches!(quantity, ImuQuantity::Thermal(..))).collect()
@@ -151,6 +151,7 @@ pub(super) fn at_its_temperature(soak: &SoakCalibration) -> Result<SoakCalibrati
 
 fn counted(temperatures: usize) -> String {
     match temperatures {
+        0 => "there is no soak".into(),
         1 => "all soaks are at one temperature".into(),
         count => format!("the soaks have {count} temperatures that differ by 1 K or more"),
     }
@@ -163,12 +164,11 @@ pub(super) fn open(channels: &[Channel], paths: &[SoakPath]) -> Error {
     let mut temperatures: Vec<f64> = paths.iter().map(|path| path.temperature_c).collect();
     temperatures.sort_by(f64::total_cmp);
     temperatures.dedup_by(|one, other| (*one - *other).abs() < SAME_K);
-    let free = |channel: &Channel| channel.spread.iter().filter(|sd| sd.is_none()).count();
     let open: Vec<String> = channels
         .iter()
-        .filter(|channel| free(channel) > temperatures.len())
+        .filter(|channel| channel.free() > temperatures.len())
         .flat_map(|channel| {
-            (temperatures.len()..free(channel)).map(|m| format!("{} of order {m}", channel.name))
+            (temperatures.len()..channel.free()).map(|m| format!("{} of order {m}", channel.name))
         })
         .collect();
     // otherwise all are, together

@@ -126,9 +126,8 @@ pub(super) fn scatter(
         let fits = fits(scatter)?;
         Some(fits.iter().map(|fit| paths.len() as f64 - fit.determined).sum::<f64>())
     };
-    let free = channel.spread.iter().filter(|sd| sd.is_none()).count();
     let others = channel.coefficients() - channel.polynomial();
-    if paths.len() < free + others + MORE_SOAKS {
+    if paths.len() < channel.free() + others + MORE_SOAKS {
         return Some(SoakScatter { degrees: degrees(&stated)?, ..stated });
     }
     let half_normal =

@@ -163,6 +163,7 @@ fn soaks_that_are_not_alike_or_too_few_are_refused() {
     let truth = draw(&model.campaign, &mut rng);
     let mut soaks = measure(&model.campaign, &plan(), &truth, &mut rng);
     let few = fit(&model, &soaks[..3]).expect_err("three temperatures, order 3").to_string();
+    assert!(fit(&model, &[]).expect_err("no soak").to_string().contains("there is no soak"));
     assert!(
         few.contains("accelerometer.bias of order 3")
             && few.contains("lower the orders in [temperature] to 2"),

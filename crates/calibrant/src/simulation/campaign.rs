@@ -8,7 +8,7 @@ use calibrant_campaign::{Campaign, Channel, Soak};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::legendre::powers_of_legendre;
 use calibrant_core::sensor::{
-    Axis, ImuParameters, ImuQuantity, ImuRecording, Quantity, SensorKind, ThermalPart, ThermalTerm,
+    ImuParameters, ImuQuantity, ImuRecording, Quantity, SensorKind, ThermalPart, ThermalTerm,
 };
 use calibrant_core::simulate::{
     GyroscopeToDraw, ImuSimulation, Purpose, Rng, draw_imu, normal, simulate_imu, stream,
@@ -132,16 +132,16 @@ pub fn simulate_campaign(
 fn draw<'a>(campaign: &'a Campaign, gains: [Vector3<f64>; 2], rng: &mut Rng) -> Vec<DrawnAxis<'a>> {
     let mut axes = Vec::new();
     for channel in &campaign.channels {
-        let Some((kind, part)) = channel.name.split_once('.') else { continue };
-        let Some(kind) = SensorKind::ALL.into_iter().find(|of| of.name() == kind) else { continue };
-        for axis in Axis::ALL {
-            let of = if part == "bias" { Quantity::Bias(axis) } else { Quantity::Scale(axis) };
+        for quantity in channel.parameters() {
             let sds = channel.spread.iter().map(|sd| sd.unwrap_or(0.0));
             let sds: Vec<f64> =
                 sds.chain(channel.hysteresis_sd.clone()).chain(channel.lag_sd.clone()).collect();
             let coefficients = DVector::from_iterator(sds.len(), sds.into_iter().map(|sd| sd * normal(rng)));
-            let unit = if part == "bias" { gains[kind as usize][axis.index()] } else { 1.0 };
-            axes.push(DrawnAxis { channel, quantity: ImuQuantity::Of(kind, of), coefficients, unit });
+            let unit = match quantity {
+                ImuQuantity::Of(kind, Quantity::Bias(axis)) => gains[kind as usize][axis.index()],
+                _ => 1.0,
+            };
+            axes.push(DrawnAxis { channel, quantity, coefficients, unit });
         }
     }
     axes
