@@ -61,7 +61,7 @@ def calibrate(
     log : Poses, Joints, path or frame, optional
         The log of the machine, which a ``[machine]`` experiment needs where the recording's file has none.
     validate : path, bytes, frame or Recording, optional
-        Another recording of the sensor, on which the calibration is tried.
+        Another recording of the sensor, on which the calibration is tried; of a campaign a ramp, or another soak.
     validate_log : Poses, Joints, path or frame, optional
         The log of the machine in that recording.
     folds : int, optional
@@ -130,13 +130,13 @@ def calibrate(
     }
     if soaks is not None:
         of_one = {
-            "motion": motion, "log": log, "validate": validate, "validate_log": validate_log, "folds": folds,
+            "motion": motion, "log": log, "validate_log": validate_log, "folds": folds,
             "sections": sections, "together": together or None, "rows_are_holds": rows_are_holds or None, "accept": accept,
         }
         refused = [name for name, value in of_one.items() if value is not None]
         if refused:
             raise experiment_error(f"`{refused[0]}` is not for a campaign over temperature", "leave it away", code="options-contradict")
-        return _judged(_over_temperature(soaks, made, options, threads, progress))
+        return _judged(_over_temperature(soaks, made, options, validate, threads, progress))
     source, reading = as_source(recording, sections=sections, further=together)
     options["reading"].update(reading, rows_are_holds=rows_are_holds)
     other = None if validate is None else _native.Source(as_readings(validate))
@@ -176,8 +176,9 @@ def _of_campaign(experiment: AnyExperiment) -> Experiment:
 
 
 def _over_temperature(
-    soaks: list[Any], made: Experiment, options: dict[str, Any], threads: int | None, progress: Progress
+    soaks: list[Any], made: Experiment, options: dict[str, Any], validate: Any, threads: int | None, progress: Progress
 ) -> Calibration:
+    other = None if validate is None else _native.Source(as_readings(validate))
     calibrated = [of for of in soaks if isinstance(of, Calibration)]
     if not soaks:
         raise experiment_error("there is no soak", "give the recordings of all soaks", code="recording-missing")
@@ -185,14 +186,14 @@ def _over_temperature(
         sources = [as_soak(of, number) for number, of in enumerate(soaks, 1)]
         with Told(progress) as told:
             outcome = _native.calibrate_campaign(
-                made._native, sources, as_json(options), threads=thread_count(threads), progress=told
+                made._native, sources, as_json(options), validate=other, threads=thread_count(threads), progress=told
             )
         return Calibration(outcome.json(), outcome, like=like_of(soaks[0]))
     if len(calibrated) < len(soaks):
         message = "some soaks are recordings, and some are calibrations"
         raise experiment_error(message, "give the recordings of all soaks, or the calibration of each", code="options-contradict")
     named = [(_name_of(of, number), of.to_json()) for number, of in enumerate(calibrated, 1)]
-    outcome = _native.calibrate_soaks(made._native, named, as_json(options))
+    outcome = _native.calibrate_soaks(made._native, named, as_json(options), validate=other)
     return Calibration(outcome.json(), outcome, like=calibrated[0]._like)
 
 

@@ -108,10 +108,13 @@ def calibrate_campaign(
     sources: Sequence[Source],
     options: str,
     *,
+    validate: Source | None = None,
     threads: int | None = None,
     progress: _Progress = None,
 ) -> Outcome: ...
-def calibrate_soaks(experiment: Experiment, soaks: list[tuple[str, str]], options: str) -> Outcome: ...
+def calibrate_soaks(
+    experiment: Experiment, soaks: list[tuple[str, str]], options: str, *, validate: Source | None = None
+) -> Outcome: ...
 
 class Correction:
     def __init__(self, text: str) -> None: ...

@@ -163,6 +163,8 @@ def test_all_of_it_is_as_on_the_command_line(short: cb.Experiment, cli: Cli, tmp
     cli("calibrate", path, *files, "-o", tmp_path / "result")
     own = cb.calibrate(files, path)
     assert own.to_json() == (tmp_path / "result" / "calibration.json").read_text(encoding="utf-8")
+    held_out = cli("calibrate", path, *files[1:], "--validate", files[0], "--no-report", "-o", tmp_path / "held", "--json")
+    assert cb.calibrate(files[1:], path, validate=files[0]).to_json() == held_out.stdout
     own.report(tmp_path / "own.html")
     assert (tmp_path / "own.html").read_bytes() == (tmp_path / "result" / "report.html").read_bytes()
     printed = cli("design", path, "--from", tmp_path / "result" / "calibration.json", "--add-min", 60, "-o", tmp_path / "more", "--json")

@@ -83,6 +83,25 @@ impl Channel {
         DVector::from_vec(row)
     }
 
+    /// The row on a branch as Legendre polynomials: `row(x) = Bᵀ legendre(x)`. Without a direction, the mean of both branches.
+    #[must_use]
+    pub fn on_branch(&self, direction: f64, lag_left: f64) -> DMatrix<f64> {
+        if direction == 0.0 {
+            return DMatrix::identity(self.polynomial(), self.coefficients());
+        }
+        let hysteresis = if self.hysteresis_sd.is_empty() { 0 } else { self.hysteresis_sd.len() + 2 };
+        let count = self.polynomial().max(hysteresis).max(self.lag_sd.len());
+        // through as many points as there are polynomials, and orthogonal there
+        let nodes: Vec<f64> =
+            (0..count).map(|k| (std::f64::consts::PI * (k as f64 + 0.5) / count as f64).cos()).collect();
+        let values = DMatrix::from_fn(count, count, |i, j| legendre(nodes[i], count)[j]);
+        let rows: Vec<_> = nodes.iter().map(|x| self.row(*x, direction, lag_left).transpose()).collect();
+        values
+            .lu()
+            .solve(&DMatrix::from_rows(&rows))
+            .unwrap_or_else(|| DMatrix::zeros(count, self.coefficients()))
+    }
+
     /// What is known beforehand: the inverse variances of the coefficients.
     #[must_use]
     pub fn precision(&self) -> DMatrix<f64> {

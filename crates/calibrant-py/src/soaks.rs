@@ -7,7 +7,7 @@ use crate::options::{Calibrate, parsed};
 use crate::source::Source;
 use crate::work::{How, Run, run_as};
 use calibrant::batch::{Batch, BatchOptions, BatchRow, folder_names};
-use calibrant::diagnostic::{Code, Diagnostic};
+use calibrant::diagnostic::Diagnostic;
 use calibrant::session::{Session, SessionOptions};
 use calibrant::{CampaignCalibration, Error, Result};
 use pyo3::prelude::*;
@@ -17,20 +17,22 @@ type Soak = (String, std::result::Result<String, String>);
 
 /// Calibrates each soak by itself, then over temperature.
 #[pyfunction]
-#[pyo3(signature = (experiment, sources, options, *, threads=None, progress=None))]
+#[pyo3(signature = (experiment, sources, options, *, validate=None, threads=None, progress=None))]
 pub(crate) fn calibrate_campaign(
     py: Python<'_>,
     experiment: &Experiment,
     sources: Vec<PyRef<'_, Source>>,
     options: &str,
+    validate: Option<PyRef<'_, Source>>,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
     let options = options_of(options).map_err(|error| raised(py, &error))?;
     let sources: Vec<_> = sources.iter().map(|source| source.0.clone()).collect();
+    let held_out = validate.map(|source| source.0.clone());
     let experiment = experiment.clone();
     run_as(py, How { threads, progress, keeps_the_best: false }, move |Run { interruption, progress }| {
-        let allowed = options.allowed.clone();
+        let of_all = options.clone();
         let of_one = experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?;
         let session = Session::with(of_one, SessionOptions { interruption, ..options })?;
         let batch =
@@ -45,24 +47,27 @@ pub(crate) fn calibrate_campaign(
             let text = row.outcome.map(|result| result.json).map_err(|error| error.to_string());
             (row.folder, text)
         };
-        over_temperature(&experiment, rows.into_iter().map(soak).collect(), &allowed)
+        over_temperature(&experiment, rows.into_iter().map(soak).collect(), of_all, held_out.as_ref())
     })
 }
 
 /// Calibrates over temperature from the calibrations of the soaks: the name of each, and its text.
 #[pyfunction]
+#[pyo3(signature = (experiment, soaks, options, *, validate=None))]
 pub(crate) fn calibrate_soaks(
     py: Python<'_>,
     experiment: &Experiment,
     soaks: Vec<(String, String)>,
     options: &str,
+    validate: Option<PyRef<'_, Source>>,
 ) -> PyResult<Outcome> {
     let options = options_of(options).map_err(|error| raised(py, &error))?;
+    let held_out = validate.map(|source| source.0.clone());
     let experiment = experiment.clone();
     run_as(py, How::default(), move |_| {
         let (names, texts): (Vec<String>, Vec<String>) = soaks.into_iter().unzip();
         let soaks = folder_names(&names).into_iter().zip(texts.into_iter().map(Ok)).collect();
-        over_temperature(&experiment, soaks, &options.allowed)
+        over_temperature(&experiment, soaks, options, held_out.as_ref())
     })
 }
 
@@ -70,11 +75,20 @@ fn options_of(text: &str) -> Result<SessionOptions> {
     Ok(SessionOptions { report: false, ..parsed::<Calibrate>(text)?.options()? })
 }
 
-fn over_temperature(experiment: &Experiment, soaks: Vec<Soak>, allowed: &[Code]) -> Result<Outcome> {
+fn over_temperature(
+    experiment: &Experiment,
+    soaks: Vec<Soak>,
+    options: SessionOptions,
+    held_out: Option<&calibrant::session::Source>,
+) -> Result<Outcome> {
     let mut notes = Vec::new();
-    let found = CampaignCalibration::of_soaks(&experiment.read, soaks, allowed, &mut notes);
-    let found =
+    let found = CampaignCalibration::of_soaks(&experiment.read, soaks, &options.allowed, &mut notes);
+    let mut found =
         found.map_err(|error| with_reason(error, &notes)).map_err(Experiment::placed(&experiment.file))?;
+    if let Some(held_out) = held_out {
+        let of_one = experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?;
+        found = found.validate(&Session::with(of_one, options)?, held_out)?;
+    }
     Ok(Outcome::over_temperature(found, notes))
 }
 

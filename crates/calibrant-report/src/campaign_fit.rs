@@ -2,16 +2,19 @@
 
 use super::figure::{DisplayUnit, curves_over_temperature, residuals_of_soaks};
 use super::report_context::About;
+use super::validation::validation_section;
 use crate::number_format::{counted, plain, significant};
 use crate::sheet::{Cell, Column, Grade, Section, Sheet, SheetVerdict, Table};
 use calibrant_campaign::fit::{CampaignModel, FittedCampaign, FittedSoak};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability};
+use calibrant_core::estimate::Validation;
 
 /// A calibration over temperature as a sheet.
 #[must_use]
 pub fn campaign_fit_sheet<'a>(
     of: &'a FittedCampaign,
     model: &'a CampaignModel,
+    validations: &'a [Validation],
     about: &'a About,
 ) -> Sheet<'a> {
     let usability = about.verdict.as_ref().map_or(Usability::Ok, |verdict| verdict.usability);
@@ -29,7 +32,7 @@ pub fn campaign_fit_sheet<'a>(
         .with("Warnings", told(Severity::Warning))
         .with("Remarks", told(Severity::Note));
     let mut channels = Section::new("Over temperature").lead(
-        "sd: root of the mean variance of the polynomial over the range and the axes, without what all soaks share, such as gravity that is not exactly known. Scatter: what does not average within a soak. Probabilities are those of chance: small ones show hysteresis, or a lag of the thermometer.",
+        "sd: root of the mean variance of the polynomial over the range and the axes, without what all soaks share, such as gravity that is not exactly known. Scatter: what does not average within a soak. Left out: each soak less what the others predict of it, over the predicted standard deviation, rms; 1 where these hold. Probabilities are those of chance: small ones show hysteresis, or a lag of the thermometer.",
     );
     channels.table(channel_table(of));
     channels.figure(move || Some(curves_over_temperature(of, model)));
@@ -43,7 +46,8 @@ pub fn campaign_fit_sheet<'a>(
         plain(model.reference_c, 4)
     ));
     parameters.table(parameter_table(of));
-    about.sheet("Calibration over temperature", verdict, vec![channels, soaks, parameters], MEANING)
+    let sections = [channels, soaks].into_iter().chain(validation_section(validations)).chain([parameters]);
+    about.sheet("Calibration over temperature", verdict, sections.collect(), MEANING)
 }
 
 /// What the numbers mean.
@@ -84,6 +88,7 @@ fn channel_table(of: &FittedCampaign) -> Table {
         Column::new("goal"),
         Column::new("sd"),
         Column::new("scatter"),
+        Column::on_page("left out"),
         Column::on_page("hysteresis by chance"),
         Column::on_page("lag by chance"),
     ]);
@@ -100,6 +105,7 @@ fn channel_table(of: &FittedCampaign) -> Table {
             Cell::sd(channel.goal_sd, unit.factor),
             Cell::sd(sd, unit.factor),
             Cell::sd(fitted.scatter.soak_sd, unit.factor),
+            fitted.left_out_ratio.map_or(Cell::Missing, |ratio| Cell::fixed(ratio, 2)),
             probability(&fitted.hysteresis),
             probability(&fitted.lag),
         ]);

@@ -1,9 +1,11 @@
 //! One calibration over temperature from the calibrations of several soaks: reads, fits, judges, writes.
 
+use crate::session::{Session, Source, doubts};
 use calibrant_campaign::fit::{CampaignModel, FittedCampaign, fit};
 use calibrant_core::diagnostic::campaign::SoakLeftOut;
 use calibrant_core::diagnostic::{Code, Diagnostic, Phrase, Verdict};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::{HoldScatter, Validation};
 use calibrant_io::{
     CampaignCalibrationFile, Experiment, Judgement, Origin, ReadSoak, parse_soak, to_json, write_json,
     write_text,
@@ -23,6 +25,10 @@ pub struct CampaignCalibration {
     pub origin: Origin,
     /// Diagnostics that the files mark as allowed.
     pub allowed: Vec<Code>,
+    /// How the holds of the soaks scatter.
+    pub scatter: HoldScatter,
+    /// The calibration on recordings that were not used.
+    pub validations: Vec<Validation>,
     about: About,
 }
 
@@ -76,7 +82,10 @@ impl CampaignCalibration {
             ..Origin::default()
         };
         let soaks = format!("{}, from {} files", kept.len(), origin.inputs.len());
-        Ok(Self::of("Calibration over temperature", ("Soaks", soaks), (fitted, model), origin, allowed))
+        let scatter = HoldScatter::pooled(kept.iter().map(|soak| &soak.scatter));
+        let found =
+            Self::of("Calibration over temperature", ("Soaks", soaks), (fitted, model), origin, allowed);
+        Ok(Self { scatter, ..found })
     }
 
     pub(crate) fn of(
@@ -89,9 +98,23 @@ impl CampaignCalibration {
         let experiment = origin.experiment.as_ref().map(|of| ("Experiment".to_owned(), of.file.clone()));
         let facts = experiment.into_iter().chain([(what.to_owned(), which)]).collect();
         let about = About { title: title.to_owned(), facts, ..About::default() };
-        let mut found = Self { fitted, model, origin, allowed: allowed.to_vec(), about };
+        let (scatter, validations) = (HoldScatter::default(), Vec::new());
+        let mut found =
+            Self { fitted, model, origin, allowed: allowed.to_vec(), scatter, validations, about };
         found.about.verdict = Some(found.verdict());
         found
+    }
+
+    /// Tries it on a recording of the sensor that is not among the soaks: each direction of its temperature by itself.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] where the recording cannot be read, has no temperature or no holds, or is another sensor's. [`Error::Experiment`] where it is one of
+    /// the soaks, or where the experiment has no gyroscope.
+    pub fn validate(mut self, of_one_soak: &Session, recording: &Source) -> Result<Self> {
+        self.validations = of_one_soak.on_held_out(recording, &mut self)?;
+        self.fitted.warnings.extend(doubts(&self.validations));
+        self.about.verdict = Some(self.verdict());
+        Ok(self)
     }
 
     /// May the result be used?
@@ -102,7 +125,14 @@ impl CampaignCalibration {
 
     fn file(&self) -> CampaignCalibrationFile<'_> {
         let judgement = Judgement { allowed: &self.allowed, ..Judgement::default() };
-        CampaignCalibrationFile { fitted: &self.fitted, model: &self.model, origin: &self.origin, judgement }
+        let validations = &self.validations;
+        CampaignCalibrationFile {
+            fitted: &self.fitted,
+            model: &self.model,
+            origin: &self.origin,
+            validations,
+            judgement,
+        }
     }
 
     /// The text of `calibration.json`.
@@ -114,7 +144,7 @@ impl CampaignCalibration {
     /// The calibration for people.
     #[must_use]
     pub fn sheet(&self) -> Sheet<'_> {
-        campaign_fit_sheet(&self.fitted, &self.model, &self.about)
+        campaign_fit_sheet(&self.fitted, &self.model, &self.validations, &self.about)
     }
 
     /// Writes `calibration.json` and, where it is wanted, `report.html`.

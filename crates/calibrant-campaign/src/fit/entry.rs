@@ -77,8 +77,6 @@ pub(super) struct Entry {
     pub(super) channel: usize,
     /// Its coefficients: those of the polynomial come first.
     pub(super) places: Range<usize>,
-    /// How many of them are those of the polynomial.
-    pub(super) polynomial: usize,
 }
 
 /// The parameters at the reference temperature with their temperature terms, and their derivatives by the coefficients.
@@ -113,21 +111,21 @@ impl Dual {
 }
 
 impl AtReference {
-    /// Of these coefficients, with Legendre polynomials over the range.
+    /// Of these coefficients. `legendre`: what the coefficients of an entry are in Legendre polynomials over the range.
     pub(super) fn of(
         entries: &[Entry],
         means: &Means,
         coefficients: &DVector<f64>,
-        range_c: [f64; 2],
-        reference_c: f64,
+        legendre: impl Fn(&Entry) -> DMatrix<f64>,
+        (range_c, reference_c): ([f64; 2], f64),
     ) -> Self {
         let powers = |entry: &Entry| -> Vec<Dual> {
-            let basis = powers_of_legendre(range_c, reference_c, entry.polynomial);
-            let first = entry.places.start;
-            (0..entry.polynomial)
+            let legendre = legendre(entry);
+            let basis = powers_of_legendre(range_c, reference_c, legendre.nrows()) * legendre;
+            (0..basis.nrows())
                 .map(|power| {
                     let mut slope = DVector::zeros(coefficients.len());
-                    slope.rows_mut(first, entry.polynomial).copy_from(&basis.row(power).transpose());
+                    slope.rows_range_mut(entry.places.clone()).copy_from(&basis.row(power).transpose());
                     Dual { value: slope.dot(coefficients), slope }
                 })
                 .collect()
@@ -182,6 +180,14 @@ impl AtReference {
             jacobian: DMatrix::from_rows(&rows),
             values: found.iter().map(|(_, dual)| dual.value).collect(),
             quantities: found.into_iter().map(|(quantity, _)| quantity).collect(),
+        }
+    }
+
+    /// Sets the parameters of an IMU to them.
+    pub(super) fn set(&self, parameters: &mut ImuParameters) {
+        for (quantity, value) in self.quantities.iter().zip(&self.values) {
+            let before = quantity.value(parameters);
+            quantity.add_to(parameters, value - before);
         }
     }
 }

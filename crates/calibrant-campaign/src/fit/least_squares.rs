@@ -49,6 +49,8 @@ pub(super) struct Solution {
     pub(super) shared: DMatrix<f64>,
     /// Residuals of each soak, and their standard deviations.
     pub(super) residuals: Vec<(DVector<f64>, DVector<f64>)>,
+    /// Each soak less what the others predict of it with the same scatter, over the standard deviations; `None` of one that alone determines a coefficient.
+    pub(super) left_out: Vec<Option<DVector<f64>>>,
 }
 
 /// The problem of all entries.
@@ -113,11 +115,14 @@ impl Problem<'_> {
         let residuals = measurements.iter().zip(paths).map(|(measurement, path)| {
             let rows = self.rows(path);
             let of_fit = &rows * &covariance * rows.transpose();
-            let variances = self.covariance(measurement, path).diagonal() - of_fit.diagonal();
-            (&measurement.values - &rows * &coefficients, variances.map(|of| of.max(0.0).sqrt()))
+            let own = self.covariance(measurement, path);
+            let residual = &measurement.values - &rows * &coefficients;
+            let left_out = left_out(&residual, &own, &of_fit);
+            let variances = own.diagonal() - of_fit.diagonal();
+            ((residual, variances.map(|of| of.max(0.0).sqrt())), left_out)
         });
-        let residuals = residuals.collect();
-        Some(Solution { shared: &covariance * right_shared, residuals, coefficients, covariance })
+        let (residuals, left_out) = residuals.unzip();
+        Some(Solution { shared: &covariance * right_shared, residuals, left_out, coefficients, covariance })
     }
 
     /// What a solution predicts of a soak that it does not contain.
@@ -137,6 +142,22 @@ impl Problem<'_> {
             variances: solution.covariance.diagonal(),
         })
     }
+}
+
+/// The residual of a fit without this measurement, over its standard deviation: with `R = C − F Σ Fᵀ` it is `C R⁻¹ e`, of covariance `C R⁻¹ C`.
+fn left_out(residual: &DVector<f64>, own: &DMatrix<f64>, of_fit: &DMatrix<f64>) -> Option<DVector<f64>> {
+    /// What is left of a variance.
+    const LEFT: f64 = 1e-6;
+    let root = own.clone().cholesky()?;
+    let whitened = root.l().solve_lower_triangular(of_fit)?;
+    let whitened = root.l().solve_lower_triangular(&whitened.transpose())?;
+    let left = DMatrix::identity(own.nrows(), own.nrows()) - whitened;
+    if left.symmetric_eigenvalues().min() < LEFT {
+        return None;
+    }
+    let weights = (own - of_fit).cholesky()?.solve(own);
+    let variances = (own * &weights).diagonal();
+    Some(weights.tr_mul(residual).zip_map(&variances, |of, variance| of / variance.sqrt()))
 }
 
 /// A soak beside what the others predict of it.

@@ -1,6 +1,7 @@
 //! One calibration over temperature from the calibrations of several soaks: generalised least squares on their values and covariances, with hysteresis, lag and
 //! the scatter between soaks.
 
+mod branch;
 mod check;
 mod entry;
 mod least_squares;
@@ -17,7 +18,7 @@ mod warnings;
 pub use model::CampaignModel;
 pub use result::{FittedCampaign, FittedChannel, FittedSoak};
 pub use scatter::SoakScatter;
-pub use soak::{SoakCalibration, SoakPath};
+pub use soak::{SoakCalibration, SoakPath, paths};
 pub use verdicts::WaldTest;
 
 use calibrant_core::error::Result;

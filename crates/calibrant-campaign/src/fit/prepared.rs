@@ -1,5 +1,6 @@
 //! What is known of the soaks before the least squares, and the result that follows.
 
+use super::branch::Solved;
 use super::check::open;
 use super::entry::{AtReference, Entry, Means};
 use super::least_squares::{Measurement, Prediction, Problem, Solution};
@@ -35,7 +36,7 @@ impl<'a> Prepared<'a> {
         let campaign = &model.campaign;
         let means = Means::of(&soaks.iter().map(|soak| &soak.imu).collect::<Vec<_>>());
         let (channels, entries) = layout(model, quantities);
-        let paths = paths(campaign, soaks);
+        let paths = paths(campaign, soaks.iter().map(|soak| soak.temperature));
         let measurements: Vec<Measurement> =
             soaks.iter().filter_map(|soak| Measurement::of(soak, quantities, &means)).collect();
         let mut prepared =
@@ -105,14 +106,25 @@ impl<'a> Prepared<'a> {
             (0..followed).filter_map(|channel| self.channel(channel, solution)).collect();
         let soaks = (0..self.soaks.len()).map(|soak| self.soak(soak, solution)).collect();
         let warnings = self.warnings(&channels, solution);
-        FittedCampaign { imu: self.imu(solution), channels, soaks, warnings, with_gain: None }
+        let solved = Solved {
+            campaign: self.model.campaign.clone(),
+            channels: self.channels.clone(),
+            entries: self.entries.clone(),
+            means: self.means.clone(),
+            scatters: self.scatters.clone(),
+            coefficients: solution.coefficients.clone(),
+            covariance: solution.covariance.clone(),
+        };
+        FittedCampaign { imu: self.imu(solution), channels, soaks, warnings, with_gain: None, solved }
     }
 
     fn imu(&self, solution: &Solution) -> CalibratedImu {
         let first = &self.soaks[0].imu;
         let campaign = &self.model.campaign;
         let (range_c, reference_c) = (campaign.range_c, self.model.reference_c);
-        let at = AtReference::of(&self.entries, &self.means, &solution.coefficients, range_c, reference_c);
+        let mean = |entry: &Entry| self.channels[entry.channel].on_branch(0.0, 0.0);
+        let of_range = (range_c, reference_c);
+        let at = AtReference::of(&self.entries, &self.means, &solution.coefficients, mean, of_range);
         let mut parameters = first.parameters;
         let temperatures = self.paths.iter().map(|path| path.temperature_c);
         parameters.thermal.reference_c = reference_c;
@@ -120,10 +132,7 @@ impl<'a> Prepared<'a> {
         let rounded = temperatures.map(|t| (100.0 * t).round() / 100.0);
         parameters.thermal.range_c =
             rounded.map(|t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
-        for (quantity, value) in at.quantities.iter().zip(&at.values) {
-            let before = quantity.value(&parameters);
-            quantity.add_to(&mut parameters, value - before);
-        }
+        at.set(&mut parameters);
         let root = &at.jacobian * &solution.shared;
         let covariance =
             &at.jacobian * &solution.covariance * at.jacobian.transpose() + &root * root.transpose();
@@ -177,9 +186,19 @@ impl<'a> Prepared<'a> {
                 .iter()
                 .map(|entry| covariance.view_range(entry.places.clone(), entry.places.clone()).into_owned())
                 .collect(),
+            left_out_ratio: self.left_out_ratio(channel, solution),
             hysteresis: data.hysteresis_test(),
             lag: data.lag_test(),
         })
+    }
+
+    fn left_out_ratio(&self, channel: usize, solution: &Solution) -> Option<f64> {
+        let of_channel = |of: &DVector<f64>| -> Vec<f64> {
+            let these = self.entries.iter().zip(of.iter()).filter(|(entry, _)| entry.channel == channel);
+            these.map(|(_, deviation)| deviation * deviation).collect()
+        };
+        let squares: Vec<f64> = solution.left_out.iter().flatten().flat_map(of_channel).collect();
+        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
     }
 
     pub(super) fn data<'b>(&'b self, channel: usize, axes: &'b [AxisData]) -> ChannelData<'b> {
@@ -231,7 +250,7 @@ fn layout(model: &CampaignModel, quantities: &[ImuQuantity]) -> (Vec<Channel>, V
         let of = &channels[channel];
         let places = end..end + of.coefficients();
         end = places.end;
-        entries.push(Entry { quantity: *quantity, channel, places, polynomial: of.polynomial() });
+        entries.push(Entry { quantity: *quantity, channel, places });
     }
     (channels, entries)
 }

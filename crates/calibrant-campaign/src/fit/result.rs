@@ -1,5 +1,6 @@
 //! The calibration over temperature, and what judges it.
 
+use super::branch::Solved;
 use super::scatter::SoakScatter;
 use super::soak::SoakPath;
 use super::verdicts::WaldTest;
@@ -21,6 +22,7 @@ pub struct FittedCampaign {
     pub warnings: Vec<Diagnostic>,
     /// The axis whose bias contains its gain at 1 g, of a recording in one pose.
     pub with_gain: Option<Axis>,
+    pub(super) solved: Solved,
 }
 
 /// A quantity over temperature.
@@ -38,6 +40,8 @@ pub struct FittedChannel {
     pub coefficients: Vec<DVector<f64>>,
     /// Their covariance, without what all soaks share, such as gravity.
     pub covariances: Vec<DMatrix<f64>>,
+    /// Root mean square of each soak less what the others predict of it, over the standard deviations: 1 where these hold. `None` where no soak is predicted.
+    pub left_out_ratio: Option<f64>,
     /// Is there hysteresis? `None`: the soaks do not determine it.
     pub hysteresis: Option<WaldTest>,
     /// Does the thermometer lag?

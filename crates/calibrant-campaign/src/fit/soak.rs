@@ -32,14 +32,14 @@ pub(super) const CHANGES: f64 = 0.05;
 /// Temperatures that differ by less are the same, K.
 const SAME_K: f64 = 1.0;
 
-/// The paths of soaks in the order in which they were recorded. The rate of the recorded temperature tells the direction; where it does not change, the soak
+/// The paths of soaks or holds in the order in which they were recorded. The rate of the recorded temperature tells the direction; where it does not change, the one
 /// before, or the room.
-pub(super) fn paths(campaign: &Campaign, soaks: &[SoakCalibration]) -> Vec<SoakPath> {
+#[must_use]
+pub fn paths(campaign: &Campaign, temperatures: impl IntoIterator<Item = SoakTemperature>) -> Vec<SoakPath> {
     let (mut before_c, mut direction) = (ROOM_C, 0.0);
-    soaks
-        .iter()
-        .map(|soak| {
-            let SoakTemperature { mean_c, rate_k_per_min, .. } = soak.temperature;
+    temperatures
+        .into_iter()
+        .map(|SoakTemperature { mean_c, rate_k_per_min, .. }| {
             let lag_left = rate_k_per_min.abs() / campaign.ramp_k_per_min;
             if lag_left > CHANGES {
                 direction = rate_k_per_min.signum();
@@ -60,18 +60,17 @@ pub(super) fn paths(campaign: &Campaign, soaks: &[SoakCalibration]) -> Vec<SoakP
 mod tests {
     use super::*;
     use crate::fit::tests::campaign;
-    use calibrant_core::sensor::{CalibratedImu, ImuParameters};
 
     #[test]
     fn rates_tell_directions_and_where_nothing_changes_the_soak_before_does() {
-        let soak = |(mean_c, rate_k_per_min): (f64, f64)| SoakCalibration {
-            name: String::new(),
-            imu: CalibratedImu::new(ImuParameters::identity(), [None, None], vec![], ""),
-            temperature: SoakTemperature { mean_c, rate_k_per_min, range_c: [mean_c; 2] },
+        let soak = |(mean_c, rate_k_per_min): (f64, f64)| SoakTemperature {
+            mean_c,
+            rate_k_per_min,
+            range_c: [mean_c; 2],
         };
         let soaks =
             [(25.2, 0.0), (40.0, 0.5), (60.0, 0.01), (60.3, 0.0), (50.0, -0.02), (55.0, -1.0)].map(soak);
-        let paths = paths(&campaign(), &soaks);
+        let paths = paths(&campaign(), soaks);
         let found: Vec<f64> = paths.iter().map(|path| path.direction).collect();
         assert_eq!(found, [0.0, 1.0, 1.0, 1.0, -1.0, -1.0], "at a room's temperature nobody knows");
         assert_eq!(paths[5].lag_left, 0.5);

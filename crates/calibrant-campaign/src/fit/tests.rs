@@ -3,7 +3,7 @@
 use super::*;
 use crate::rehearsal::{draw, measure};
 use crate::{Campaign, CampaignCriterion, Channel, Direction, Soak, rehearse};
-use calibrant_core::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{Axis, CalibratedImu, ImuQuantity, Quantity, SensorKind, ThermalPart};
 use calibrant_core::simulate::{Purpose, stream};
 
 /// Accelerometer bias and scale of the reference cases.
@@ -96,6 +96,48 @@ fn of_100_sensors_the_intervals_hold_and_good_campaigns_pass() {
         .map(|(_, count)| count)
         .sum();
     assert!(alarms <= 3, "{:?}", campaign.warnings);
+}
+
+/// Sensors on the branches of a ramp that was not used: errors are as predicted.
+#[test]
+fn a_branch_is_predicted_with_its_hysteresis_and_lag() {
+    let model = model();
+    let bias = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(Axis::X));
+    let (mut squares, mut of_mean, mut count) = (0.0, 0.0, 0.0);
+    for seed in 0..60 {
+        let mut rng = stream(seed, Purpose::Sensor, 0);
+        let truth = draw(&model.campaign, &mut rng);
+        let found = fit(&model, &measure(&model.campaign, &plan(), &truth, &mut rng)).expect("fits");
+        let channel = &model.campaign.channels[0];
+        for direction in [1.0, -1.0] {
+            let path = SoakPath { temperature_c: 0.0, direction, lag_left: 0.8 };
+            let imu = found.on_path(&path);
+            for temperature_c in [-15.0, 5.0, 40.0] {
+                let x = model.campaign.x(temperature_c);
+                let of_branch = channel.row(x, direction, 0.8).dot(&truth[0][0]);
+                let slope = nalgebra::DVector::from_iterator(
+                    imu.quantities.len(),
+                    imu.quantities.iter().map(|of| match of {
+                        ImuQuantity::Thermal(SensorKind::Accelerometer, term)
+                            if term.axis == Axis::X && term.part == ThermalPart::Bias =>
+                        {
+                            (temperature_c - imu.parameters.thermal.reference_c).powi(term.order as i32)
+                        }
+                        of if *of == bias => 1.0,
+                        _ => 0.0,
+                    }),
+                );
+                let variance = (imu.covariance.as_ref().expect("there") * &slope).dot(&slope);
+                let of = |imu: &CalibratedImu| bias.value(&imu.parameters.at(temperature_c)) - of_branch;
+                squares += of(&imu).powi(2) / variance;
+                of_mean += of(&found.imu).powi(2) / variance;
+                count += 1.0;
+            }
+        }
+    }
+    // the variance has the scatter of another recording, which the truth has not
+    assert!((0.05..1.0).contains(&(squares / count)), "{}", squares / count);
+    assert!(of_mean > 5.0 * squares, "the lag is no part of the mean: {of_mean} {squares}");
 }
 
 #[test]

@@ -13,6 +13,7 @@ use calibrant::diagnostic::fit::NothingToCheck;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, write_summary};
 use calibrant::progress::Progress;
+use calibrant::session::{Session, SessionOptions};
 use std::path::Path;
 
 /// Are these the soaks of a campaign?
@@ -33,7 +34,6 @@ fn is_calibration(path: &Path) -> bool {
 /// Refuses what is of one recording, and calibrations among recordings.
 fn refuse_other_options(arguments: &Arguments) -> calibrant::Result<()> {
     let given = [
-        ("--validate", arguments.validate.is_some()),
         ("--folds", arguments.folds.is_some()),
         ("--residuals", arguments.residuals.is_some()),
         ("--records", arguments.records.is_some()),
@@ -43,9 +43,15 @@ fn refuse_other_options(arguments: &Arguments) -> calibrant::Result<()> {
         Err(Error::experiment(InputError::new(Refusal::OptionsContradict, message, help)))
     };
     if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
-        let help =
-            "leave it away; the report of the campaign shows what each soak differs by from the others";
+        let help = "leave it away; the report tells how the others predict each soak, and --validate tries another recording";
         return refused(format!("{option} is not for a campaign over temperature"), help);
+    }
+    let same = |one: &Path, other: &Path| one.canonicalize().ok() == other.canonicalize().ok();
+    if let Some(held_out) = &arguments.validate
+        && arguments.recordings.iter().any(|recording| same(recording, held_out))
+    {
+        let help = "leave it out of the soaks, or give another recording of the sensor";
+        return refused(format!("--validate {}: it is among the soaks", held_out.display()), help);
     }
     if !are_calibrated(arguments) && arguments.recordings.iter().any(|path| is_calibration(path)) {
         let help = "give the recordings of all soaks, or the calibration.json of each";
@@ -66,7 +72,11 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment) -> calibrant::
     let mut notes = Vec::new();
     let found = CampaignCalibration::of_soaks(experiment, soaks, rules().allowed(), &mut notes);
     tell_all(&notes);
-    let found = found?;
+    let mut found = found?;
+    let options = job::options(arguments)?;
+    if let Some(held_out) = options.validate.clone() {
+        found = found.validate(&Session::with(experiment.of_one_soak()?, options)?, &held_out)?;
+    }
     tell_all(&found.fitted.warnings);
     found.write(&arguments.output, !arguments.no_report)?;
     console::result(arguments.json, || found.json(), &found.sheet(), None, &[arguments.main_result()])?;
@@ -80,7 +90,9 @@ type Soaks = Vec<(String, std::result::Result<String, String>)>;
 /// Calibrates each soak into a folder of its own.
 fn each(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<(Soaks, Exit)> {
     let of_one = experiment.of_one_soak()?;
-    let batch = job::batch(arguments, &of_one)?;
+    // what validates is for all soaks together
+    let options = SessionOptions { validate: None, ..job::options(arguments)? };
+    let batch = job::batch_with(options, arguments, &of_one)?;
     let bar = console::progress(arguments.recordings.len() as u64, "calibrating soaks");
     let shown = bar.clone();
     let mut results: BatchResults = batch.run(&Progress::to(move |step| shown.set_position(step.done)));

@@ -10,9 +10,17 @@ use calibrant::session::{MotionSource, Readings, Session, SessionOptions, Source
 
 /// The recordings of a call and what they share.
 pub(super) fn batch(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Batch> {
+    batch_with(options(arguments)?, arguments, experiment)
+}
+
+/// The same with other options for each recording.
+pub(super) fn batch_with(
+    mut session_options: SessionOptions,
+    arguments: &Arguments,
+    experiment: &Experiment,
+) -> calibrant::Result<Batch> {
     arguments.residuals.as_deref().map(TableFormat::of).transpose()?;
     let sources = sources(arguments, experiment)?;
-    let mut session_options = options(arguments)?;
     if sources.len() > 1 {
         session_options.interruption = interruption::keeping_the_best();
     }
@@ -27,7 +35,7 @@ pub(super) fn batch(arguments: &Arguments, experiment: &Experiment) -> calibrant
     Batch::new(session, sources, options)
 }
 
-fn options(arguments: &Arguments) -> calibrant::Result<SessionOptions> {
+pub(super) fn options(arguments: &Arguments) -> calibrant::Result<SessionOptions> {
     let other = |recording| Source {
         gyroscope: arguments.validate_gyroscope.as_ref().map(Readings::file),
         ..Source::from_file(recording)

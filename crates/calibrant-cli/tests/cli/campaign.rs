@@ -89,6 +89,18 @@ const SHORT: [(&str, &str); 5] = [
     ("# rate_hz = 100.0 ", "rate_hz = 50.0 "),
 ];
 
+/// The recording with another bias of the accelerometer's y axis.
+fn with_bias(text: &str, bias_mps2: f64) -> String {
+    let moved = |line: &str| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let Ok(value) = cells[2].parse::<f64>() {
+            cells[2] = (value + bias_mps2).to_string();
+        }
+        cells.join(",")
+    };
+    text.lines().map(moved).collect::<Vec<_>>().join("\n")
+}
+
 /// Design, simulation, one calibration over all soaks, and its exports.
 #[test]
 fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
@@ -117,6 +129,24 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     let again = bench.json("again/calibration.json");
     assert_eq!(again["covariance"], found["covariance"]);
     assert_eq!(again["parameters"], found["parameters"]);
+    // one soak is held out: its errors are as predicted, and those of a sensor that has changed are not
+    let others = recordings[..soaks - 1].join(" ");
+    let held_out = |file: &str| {
+        let arguments =
+            format!("calibrate campaign.toml {others} --validate {file} --no-report --json -o held");
+        let kinds = bench.run(&arguments).json()["validations"][0].clone();
+        ["magnitude", "rate", "rotation"]
+            .map(|kind| kinds[kind]["factor_interval_99"][0].as_f64().expect("judged"))
+    };
+    let last = recordings[soaks - 1].as_str();
+    assert!(held_out(last).iter().all(|low| *low < 1.0));
+    bench.write("changed.csv", &with_bias(&bench.read(last), 0.05));
+    assert!(held_out("changed.csv")[0] > 1.0);
+    bench.refuses(
+        &format!("calibrate campaign.toml {} --validate {last} -o held", recordings.join(" ")),
+        2,
+        &["is among the soaks", "leave it out of the soaks"],
+    );
     // what to add
     bench.run("design campaign.toml --from result/calibration.json --add-min 60 -o more").done();
     let value = |file: &str, pointer: &str| {

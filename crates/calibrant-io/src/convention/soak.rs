@@ -7,9 +7,10 @@ use calibrant_campaign::fit::SoakCalibration;
 use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::VerdictBad;
-use calibrant_core::estimate::SoakTemperature;
+use calibrant_core::estimate::{HoldScatter, SoakTemperature};
 use calibrant_recording::files::utc_time::UtcTime;
 use calibrant_recording::text::decoding::Checked;
+use nalgebra::Vector3;
 use serde::Deserialize;
 
 /// A soak as its `calibration.json` has it.
@@ -17,6 +18,8 @@ use serde::Deserialize;
 pub struct ReadSoak {
     /// Its calibration.
     pub calibration: SoakCalibration,
+    /// How its holds scatter.
+    pub scatter: HoldScatter,
     /// The files of its recording.
     pub inputs: Vec<Input>,
     /// When it was recorded.
@@ -32,6 +35,26 @@ struct SoakFields {
     soak: Option<SoakCore>,
     recorded: Option<String>,
     sensor: Option<String>,
+    holds: Option<HoldsCore>,
+    still_gyroscope: Option<StillCore>,
+    rotations: Option<RotationsCore>,
+}
+
+#[derive(Deserialize)]
+struct HoldsCore {
+    between_holds_sd_mps2: f64,
+    degrees_of_freedom: f64,
+}
+
+#[derive(Deserialize)]
+struct StillCore {
+    #[serde(alias = "between_holds_sd_radps")]
+    between_holds_sd_counts: Option<[f64; 3]>,
+}
+
+#[derive(Deserialize)]
+struct RotationsCore {
+    excess_sd_rad: f64,
 }
 
 #[derive(Deserialize)]
@@ -62,7 +85,16 @@ pub fn parse_soak(text: &str, name: &str) -> Checked<ReadSoak> {
     })?;
     let temperature = SoakTemperature { mean_c, rate_k_per_min, range_c };
     let bad = header.findings().into_iter().find(|found| found.code() == VerdictBad::CODE);
+    let scatter = HoldScatter {
+        between_holds_sd_mps2: fields.holds.as_ref().map_or(0.0, |holds| holds.between_holds_sd_mps2),
+        gyroscope_between_holds_sd: fields
+            .still_gyroscope
+            .and_then(|still| still.between_holds_sd_counts)
+            .map_or_else(Vector3::zeros, Vector3::from),
+        between_rotations_sd_rad: fields.rotations.map_or(0.0, |rotations| rotations.excess_sd_rad),
+        degrees: fields.holds.map_or(0.0, |holds| holds.degrees_of_freedom),
+    };
     let calibration = SoakCalibration { name: name.to_owned(), imu, temperature };
     let recorded = fields.recorded.as_deref().and_then(UtcTime::parse);
-    Ok(ReadSoak { calibration, inputs, recorded, sensor: fields.sensor, bad })
+    Ok(ReadSoak { calibration, scatter, inputs, recorded, sensor: fields.sensor, bad })
 }

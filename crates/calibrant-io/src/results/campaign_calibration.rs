@@ -5,8 +5,8 @@ use super::judgement::Judgement;
 use super::origin::Origin;
 use calibrant_campaign::fit::{CampaignModel, FittedCampaign, FittedChannel, FittedSoak};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::estimate::CalibrationStatus;
-use calibrant_core::json::{flat, if_some};
+use calibrant_core::estimate::{CalibrationStatus, Validation};
+use calibrant_core::json::{flat, if_any, if_some};
 use calibrant_core::json_object;
 use calibrant_core::sensor::ImuFields;
 
@@ -19,6 +19,8 @@ pub struct CampaignCalibrationFile<'a> {
     pub model: &'a CampaignModel,
     /// Of which sensor it is, and from which files.
     pub origin: &'a Origin,
+    /// The calibration on recordings that were not used.
+    pub validations: &'a [Validation],
     /// What judges it.
     pub judgement: Judgement<'a>,
 }
@@ -46,6 +48,8 @@ json_object! {
         channels: file.fitted.channels.iter().map(ChannelOf).collect::<Vec<_>>(),
         /// The soaks in their order.
         soaks: file.fitted.soaks.iter().map(|soak| SoakOf { soak, channels: &file.fitted.channels }).collect::<Vec<_>>(),
+        /// Errors on recordings that were not used, one for each direction of their temperature.
+        validations: if_any(file.validations),
         warnings: file.warnings(),
     }
 }
@@ -75,6 +79,8 @@ json_object! {
         scatter_found: of.0.scatter.found,
         /// Coefficients of each axis in Legendre polynomials over the range, then of hysteresis and of lag.
         coefficients: of.0.coefficients.iter().map(|of| of.iter().copied().collect::<Vec<f64>>()).collect::<Vec<_>>(),
+        /// Root mean square of each soak less what the others predict of it, over the standard deviations: 1 where these hold.
+        left_out_ratio: if_some(of.0.left_out_ratio),
         /// Probability that there is no hysteresis; nothing where the soaks do not determine it.
         hysteresis_p_value: if_some(of.0.hysteresis.as_ref().map(|test| test.p_value)),
         /// Probability that the thermometer does not lag.

@@ -9,13 +9,14 @@ use calibrant_core::diagnostic::machine::{
 use calibrant_core::diagnostic::samples::Spikes;
 use calibrant_core::diagnostic::validation::{FoldsAgree, ResidualsConfirmed, ValidationDoubts};
 use calibrant_core::diagnostic::{Check, Code, Diagnostic, Phrase};
-use calibrant_core::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors};
+use calibrant_core::estimate::{CovarianceVerdict, ErrorKind, ValidatedErrors, Validation};
 use calibrant_machine::estimate::{MachineValidationSource, ParameterShift};
 
 /// Adds the limits, and the diagnostics of validations and limits, to an outcome. `findings`: what the reader noticed in its recording.
 pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings: Vec<Code>) {
     let limits = checked(limits, &figures(&outcome.calibrated, &outcome.validations));
-    let mut found = doubts(outcome);
+    let mut found = doubts(&outcome.validations);
+    found.extend(machine_doubts(outcome));
     if let Some((note, codes)) = confirmed(outcome) {
         found.push(note);
         outcome.allowed.extend(codes);
@@ -29,7 +30,7 @@ pub(crate) fn judge(outcome: &mut Outcome, limits: &[AcceptanceLimit], findings:
 }
 
 /// What validations say against the covariance.
-fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
+pub(crate) fn doubts(validations: &[Validation]) -> Vec<Diagnostic> {
     let of_errors = |errors: &ValidatedErrors| {
         let what = match errors.kind {
             ErrorKind::Magnitude => "the errors of |f|",
@@ -39,14 +40,18 @@ fn doubts(outcome: &Outcome) -> Vec<Diagnostic> {
         let is_large = errors.verdict == CovarianceVerdict::TooSmall;
         is_large.then(|| Diagnostic::from(ValidationDoubts { what: what.into(), factor: errors.factor }))
     };
+    validations.iter().flat_map(|of| &of.kinds).filter_map(of_errors).collect()
+}
+
+/// The same of validations on a machine.
+fn machine_doubts(outcome: &Outcome) -> Vec<Diagnostic> {
     let of_shift = |shift: &ParameterShift| {
         let what = format!("the movements of the parameters of the {}", shift.sensor);
         let is_large = shift.verdict == CovarianceVerdict::TooSmall;
         is_large.then(|| Diagnostic::from(ValidationDoubts { what, factor: shift.factor }))
     };
     let on_machine = outcome.calibrated.machine().map_or(&[][..], |machine| &machine.validations);
-    let shifts = on_machine.iter().flat_map(|of| &of.shifts).filter_map(of_shift);
-    outcome.validations.iter().flat_map(|of| &of.kinds).filter_map(of_errors).chain(shifts).collect()
+    on_machine.iter().flat_map(|of| &of.shifts).filter_map(of_shift).collect()
 }
 
 /// What is left in the residuals, or was taken out, says that the standard deviations may not hold; they are widened by it, and another recording that finds

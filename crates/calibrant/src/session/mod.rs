@@ -48,6 +48,7 @@ mod duplicates;
 mod failure;
 mod figures;
 mod head;
+mod held_out;
 mod holds;
 mod kind;
 mod left_out;
@@ -75,6 +76,7 @@ mod task;
 mod unused;
 mod validation;
 
+pub(crate) use acceptance::doubts;
 pub use calibrated::{Calibrated, MachineOutcome};
 pub use motion_source::MotionSource;
 pub use options::SessionOptions;

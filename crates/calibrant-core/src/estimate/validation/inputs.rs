@@ -4,7 +4,7 @@ use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::{at_sensor, needed_temperatures};
 use crate::estimate::{Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuProblem, Stimulus};
 use crate::motion::Hold;
-use crate::sensor::Temperatures;
+use crate::sensor::{Recording, Temperatures};
 
 /// The temperatures of the sensor in a recording, where the calibration follows them: sample times, and values in °C with the thermometer's lag taken off.
 pub(super) fn temperatures<'a>(
@@ -35,6 +35,18 @@ pub(super) fn at_least_one(holds: Vec<Hold>, setup: &HoldsSetup) -> Result<Vec<H
         )));
     }
     Ok(holds)
+}
+
+/// Refuses holds of which none has samples of the gyroscope.
+pub(super) fn with_gyroscope(holds: &[Hold], gyroscope: &Recording) -> Result<()> {
+    if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {
+        return Err(Error::recording(InputError::new(
+            Refusal::RecordingsUnlike,
+            "the gyroscope has no samples in the holds of the accelerometer",
+            "both need the same clock: are these files of one recording?",
+        )));
+    }
+    Ok(())
 }
 
 /// What a calibration found of its holds.

@@ -99,7 +99,7 @@ impl Prediction {
             still_within: of_still(|still| still.within_holds_sd),
             still_sd: of_still(|still| still.between_holds_sd),
             still_degrees: std::array::from_fn(|axis| Degrees::of_scatter(used, unknowns_at_rest(axis))),
-            inverse_hold_s: inverse_hold_s(holds),
+            inverse_hold_s: inverse_duration(holds.used().map(|used| &used.hold)),
             rotation_sd_rad: gyroscope.map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad),
             knock_rms: gyroscope.map_or(0.0, |gyroscope| gyroscope.knock_rms),
             turns_in_holds: gyroscope
@@ -160,10 +160,10 @@ fn within(holds: &HoldCalibration) -> Vector3<f64> {
     Hold::pooled_sd(holds.used().map(|hold| &hold.hold))
 }
 
-fn inverse_hold_s(holds: &HoldCalibration) -> f64 {
-    let used = holds.used();
-    let (sum, count) = used.fold((0.0, 0_u32), |(sum, count), used| {
-        (sum + used.hold.duration_s().max(f64::MIN_POSITIVE).recip(), count + 1)
+/// Mean of the inverse durations of holds, 1/s.
+pub(super) fn inverse_duration<'a>(holds: impl Iterator<Item = &'a Hold>) -> f64 {
+    let (sum, count) = holds.fold((0.0, 0_u32), |(sum, count), hold| {
+        (sum + hold.duration_s().max(f64::MIN_POSITIVE).recip(), count + 1)
     });
     sum / f64::from(count.max(1))
 }

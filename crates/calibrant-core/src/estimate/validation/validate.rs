@@ -2,7 +2,7 @@
 
 use super::caveats_of_calibration::Caveats;
 use super::explanations;
-use super::inputs::{at_least_one, from_holds, of_holds, singular, temperatures, view};
+use super::inputs::{at_least_one, from_holds, of_holds, singular, temperatures, view, with_gyroscope};
 use super::judgement::judged;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
@@ -43,13 +43,7 @@ pub fn validate_imu(calibration: &Calibration, problem: &ImuProblem<'_>) -> Resu
         temperatures: at_sensor.as_ref().map(view),
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
-    if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {
-        return Err(Error::recording(InputError::new(
-            Refusal::RecordingsUnlike,
-            "the gyroscope has no samples in the holds of the accelerometer",
-            "both need the same clock: are these files of one recording?",
-        )));
-    }
+    with_gyroscope(&holds, gyroscope)?;
     let prediction = Prediction::of(calibration, from_holds(calibration)?, problem.setup);
     on_another(&prediction, unused, &Caveats::of(calibration))
 }
@@ -72,7 +66,11 @@ pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> 
     on_another(&prediction, unused, &Caveats::of(calibration))
 }
 
-fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) -> Result<Validation> {
+pub(super) fn on_another(
+    prediction: &Prediction,
+    unused: Unused<'_>,
+    caveats: &Caveats,
+) -> Result<Validation> {
     let unused = Unused { another: true, ..unused };
     if unused.holds.is_empty() {
         return Err(Error::recording(InputError::new(
