@@ -1,7 +1,6 @@
 //! The sensor on one branch: what the fit predicts of a recording that was not used.
 
 use super::entry::{AtReference, Entry, Means};
-use super::result::FittedCampaign;
 use super::scatter::{SoakScatter, added_variance};
 use super::soak::SoakPath;
 use crate::{Campaign, Channel};
@@ -21,23 +20,21 @@ pub(super) struct Solved {
     pub(super) covariance: DMatrix<f64>,
 }
 
-impl FittedCampaign {
-    /// The sensor of a recording on this path, with the hysteresis of its direction and the lag of its rate. Its covariance has the scatter between recordings, but not what
-    /// all recordings at the place share, such as gravity that is not exactly known.
-    #[must_use]
-    pub fn on_path(&self, path: &SoakPath) -> CalibratedImu {
-        let Solved { campaign, channels, entries, .. } = &self.solved;
-        let mut covariance = self.solved.covariance.clone();
+impl Solved {
+    /// The sensor of a recording on this path; `imu`: the mean of both branches.
+    pub(super) fn on_path(&self, imu: &CalibratedImu, path: &SoakPath) -> CalibratedImu {
+        let Self { campaign, channels, entries, .. } = self;
+        let mut covariance = self.covariance.clone();
         for entry in entries {
             let (first, channel) = (entry.places.start, &channels[entry.channel]);
             covariance[(first, first)] +=
-                added_variance(campaign, channel, &self.solved.scatters[entry.channel], path);
+                added_variance(campaign, channel, &self.scatters[entry.channel], path);
         }
-        let mut imu = self.imu.clone();
+        let mut imu = imu.clone();
         let at = AtReference::of(
             entries,
-            &self.solved.means,
-            &self.solved.coefficients,
+            &self.means,
+            &self.coefficients,
             |entry| channels[entry.channel].on_branch(path.direction, path.lag_left),
             (campaign.range_c, imu.parameters.thermal.reference_c),
         );

@@ -65,6 +65,15 @@ pub struct FittedSoak {
     pub residual_sds: Vec<Vec<f64>>,
 }
 
+impl FittedCampaign {
+    /// The sensor of a recording on this path, with the hysteresis of its direction and the lag of its rate. Its covariance has the scatter between recordings, but not what
+    /// all recordings at the place share, such as gravity that is not exactly known.
+    #[must_use]
+    pub fn on_path(&self, path: &SoakPath) -> CalibratedImu {
+        self.solved.on_path(&self.imu, path)
+    }
+}
+
 impl FittedChannel {
     /// The polynomial of an axis at `x`, −1 to 1 over the range, and its standard deviation.
     #[must_use]
