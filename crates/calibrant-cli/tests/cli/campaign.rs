@@ -140,7 +140,7 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     };
     let last = recordings[soaks - 1].as_str();
     assert!(held_out(last).iter().all(|low| *low < 1.0));
-    bench.write("changed.csv", &with_bias(&bench.read(last), 0.05));
+    bench.write("changed.csv", with_bias(&bench.read(last), 0.05));
     assert!(held_out("changed.csv")[0] > 1.0);
     bench.refuses(
         &format!("calibrate campaign.toml {} --validate {last} -o held", recordings.join(" ")),
