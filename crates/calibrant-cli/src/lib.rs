@@ -14,6 +14,8 @@ mod exit;
 mod experiment_settings;
 mod explain;
 mod figures;
+#[cfg(feature = "guide")]
+mod guide;
 mod init;
 mod inspect;
 mod interruption;
@@ -78,6 +80,8 @@ enum Command {
     Design(design::Arguments),
     Simulate(simulate::Arguments),
     Calibrate(Box<calibrate::Arguments>),
+    #[cfg(feature = "guide")]
+    Guide(Box<guide::Arguments>),
     #[cfg(feature = "study")]
     Study(study::Arguments),
     Noise(noise::Arguments),
@@ -120,6 +124,8 @@ pub fn main(arguments: Vec<OsString>) -> u8 {
         Command::Design(arguments) => arguments,
         Command::Simulate(arguments) => arguments,
         Command::Calibrate(arguments) => arguments.as_ref(),
+        #[cfg(feature = "guide")]
+        Command::Guide(arguments) => arguments.as_ref(),
         #[cfg(feature = "study")]
         Command::Study(arguments) => arguments,
         Command::Noise(arguments) => arguments,

@@ -30,6 +30,7 @@ mod installation;
 #[cfg(unix)]
 mod interruption;
 mod invalid_samples;
+mod live_guide;
 mod low_pass_filtered;
 mod machine;
 mod manners;

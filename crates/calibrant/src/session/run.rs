@@ -7,12 +7,13 @@ use super::motion_source::MotionSource;
 use super::options::SessionOptions;
 use super::outcome::Outcome;
 use super::prepared::{Prepared, unsuited};
+use super::reader::Reader;
 use super::source::Source;
 use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
-use calibrant_io::{Experiment, HashedFile, Origin, Plan, ResumeKey, UrdfSource};
+use calibrant_io::{Experiment, HashedFile, ImuFile, Origin, Plan, ResumeKey, UrdfSource};
 
 /// From recordings to calibrations, in files or in memory. It holds what all recordings share, and can calibrate several at the same time.
 pub struct Session {
@@ -91,6 +92,14 @@ impl Session {
     #[must_use]
     pub fn notes(&self) -> &[Diagnostic] {
         &self.notes
+    }
+
+    /// A recording as it is read: its samples, columns and units, and what was noticed.
+    ///
+    /// # Errors
+    /// [`Error::Recording`](crate::Error::Recording) where it cannot be read, or leaves open what its columns are.
+    pub fn read(&self, source: &Source) -> Result<ImuFile> {
+        Reader::of(&self.experiment, &self.options).file(source)
     }
 
     /// Calibrates from one recording: reads, cleans, finds holds and noise, estimates, validates, judges.

@@ -22,6 +22,7 @@ const LAYERS: &[&[&str]] = &[
     &["calibrant-io"],
     &["calibrant-records"],
     &["calibrant"],
+    &["calibrant-guide"],
     &["calibrant-cli"],
     &["calibrant-py"],
 ];

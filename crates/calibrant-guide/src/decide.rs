@@ -1,0 +1,198 @@
+//! What follows from a decision of the gate, and from an estimate.
+
+use crate::decision::Decision;
+use crate::estimate::{Answer, Estimate};
+use crate::run::Run;
+use crate::shown::{Kind, shown_unit};
+use calibrant_core::diagnostic::Usability;
+use calibrant_core::error::Result;
+use calibrant_core::number_format::{counted, significant};
+use calibrant_core::sensor::ReadingUnit;
+use nalgebra::Vector3;
+use serde_json::json;
+
+/// A pose within this angle of one that was held is known, cosine.
+const KNOWN: f64 = 0.985;
+/// A hold is estimated again at its end where it is so many times as long.
+const LONGER: f64 = 1.5;
+/// What a known pose gains is told below this share.
+const LITTLE: f64 = 0.02;
+
+impl Run<'_> {
+    pub(crate) fn decide(&mut self, decision: Decision) -> Result<()> {
+        let one = |value: f64| format!("{value:.1}");
+        match decision {
+            Decision::Held { start_s, seconds, up } => {
+                let up = Vector3::from(up);
+                let is_known = self.held.iter().any(|(.., held)| held.dot(&up) > KNOWN);
+                self.held.push((start_s, start_s + seconds, up));
+                self.ratio_before = if is_known { self.told.estimate.worst_ratio() } else { None };
+                self.say(Kind::Good, format!("Got it: {} s.", one(seconds)))?;
+                self.question(true)?;
+            }
+            Decision::Ended { end_s, .. } => {
+                let Some(last) = self.held.last_mut() else { return Ok(()) };
+                let was_s = last.1 - last.0;
+                last.1 = end_s;
+                // what is hardly longer tells hardly more
+                if end_s - last.0 > LONGER * was_s {
+                    self.question(false)?;
+                }
+            }
+            Decision::Cut => self.say(Kind::Info, "A knock was cut out.".to_owned())?,
+            Decision::Short { seconds, needed_s } => {
+                let text =
+                    format!("Too short: {} s of {} s. Hold it a little longer.", one(seconds), one(needed_s));
+                self.say(Kind::Warning, text)?;
+            }
+            Decision::Slides { by } => {
+                let unit = if self.units[0] == ReadingUnit::Counts { "counts" } else { "m/s²" };
+                self.say(Kind::Warning, format!("It slides, by {} {unit} within the hold: put it down, or lean it on something. What is still counts on.", significant(by, 2)))?;
+            }
+            Decision::Clips { axis } => {
+                self.put_off();
+                self.say(
+                    Kind::Error,
+                    format!(
+                        "Refused: {} is at the end of its range. Take another pose, or a larger range.",
+                        ["x", "y", "z"][axis % 3]
+                    ),
+                )?;
+            }
+            Decision::Fast { axis } => {
+                self.say(
+                    Kind::Warning,
+                    format!(
+                        "Turned too fast about {}: that rotation may not count. Turn more slowly.",
+                        ["x", "y", "z"][axis % 3]
+                    ),
+                )?;
+            }
+            Decision::Gap { seconds } => {
+                self.say(
+                    Kind::Warning,
+                    format!("No samples for {} s: the hold ended there.", significant(seconds, 2)),
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn answer(&mut self, answer: Answer) -> Result<()> {
+        match answer {
+            Answer::First(parameters, took) => {
+                let (took_ms, holds) = (took.as_millis() as u64, self.held.len());
+                self.told.estimate.parameters = parameters;
+                self.show_result();
+                self.log.event(
+                    &json!({"at_s": self.last_s, "kind": "estimate", "holds": holds, "took_ms": took_ms}),
+                )
+            }
+            Answer::Whole(estimate) => self.whole(estimate),
+        }
+    }
+
+    fn whole(&mut self, estimate: Estimate) -> Result<()> {
+        self.waits_for_answer = 0;
+        let holds_before = self.told.estimate.holds.len();
+        self.refused(&estimate)?;
+        if let (Some(before), Some(now)) = (self.ratio_before.take(), estimate.worst_ratio()) {
+            let gain = 1.0 - now / before;
+            if gain < LITTLE {
+                self.say(
+                    Kind::Info,
+                    format!("Known: this pose improves the result by {:.1} % only.", 100.0 * gain.max(0.0)),
+                )?;
+            }
+        }
+        let is_new = estimate.holds.len() != holds_before;
+        let reaches = estimate.reaches_all();
+        self.reached = match (reaches, is_new) {
+            (false, _) => 0,
+            (true, true) => self.reached + 1,
+            (true, false) => self.reached.max(1),
+        };
+        self.folds_agree = estimate.folds_agree.or(self.folds_agree.filter(|_| reaches));
+        let is_good =
+            self.reached >= 2 && self.folds_agree == Some(true) && estimate.usability == Some(Usability::Ok);
+        self.advice.give(estimate.next.as_ref().map(|next| next.up));
+        self.told.now = self.up();
+        let first_good = is_good && !self.told.good_enough;
+        self.told.good_enough = is_good;
+        self.told.sentence = self.sentence(&estimate, reaches);
+        self.told.estimate = estimate;
+        if first_good {
+            let text = self.told.sentence.clone();
+            self.say(Kind::Good, text)?;
+            self.finish |= self.options.stop_when_good;
+        }
+        if self.told.estimate.of_new_hold {
+            self.terminal.table(&self.told);
+        }
+        self.show_result();
+        Ok(())
+    }
+
+    /// Tells of a hold that the calibration leaves out since now.
+    pub(crate) fn refused(&mut self, estimate: &Estimate) -> Result<()> {
+        let before = &self.told.estimate.holds;
+        let was_out = |start_s: f64| {
+            before.iter().any(|hold| hold.left_out.is_some() && (hold.start_s - start_s).abs() < 0.5)
+        };
+        let new: Vec<(usize, String)> = estimate
+            .holds
+            .iter()
+            .enumerate()
+            .filter_map(|(number, hold)| {
+                let why = hold.left_out.clone()?;
+                (!was_out(hold.start_s)).then_some((number, why))
+            })
+            .collect();
+        for (number, why) in new {
+            self.put_off.push(estimate.holds[number].up);
+            self.say(
+                Kind::Warning,
+                format!("Hold {} does not count: {why}. A magnet, vibration, or a slip?", number + 1),
+            )?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn sentence(&self, estimate: &Estimate, reaches: bool) -> String {
+        if let Some(missing) = &estimate.missing {
+            return format!("{} so far: {missing}.", counted(self.held.len(), "hold"));
+        }
+        let gain = estimate.next.as_ref().map_or(0.0, |next| next.three_gain);
+        let more = format!("3 more holds would gain {:.0} %", 100.0 * gain);
+        let usual = if self.are_usual_goals {
+            " The goals are usual ones; [accept] of the experiment sets yours."
+        } else {
+            ""
+        };
+        if self.told.good_enough {
+            return format!("Good enough; {more}.{usual}");
+        }
+        if reaches {
+            let why = estimate.warnings.first().cloned();
+            let folds = (self.folds_agree == Some(false))
+                .then(|| "parts of the recording disagree by more than they should".to_owned());
+            return match folds.or(why) {
+                Some(why) => format!("All goals are reached, but: {why}"),
+                None => format!("All goals are reached; one more hold confirms it.{usual}"),
+            };
+        }
+        let worst = estimate.parameters.iter().filter_map(|of| Some((of, of.sd / of.goal?)));
+        match worst.max_by(|one, other| one.1.total_cmp(&other.1)) {
+            Some((of, _)) if of.goal.is_some_and(|goal| of.floor > goal) => format!(
+                "No hold brings {} below {} {}: gravity is not known better. Give holds.gravity_mps2, or your latitude and height.",
+                of.name,
+                significant(shown_unit(of.unit).1 * of.floor, 2),
+                shown_unit(of.unit).0
+            ),
+            Some((of, ratio)) => {
+                format!("{} is {} times its goal; {more}.{usual}", of.name, significant(ratio, 2))
+            }
+            None => format!("{more}."),
+        }
+    }
+}

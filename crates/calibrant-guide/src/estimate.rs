@@ -1,0 +1,202 @@
+//! What the holds tell so far: the same calibration as that of a recording, of the samples in memory.
+
+use crate::advice::{NextPose, first_poses, next_pose};
+use crate::goals::Goals;
+use calibrant::session::{Session, Source};
+use calibrant_core::diagnostic::{Diagnostic, Severity, Usability};
+use calibrant_core::error::Error;
+use calibrant_core::estimate::CovarianceVerdict;
+use calibrant_core::sensor::{ImuQuantity, ImuRecording, Quantity, SensorKind};
+use nalgebra::Vector3;
+use std::time::{Duration, Instant};
+
+/// What is asked.
+pub(crate) struct Question {
+    /// Does it follow a hold that is new?
+    pub(crate) of_new_hold: bool,
+    pub(crate) recording: ImuRecording,
+    /// Holds by the gate: begin, end, and which way was up.
+    pub(crate) held: Vec<(f64, f64, Vector3<f64>)>,
+    pub(crate) asked: Instant,
+    pub(crate) now: Option<Vector3<f64>>,
+    pub(crate) put_off: Vec<Vector3<f64>>,
+}
+
+/// A parameter so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Known {
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
+    pub(crate) value: f64,
+    pub(crate) sd: f64,
+    pub(crate) goal: Option<f64>,
+    /// What gravity that is not exactly known leaves of it.
+    pub(crate) floor: f64,
+    /// Standard deviation after the next pose.
+    pub(crate) after: Option<f64>,
+}
+
+/// A hold so far.
+#[derive(Debug, Clone)]
+pub(crate) struct KnownHold {
+    pub(crate) start_s: f64,
+    pub(crate) end_s: f64,
+    pub(crate) up: Vector3<f64>,
+    /// Why it is not used.
+    pub(crate) left_out: Option<String>,
+}
+
+/// What the holds tell.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Estimate {
+    pub(crate) of_new_hold: bool,
+    pub(crate) parameters: Vec<Known>,
+    pub(crate) holds: Vec<KnownHold>,
+    pub(crate) usability: Option<Usability>,
+    pub(crate) warnings: Vec<String>,
+    /// Do folds agree? Asked where all goals are reached.
+    pub(crate) folds_agree: Option<bool>,
+    pub(crate) next: Option<NextPose>,
+    /// Why there is no calibration yet.
+    pub(crate) missing: Option<String>,
+}
+
+impl Estimate {
+    /// Are all goals reached?
+    pub(crate) fn reaches_all(&self) -> bool {
+        let mut goals = self.parameters.iter().filter_map(|of| Some((of.sd, of.goal?))).peekable();
+        goals.peek().is_some() && goals.all(|(sd, goal)| sd <= goal)
+    }
+
+    /// The largest standard deviation over its goal.
+    pub(crate) fn worst_ratio(&self) -> Option<f64> {
+        let ratios = self.parameters.iter().filter_map(|of| Some(of.sd / of.goal?));
+        ratios.reduce(f64::max)
+    }
+}
+
+/// An answer, in two parts.
+pub(crate) enum Answer {
+    /// The parameters so far, and how long they took.
+    First(Vec<Known>, Duration),
+    /// All of it.
+    Whole(Estimate),
+}
+
+/// Estimates.
+pub(crate) struct Estimator<'s> {
+    pub(crate) session: &'s Session,
+    pub(crate) with_folds: &'s Session,
+    pub(crate) goals: &'s Goals,
+}
+
+impl Estimator<'_> {
+    /// The calibration of the samples so far, and what to do next. The parameters are told first: the next pose and the folds take longer.
+    pub(crate) fn answer(&self, question: &Question, first: impl FnOnce(Vec<Known>)) -> Estimate {
+        let source = Source::from_recording("recording.csv", question.recording.clone());
+        let outcome = match self.session.calibrate(&source) {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                let held: Vec<Vector3<f64>> = question.held.iter().map(|(.., up)| *up).collect();
+                let next = first_poses(self.session.experiment(), &held, &question.put_off);
+                let of = |(start_s, end_s, up): &(f64, f64, Vector3<f64>)| KnownHold {
+                    start_s: *start_s,
+                    end_s: *end_s,
+                    up: *up,
+                    left_out: None,
+                };
+                let holds = question.held.iter().map(of).collect();
+                let of_new_hold = question.of_new_hold;
+                return Estimate {
+                    of_new_hold,
+                    holds,
+                    next,
+                    missing: Some(missing(&error)),
+                    ..Estimate::default()
+                };
+            }
+        };
+        let calibration = outcome.calibration();
+        let sds = calibration.covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+        let imu = &calibration.imu;
+        let gravity_sd = calibration.holds().map_or(0.0, |holds| holds.gravity.sd_mps2);
+        let mut parameters: Vec<Known> = Vec::new();
+        for (k, quantity) in calibration.quantities.iter().enumerate() {
+            let name = quantity.name();
+            let floor = calibration.gravity_slope.get(k).map_or(0.0, |slope| (slope * gravity_sd).abs());
+            parameters.push(Known {
+                goal: self.goals.of(*quantity, imu, floor),
+                floor,
+                unit: calibration.unit_of(*quantity),
+                value: quantity.value(imu),
+                sd: sds[k],
+                after: None,
+                name,
+            });
+        }
+        first(parameters.clone());
+        let next = next_pose(
+            self.session.experiment(),
+            calibration,
+            question.now,
+            &question.put_off,
+            weakest_axis(&calibration.quantities, &parameters),
+        );
+        let rotations = calibration.used_rotations().count() as f64;
+        for known in &mut parameters {
+            let by_pose = next.as_ref().and_then(|next| next.after.get(&known.name)).copied();
+            let beside = (known.sd.powi(2) - known.floor.powi(2)).max(0.0).sqrt();
+            // one rotation more, whatever its axis
+            let by_rotation =
+                known.name.starts_with("gyroscope").then(|| (rotations / (rotations + 1.0)).sqrt());
+            known.after = by_pose.or(by_rotation).map(|ratio| (ratio * beside).hypot(known.floor));
+        }
+        let holds = calibration.hold_results().iter().map(|hold| KnownHold {
+            start_s: hold.hold.start_s,
+            end_s: hold.hold.end_s,
+            up: hold.force_mps2.try_normalize(0.0).unwrap_or_else(Vector3::z),
+            left_out: hold.why_left_out().map(|why| why.to_string()),
+        });
+        let told = |severity: Severity| -> Vec<String> {
+            let these = outcome.warnings().iter().filter(|found| found.severity() >= severity);
+            these.map(Diagnostic::without_file).collect()
+        };
+        let mut estimate = Estimate {
+            of_new_hold: question.of_new_hold,
+            holds: holds.collect(),
+            usability: Some(outcome.verdict().usability),
+            warnings: told(Severity::Warning),
+            next,
+            parameters,
+            ..Estimate::default()
+        };
+        if estimate.reaches_all() && estimate.of_new_hold {
+            let folds = self.with_folds.calibrate(&source).ok();
+            estimate.folds_agree = folds.map(|of| {
+                let too_small = |kind: CovarianceVerdict| kind == CovarianceVerdict::TooSmall;
+                !of.validations.iter().flat_map(|of| &of.kinds).any(|kind| too_small(kind.verdict))
+            });
+        }
+        estimate
+    }
+}
+
+/// Why there is no calibration yet: mostly since there are too few holds.
+fn missing(error: &Error) -> String {
+    match error {
+        Error::NotIdentifiable(_) => {
+            "hold it in other orientations, each axis up, down and between".to_owned()
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The axis whose gain is known least of the gyroscope's.
+fn weakest_axis(quantities: &[ImuQuantity], parameters: &[Known]) -> Option<Vector3<f64>> {
+    let of = quantities.iter().zip(parameters).filter_map(|(quantity, known)| match quantity {
+        ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(axis)) => Some((axis.index(), known.sd)),
+        _ => None,
+    });
+    let (axis, _) = of.max_by(|one, other| one.1.total_cmp(&other.1))?;
+    Some(Vector3::from_fn(|k, _| f64::from(u8::from(k == axis))))
+}

@@ -1,0 +1,376 @@
+//! When is the sensor held still? By its own noise: no value that the calibration is to find decides.
+//!
+//! | state | until |
+//! |---|---|
+//! | moving | each axis scatters less than 2.5 times as in the quietest half second so far |
+//! | settling | the mean of the last half second stays: 3 standard deviations |
+//! | holding | it lasted long enough |
+//! | held | it moves |
+//!
+//! A knock that is over within 0.3 s is cut out. A hold that slides is shortened to its end, not begun anew.
+
+use crate::decision::Decision;
+use crate::layout::Sample;
+use crate::window::{AXES, Sums, Window};
+
+/// Times the quietest scatter.
+const STILL: f64 = 2.5;
+/// Before a quiet half second was seen: shares of the magnitude of the accelerometer's mean, and rad/s.
+const LEAST_SHARE: f64 = 2e-3;
+const LARGEST_SHARE: f64 = 0.04;
+const LEAST_RADPS: f64 = 0.01;
+const LARGEST_RADPS: f64 = 0.1;
+/// A mean that moves by so many standard deviations, or by this share of the magnitude, is not settled.
+const DRIFT_SDS: f64 = 3.0;
+const DRIFT_SHARE: f64 = 1.5e-3;
+/// Longest knock, s, with the window that it is in.
+const KNOCK_S: f64 = 0.3 + 0.5;
+/// After a knock the mean is within this share of the magnitude where it was.
+const SAME_SHARE: f64 = 0.01;
+/// A hold slides where its thirds differ by this share of the magnitude, and by 3 standard deviations.
+const SLIDE_SHARE: f64 = 4e-3;
+/// Without samples for so long a hold ends, s.
+const GAP_S: f64 = 0.1;
+/// Share of a range that is its end.
+const CLIPS: f64 = 0.98;
+/// Share of the gyroscope's range that a rotation may use.
+const FAST: f64 = 0.9;
+
+/// What the gate is in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Phase {
+    Waiting,
+    Moving,
+    Settling,
+    Holding,
+    Held,
+}
+
+/// What is known of the sensor.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Limits {
+    /// A hold is wanted so long, s, and counts from this length on.
+    pub(crate) hold_s: f64,
+    pub(crate) least_s: f64,
+    /// Largest readings of each axis, where they are known.
+    pub(crate) range: [Option<f64>; AXES],
+    /// Are accelerometer and gyroscope in m/s² and rad/s?
+    pub(crate) in_si: [bool; 2],
+}
+
+/// The gate.
+#[derive(Debug)]
+pub(crate) struct Gate {
+    pub(crate) limits: Limits,
+    window: Window,
+    quietest: [f64; AXES],
+    pub(crate) phase: Phase,
+    last_t_s: Option<f64>,
+    hold: Option<Hold>,
+    /// Since when it moves within a hold.
+    moves_since: Option<f64>,
+    fast: Option<usize>,
+    /// Why it is not still: axis, scatter, limit.
+    pub(crate) shakes: Option<(usize, f64, f64)>,
+}
+
+#[derive(Debug, Clone)]
+struct Hold {
+    start_s: f64,
+    end_s: f64,
+    thirds: Vec<Sums>,
+    all: Sums,
+    told: bool,
+    clips: Option<usize>,
+}
+
+impl Gate {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Self {
+            limits,
+            window: Window::default(),
+            quietest: [f64::INFINITY; AXES],
+            phase: Phase::Waiting,
+            last_t_s: None,
+            hold: None,
+            moves_since: None,
+            fast: None,
+            shakes: None,
+        }
+    }
+
+    /// Takes a sample.
+    pub(crate) fn take(&mut self, sample: &Sample) -> Vec<Decision> {
+        let mut found = Vec::new();
+        if let Some(last) = self.last_t_s
+            && sample.t_s - last > GAP_S.max(if self.window.whole().is_some() { 0.0 } else { 0.5 })
+        {
+            self.end(last, &mut found);
+            self.window.clear();
+            self.phase = Phase::Moving;
+            found.push(Decision::Gap { seconds: sample.t_s - last });
+        }
+        self.last_t_s = Some(sample.t_s);
+        self.watch_ranges(sample);
+        if let Some(step) = self.window.push(sample) {
+            self.step(step.end_s, &step.sums, &mut found);
+        }
+        found
+    }
+
+    /// How far the hold is: seconds, and how many it needs.
+    pub(crate) fn progress(&self) -> Option<(f64, f64)> {
+        let hold = self.hold.as_ref()?;
+        Some((hold.end_s - hold.start_s, self.limits.hold_s))
+    }
+
+    /// Mean reading of a sensor in the last half second.
+    pub(crate) fn now(&self, sensor: usize) -> Option<[f64; 3]> {
+        let (_, sums) = self.window.whole()?;
+        self.window.reading(&sums, sensor)
+    }
+
+    fn watch_ranges(&mut self, sample: &Sample) {
+        for (sensor, reading) in sample.readings.iter().enumerate() {
+            let Some(reading) = reading else { continue };
+            for (of, value) in reading.iter().enumerate() {
+                let axis = 3 * sensor + of;
+                let Some(range) = self.limits.range[axis] else { continue };
+                if sensor == 0 && value.abs() >= CLIPS * range {
+                    if let Some(hold) = &mut self.hold {
+                        hold.clips = Some(axis);
+                    }
+                } else if sensor == 1 && value.abs() >= FAST * range {
+                    self.fast = Some(axis);
+                }
+            }
+        }
+    }
+
+    fn magnitude(&self, sums: &Sums) -> f64 {
+        let of = self.window.reading(sums, 0).unwrap_or_default();
+        of.iter().map(|value| value * value).sum::<f64>().sqrt()
+    }
+
+    /// The largest scatter of an axis that is still.
+    fn limit(&self, axis: usize, magnitude: f64) -> f64 {
+        let quietest = STILL * self.quietest[axis];
+        if axis < 3 {
+            quietest.clamp(LEAST_SHARE * magnitude, LARGEST_SHARE * magnitude)
+        } else if self.limits.in_si[1] {
+            quietest.clamp(LEAST_RADPS, LARGEST_RADPS)
+        } else {
+            quietest
+        }
+    }
+
+    fn step(&mut self, end_s: f64, step: &Sums, found: &mut Vec<Decision>) {
+        let Some((start_s, window)) = self.window.whole() else {
+            self.phase = if self.phase == Phase::Waiting { Phase::Waiting } else { Phase::Moving };
+            return;
+        };
+        let magnitude = self.magnitude(&window);
+        let axes = (0..AXES).filter(|axis| window.count(*axis) > 2.0);
+        let over = axes.clone().map(|axis| (axis, window.sd(axis), self.limit(axis, magnitude)));
+        let worst = over.max_by(|one, other| (one.1 / one.2).total_cmp(&(other.1 / other.2)));
+        self.shakes = worst.filter(|(_, sd, limit)| sd > limit);
+        for axis in axes.clone() {
+            // readings that never change show no noise
+            let sd = window.sd(axis);
+            if sd > 0.0 {
+                self.quietest[axis] = self.quietest[axis].min(sd);
+            }
+        }
+        if self.shakes.is_some() {
+            self.moves(end_s, found);
+            return;
+        }
+        if let Some(since) = self.moves_since.take()
+            && let Some(hold) = &self.hold
+        {
+            let same = self.distance(&window, &hold.all) < SAME_SHARE * magnitude;
+            if end_s - since > KNOCK_S || !same {
+                self.end(since, found);
+            } else {
+                found.push(Decision::Cut);
+            }
+        }
+        if self.hold.is_some() {
+            self.holds(end_s, step, magnitude, found);
+            return;
+        }
+        let [before, after] = self.window.halves();
+        let drift = self.distance(&before, &after);
+        let sd = (0..3).map(|axis| window.sd(axis).powi(2) / before.count(axis).max(1.0)).sum::<f64>().sqrt();
+        if drift > (DRIFT_SDS * std::f64::consts::SQRT_2 * sd).max(DRIFT_SHARE * magnitude) {
+            self.phase = Phase::Settling;
+            return;
+        }
+        if let Some(axis) = self.fast.take() {
+            found.push(Decision::Fast { axis });
+        }
+        self.phase = Phase::Holding;
+        self.hold =
+            Some(Hold { start_s, end_s, thirds: vec![window], all: window, told: false, clips: None });
+    }
+
+    /// Between the accelerometer's means.
+    fn distance(&self, one: &Sums, other: &Sums) -> f64 {
+        (0..3).map(|axis| (one.mean(axis) - other.mean(axis)).powi(2)).sum::<f64>().sqrt()
+    }
+
+    fn moves(&mut self, end_s: f64, found: &mut Vec<Decision>) {
+        let Some(hold) = &self.hold else {
+            self.phase = Phase::Moving;
+            return;
+        };
+        let since = *self.moves_since.get_or_insert(hold.end_s);
+        if end_s - since > KNOCK_S {
+            self.moves_since = None;
+            self.end(since, found);
+            self.phase = Phase::Moving;
+        }
+    }
+
+    fn holds(&mut self, end_s: f64, step: &Sums, magnitude: f64, found: &mut Vec<Decision>) {
+        let Some(mut hold) = self.hold.take() else { return };
+        hold.end_s = end_s;
+        hold.all.join(step);
+        hold.thirds.push(*step);
+        let count = hold.thirds.len();
+        if count >= 9 {
+            let third = count / 3;
+            let join = |of: &[Sums]| {
+                let mut sums = Sums::default();
+                of.iter().for_each(|one| sums.join(one));
+                sums
+            };
+            let (first, last) = (join(&hold.thirds[..third]), join(&hold.thirds[count - third..]));
+            let by = self.distance(&first, &last);
+            let sd =
+                (0..3).map(|axis| first.sd(axis).powi(2) / first.count(axis).max(1.0)).sum::<f64>().sqrt();
+            if by > (DRIFT_SDS * std::f64::consts::SQRT_2 * sd).max(SLIDE_SHARE * magnitude) {
+                found.push(Decision::Slides { by });
+                // what is at its end may be still
+                hold = Hold {
+                    start_s: end_s - 0.1 * third as f64,
+                    thirds: hold.thirds[count - third..].to_vec(),
+                    all: last,
+                    told: false,
+                    ..hold
+                };
+            }
+        }
+        let seconds = hold.end_s - hold.start_s;
+        if !hold.told && seconds >= self.limits.hold_s {
+            hold.told = true;
+            match hold.clips {
+                Some(axis) => found.push(Decision::Clips { axis }),
+                None => found.push(self.held(&hold, seconds)),
+            }
+        }
+        self.phase = if hold.told { Phase::Held } else { Phase::Holding };
+        self.hold = Some(hold);
+    }
+
+    fn end(&mut self, end_s: f64, found: &mut Vec<Decision>) {
+        let Some(hold) = self.hold.take() else { return };
+        let (seconds, Limits { hold_s, least_s, .. }) = (end_s - hold.start_s, self.limits);
+        if !hold.told && seconds >= least_s && hold.clips.is_none() {
+            found.push(self.held(&hold, seconds));
+        }
+        if hold.told || seconds >= least_s {
+            found.push(Decision::Ended { start_s: hold.start_s, end_s });
+        } else if seconds > 0.5 * least_s {
+            found.push(Decision::Short { seconds, needed_s: hold_s });
+        }
+        self.moves_since = None;
+    }
+
+    fn held(&self, hold: &Hold, seconds: f64) -> Decision {
+        let mean = self.window.reading(&hold.all, 0).unwrap_or_default();
+        let size = mean.iter().map(|value| value * value).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+        Decision::Held { start_s: hold.start_s, seconds, up: mean.map(|value| value / size) }
+    }
+
+    /// The words for what shakes: `x shakes 0.08 m/s², 0.03 would do`.
+    pub(crate) fn why(&self) -> String {
+        // a turn needs no such words
+        let Some((axis, sd, limit)) = self.shakes.filter(|(_, sd, limit)| *sd < 10.0 * limit) else {
+            return String::new();
+        };
+        let name = ["x", "y", "z"][axis % 3];
+        let two = |value: f64| calibrant_core::number_format::significant(value, 2);
+        if axis < 3 {
+            let unit = if self.limits.in_si[0] { " m/s²" } else { "" };
+            format!("{name} shakes by {}{unit}, {} would do", two(sd), two(limit))
+        } else if self.limits.in_si[1] {
+            format!(
+                "it turns about {name} by {} °/s, {} would do",
+                two(sd.to_degrees()),
+                two(limit.to_degrees())
+            )
+        } else {
+            format!("the gyroscope's {name} shakes by {}, {} would do", two(sd), two(limit))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A board at rest but for what `motion` adds, with a biased accelerometer and a biased gyroscope.
+    fn run(seconds: f64, motion: impl Fn(f64) -> [f64; 3]) -> (Vec<Decision>, Gate) {
+        let limits = Limits { hold_s: 3.0, least_s: 2.5, in_si: [true; 2], ..Limits::default() };
+        let mut gate = Gate::new(limits);
+        let mut found = Vec::new();
+        for k in 0..(seconds * 100.0) as usize {
+            let t_s = k as f64 * 0.01;
+            let noise = |seed: usize| (((k * 7919 + seed * 104_729) % 1009) as f64 / 1009.0 - 0.5) * 0.06;
+            let by = motion(t_s);
+            // off by 0.9 m/s², and turning by 6°/s for the gyroscope
+            let a = [0.9 + noise(1) + by[0], noise(2) + by[1], 8.9 + noise(3) + by[2]];
+            let g = [0.105 + 0.05 * noise(4), 0.05 * noise(5), 0.05 * noise(6)];
+            let sample = Sample { t_s, readings: [Some(a), Some(g)], temperature_c: None };
+            found.extend(gate.take(&sample));
+        }
+        (found, gate)
+    }
+
+    #[test]
+    fn a_hold_of_a_sensor_that_is_far_off_counts_after_three_seconds() {
+        let (found, gate) = run(6.0, |_| [0.0; 3]);
+        assert!(matches!(found.as_slice(), [Decision::Held { seconds, .. }] if *seconds < 3.2), "{found:?}");
+        assert_eq!(gate.phase, Phase::Held);
+    }
+
+    #[test]
+    fn a_knock_is_cut_out_and_a_motion_ends_the_hold() {
+        let knock = |t: f64| if (4.0..4.1).contains(&t) { [3.0, -2.0, 1.0] } else { [0.0; 3] };
+        let (found, _) = run(8.0, knock);
+        assert!(found.contains(&Decision::Cut), "{found:?}");
+        assert!(!found.iter().any(|one| matches!(one, Decision::Ended { .. })), "{found:?}");
+        let turn = |t: f64| {
+            if t > 5.0 { [9.0 * (t - 5.0).sin(), 0.0, -9.0 * (1.0 - (t - 5.0).cos())] } else { [0.0; 3] }
+        };
+        let (found, gate) = run(8.0, turn);
+        let ended = found.iter().find_map(|one| match one {
+            Decision::Ended { end_s, .. } => Some(*end_s),
+            _ => None,
+        });
+        assert!(ended.is_some_and(|end| (4.5..5.2).contains(&end)), "{found:?}");
+        assert_eq!(gate.phase, Phase::Moving);
+    }
+
+    #[test]
+    fn a_slide_is_told_and_a_hold_that_is_too_short() {
+        let (found, _) = run(6.0, |t| [0.05 * t, 0.0, 0.0]);
+        assert!(!found.iter().any(|one| matches!(one, Decision::Held { .. })), "{found:?}");
+        let (found, _) = run(5.0, |t| if t > 2.0 { [5.0 * (6.0 * t).sin(), 0.0, 0.0] } else { [0.0; 3] });
+        assert!(
+            matches!(found.first(), Some(Decision::Short { needed_s, .. }) if *needed_s == 3.0),
+            "{found:?}"
+        );
+    }
+}

@@ -1,0 +1,47 @@
+//! How well each parameter shall be known.
+
+use calibrant_core::acceptance::AcceptanceLimit;
+use calibrant_core::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind};
+
+/// The largest standard deviations: those of `[accept]`, or usual ones.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Goals(Vec<AcceptanceLimit>);
+
+/// Usual ones: a bias of 1 mg, gains and axes of 0.1 % and 0.06°; a bias of 0.06 °/s, gains and axes of 0.3 %.
+const USUAL: [(SensorKind, f64, f64); 2] =
+    [(SensorKind::Accelerometer, 0.01, 1e-3), (SensorKind::Gyroscope, 1e-3, 3e-3)];
+
+impl Goals {
+    /// Those of these limits that are of standard deviations.
+    pub(crate) fn of_limits(limits: &[AcceptanceLimit]) -> Self {
+        Self(limits.iter().filter(|limit| limit.sd.is_some()).cloned().collect())
+    }
+
+    /// Are they the usual ones?
+    pub(crate) fn are_usual(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// That of a parameter, in its unit. `floor`: what gravity that is not exactly known leaves, which no hold makes less; a usual goal is beside it.
+    pub(crate) fn of(&self, quantity: ImuQuantity, imu: &ImuParameters, floor: f64) -> Option<f64> {
+        if !self.are_usual() {
+            let name = quantity.name();
+            return self
+                .0
+                .iter()
+                .filter(|limit| limit.names(&name))
+                .filter_map(|limit| limit.sd)
+                .reduce(f64::min);
+        }
+        let ImuQuantity::Of(kind, of) = quantity else { return None };
+        let (_, bias, share) = USUAL.into_iter().find(|(of, ..)| *of == kind)?;
+        // of readings in counts
+        let gain = imu.sensor(kind).matrix.row(of.axis().index()).norm();
+        let own = match of {
+            Quantity::Bias(_) => bias * gain,
+            Quantity::Scale(_) | Quantity::CrossAxis(..) | Quantity::Symmetric(..) => share * gain,
+            Quantity::Nonlinear(..) => return None,
+        };
+        Some(own.hypot(floor))
+    }
+}

@@ -1,0 +1,102 @@
+//! The guide: lines come in, holds are recognised, each is followed by a calibration of all that was held, and by what to do next.
+
+use crate::demo::Advice;
+use crate::estimate::{Answer, Estimator, Question};
+use crate::goals::Goals;
+use crate::options::GuideOptions;
+use crate::run::Run;
+use crate::server::{Board, serve};
+use crate::session_log::SessionLog;
+use crate::shown::Kind;
+use calibrant::io::Plan;
+use calibrant::session::{Outcome, Session, SessionOptions, Source};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use std::path::PathBuf;
+use std::sync::mpsc::{channel, sync_channel};
+use std::thread;
+
+/// Blocks of bytes that may wait.
+const WAITING: usize = 1024;
+/// Folds of the last question before "good enough".
+const FOLDS: usize = 5;
+
+/// How a session ended.
+pub struct Guided {
+    /// The calibration of the whole recording, as `calibrate` makes it.
+    pub outcome: Result<Outcome>,
+    /// Was it good enough?
+    pub good_enough: bool,
+    /// Number of holds that the gate saw.
+    pub holds: usize,
+    /// The recording.
+    pub recording: PathBuf,
+}
+
+/// Guides a session until it is finished. `said` is told the address of the page.
+///
+/// # Errors
+/// [`Error::Experiment`] where the experiment is not of a sensor that is held still, the input is not there, the address is taken, or the folder has a session already;
+/// [`Error::Output`] where the recording cannot be written.
+pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
+    let session_options =
+        |report: bool, folds: Option<usize>| SessionOptions { report, folds, ..options.session.clone() };
+    if !matches!(options.experiment.plan, Plan::Holds(_)) {
+        let error = InputError::new(
+            Refusal::ExperimentUnsuited,
+            "the guide is for a sensor that is held still",
+            "take an experiment with [holds]: see `calibrant init imu` and `calibrant init static-poses`",
+        );
+        return Err(Error::experiment(error));
+    }
+    let new = |report, folds| Session::with(options.experiment.clone(), session_options(report, folds));
+    let (session, with_folds, last) = (new(false, None)?, new(false, Some(FOLDS))?, new(true, None)?);
+    let goals = Goals::of_limits(session.limits());
+    let advice = Advice::default();
+    let (to, arrivals) = sync_channel(WAITING);
+    options.input.open(&session, to, &advice)?;
+    let (log, lines) = SessionLog::open(&options.directory, options.resume)?;
+    let board = Board::default();
+    let (actions, asked) = channel();
+    if let Some(address) = &options.listen {
+        said(&serve(address, token(), board.clone(), actions)?);
+    }
+    let resumed = lines.len();
+    let (ask, questions) = channel::<Question>();
+    let (tell, answers) = channel::<Answer>();
+    let estimator = Estimator { session: &session, with_folds: &with_folds, goals: &goals };
+    let (good_enough, holds) = thread::scope(|scope| {
+        scope.spawn(move || {
+            while let Ok(mut question) = questions.recv() {
+                // the last one counts
+                while let Ok(newer) = questions.try_recv() {
+                    question = newer;
+                }
+                let first = |parameters| {
+                    let _ = tell.send(Answer::First(parameters, question.asked.elapsed()));
+                };
+                let whole = estimator.answer(&question, first);
+                if tell.send(Answer::Whole(whole)).is_err() {
+                    return;
+                }
+            }
+        });
+        let mut run = Run::new(&options, &session, &goals, (log, board, advice), ask);
+        run.replay(lines)?;
+        if resumed > 0 {
+            run.told.say(run.last_s, Kind::Info, format!("Goes on with {} rows.", resumed.saturating_sub(1)));
+        }
+        run.run(&arrivals, &answers, &asked)
+    })?;
+    let recording = options.directory.join("recording.csv");
+    let outcome = last.calibrate(&Source::from_file(&recording));
+    if let Ok(outcome) = &outcome {
+        outcome.write(&options.directory)?;
+    }
+    Ok(Guided { outcome, good_enough, holds, recording })
+}
+
+/// A number that others do not know.
+fn token() -> String {
+    use std::hash::{BuildHasher, RandomState};
+    format!("{:016x}{:016x}", RandomState::new().hash_one(1), RandomState::new().hash_one(2))
+}

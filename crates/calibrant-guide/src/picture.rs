@@ -1,0 +1,83 @@
+//! The state in a word, with its reason.
+
+use crate::gate::Phase;
+use crate::run::Run;
+use nalgebra::Vector3;
+
+/// Nothing came for so long, s.
+const SILENT_S: f64 = 1.0;
+
+impl Run<'_> {
+    /// The state as it is now.
+    pub(crate) fn picture(&mut self) {
+        let age_s = self.came.elapsed().as_secs_f64();
+        let live = &mut self.live;
+        live.age_s = age_s;
+        live.rate_hz = self.rate.hz;
+        live.seconds = self.last_s - self.first_s.unwrap_or(self.last_s);
+        live.up = self.gate.now(0).map(Vector3::from).and_then(|up| up.try_normalize(0.0)).map(Into::into);
+        let is_held = self.gate.phase == Phase::Held;
+        live.progress = self
+            .gate
+            .progress()
+            .map(|(seconds, needed)| if is_held { 1.0 } else { (seconds / needed).min(1.0) });
+        let next =
+            self.told.next_in_words().map_or_else(String::new, |(_, words, turn)| match turn.as_str() {
+                "" => format!("Next: {words}."),
+                turn => format!("Next: {words}; {turn}."),
+            });
+        let (phase, word, reason) = if let Some(why) = &self.lost {
+            ("silent", "The board is gone", format!("{why}; it is tried again"))
+        } else if self.lines.is_noise {
+            (
+                "silent",
+                "No text",
+                "what arrives is no text: is the baud rate that of the board (115200 is usual)?".to_owned(),
+            )
+        } else if age_s > SILENT_S {
+            (
+                "silent",
+                "No data",
+                format!("nothing came for {age_s:.0} s: is the board plugged in, and does it send?"),
+            )
+        } else if let Some(problem) = &self.problem {
+            ("silent", "Not understood", problem.clone())
+        } else if !self.stream.is_known() {
+            let why = if self.stream.has_names() || live.dropped == 0 {
+                "the first samples are awaited"
+            } else {
+                "lines arrive, but none names the columns: let the board print a header, or name them by option `columns`"
+            };
+            ("waiting", "Waiting", why.to_owned())
+        } else {
+            match self.gate.phase {
+                Phase::Waiting => ("waiting", "Waiting", String::new()),
+                Phase::Moving => (
+                    "moving",
+                    "Moving",
+                    if self.gate.why().is_empty() {
+                        next
+                    } else {
+                        format!("{next} Then hold still: {}.", self.gate.why())
+                    },
+                ),
+                Phase::Settling => ("settling", "Settling", "nearly still".to_owned()),
+                Phase::Holding => (
+                    "holding",
+                    "Hold still",
+                    self.gate.progress().map_or_else(String::new, |(seconds, needed)| {
+                        format!("{seconds:.1} of {needed:.1} s")
+                    }),
+                ),
+                Phase::Held => ("held", "Got it", next),
+            }
+        };
+        live.phase = phase;
+        live.word = word.to_owned();
+        live.reason = reason;
+        self.terminal.state(phase, word, &live.reason, self.last_s);
+        if self.options.listen.is_some() {
+            self.board.live(live.json());
+        }
+    }
+}

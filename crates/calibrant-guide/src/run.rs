@@ -1,0 +1,381 @@
+//! A session while it runs: what arrives, what a person asks for, and what is shown.
+
+use crate::arrival::Arrival;
+use crate::demo::Advice;
+use crate::estimate::{Answer, Question};
+use crate::gate::{Gate, Limits};
+use crate::goals::Goals;
+use crate::kept::KeptSamples;
+use crate::layout::Sample;
+use crate::lines::Lines;
+use crate::options::GuideOptions;
+use crate::server::{Action, Board};
+use crate::session_log::SessionLog;
+use crate::shown::{Kind, Live, Told};
+use crate::stream::{Stream, Taken};
+use crate::terminal::Terminal;
+use calibrant::io::Plan;
+use calibrant::session::Session;
+use calibrant_core::error::Result;
+use calibrant_core::sensor::ReadingUnit;
+use nalgebra::Vector3;
+use serde_json::json;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// The loop looks around after so long; the page is told 20 times a second.
+const ROUND: Duration = Duration::from_millis(20);
+const PICTURE: Duration = Duration::from_millis(50);
+/// A hold is wanted so long, s; one of `minimum_hold_s` counts.
+const HOLD_S: f64 = 3.0;
+
+/// A session while it runs.
+pub(crate) struct Run<'s> {
+    pub(crate) options: &'s GuideOptions,
+    pub(crate) log: SessionLog,
+    pub(crate) board: Board,
+    pub(crate) advice: Advice,
+    pub(crate) ask: Sender<Question>,
+    pub(crate) lines: Lines,
+    pub(crate) stream: Stream<'s>,
+    pub(crate) gate: Gate,
+    pub(crate) kept: KeptSamples,
+    pub(crate) units: [ReadingUnit; 2],
+    pub(crate) terminal: Terminal,
+    pub(crate) live: Live,
+    pub(crate) told: Told,
+    /// Holds of the gate: begin, end, direction.
+    pub(crate) held: Vec<(f64, f64, Vector3<f64>)>,
+    pub(crate) put_off: Vec<Vector3<f64>>,
+    pub(crate) last_s: f64,
+    pub(crate) first_s: Option<f64>,
+    pub(crate) rate: Rate,
+    pub(crate) came: Instant,
+    pub(crate) lost: Option<String>,
+    pub(crate) problem: Option<String>,
+    pub(crate) reached: usize,
+    /// Do parts of the recording agree, as far as it was asked?
+    pub(crate) folds_agree: Option<bool>,
+    pub(crate) ratio_before: Option<f64>,
+    pub(crate) waits_for_answer: usize,
+    pub(crate) finish: bool,
+    pub(crate) are_usual_goals: bool,
+}
+
+/// Samples in a second, over the last second.
+#[derive(Default)]
+pub(crate) struct Rate {
+    begin_s: f64,
+    count: f64,
+    pub(crate) hz: f64,
+}
+
+impl Rate {
+    fn count(&mut self, t_s: f64) {
+        self.count += 1.0;
+        let seconds = t_s - self.begin_s;
+        if !(0.0..1.0).contains(&seconds) {
+            self.hz = if seconds > 0.0 && seconds < 3.0 { self.count / seconds } else { 0.0 };
+            (self.begin_s, self.count) = (t_s, 0.0);
+        }
+    }
+}
+
+impl<'s> Run<'s> {
+    pub(crate) fn new(
+        options: &'s GuideOptions,
+        session: &'s Session,
+        goals: &Goals,
+        (log, board, advice): (SessionLog, Board, Advice),
+        ask: Sender<Question>,
+    ) -> Self {
+        let experiment = &options.experiment;
+        let least_s = match &experiment.plan {
+            Plan::Holds(holds) => holds.minimum_hold_s,
+            _ => HOLD_S,
+        };
+        let hold_s = least_s.max(HOLD_S);
+        let units = [
+            experiment.sensor.unit,
+            experiment.imu.as_ref().map_or(ReadingUnit::RadianPerSecond, |imu| imu.gyroscope.unit),
+        ];
+        let mut range = [None; 6];
+        if let Some(of) = experiment.sensor.range_mps2 {
+            for axis in 0..3 {
+                range[axis] = Some(of[axis]);
+            }
+        }
+        let in_si = [units[0] != ReadingUnit::Counts, units[1] != ReadingUnit::Counts];
+        let told = Told {
+            sensor: options
+                .directory
+                .file_name()
+                .map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+            path: log.path().display().to_string(),
+            sentence: "Hold the sensor still in any orientation.".to_owned(),
+            ..Told::default()
+        };
+        Self {
+            options,
+            terminal: Terminal::new(options.terminal),
+            log,
+            board,
+            advice,
+            ask,
+            lines: Lines::default(),
+            stream: Stream::new(session),
+            gate: Gate::new(Limits { hold_s, least_s, range, in_si }),
+            kept: KeptSamples::default(),
+            units,
+            live: Live::default(),
+            told,
+            held: Vec::new(),
+            put_off: Vec::new(),
+            last_s: 0.0,
+            first_s: None,
+            rate: Rate::default(),
+            came: Instant::now(),
+            lost: None,
+            problem: None,
+            reached: 0,
+            folds_agree: None,
+            ratio_before: None,
+            waits_for_answer: 0,
+            finish: false,
+            are_usual_goals: goals.are_usual(),
+        }
+    }
+
+    /// Takes the rows of a session that is continued, as if they came now.
+    pub(crate) fn replay(&mut self, lines: Vec<String>) -> Result<()> {
+        let mut at_s = 0.0;
+        for line in &lines {
+            for taken in self.stream.take(line, at_s) {
+                // they are in the recording already
+                match taken {
+                    Taken::Header(_) => self.known(),
+                    Taken::Row(_, sample) => {
+                        at_s = sample.t_s;
+                        self.sample(&sample)?;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        self.stream.resumed(self.options.columns.clone());
+        self.live.lines = lines.len().saturating_sub(1) as u64;
+        Ok(())
+    }
+
+    pub(crate) fn run(
+        &mut self,
+        arrivals: &Receiver<Arrival>,
+        answers: &Receiver<Answer>,
+        asked: &Receiver<Action>,
+    ) -> Result<(bool, usize)> {
+        let mut pictured = Instant::now();
+        let mut ended = false;
+        self.show_result();
+        while !self.finish {
+            match arrivals.recv_timeout(ROUND) {
+                Ok(arrival) => ended |= self.arrival(arrival)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => ended = true,
+            }
+            while let Ok(answer) = answers.try_recv() {
+                self.answer(answer)?;
+            }
+            while let Ok(action) = asked.try_recv() {
+                self.action(action)?;
+            }
+            self.log.keep(false)?;
+            if pictured.elapsed() >= PICTURE {
+                pictured = Instant::now();
+                self.picture();
+            }
+            self.finish |= self.options.interruption.is_asked();
+            if ended {
+                self.end_of_input(answers)?;
+                break;
+            }
+        }
+        self.log.event(&json!({"at_s": self.last_s, "kind": "finish"}))?;
+        self.log.keep(true)?;
+        self.told.finished = true;
+        self.told.sentence = if self.told.good_enough {
+            "Good enough.".to_owned()
+        } else {
+            "Finished before all goals were reached.".to_owned()
+        };
+        self.live.phase = "finished";
+        self.live.word = "Finished".to_owned();
+        self.live.reason = "The recording and its calibration are in the folder.".to_owned();
+        self.board.live(self.live.json());
+        self.show_result();
+        // pages take what they have not yet
+        thread::sleep(Duration::from_millis(if self.options.listen.is_some() { 300 } else { 0 }));
+        self.board.close();
+        Ok((self.told.good_enough, self.held.len()))
+    }
+
+    /// The holds up to the end are asked for, and the answer waited for.
+    fn end_of_input(&mut self, answers: &Receiver<Answer>) -> Result<()> {
+        self.question(true)?;
+        while self.waits_for_answer > 0 {
+            match answers.recv_timeout(Duration::from_secs(60)) {
+                Ok(answer) => self.answer(answer)?,
+                Err(_) => break,
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes what arrived. Has the input ended?
+    fn arrival(&mut self, arrival: Arrival) -> Result<bool> {
+        match arrival {
+            Arrival::Bytes { bytes, at_s } => {
+                for line in self.lines.push(&bytes) {
+                    self.line(&line, at_s)?;
+                }
+                if !bytes.is_empty() {
+                    self.came = Instant::now();
+                }
+            }
+            Arrival::Lost(why) => {
+                self.say(
+                    Kind::Error,
+                    format!("The board is gone: {why}. The recording is safe; plug it in again."),
+                )?;
+                self.lost = Some(why);
+            }
+            Arrival::Back => {
+                self.lost = None;
+                self.say(Kind::Good, "The board is there again.".to_owned())?;
+            }
+            Arrival::End => return Ok(true),
+        }
+        Ok(false)
+    }
+
+    fn line(&mut self, line: &str, at_s: f64) -> Result<()> {
+        for taken in self.stream.take(line, at_s) {
+            match taken {
+                Taken::Header(header) => {
+                    self.log.row(&header)?;
+                    self.known();
+                }
+                Taken::Row(row, sample) => {
+                    self.log.row(&row)?;
+                    self.live.lines += 1;
+                    self.problem = None;
+                    self.sample(&sample)?;
+                }
+                Taken::Dropped => self.live.dropped += 1,
+                Taken::Restarted => {
+                    self.say(Kind::Warning, "The board began anew; what was recorded stays.".to_owned())?
+                }
+                Taken::Problem(problem) => {
+                    if self.problem.as_ref() != Some(&problem) {
+                        self.say(Kind::Error, problem.clone())?;
+                    }
+                    self.problem = Some(problem);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The columns are known, and with them the units.
+    pub(crate) fn known(&mut self) {
+        for (unit, known) in self.units.iter_mut().zip(self.stream.units()) {
+            *unit = known.unwrap_or(*unit);
+        }
+        self.gate.limits.in_si = self.units.map(|unit| unit != ReadingUnit::Counts);
+    }
+
+    fn sample(&mut self, sample: &Sample) -> Result<()> {
+        self.first_s.get_or_insert(sample.t_s);
+        self.last_s = sample.t_s;
+        self.rate.count(sample.t_s);
+        self.live.temperature_c = sample.temperature_c.or(self.live.temperature_c);
+        self.kept.push(*sample);
+        for decision in self.gate.take(sample) {
+            self.decide(decision)?;
+        }
+        Ok(())
+    }
+
+    /// A pose that was refused is offered last.
+    pub(crate) fn put_off(&mut self) {
+        if let Some(up) = self.up() {
+            self.put_off.push(up);
+        }
+    }
+
+    pub(crate) fn up(&self) -> Option<Vector3<f64>> {
+        let now = Vector3::from(self.gate.now(0)?);
+        // corrected, where there is a calibration
+        now.try_normalize(0.0)
+    }
+
+    pub(crate) fn question(&mut self, of_new_hold: bool) -> Result<()> {
+        if self.held.is_empty() {
+            return Ok(());
+        }
+        let recording = self.kept.recording(self.units)?;
+        let held = self.held.clone();
+        let asked = Instant::now();
+        let question =
+            Question { asked, of_new_hold, recording, held, now: self.up(), put_off: self.put_off.clone() };
+        if self.ask.send(question).is_ok() {
+            self.waits_for_answer = 1;
+        }
+        Ok(())
+    }
+
+    fn action(&mut self, action: Action) -> Result<()> {
+        match action {
+            Action::Finish => self.finish = true,
+            Action::Note(text) => {
+                self.log.event(&json!({"at_s": self.last_s, "kind": "note", "text": text}))?;
+                self.say(Kind::Info, format!("Note: {text}"))?;
+                self.show_result();
+            }
+            Action::Undo => {
+                let Some((start_s, end_s, _)) = self.held.pop() else {
+                    self.say(Kind::Info, "There is no hold to undo.".to_owned())?;
+                    self.show_result();
+                    return Ok(());
+                };
+                self.erase(start_s, end_s)?;
+                self.say(Kind::Info, "The last hold is taken back: its samples of the accelerometer are blank in the recording.".to_owned())?;
+                self.question(true)?;
+                self.show_result();
+            }
+        }
+        Ok(())
+    }
+
+    /// Blanks the accelerometer's readings of a hold, in the file too, so that whoever reads it finds the same.
+    fn erase(&mut self, start_s: f64, end_s: f64) -> Result<()> {
+        self.log.event(&json!({"at_s": self.last_s, "kind": "undo", "start_s": start_s, "end_s": end_s}))?;
+        self.kept.erase((start_s, end_s));
+        let stream = &self.stream;
+        self.log.rewrite(|row| stream.blanked(row, (start_s, end_s)))
+    }
+
+    pub(crate) fn say(&mut self, kind: Kind, text: String) -> Result<()> {
+        self.log.event(&json!({"at_s": self.last_s, "kind": "message", "text": text}))?;
+        self.terminal.message(self.last_s, kind, &text);
+        self.told.say(self.last_s, kind, text);
+        self.show_result();
+        Ok(())
+    }
+
+    pub(crate) fn show_result(&mut self) {
+        if self.options.listen.is_some() {
+            self.board.result(self.told.json());
+        }
+    }
+}

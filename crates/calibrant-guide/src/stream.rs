@@ -1,0 +1,387 @@
+//! Lines become rows of a recording, and samples.
+//!
+//! What the columns are, and their units, is what the reader of recordings says of the first rows. Rows are written as they came, so that the recording is read as any
+//! other. Only times are others where the sender has no clock, or where its clock begins anew.
+
+use crate::arrival_clock::Arrivals;
+use crate::fields::Fields;
+use crate::layout::{Layout, Sample};
+use calibrant::io::ImuFile;
+use calibrant::session::{Readings, Session, Source};
+use calibrant_core::error::{Refusal, Result};
+use calibrant_core::sensor::ReadingUnit;
+
+/// What comes of a line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Taken {
+    /// The header of the recording.
+    Header(String),
+    /// A row of it, and its sample.
+    Row(String, Sample),
+    /// A line that is none.
+    Dropped,
+    /// The sender began anew.
+    Restarted,
+    /// Why the stream is not understood.
+    Problem(String),
+}
+
+/// Rows from which the columns are recognised, at least and at most.
+const FIRST_ROWS: usize = 20;
+const MOST_ROWS: usize = 20_000;
+/// A clock that goes back, or on by more than this, began anew, s.
+const JUMP_S: f64 = 10.0;
+/// Between the last sample before and the first after it, s.
+const PAUSE_S: f64 = 1.0;
+
+/// A stream of lines.
+pub(crate) struct Stream<'s> {
+    session: &'s Session,
+    names: Vec<String>,
+    layout: Option<Layout>,
+    /// Rows before the columns are known, with their time of arrival.
+    first: Vec<(Vec<String>, f64)>,
+    next_try: usize,
+    arrivals: Option<Arrivals>,
+    /// What is added to the sender's clock, ticks.
+    offset: f64,
+    last_ticks: Option<(f64, f64)>,
+    /// Were the names given?
+    are_given: bool,
+    /// A header came that is no other than the first.
+    restarted: bool,
+}
+
+impl<'s> Stream<'s> {
+    pub(crate) fn new(session: &'s Session) -> Self {
+        Self {
+            session,
+            are_given: false,
+            names: Vec::new(),
+            layout: None,
+            first: Vec::new(),
+            next_try: FIRST_ROWS,
+            arrivals: None,
+            offset: 0.0,
+            last_ticks: None,
+            restarted: false,
+        }
+    }
+
+    /// Are the columns known?
+    pub(crate) fn is_known(&self) -> bool {
+        self.layout.is_some()
+    }
+
+    /// Units of the samples of each sensor that the stream has.
+    pub(crate) fn units(&self) -> [Option<ReadingUnit>; 2] {
+        self.layout.as_ref().map_or([None; 2], |layout| layout.units)
+    }
+
+    /// Names of the columns as the recording has them; none before a header came.
+    pub(crate) fn has_names(&self) -> bool {
+        !self.names.is_empty()
+    }
+
+    /// What a line gives; `at_s`: when it arrived.
+    pub(crate) fn take(&mut self, line: &str, at_s: f64) -> Vec<Taken> {
+        let row = match Fields::of(line) {
+            Fields::Names(names) => {
+                self.without_clock(&names);
+                self.restarted |= self.names == names && (self.layout.is_some() || !self.first.is_empty());
+                // a board may greet before it names its columns
+                if self.layout.is_none() && !self.are_given {
+                    self.names = names;
+                }
+                return Vec::new();
+            }
+            Fields::Row(row) if self.names.is_empty() => {
+                self.first.push((row, at_s));
+                // a header may come later
+                let drop = self.first.len() > FIRST_ROWS;
+                self.first.truncate(FIRST_ROWS);
+                return if drop { vec![Taken::Dropped] } else { Vec::new() };
+            }
+            Fields::Row(row) => row,
+            Fields::Named(named) => {
+                let (names, row): (Vec<String>, Vec<String>) = named.into_iter().unzip();
+                if self.layout.is_none() && !self.are_given {
+                    self.names = names;
+                } else if self.names != names {
+                    return vec![Taken::Dropped];
+                }
+                row
+            }
+            Fields::Other => return vec![Taken::Dropped],
+        };
+        if row.len() != self.names.len() {
+            return vec![Taken::Dropped];
+        }
+        if self.layout.is_some() {
+            return self.row(row, at_s);
+        }
+        self.first.retain(|(row, _)| row.len() == self.names.len());
+        if self.first.len() >= MOST_ROWS {
+            self.first.remove(0);
+        }
+        self.first.push((row, at_s));
+        if self.first.len() < self.next_try {
+            return Vec::new();
+        }
+        self.next_try = (2 * self.next_try).min(MOST_ROWS);
+        self.recognise()
+    }
+
+    /// Recognises the columns by the first rows.
+    fn recognise(&mut self) -> Vec<Taken> {
+        let mut read = self.read(false);
+        let no_clock = |error: &calibrant_core::error::Error| error.code() == Refusal::RateUnknown;
+        if read.as_ref().is_err_and(no_clock) {
+            read = self.read(true);
+            if read.is_ok() {
+                self.arrivals = Some(Arrivals::default());
+            }
+        }
+        let file = match read {
+            Ok(file) => file,
+            Err(error) => return vec![Taken::Problem(error.to_string())],
+        };
+        let layout = Layout::of(&file);
+        if layout.axes[0].is_none() {
+            return vec![Taken::Problem(
+                "no column is known to be an accelerometer's: name them with option `columns`".to_owned(),
+            )];
+        }
+        self.layout = Some(layout);
+        let clock = if self.arrivals.is_some() { "t_s," } else { "" };
+        let mut taken = vec![Taken::Header(format!("{clock}{}", self.names.join(",")))];
+        for (row, at_s) in std::mem::take(&mut self.first) {
+            taken.extend(self.row(row, at_s));
+        }
+        taken
+    }
+
+    fn read(&self, by_arrival: bool) -> Result<ImuFile> {
+        let mut text = if by_arrival { "t_s,".to_owned() } else { String::new() };
+        text.push_str(&self.names.join(","));
+        let mut arrivals = Arrivals::default();
+        for (row, at_s) in &self.first {
+            text.push('\n');
+            if by_arrival {
+                text.push_str(&format!("{},", arrivals.next(*at_s)));
+            }
+            text.push_str(&row.join(","));
+        }
+        text.push('\n');
+        self.session.read(&Source::new(Readings::bytes("recording.csv", text.into_bytes())))
+    }
+
+    fn row(&mut self, mut row: Vec<String>, at_s: f64) -> Vec<Taken> {
+        let Some(layout) = self.layout.clone() else { return Vec::new() };
+        let mut taken = Vec::new();
+        if let Some(arrivals) = &mut self.arrivals {
+            let t_s = arrivals.next(at_s);
+            row.insert(0, t_s.to_string());
+        } else if let Some((column, per_second)) = layout.time {
+            let Some(ticks) = row[column].parse::<f64>().ok().filter(|ticks| ticks.is_finite()) else {
+                return vec![Taken::Dropped];
+            };
+            let mut clock = ticks + self.offset;
+            if let Some(wrapped) = self.last_ticks.and_then(|(last, _)| wrapped(clock, last, per_second)) {
+                self.offset += wrapped - clock;
+                clock = wrapped;
+            }
+            if let Some((last, last_at_s)) = self.last_ticks {
+                let step_s = (clock - last) / per_second;
+                let began_anew =
+                    step_s < 0.0 || (step_s > JUMP_S && step_s > 2.0 * (at_s - last_at_s) + JUMP_S);
+                if step_s == 0.0 {
+                    return vec![Taken::Dropped];
+                }
+                // one row out of order is none of a new clock
+                if began_anew && step_s > -PAUSE_S && !self.restarted {
+                    return vec![Taken::Dropped];
+                }
+                if began_anew {
+                    let pause = PAUSE_S.max(at_s - last_at_s) * per_second;
+                    self.offset += (last + pause - clock).round();
+                    clock = ticks + self.offset;
+                    taken.push(Taken::Restarted);
+                }
+            }
+            self.restarted = false;
+            self.last_ticks = Some((clock, at_s));
+            if self.offset != 0.0 {
+                row[column] = clock.to_string();
+            }
+        }
+        match layout.sample(&row) {
+            Some(sample) => taken.push(Taken::Row(row.join(","), sample)),
+            None => taken.push(Taken::Dropped),
+        }
+        taken
+    }
+
+    /// A row without the accelerometer's readings, where its time is between these.
+    pub(crate) fn blanked(&self, row: &str, (start_s, end_s): (f64, f64)) -> String {
+        let Some(layout) = &self.layout else { return row.to_owned() };
+        let mut fields: Vec<String> = row.split(',').map(str::to_owned).collect();
+        let is_there = layout.sample(&fields).is_some_and(|sample| (start_s..=end_s).contains(&sample.t_s));
+        if is_there && let Some(axes) = layout.axes[0] {
+            axes.iter().for_each(|(column, _)| fields[*column].clear());
+        }
+        fields.join(",")
+    }
+
+    /// Rows that come now lack the time which the recording has: it is that of arrival.
+    fn without_clock(&mut self, names: &[String]) {
+        let is_shorter = self.names.first().is_some_and(|first| first == "t_s") && self.names[1..] == *names;
+        if self.layout.is_some() && self.arrivals.is_none() && is_shorter {
+            self.names.remove(0);
+            self.arrivals = Some(Arrivals::after(self.last_ticks.map(|(last_s, _)| last_s)));
+        }
+    }
+
+    /// Goes on after the rows of a session that is continued; `names`: of the columns, where they are given.
+    pub(crate) fn resumed(&mut self, names: Vec<String>) {
+        self.without_clock(&names);
+        if self.names.is_empty() {
+            self.are_given = !names.is_empty();
+            self.names = names;
+        }
+        self.restarted = true;
+    }
+}
+
+/// The time of a counter that went over its end since the last.
+fn wrapped(clock: f64, last: f64, per_second: f64) -> Option<f64> {
+    if clock >= last {
+        return None;
+    }
+    let goes_on = |next: &f64| (0.0..PAUSE_S * per_second).contains(&(next - last));
+    // of 16 bits, MicroPython's ticks of 30, of 32
+    [16, 30, 32].into_iter().map(|bits| clock + f64::from(2.0_f32.powi(bits))).find(goes_on)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use calibrant::io::{Experiment, preset};
+
+    fn session() -> Session {
+        Session::new(Experiment::parse(preset("imu").expect("built in"), None).expect("valid"))
+            .expect("of holds")
+    }
+
+    /// What comes of some rows, after these lines.
+    fn taken(lines: &[&str], row: impl Fn(usize) -> String) -> Vec<Taken> {
+        let session = session();
+        let mut stream = Stream::new(&session);
+        let rows: Vec<String> = (0..40).map(row).collect();
+        let all = lines.iter().copied().chain(rows.iter().map(String::as_str)).enumerate();
+        all.flat_map(|(number, line)| stream.take(line, number as f64 * 0.01)).collect()
+    }
+
+    fn samples(taken: &[Taken]) -> Vec<Sample> {
+        let of = |taken: &Taken| match taken {
+            Taken::Row(_, sample) => Some(*sample),
+            _ => None,
+        };
+        taken.iter().filter_map(of).collect()
+    }
+
+    fn row(k: usize) -> String {
+        format!("{},0.0{},0.2,1.00{},0.1,0.2,0.{}", 1000 + 10 * k, k % 7, k % 5, k % 3)
+    }
+
+    #[test]
+    fn units_and_clock_are_those_of_the_reader_and_rows_stay_as_they_came() {
+        let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
+        let taken = taken(&["Hello from board 7", header], row);
+        assert_eq!(taken[..2], [Taken::Dropped, Taken::Header(header.to_owned())]);
+        assert!(matches!(&taken[2], Taken::Row(text, _) if *text == row(0)));
+        let samples = samples(&taken);
+        assert_eq!(samples.len(), 40);
+        assert!((samples[3].t_s - 1.03).abs() < 1e-9, "{:?}", samples[3]);
+        let [Some(force), Some(rate)] = samples[3].readings else { panic!("both sensors") };
+        assert!((force[2] - 1.003 * 9.806_65).abs() < 1e-9 && (rate[1] - 0.2_f64.to_radians()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn without_a_clock_times_are_those_of_arrival() {
+        let taken = taken(&["ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps"], |k| {
+            row(k).split_once(',').expect("there").1.to_owned()
+        });
+        assert!(
+            matches!(&taken[0], Taken::Header(header) if header.starts_with("t_s,ax_g")),
+            "{:?}",
+            taken[0]
+        );
+        let samples = samples(&taken);
+        assert!(samples.windows(2).all(|pair| pair[1].t_s > pair[0].t_s));
+        assert!((samples[39].t_s - 0.4).abs() < 0.05, "{}", samples[39].t_s);
+    }
+
+    #[test]
+    fn a_session_without_a_clock_goes_on_later() {
+        let session = session();
+        let header = "ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
+        let without = |k: usize| row(k).split_once(',').expect("there").1.to_owned();
+        let mut stream = Stream::new(&session);
+        stream.take(&format!("t_s,{header}"), 0.0);
+        (0..40).for_each(|k| drop(stream.take(&format!("{},{}", 0.01 * k as f64, without(k)), 0.0)));
+        stream.resumed(Vec::new());
+        assert!(stream.take(header, 0.2).is_empty());
+        let taken = stream.take(&without(3), 0.2);
+        assert!(
+            matches!(&taken[..], [Taken::Row(_, sample)] if (sample.t_s - 1.39).abs() < 1e-6),
+            "{taken:?}"
+        );
+    }
+
+    #[test]
+    fn json_and_pairs_name_their_columns() {
+        let json = taken(&[], |k| {
+            format!(
+                r#"{{"t_ms": {}, "accel_mps2": [0.0{}, 0.2, 9.80{}], "gyro_dps": [0.1, 0.2, 0.{}]}}"#,
+                10 * k,
+                k % 7,
+                k % 5,
+                k % 3
+            )
+        });
+        assert_eq!(samples(&json).len(), 40, "{:?}", json.first());
+        let pairs = taken(&[], |k| format!("t_ms:{} ax_g:0.0{} ay_g:0.2 az_g:1.00{}", 10 * k, k % 7, k % 5));
+        assert_eq!(samples(&pairs).len(), 40, "{:?}", pairs.first());
+    }
+
+    #[test]
+    fn a_clock_that_begins_anew_goes_on_and_half_lines_are_dropped() {
+        let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
+        let session = session();
+        let mut stream = Stream::new(&session);
+        let mut taken = stream.take(header, 0.0);
+        for k in 0..40 {
+            taken.extend(stream.take(&row(k), 0.01 * k as f64));
+        }
+        assert_eq!(stream.take("1400,0.1,0.2", 0.41), [Taken::Dropped]);
+        assert!(stream.take(header, 2.0).is_empty());
+        assert_eq!(wrapped(4.0, 2.0_f64.powi(30) - 5.0, 1e6), Some(2.0_f64.powi(30) + 4.0));
+        assert_eq!(wrapped(4.0, 5e6, 1e6), None);
+        let anew = stream.take("5,0.01,0.2,1.0,0.1,0.2,0.1", 2.4);
+        let [Taken::Restarted, Taken::Row(text, sample)] = anew.as_slice() else { panic!("{anew:?}") };
+        assert!(sample.t_s > 2.3 && text.starts_with("3"), "{text}");
+    }
+
+    #[test]
+    fn units_that_nobody_states_are_a_problem_in_words() {
+        let taken = taken(&["t_ms,ax,ay,az,gx,gy,gz"], |k| {
+            format!("{},{},3000,{},1,2,3", 10 * k, 100 + k, 16_000 + k)
+        });
+        let problem = taken.iter().find_map(|one| match one {
+            Taken::Problem(text) => Some(text.clone()),
+            _ => None,
+        });
+        assert!(problem.as_ref().is_some_and(|text| text.contains("unit")), "{taken:?}");
+    }
+}
