@@ -34,15 +34,22 @@ fn candidates(allowed: &Allowed) -> Vec<Vector3<f64>> {
     }
 }
 
-/// Before there is a calibration: the direction that is farthest from those held.
+/// Before there is a calibration: the direction that is farthest from those held. `holds`: their number, whether or not it is known which way was up.
 pub(crate) fn first_poses(
     experiment: &Experiment,
+    holds: usize,
     held: &[Vector3<f64>],
     put_off: &[Vector3<f64>],
 ) -> Option<NextPose> {
     let allowed = experiment.design.allowed_directions().unwrap_or(Allowed::Anywhere);
     let nearest = |of: &Vector3<f64>| held.iter().chain(put_off).map(|up| up.dot(of)).fold(-1.0, f64::max);
-    let up = candidates(&allowed).into_iter().min_by(|one, other| nearest(one).total_cmp(&nearest(other)))?;
+    let all = candidates(&allowed);
+    let up = if held.is_empty() {
+        // which way was up is not known yet: one after the other
+        *all.get(holds % all.len().max(1))?
+    } else {
+        all.into_iter().min_by(|one, other| nearest(one).total_cmp(&nearest(other)))?
+    };
     Some(NextPose { up, after: Ratios::new(), three_gain: 0.0 })
 }
 

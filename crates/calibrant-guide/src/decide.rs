@@ -22,10 +22,14 @@ impl Run<'_> {
     pub(crate) fn decide(&mut self, decision: Decision) -> Result<()> {
         let one = |value: f64| format!("{value:.1}");
         match decision {
-            Decision::Held { start_s, seconds, up } => {
-                let up = Vector3::from(up);
-                let is_known = self.held.iter().any(|(.., held)| held.dot(&up) > KNOWN);
-                self.held.push((start_s, start_s + seconds, up));
+            Decision::Held { start_s, seconds, mean } => {
+                let mean = Vector3::from(mean);
+                let up = self.force.up(&mean);
+                let is_near = |held: &Vector3<f64>| {
+                    self.force.up(held).zip(up).is_some_and(|(held, up)| held.dot(&up) > KNOWN)
+                };
+                let is_known = self.held.iter().any(|(.., held)| is_near(held));
+                self.held.push((start_s, start_s + seconds, mean));
                 self.ratio_before = if is_known { self.told.estimate.worst_ratio() } else { None };
                 self.say(Kind::Good, format!("Got it: {} s.", one(seconds)))?;
                 self.question(true)?;
@@ -116,6 +120,7 @@ impl Run<'_> {
         let is_good =
             self.reached >= 2 && self.folds_agree == Some(true) && estimate.usability == Some(Usability::Ok);
         self.advice.give(estimate.next.as_ref().map(|next| next.up));
+        self.force.calibrated = estimate.accelerometer.or(self.force.calibrated);
         self.told.now = self.up();
         let first_good = is_good && !self.told.good_enough;
         self.told.good_enough = is_good;

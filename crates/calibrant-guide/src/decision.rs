@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Decision {
     /// A hold is long enough.
-    Held { start_s: f64, seconds: f64, up: [f64; 3] },
+    Held { start_s: f64, seconds: f64, mean: [f64; 3] },
     /// It ended.
     Ended { start_s: f64, end_s: f64 },
     /// A knock was cut out.

@@ -6,7 +6,9 @@ use calibrant::session::{Session, Source};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability};
 use calibrant_core::error::Error;
 use calibrant_core::estimate::CovarianceVerdict;
-use calibrant_core::sensor::{ImuQuantity, ImuRecording, Quantity, SensorKind};
+use calibrant_core::sensor::{
+    ImuQuantity, ImuRecording, Quantity, ReadingUnit, SensorKind, SensorParameters,
+};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
 
@@ -15,9 +17,11 @@ pub(crate) struct Question {
     /// Does it follow a hold that is new?
     pub(crate) of_new_hold: bool,
     pub(crate) recording: ImuRecording,
-    /// Holds by the gate: begin, end, and which way was up.
-    pub(crate) held: Vec<(f64, f64, Vector3<f64>)>,
+    /// Holds by the gate: begin, end, and which way was up, where that is known.
+    pub(crate) held: Vec<(f64, f64, Option<Vector3<f64>>)>,
     pub(crate) asked: Instant,
+    /// Of the readings.
+    pub(crate) units: [ReadingUnit; 2],
     pub(crate) now: Option<Vector3<f64>>,
     pub(crate) put_off: Vec<Vector3<f64>>,
 }
@@ -52,6 +56,7 @@ pub(crate) struct Estimate {
     pub(crate) of_new_hold: bool,
     pub(crate) parameters: Vec<Known>,
     pub(crate) holds: Vec<KnownHold>,
+    pub(crate) accelerometer: Option<SensorParameters>,
     pub(crate) usability: Option<Usability>,
     pub(crate) warnings: Vec<String>,
     /// Do folds agree? Asked where all goals are reached.
@@ -68,9 +73,10 @@ impl Estimate {
         goals.peek().is_some() && goals.all(|(sd, goal)| sd <= goal)
     }
 
-    /// The largest standard deviation over its goal.
+    /// The largest standard deviation over its goal, without what gravity leaves.
     pub(crate) fn worst_ratio(&self) -> Option<f64> {
-        let ratios = self.parameters.iter().filter_map(|of| Some(of.sd / of.goal?));
+        let beside = |of: &Known| (of.sd.powi(2) - of.floor.powi(2)).max(0.0).sqrt();
+        let ratios = self.parameters.iter().filter_map(|of| Some(beside(of) / of.goal?));
         ratios.reduce(f64::max)
     }
 }
@@ -97,15 +103,13 @@ impl Estimator<'_> {
         let outcome = match self.session.calibrate(&source) {
             Ok(outcome) => outcome,
             Err(error) => {
-                let held: Vec<Vector3<f64>> = question.held.iter().map(|(.., up)| *up).collect();
-                let next = first_poses(self.session.experiment(), &held, &question.put_off);
-                let of = |(start_s, end_s, up): &(f64, f64, Vector3<f64>)| KnownHold {
-                    start_s: *start_s,
-                    end_s: *end_s,
-                    up: *up,
-                    left_out: None,
+                let held: Vec<Vector3<f64>> = question.held.iter().filter_map(|(.., up)| *up).collect();
+                let next =
+                    first_poses(self.session.experiment(), question.held.len(), &held, &question.put_off);
+                let known = |(start_s, end_s, up): &(f64, f64, Option<Vector3<f64>>)| {
+                    Some(KnownHold { start_s: *start_s, end_s: *end_s, up: (*up)?, left_out: None })
                 };
-                let holds = question.held.iter().map(of).collect();
+                let holds = question.held.iter().filter_map(known).collect();
                 let of_new_hold = question.of_new_hold;
                 return Estimate {
                     of_new_hold,
@@ -125,7 +129,7 @@ impl Estimator<'_> {
             let name = quantity.name();
             let floor = calibration.gravity_slope.get(k).map_or(0.0, |slope| (slope * gravity_sd).abs());
             parameters.push(Known {
-                goal: self.goals.of(*quantity, imu, floor),
+                goal: self.goals.of(*quantity, imu, question.units[quantity.sensor_kind() as usize], floor),
                 floor,
                 unit: calibration.unit_of(*quantity),
                 value: quantity.value(imu),
@@ -164,6 +168,7 @@ impl Estimator<'_> {
         let mut estimate = Estimate {
             of_new_hold: question.of_new_hold,
             holds: holds.collect(),
+            accelerometer: Some(*imu.sensor(SensorKind::Accelerometer)),
             usability: Some(outcome.verdict().usability),
             warnings: told(Severity::Warning),
             next,

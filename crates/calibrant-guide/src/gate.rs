@@ -15,19 +15,19 @@ use crate::window::{AXES, Sums, Window};
 
 /// Times the quietest scatter.
 const STILL: f64 = 2.5;
-/// Before a quiet half second was seen: shares of the magnitude of the accelerometer's mean, and rad/s.
+/// Before a quiet half second was seen: shares of gravity, and rad/s.
 const LEAST_SHARE: f64 = 2e-3;
 const LARGEST_SHARE: f64 = 0.04;
 const LEAST_RADPS: f64 = 0.01;
 const LARGEST_RADPS: f64 = 0.1;
-/// A mean that moves by so many standard deviations, or by this share of the magnitude, is not settled.
+/// A mean that moves by so many standard deviations, and by this share of gravity, is not settled.
 const DRIFT_SDS: f64 = 3.0;
 const DRIFT_SHARE: f64 = 1.5e-3;
 /// Longest knock, s, with the window that it is in.
 const KNOCK_S: f64 = 0.3 + 0.5;
-/// After a knock the mean is within this share of the magnitude where it was.
+/// After a knock the mean is within this share of gravity where it was.
 const SAME_SHARE: f64 = 0.01;
-/// A hold slides where its thirds differ by this share of the magnitude, and by 3 standard deviations.
+/// A hold slides where its thirds differ by this share of gravity, and by 3 standard deviations.
 const SLIDE_SHARE: f64 = 4e-3;
 /// Without samples for so long a hold ends, s.
 const GAP_S: f64 = 0.1;
@@ -52,6 +52,8 @@ pub(crate) struct Limits {
     /// A hold is wanted so long, s, and counts from this length on.
     pub(crate) hold_s: f64,
     pub(crate) least_s: f64,
+    /// Gravity in the unit of the readings.
+    pub(crate) gravity: Option<f64>,
     /// Largest readings of each axis, where they are known.
     pub(crate) range: [Option<f64>; AXES],
     /// Are accelerometer and gyroscope in m/s² and rad/s?
@@ -147,7 +149,11 @@ impl Gate {
         }
     }
 
+    /// Gravity in the unit of the readings, or what they show where no gain is known.
     fn magnitude(&self, sums: &Sums) -> f64 {
+        if let Some(gravity) = self.limits.gravity {
+            return gravity;
+        }
         let of = self.window.reading(sums, 0).unwrap_or_default();
         of.iter().map(|value| value * value).sum::<f64>().sqrt()
     }
@@ -289,8 +295,7 @@ impl Gate {
 
     fn held(&self, hold: &Hold, seconds: f64) -> Decision {
         let mean = self.window.reading(&hold.all, 0).unwrap_or_default();
-        let size = mean.iter().map(|value| value * value).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-        Decision::Held { start_s: hold.start_s, seconds, up: mean.map(|value| value / size) }
+        Decision::Held { start_s: hold.start_s, seconds, mean }
     }
 
     /// The words for what shakes: `x shakes 0.08 m/s², 0.03 would do`.

@@ -1,7 +1,7 @@
 //! How well each parameter shall be known.
 
 use calibrant_core::acceptance::AcceptanceLimit;
-use calibrant_core::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind};
+use calibrant_core::sensor::{ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind};
 
 /// The largest standard deviations: those of `[accept]`, or usual ones.
 #[derive(Debug, Clone, Default)]
@@ -22,8 +22,14 @@ impl Goals {
         self.0.is_empty()
     }
 
-    /// That of a parameter, in its unit. `floor`: what gravity that is not exactly known leaves, which no hold makes less; a usual goal is beside it.
-    pub(crate) fn of(&self, quantity: ImuQuantity, imu: &ImuParameters, floor: f64) -> Option<f64> {
+    /// That of a parameter, in its unit; `unit`: of the readings. `floor`: what gravity that is not exactly known leaves, which no hold makes less; a usual goal is beside it.
+    pub(crate) fn of(
+        &self,
+        quantity: ImuQuantity,
+        imu: &ImuParameters,
+        unit: ReadingUnit,
+        floor: f64,
+    ) -> Option<f64> {
         if !self.are_usual() {
             let name = quantity.name();
             return self
@@ -35,8 +41,10 @@ impl Goals {
         }
         let ImuQuantity::Of(kind, of) = quantity else { return None };
         let (_, bias, share) = USUAL.into_iter().find(|(of, ..)| *of == kind)?;
-        // of readings in counts
-        let gain = imu.sensor(kind).matrix.row(of.axis().index()).norm();
+        let gain = match unit {
+            ReadingUnit::Counts => imu.sensor(kind).matrix.row(of.axis().index()).norm(),
+            _ => 1.0,
+        };
         let own = match of {
             Quantity::Bias(_) => bias * gain,
             Quantity::Scale(_) | Quantity::CrossAxis(..) | Quantity::Symmetric(..) => share * gain,

@@ -47,7 +47,14 @@ impl Layout {
             _ => 1.0,
         };
         Self {
-            time: place(ColumnMeaning::Time).map(|(column, of)| (column, per_second(of.unit))),
+            time: place(ColumnMeaning::Time).map(|(column, of)| (column, per_second(of.unit))).or_else(
+                || {
+                    // a counter goes with the rate of the samples
+                    let (column, _) = place(ColumnMeaning::Counter)?;
+                    let (_, recording) = file.recording.sensors().next()?;
+                    Some((column, recording.rate_hz()))
+                },
+            ),
             axes: SensorKind::ALL.map(sensor),
             units: SensorKind::ALL.map(|kind| file.recording.sensor(kind).map(Recording::unit)),
             temperature: place(ColumnMeaning::Temperature).map(|(column, _)| column),

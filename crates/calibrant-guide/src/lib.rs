@@ -17,6 +17,7 @@ mod decision;
 mod demo;
 mod estimate;
 mod fields;
+mod force;
 mod gate;
 mod goals;
 mod guide;

@@ -2,7 +2,6 @@
 
 use crate::gate::Phase;
 use crate::run::Run;
-use nalgebra::Vector3;
 
 /// Nothing came for so long, s.
 const SILENT_S: f64 = 1.0;
@@ -11,11 +10,12 @@ impl Run<'_> {
     /// The state as it is now.
     pub(crate) fn picture(&mut self) {
         let age_s = self.came.elapsed().as_secs_f64();
+        let up = self.up();
         let live = &mut self.live;
         live.age_s = age_s;
         live.rate_hz = self.rate.hz;
         live.seconds = self.last_s - self.first_s.unwrap_or(self.last_s);
-        live.up = self.gate.now(0).map(Vector3::from).and_then(|up| up.try_normalize(0.0)).map(Into::into);
+        live.up = up.map(Into::into);
         let is_held = self.gate.phase == Phase::Held;
         live.progress = self
             .gate

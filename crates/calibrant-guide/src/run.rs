@@ -3,6 +3,7 @@
 use crate::arrival::Arrival;
 use crate::demo::Advice;
 use crate::estimate::{Answer, Question};
+use crate::force::KnownForce;
 use crate::gate::{Gate, Limits};
 use crate::goals::Goals;
 use crate::kept::KeptSamples;
@@ -45,8 +46,9 @@ pub(crate) struct Run<'s> {
     pub(crate) terminal: Terminal,
     pub(crate) live: Live,
     pub(crate) told: Told,
-    /// Holds of the gate: begin, end, direction.
+    /// Holds of the gate: begin, end, mean reading.
     pub(crate) held: Vec<(f64, f64, Vector3<f64>)>,
+    pub(crate) force: KnownForce,
     pub(crate) put_off: Vec<Vector3<f64>>,
     pub(crate) last_s: f64,
     pub(crate) first_s: Option<f64>,
@@ -107,6 +109,7 @@ impl<'s> Run<'s> {
             }
         }
         let in_si = [units[0] != ReadingUnit::Counts, units[1] != ReadingUnit::Counts];
+        let force = KnownForce::new(&experiment.sensor, units[0]);
         let told = Told {
             sensor: options
                 .directory
@@ -125,12 +128,13 @@ impl<'s> Run<'s> {
             ask,
             lines: Lines::default(),
             stream: Stream::new(session),
-            gate: Gate::new(Limits { hold_s, least_s, range, in_si }),
+            gate: Gate::new(Limits { hold_s, least_s, gravity: force.gravity(), range, in_si }),
             kept: KeptSamples::default(),
             units,
             live: Live::default(),
             told,
             held: Vec::new(),
+            force,
             put_off: Vec::new(),
             last_s: 0.0,
             first_s: None,
@@ -291,6 +295,8 @@ impl<'s> Run<'s> {
         for (unit, known) in self.units.iter_mut().zip(self.stream.units()) {
             *unit = known.unwrap_or(*unit);
         }
+        self.force = KnownForce::new(&self.options.experiment.sensor, self.units[0]);
+        self.gate.limits.gravity = self.force.gravity();
         self.gate.limits.in_si = self.units.map(|unit| unit != ReadingUnit::Counts);
     }
 
@@ -314,9 +320,7 @@ impl<'s> Run<'s> {
     }
 
     pub(crate) fn up(&self) -> Option<Vector3<f64>> {
-        let now = Vector3::from(self.gate.now(0)?);
-        // corrected, where there is a calibration
-        now.try_normalize(0.0)
+        self.force.up(&Vector3::from(self.gate.now(0)?))
     }
 
     pub(crate) fn question(&mut self, of_new_hold: bool) -> Result<()> {
@@ -324,10 +328,19 @@ impl<'s> Run<'s> {
             return Ok(());
         }
         let recording = self.kept.recording(self.units)?;
-        let held = self.held.clone();
+        let held =
+            self.held.iter().map(|(start_s, end_s, mean)| (*start_s, *end_s, self.force.up(mean))).collect();
         let asked = Instant::now();
-        let question =
-            Question { asked, of_new_hold, recording, held, now: self.up(), put_off: self.put_off.clone() };
+        let units = self.units;
+        let question = Question {
+            units,
+            asked,
+            of_new_hold,
+            recording,
+            held,
+            now: self.up(),
+            put_off: self.put_off.clone(),
+        };
         if self.ask.send(question).is_ok() {
             self.waits_for_answer = 1;
         }

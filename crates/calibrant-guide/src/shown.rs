@@ -161,6 +161,8 @@ pub(crate) fn shown_unit(unit: &'static str) -> (&'static str, f64) {
         "m/s²" => ("mm/s²", 1e3),
         "rad/s" => ("mrad/s", 1e3),
         "1" => ("10⁻³", 1e3),
+        // as datasheets state it
+        "(rad/s)/(m/s²)" => ("(°/s)/g", 9.806_65_f64.to_degrees()),
         other => (other, 1.0),
     }
 }
