@@ -369,6 +369,32 @@ mod tests {
     }
 
     #[test]
+    fn a_rotation_beyond_the_range_is_told_at_the_next_hold() {
+        let limits = Limits {
+            hold_s: 3.0,
+            least_s: 1.0,
+            in_si: [true; 2],
+            range: [Some(4.0); 6],
+            ..Limits::default()
+        };
+        let mut gate = Gate::new(limits);
+        let mut found = Vec::new();
+        for k in 0..900_u32 {
+            let t_s = f64::from(k) * 0.01;
+            let noise = f64::from(k * 7919 % 101) * 1e-4;
+            let turns = (2.0..3.0).contains(&t_s);
+            let a = if turns {
+                [1.0 + 3.0 * noise, 2.0 * (9.0 * t_s).sin(), 1.0]
+            } else {
+                [1.0 + noise, 1.0, 1.0]
+            };
+            let g = [0.0, if turns { 3.8 } else { 0.0 }, noise];
+            found.extend(gate.take(&Sample { t_s, readings: [Some(a), Some(g)], temperature_c: None }));
+        }
+        assert!(found.contains(&Decision::Fast { axis: 4 }), "{found:?}");
+    }
+
+    #[test]
     fn a_slide_is_told_and_a_hold_that_is_too_short() {
         let (found, _) = run(6.0, |t| [0.05 * t, 0.0, 0.0]);
         assert!(!found.iter().any(|one| matches!(one, Decision::Held { .. })), "{found:?}");

@@ -1,6 +1,6 @@
 //! Which columns hold what, and in which unit, as the reader of recordings says.
 
-use calibrant::io::{ColumnMeaning, ColumnUnit, ImuFile, TimeUnit};
+use calibrant::io::{ColumnMeaning, ColumnUnit, ImuFile, ImuUnit, TimeUnit};
 use calibrant_core::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 
 /// A sample in the units of the reader.
@@ -19,6 +19,8 @@ pub(crate) struct Layout {
     pub(crate) time: Option<(usize, f64)>,
     /// Column and factor of each axis of each sensor.
     pub(crate) axes: [Option<[(usize, f64); 3]>; 2],
+    /// Largest readings of each sensor, where they are counts of 16 bits whose sensitivity is stated.
+    pub(crate) largest: [Option<f64>; 2],
     /// Of the readings after the factor.
     pub(crate) units: [Option<ReadingUnit>; 2],
     temperature: Option<usize>,
@@ -55,6 +57,14 @@ impl Layout {
                     Some((column, recording.rate_hz()))
                 },
             ),
+            largest: SensorKind::ALL.map(|kind| {
+                match place(ColumnMeaning::Reading(kind, Axis::X))?.1.unit? {
+                    ColumnUnit::Reading(unit @ ImuUnit::CountsOf(_)) => {
+                        Some(f64::from(i16::MAX) * unit.reading().1)
+                    }
+                    _ => None,
+                }
+            }),
             axes: SensorKind::ALL.map(sensor),
             units: SensorKind::ALL.map(|kind| file.recording.sensor(kind).map(Recording::unit)),
             temperature: place(ColumnMeaning::Temperature).map(|(column, _)| column),

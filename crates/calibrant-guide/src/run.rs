@@ -296,6 +296,11 @@ impl<'s> Run<'s> {
             *unit = known.unwrap_or(*unit);
         }
         self.force = KnownForce::new(&self.options.experiment.sensor, self.units[0]);
+        for (sensor, largest) in self.stream.largest().into_iter().enumerate() {
+            for range in &mut self.gate.limits.range[3 * sensor..3 * sensor + 3] {
+                *range = range.or(largest);
+            }
+        }
         self.gate.limits.gravity = self.force.gravity();
         self.gate.limits.in_si = self.units.map(|unit| unit != ReadingUnit::Counts);
     }

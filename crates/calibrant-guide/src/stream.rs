@@ -78,6 +78,11 @@ impl<'s> Stream<'s> {
         self.layout.as_ref().map_or([None; 2], |layout| layout.units)
     }
 
+    /// Largest readings of each sensor, where the stream says.
+    pub(crate) fn largest(&self) -> [Option<f64>; 2] {
+        self.layout.as_ref().map_or([None; 2], |layout| layout.largest)
+    }
+
     /// Names of the columns as the recording has them; none before a header came.
     pub(crate) fn has_names(&self) -> bool {
         !self.names.is_empty()
