@@ -92,7 +92,7 @@ impl Run<'_> {
                     &json!({"at_s": self.last_s, "kind": "estimate", "holds": holds, "took_ms": took_ms}),
                 )
             }
-            Answer::Whole(estimate) => self.whole(estimate),
+            Answer::Whole(estimate) => self.whole(*estimate),
         }
     }
 

@@ -86,7 +86,7 @@ pub(crate) enum Answer {
     /// The parameters so far, and how long they took.
     First(Vec<Known>, Duration),
     /// All of it.
-    Whole(Estimate),
+    Whole(Box<Estimate>),
 }
 
 /// Estimates.

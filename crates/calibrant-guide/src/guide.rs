@@ -75,7 +75,7 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
                     let _ = tell.send(Answer::First(parameters, question.asked.elapsed()));
                 };
                 let whole = estimator.answer(&question, first);
-                if tell.send(Answer::Whole(whole)).is_err() {
+                if tell.send(Answer::Whole(Box::new(whole))).is_err() {
                     return;
                 }
             }
