@@ -3,7 +3,7 @@
 use crate::diagnostics::rules;
 use crate::exit::Exit;
 use crate::{console, interruption};
-use calibrant::io::{Experiment, ResultPlaces, preset};
+use calibrant::io::{Experiment, ResultPlaces, SensorNaming, preset};
 use calibrant::session::SessionOptions;
 use calibrant_guide::{GuideOptions, Guided, Input, guide};
 use std::path::PathBuf;
@@ -42,6 +42,12 @@ pub(crate) struct Arguments {
     columns: Vec<String>,
     #[command(flatten)]
     reading: crate::recording_options::RecordingOptions,
+    /// The sensor, as calibration.json names it (default: recording).
+    #[arg(long, value_name = "ID")]
+    sensor: Option<String>,
+    /// The station.
+    #[arg(long, value_name = "NAME")]
+    station: Option<String>,
     /// Address of the page. Others than 127.0.0.1 open it to the network.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8765")]
     listen: String,
@@ -89,6 +95,11 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             experiment_file: arguments.experiment.clone().unwrap_or_else(|| "imu.toml".into()),
             reading: arguments.reading.options()?,
             allowed: rules().allowed().to_vec(),
+            naming: SensorNaming {
+                sensor: arguments.sensor.clone(),
+                station: arguments.station.clone(),
+                ..SensorNaming::default()
+            },
             ..SessionOptions::default()
         },
         columns: arguments.columns.clone(),

@@ -15,7 +15,7 @@ use crate::session_log::SessionLog;
 use crate::shown::{Kind, Live, Told};
 use crate::stream::{Stream, Taken};
 use crate::terminal::Terminal;
-use calibrant::io::Plan;
+use calibrant::io::{Plan, file_name};
 use calibrant::session::Session;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::ReadingUnit;
@@ -111,10 +111,7 @@ impl<'s> Run<'s> {
         let in_si = [units[0] != ReadingUnit::Counts, units[1] != ReadingUnit::Counts];
         let force = KnownForce::new(&experiment.sensor, units[0]);
         let told = Told {
-            sensor: options
-                .directory
-                .file_name()
-                .map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+            sensor: options.session.naming.sensor.clone().unwrap_or_else(|| file_name(&options.directory)),
             path: log.path().display().to_string(),
             sentence: "Hold the sensor still in any orientation.".to_owned(),
             ..Told::default()
