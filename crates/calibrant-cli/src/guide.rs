@@ -51,7 +51,7 @@ pub(crate) struct Arguments {
     /// Address of the page. Others than 127.0.0.1 open it to the network.
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8765")]
     listen: String,
-    /// Serve no page.
+    /// Serve no page; needs --terminal.
     #[arg(long, requires = "terminal")]
     no_page: bool,
     /// Print what the page shows, as lines of 80 columns.

@@ -15,6 +15,8 @@ use serde_json::json;
 const KNOWN: f64 = 0.985;
 /// A hold is estimated again at its end where it is so many times as long.
 const LONGER: f64 = 1.5;
+/// After so many holds with all goals reached, more do not mend a doubt.
+const ENOUGH: usize = 6;
 /// What a known pose gains is told below this share.
 const LITTLE: f64 = 0.02;
 
@@ -43,7 +45,7 @@ impl Run<'_> {
                     self.question(false)?;
                 }
             }
-            Decision::Cut => self.say(Kind::Info, "A knock was cut out.".to_owned())?,
+            Decision::Cut => self.say(Kind::Info, "A knock or a gap was cut out.".to_owned())?,
             Decision::Short { seconds, needed_s } => {
                 let text =
                     format!("Too short: {} s of {} s. Hold it a little longer.", one(seconds), one(needed_s));
@@ -122,10 +124,18 @@ impl Run<'_> {
         self.advice.give(estimate.next.as_ref().map(|next| next.up));
         self.force.calibrated = estimate.accelerometer.or(self.force.calibrated);
         self.told.now = self.up();
-        let first_good = is_good && !self.told.good_enough;
+        let was_good = self.told.good_enough;
+        let first_good = is_good && !was_good;
         self.told.good_enough = is_good;
         self.told.sentence = self.sentence(&estimate, reaches);
         self.told.estimate = estimate;
+        if was_good && !is_good {
+            let text = self.told.sentence.clone();
+            self.say(Kind::Warning, format!("No longer good enough: {text}"))?;
+        }
+        // more holds do not mend what is doubtful for another reason
+        let is_enough = reaches && self.reached >= ENOUGH;
+        self.finish |= is_enough && self.options.stop_when_good;
         if first_good {
             let text = self.told.sentence.clone();
             self.say(Kind::Good, text)?;
@@ -182,6 +192,9 @@ impl Run<'_> {
             let folds = (self.folds_agree == Some(false))
                 .then(|| "parts of the recording disagree by more than they should".to_owned());
             return match folds.or(why) {
+                Some(why) if self.reached >= ENOUGH => {
+                    format!("More holds change little. Finish, or look into this: {why}")
+                }
                 Some(why) => format!("All goals are reached, but: {why}"),
                 None => format!("All goals are reached; one more hold confirms it.{usual}"),
             };

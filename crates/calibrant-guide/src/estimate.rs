@@ -115,7 +115,7 @@ impl Estimator<'_> {
                     of_new_hold,
                     holds,
                     next,
-                    missing: Some(missing(&error)),
+                    missing: Some(missing(&error, question.held.len())),
                     ..Estimate::default()
                 };
             }
@@ -186,10 +186,13 @@ impl Estimator<'_> {
     }
 }
 
+/// Holds that mostly determine a sensor.
+const USUALLY: usize = 14;
+
 /// Why there is no calibration yet: mostly since there are too few holds.
-fn missing(error: &Error) -> String {
+fn missing(error: &Error, holds: usize) -> String {
     match error {
-        Error::NotIdentifiable(_) => {
+        Error::NotIdentifiable(_) if holds < USUALLY => {
             "hold it in other orientations, each axis up, down and between".to_owned()
         }
         other => other.to_string(),

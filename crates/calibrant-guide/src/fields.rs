@@ -42,8 +42,8 @@ impl Fields {
         if let Some(named) = fields.iter().map(pair).collect::<Option<Vec<_>>>() {
             return Self::Named(named);
         }
-        let numbers = fields.iter().filter(|field| is_number(field) || field.is_empty()).count();
-        let owned = |fields: Vec<&str>| fields.into_iter().map(str::to_owned).collect();
+        let numbers = fields.iter().filter(|field| is_number(&with_point(field)) || field.is_empty()).count();
+        let owned = |fields: Vec<&str>| fields.into_iter().map(with_point).collect();
         match numbers {
             // a time of day, or a word such as the name of a sensor
             _ if numbers + 1 >= fields.len() && numbers >= FEWEST => Self::Row(owned(fields)),
@@ -55,12 +55,18 @@ impl Fields {
     }
 }
 
+/// A number with a decimal comma, as a spreadsheet of some countries writes it between semicolons, with a point.
+fn with_point(field: &str) -> String {
+    let pointed = field.replacen(',', ".", 1);
+    if field.contains(',') && is_number(&pointed) { pointed } else { field.to_owned() }
+}
+
 fn is_number(field: &str) -> bool {
     field.trim().parse::<f64>().is_ok_and(f64::is_finite)
 }
 
 fn split(line: &str) -> Vec<&str> {
-    for delimiter in [',', ';', '\t'] {
+    for delimiter in [';', '\t', ','] {
         if line.contains(delimiter) {
             let mut fields: Vec<&str> = line.split(delimiter).map(str::trim).collect();
             if fields.last().is_some_and(|last| last.is_empty()) {
@@ -103,6 +109,7 @@ mod tests {
         let texts = |of: &[&str]| of.iter().map(|one| (*one).to_owned()).collect::<Vec<_>>();
         assert_eq!(Fields::of("t_s, ax,ay,az"), Fields::Names(texts(&["t_s", "ax", "ay", "az"])));
         assert_eq!(Fields::of("1,2.5,-3,"), Fields::Row(texts(&["1", "2.5", "-3"])));
+        assert_eq!(Fields::of("0,5;-2,25;3"), Fields::Row(texts(&["0.5", "-2.25", "3"])));
         assert_eq!(Fields::of("1\t2\t3"), Fields::Row(texts(&["1", "2", "3"])));
         let named = |of: &[(&str, &str)]| {
             Fields::Named(of.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect())

@@ -16,9 +16,9 @@ use crate::window::{AXES, Sums, Window};
 /// Times the quietest scatter.
 const STILL: f64 = 2.5;
 /// Before a quiet half second was seen: shares of gravity, and rad/s.
-const LEAST_SHARE: f64 = 2e-3;
+const LEAST_SHARE: f64 = 1e-2;
 const LARGEST_SHARE: f64 = 0.04;
-const LEAST_RADPS: f64 = 0.01;
+const LEAST_RADPS: f64 = 0.03;
 const LARGEST_RADPS: f64 = 0.1;
 /// A mean that moves by so many standard deviations, and by this share of gravity, is not settled.
 const DRIFT_SDS: f64 = 3.0;
@@ -29,8 +29,12 @@ const KNOCK_S: f64 = 0.3 + 0.5;
 const SAME_SHARE: f64 = 0.01;
 /// A hold slides where its thirds differ by this share of gravity, and by 3 standard deviations.
 const SLIDE_SHARE: f64 = 4e-3;
-/// Without samples for so long a hold ends, s.
+/// Without samples for so long, and for so many periods, samples are missing; a hold goes on behind a shorter gap than the last, s.
 const GAP_S: f64 = 0.1;
+const GAP_PERIODS: f64 = 5.0;
+const BRIDGED_S: f64 = 1.0;
+/// How fast the period of the samples is followed.
+const PERIOD_FOLLOWS: f64 = 0.1;
 /// Share of a range that is its end.
 const CLIPS: f64 = 0.98;
 /// Share of the gyroscope's range that a rotation may use.
@@ -69,6 +73,10 @@ pub(crate) struct Gate {
     pub(crate) phase: Phase,
     last_t_s: Option<f64>,
     hold: Option<Hold>,
+    /// Mean time from sample to sample, s.
+    period_s: f64,
+    /// What gaps add to the length of a knock, s.
+    grace_s: f64,
     /// Since when it moves within a hold.
     moves_since: Option<f64>,
     fast: Option<usize>,
@@ -83,6 +91,7 @@ struct Hold {
     thirds: Vec<Sums>,
     all: Sums,
     told: bool,
+    slid: bool,
     clips: Option<usize>,
 }
 
@@ -94,6 +103,8 @@ impl Gate {
             quietest: [f64::INFINITY; AXES],
             phase: Phase::Waiting,
             last_t_s: None,
+            period_s: 0.0,
+            grace_s: 0.0,
             hold: None,
             moves_since: None,
             fast: None,
@@ -104,19 +115,46 @@ impl Gate {
     /// Takes a sample.
     pub(crate) fn take(&mut self, sample: &Sample) -> Vec<Decision> {
         let mut found = Vec::new();
-        if let Some(last) = self.last_t_s
-            && sample.t_s - last > GAP_S.max(if self.window.whole().is_some() { 0.0 } else { 0.5 })
-        {
-            self.end(last, &mut found);
-            self.window.clear();
-            self.phase = Phase::Moving;
-            found.push(Decision::Gap { seconds: sample.t_s - last });
+        if let Some(last) = self.last_t_s {
+            let step_s = sample.t_s - last;
+            if self.period_s == 0.0 {
+                self.period_s = step_s;
+            } else if step_s > GAP_S.max(GAP_PERIODS * self.period_s) {
+                self.gap(last, step_s, &mut found);
+            } else {
+                self.period_s += PERIOD_FOLLOWS * (step_s - self.period_s);
+            }
         }
         self.last_t_s = Some(sample.t_s);
         self.watch_ranges(sample);
         if let Some(step) = self.window.push(sample) {
             self.step(step.end_s, &step.sums, &mut found);
         }
+        found
+    }
+
+    /// Samples are missing. A hold goes on behind a short gap where its mean is the same.
+    fn gap(&mut self, last: f64, seconds: f64, found: &mut Vec<Decision>) {
+        self.window.clear();
+        if self.hold.is_some() && seconds < BRIDGED_S {
+            self.moves_since.get_or_insert(last);
+            self.grace_s += seconds;
+            return;
+        }
+        self.end(last, found);
+        self.phase = Phase::Moving;
+        found.push(Decision::Gap { seconds });
+    }
+
+    /// The clock begins anew: nothing is known of the time between.
+    pub(crate) fn interrupt(&mut self) -> Vec<Decision> {
+        let mut found = Vec::new();
+        if let Some(last) = self.last_t_s.take() {
+            self.end(last, &mut found);
+        }
+        found.retain(|decision| !matches!(decision, Decision::Short { .. }));
+        self.window.clear();
+        self.phase = Phase::Moving;
         found
     }
 
@@ -195,7 +233,8 @@ impl Gate {
             && let Some(hold) = &self.hold
         {
             let same = self.distance(&window, &hold.all) < SAME_SHARE * magnitude;
-            if end_s - since > KNOCK_S || !same {
+            let longest = KNOCK_S + std::mem::take(&mut self.grace_s);
+            if end_s - since > longest || !same {
                 self.end(since, found);
             } else {
                 found.push(Decision::Cut);
@@ -216,8 +255,15 @@ impl Gate {
             found.push(Decision::Fast { axis });
         }
         self.phase = Phase::Holding;
-        self.hold =
-            Some(Hold { start_s, end_s, thirds: vec![window], all: window, told: false, clips: None });
+        self.hold = Some(Hold {
+            start_s,
+            end_s,
+            thirds: vec![window],
+            all: window,
+            told: false,
+            slid: false,
+            clips: None,
+        });
     }
 
     /// Between the accelerometer's means.
@@ -231,8 +277,9 @@ impl Gate {
             return;
         };
         let since = *self.moves_since.get_or_insert(hold.end_s);
-        if end_s - since > KNOCK_S {
+        if end_s - since > KNOCK_S + self.grace_s {
             self.moves_since = None;
+            self.grace_s = 0.0;
             self.end(since, found);
             self.phase = Phase::Moving;
         }
@@ -256,7 +303,9 @@ impl Gate {
             let sd =
                 (0..3).map(|axis| first.sd(axis).powi(2) / first.count(axis).max(1.0)).sum::<f64>().sqrt();
             if by > (DRIFT_SDS * std::f64::consts::SQRT_2 * sd).max(SLIDE_SHARE * magnitude) {
-                found.push(Decision::Slides { by });
+                if !std::mem::replace(&mut hold.slid, true) {
+                    found.push(Decision::Slides { by });
+                }
                 // what is at its end may be still
                 hold = Hold {
                     start_s: end_s - 0.1 * third as f64,

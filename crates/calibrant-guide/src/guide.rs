@@ -64,12 +64,12 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
     let (ask, questions) = channel::<Question>();
     let (tell, answers) = channel::<Answer>();
     let estimator = Estimator { session: &session, with_folds: &with_folds, goals: &goals };
-    let (good_enough, holds) = thread::scope(|scope| {
+    let (good_enough, holds, not_understood) = thread::scope(|scope| {
         scope.spawn(move || {
             while let Ok(mut question) = questions.recv() {
                 // the last one counts
                 while let Ok(newer) = questions.try_recv() {
-                    question = newer;
+                    question = Question { of_new_hold: question.of_new_hold || newer.of_new_hold, ..newer };
                 }
                 let first = |parameters| {
                     let _ = tell.send(Answer::First(parameters, question.asked.elapsed()));
@@ -88,6 +88,14 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
         run.run(&arrivals, &answers, &asked)
     })?;
     let recording = options.directory.join("recording.csv");
+    if let Some(why) = not_understood.filter(|_| !recording.exists()) {
+        let help = "let the board print a header such as t_ms,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps once in a while, or name the columns by option `columns`";
+        return Err(Error::recording(InputError::new(
+            Refusal::RecordingShort,
+            format!("nothing was recorded: {why}"),
+            help,
+        )));
+    }
     let outcome = last.calibrate(&Source::from_file(&recording));
     if let Ok(outcome) = &outcome {
         outcome.write(&options.directory)?;

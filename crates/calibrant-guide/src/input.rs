@@ -142,9 +142,9 @@ impl Input {
                 });
             }
             Self::Tcp(address) => {
-                let address = address.clone();
-                let connect = move || TcpStream::connect(address.as_str());
-                let first = connect().map_err(|error| absent(&format!("{self:?}"), &error))?;
+                let to_server = address.clone();
+                let connect = move || TcpStream::connect(to_server.as_str());
+                let first = connect().map_err(|error| absent(&format!("tcp {address}"), &error))?;
                 thread::spawn(move || again_and_again(first, connect, &to, begin));
             }
             Self::Stdin => {
@@ -165,6 +165,8 @@ fn absent(what: &str, error: &std::io::Error) -> Error {
         std::io::ErrorKind::PermissionDenied => {
             "may you read it? On Linux the group `dialout` may: sudo usermod -aG dialout $USER, then log in again"
         }
+        _ if what.starts_with("tcp") => "does the server run, and do address and port hold?",
+        std::io::ErrorKind::AddrNotAvailable => "give an address of this machine, or 0.0.0.0 for all of them",
         std::io::ErrorKind::AddrInUse => "another program listens there: end it, or take another port",
         _ => "is the board plugged in, and the name right? `ls /dev/tty*` or the device manager shows it",
     };

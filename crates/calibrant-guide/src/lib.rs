@@ -22,6 +22,7 @@ mod gate;
 mod goals;
 mod guide;
 mod input;
+mod intake;
 mod kept;
 mod layout;
 mod lines;
@@ -34,6 +35,7 @@ mod session_log;
 mod shown;
 mod stream;
 mod terminal;
+mod unfit;
 mod window;
 
 pub use guide::{Guided, guide};

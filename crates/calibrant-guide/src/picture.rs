@@ -11,6 +11,7 @@ impl Run<'_> {
     pub(crate) fn picture(&mut self) {
         let age_s = self.came.elapsed().as_secs_f64();
         let up = self.up();
+        let is_unfit = self.is_unfit();
         let live = &mut self.live;
         live.age_s = age_s;
         live.rate_hz = self.rate.hz;
@@ -42,13 +43,10 @@ impl Run<'_> {
             )
         } else if let Some(problem) = &self.problem {
             ("silent", "Not understood", problem.clone())
+        } else if let Some(why) = self.unfit.why.filter(|_| is_unfit) {
+            ("silent", "Not understood", format!("lines come, but none is recorded: of the last, {why}"))
         } else if !self.stream.is_known() {
-            let why = if self.stream.has_names() || live.dropped == 0 {
-                "the first samples are awaited"
-            } else {
-                "lines arrive, but none names the columns: let the board print a header, or name them by option `columns`"
-            };
-            ("waiting", "Waiting", why.to_owned())
+            ("waiting", "Waiting", "the first samples are awaited".to_owned())
         } else {
             match self.gate.phase {
                 Phase::Waiting => ("waiting", "Waiting", String::new()),
@@ -69,15 +67,28 @@ impl Run<'_> {
                         format!("{seconds:.1} of {needed:.1} s")
                     }),
                 ),
+                // the pose that was advised before is the one that it has
+                Phase::Held if self.waits_for_answer > 0 => ("held", "Got it", "calibrating".to_owned()),
                 Phase::Held => ("held", "Got it", next),
             }
         };
         live.phase = phase;
         live.word = word.to_owned();
         live.reason = reason;
-        self.terminal.state(phase, word, &live.reason, self.last_s);
+        self.terminal.state(phase, word, &live.reason, live.seconds);
+        let is_new = std::mem::replace(&mut self.shown_phase, phase) != phase;
         if self.options.listen.is_some() {
             self.board.live(live.json());
         }
+        if is_new {
+            // how far to turn is from where it lies now
+            self.told.now = up.or(self.told.now);
+            self.show_result();
+        }
+    }
+
+    /// Do lines come of which none is a row?
+    fn is_unfit(&self) -> bool {
+        self.unfit.row_came.is_none_or(|came| came.elapsed().as_secs_f64() > SILENT_S)
     }
 }

@@ -7,7 +7,6 @@ use crate::force::KnownForce;
 use crate::gate::{Gate, Limits};
 use crate::goals::Goals;
 use crate::kept::KeptSamples;
-use crate::layout::Sample;
 use crate::lines::Lines;
 use crate::options::GuideOptions;
 use crate::server::{Action, Board};
@@ -15,6 +14,7 @@ use crate::session_log::SessionLog;
 use crate::shown::{Kind, Live, Told};
 use crate::stream::{Stream, Taken};
 use crate::terminal::Terminal;
+use crate::unfit::Unfit;
 use calibrant::io::{Plan, file_name};
 use calibrant::session::Session;
 use calibrant_core::error::Result;
@@ -61,6 +61,11 @@ pub(crate) struct Run<'s> {
     pub(crate) folds_agree: Option<bool>,
     pub(crate) ratio_before: Option<f64>,
     pub(crate) waits_for_answer: usize,
+    pub(crate) unfit: Unfit,
+    /// Is what is recorded taken again? Then it is told already.
+    pub(crate) is_replay: bool,
+    /// The phase that the page knows.
+    pub(crate) shown_phase: &'static str,
     pub(crate) finish: bool,
     pub(crate) are_usual_goals: bool,
 }
@@ -74,7 +79,7 @@ pub(crate) struct Rate {
 }
 
 impl Rate {
-    fn count(&mut self, t_s: f64) {
+    pub(crate) fn count(&mut self, t_s: f64) {
         self.count += 1.0;
         let seconds = t_s - self.begin_s;
         if !(0.0..1.0).contains(&seconds) {
@@ -143,6 +148,9 @@ impl<'s> Run<'s> {
             folds_agree: None,
             ratio_before: None,
             waits_for_answer: 0,
+            unfit: Unfit::default(),
+            is_replay: false,
+            shown_phase: "",
             finish: false,
             are_usual_goals: goals.are_usual(),
         }
@@ -151,6 +159,7 @@ impl<'s> Run<'s> {
     /// Takes the rows of a session that is continued, as if they came now.
     pub(crate) fn replay(&mut self, lines: Vec<String>) -> Result<()> {
         let mut at_s = 0.0;
+        self.is_replay = true;
         for line in &lines {
             for taken in self.stream.take(line, at_s) {
                 // they are in the recording already
@@ -164,6 +173,7 @@ impl<'s> Run<'s> {
                 }
             }
         }
+        self.is_replay = false;
         self.stream.resumed(self.options.columns.clone());
         self.live.lines = lines.len().saturating_sub(1) as u64;
         Ok(())
@@ -174,7 +184,7 @@ impl<'s> Run<'s> {
         arrivals: &Receiver<Arrival>,
         answers: &Receiver<Answer>,
         asked: &Receiver<Action>,
-    ) -> Result<(bool, usize)> {
+    ) -> Result<(bool, usize, Option<String>)> {
         let mut pictured = Instant::now();
         let mut ended = false;
         self.show_result();
@@ -217,12 +227,12 @@ impl<'s> Run<'s> {
         // pages take what they have not yet
         thread::sleep(Duration::from_millis(if self.options.listen.is_some() { 300 } else { 0 }));
         self.board.close();
-        Ok((self.told.good_enough, self.held.len()))
+        Ok((self.told.good_enough, self.held.len(), self.not_understood()))
     }
 
     /// The holds up to the end are asked for, and the answer waited for.
     fn end_of_input(&mut self, answers: &Receiver<Answer>) -> Result<()> {
-        self.question(true)?;
+        self.question(false)?;
         while self.waits_for_answer > 0 {
             match answers.recv_timeout(Duration::from_secs(60)) {
                 Ok(answer) => self.answer(answer)?,
@@ -232,86 +242,11 @@ impl<'s> Run<'s> {
         Ok(())
     }
 
-    /// Takes what arrived. Has the input ended?
-    fn arrival(&mut self, arrival: Arrival) -> Result<bool> {
-        match arrival {
-            Arrival::Bytes { bytes, at_s } => {
-                for line in self.lines.push(&bytes) {
-                    self.line(&line, at_s)?;
-                }
-                if !bytes.is_empty() {
-                    self.came = Instant::now();
-                }
-            }
-            Arrival::Lost(why) => {
-                self.say(
-                    Kind::Error,
-                    format!("The board is gone: {why}. The recording is safe; plug it in again."),
-                )?;
-                self.lost = Some(why);
-            }
-            Arrival::Back => {
-                self.lost = None;
-                self.say(Kind::Good, "The board is there again.".to_owned())?;
-            }
-            Arrival::End => return Ok(true),
-        }
-        Ok(false)
-    }
-
-    fn line(&mut self, line: &str, at_s: f64) -> Result<()> {
-        for taken in self.stream.take(line, at_s) {
-            match taken {
-                Taken::Header(header) => {
-                    self.log.row(&header)?;
-                    self.known();
-                }
-                Taken::Row(row, sample) => {
-                    self.log.row(&row)?;
-                    self.live.lines += 1;
-                    self.problem = None;
-                    self.sample(&sample)?;
-                }
-                Taken::Dropped => self.live.dropped += 1,
-                Taken::Restarted => {
-                    self.say(Kind::Warning, "The board began anew; what was recorded stays.".to_owned())?
-                }
-                Taken::Problem(problem) => {
-                    if self.problem.as_ref() != Some(&problem) {
-                        self.say(Kind::Error, problem.clone())?;
-                    }
-                    self.problem = Some(problem);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The columns are known, and with them the units.
-    pub(crate) fn known(&mut self) {
-        for (unit, known) in self.units.iter_mut().zip(self.stream.units()) {
-            *unit = known.unwrap_or(*unit);
-        }
-        self.force = KnownForce::new(&self.options.experiment.sensor, self.units[0]);
-        for (sensor, largest) in self.stream.largest().into_iter().enumerate() {
-            for range in &mut self.gate.limits.range[3 * sensor..3 * sensor + 3] {
-                *range = range.or(largest);
-            }
-        }
-        self.gate.limits.gravity = self.force.gravity();
-        self.gate.limits.in_si = self.units.map(|unit| unit != ReadingUnit::Counts);
-    }
-
-    fn sample(&mut self, sample: &Sample) -> Result<()> {
-        self.first_s.get_or_insert(sample.t_s);
-        self.last_s = sample.t_s;
-        self.rate.count(sample.t_s);
-        self.live.temperature_c = sample.temperature_c.or(self.live.temperature_c);
-        self.kept.push(*sample);
-        for decision in self.gate.take(sample) {
-            self.decide(decision)?;
-        }
-        Ok(())
+    /// Why nothing was recorded, where nothing was.
+    fn not_understood(&self) -> Option<String> {
+        let why = self.unfit.why.map(|why| format!("of the last line, {why}"));
+        let silent = || "nothing came".to_owned();
+        (!self.stream.is_known()).then(|| self.problem.clone().or(why).unwrap_or_else(silent))
     }
 
     /// A pose that was refused is offered last.
@@ -381,8 +316,10 @@ impl<'s> Run<'s> {
     }
 
     pub(crate) fn say(&mut self, kind: Kind, text: String) -> Result<()> {
-        self.log.event(&json!({"at_s": self.last_s, "kind": "message", "text": text}))?;
-        self.terminal.message(self.last_s, kind, &text);
+        if !self.is_replay {
+            self.log.event(&json!({"at_s": self.last_s, "kind": "message", "text": text}))?;
+            self.terminal.message(self.last_s - self.first_s.unwrap_or(self.last_s), kind, &text);
+        }
         self.told.say(self.last_s, kind, text);
         self.show_result();
         Ok(())

@@ -38,6 +38,14 @@ impl SessionLog {
         let lines =
             if exists { whole_lines(&path).map_err(|error| output(&path, error))? } else { Vec::new() };
         let events = directory.join("events.jsonl");
+        if resume && !exists && !events.exists() {
+            let message = format!("{} has no session to go on with", directory.display());
+            let help = "leave option `resume` away to begin one, or give its folder";
+            return Err(Error::experiment(InputError::new(Refusal::FileUnreadable, message, help)));
+        }
+        if events.exists() {
+            whole_lines(&events).map_err(|error| output(&events, error))?;
+        }
         let open = |path: &Path| OpenOptions::new().create(true).append(true).open(path);
         let events = open(&events).map_err(|error| output(&events, error))?;
         let recording = if exists {

@@ -8,7 +8,7 @@ use crate::fields::Fields;
 use crate::layout::{Layout, Sample};
 use calibrant::io::ImuFile;
 use calibrant::session::{Readings, Session, Source};
-use calibrant_core::error::{Refusal, Result};
+use calibrant_core::error::{Error, Refusal, Result, with_options_worded};
 use calibrant_core::sensor::ReadingUnit;
 
 /// What comes of a line.
@@ -18,14 +18,24 @@ pub(crate) enum Taken {
     Header(String),
     /// A row of it, and its sample.
     Row(String, Sample),
-    /// A line that is none.
-    Dropped,
+    /// A line that is none, and why.
+    Dropped(&'static str),
     /// The sender began anew.
     Restarted,
     /// Why the stream is not understood.
     Problem(String),
 }
 
+/// Why a line is no row.
+const OTHER: &str = "it is no row of numbers";
+const NO_HEADER: &str = "no line named the columns before it";
+const WIDTH: &str = "it has another number of fields than the columns have names";
+const NUMBER: &str = "a field is no number";
+const STANDS: &str = "its time is not after that of the row before";
+const FOREIGN: &str = "the columns have other names now";
+/// Headers, or words of a board, that are kept until the columns are known, and damaged rows that are left out of the first.
+const MOST_HEADERS: usize = 8;
+const MOST_BAD: usize = 10;
 /// Rows from which the columns are recognised, at least and at most.
 const FIRST_ROWS: usize = 20;
 const MOST_ROWS: usize = 20_000;
@@ -37,7 +47,11 @@ const PAUSE_S: f64 = 1.0;
 /// A stream of lines.
 pub(crate) struct Stream<'s> {
     session: &'s Session,
+    /// What may be a header, before the columns are known.
+    headers: Vec<Vec<String>>,
     names: Vec<String>,
+    /// Are the names now others?
+    is_foreign: bool,
     layout: Option<Layout>,
     /// Rows before the columns are known, with their time of arrival.
     first: Vec<(Vec<String>, f64)>,
@@ -57,7 +71,9 @@ impl<'s> Stream<'s> {
         Self {
             session,
             are_given: false,
+            headers: Vec::new(),
             names: Vec::new(),
+            is_foreign: false,
             layout: None,
             first: Vec::new(),
             next_try: FIRST_ROWS,
@@ -83,49 +99,33 @@ impl<'s> Stream<'s> {
         self.layout.as_ref().map_or([None; 2], |layout| layout.largest)
     }
 
-    /// Names of the columns as the recording has them; none before a header came.
-    pub(crate) fn has_names(&self) -> bool {
-        !self.names.is_empty()
-    }
-
     /// What a line gives; `at_s`: when it arrived.
     pub(crate) fn take(&mut self, line: &str, at_s: f64) -> Vec<Taken> {
         let row = match Fields::of(line) {
-            Fields::Names(names) => {
-                self.without_clock(&names);
-                self.restarted |= self.names == names && (self.layout.is_some() || !self.first.is_empty());
-                // a board may greet before it names its columns
-                if self.layout.is_none() && !self.are_given {
-                    self.names = names;
-                }
-                return Vec::new();
-            }
-            Fields::Row(row) if self.names.is_empty() => {
-                self.first.push((row, at_s));
-                // a header may come later
-                let drop = self.first.len() > FIRST_ROWS;
-                self.first.truncate(FIRST_ROWS);
-                return if drop { vec![Taken::Dropped] } else { Vec::new() };
-            }
+            Fields::Names(names) => return self.header(names),
             Fields::Row(row) => row,
             Fields::Named(named) => {
                 let (names, row): (Vec<String>, Vec<String>) = named.into_iter().unzip();
-                if self.layout.is_none() && !self.are_given {
-                    self.names = names;
-                } else if self.names != names {
-                    return vec![Taken::Dropped];
+                let taken = self.header(names);
+                if !taken.is_empty() {
+                    return taken;
                 }
                 row
             }
-            Fields::Other => return vec![Taken::Dropped],
+            Fields::Other => return vec![Taken::Dropped(OTHER)],
         };
-        if row.len() != self.names.len() {
-            return vec![Taken::Dropped];
+        if self.is_foreign {
+            return vec![Taken::Dropped(FOREIGN)];
         }
         if self.layout.is_some() {
+            if row.len() != self.names.len() {
+                return vec![Taken::Dropped(WIDTH)];
+            }
             return self.row(row, at_s);
         }
-        self.first.retain(|(row, _)| row.len() == self.names.len());
+        if !self.headers.iter().any(|names| names.len() == row.len()) {
+            return vec![Taken::Dropped(if self.headers.is_empty() { NO_HEADER } else { WIDTH })];
+        }
         if self.first.len() >= MOST_ROWS {
             self.first.remove(0);
         }
@@ -137,40 +137,99 @@ impl<'s> Stream<'s> {
         self.recognise()
     }
 
-    /// Recognises the columns by the first rows.
-    fn recognise(&mut self) -> Vec<Taken> {
-        let mut read = self.read(false);
-        let no_clock = |error: &calibrant_core::error::Error| error.code() == Refusal::RateUnknown;
-        if read.as_ref().is_err_and(no_clock) {
-            read = self.read(true);
-            if read.is_ok() {
-                self.arrivals = Some(Arrivals::default());
+    /// Names of columns, or words that a board says.
+    fn header(&mut self, names: Vec<String>) -> Vec<Taken> {
+        self.without_clock(&names);
+        if self.layout.is_some() {
+            self.restarted |= self.names == names;
+            // as many words as columns, and others, are another board's
+            let is_foreign = self.names != names && names.len() == self.names.len();
+            if is_foreign && !self.is_foreign {
+                self.is_foreign = true;
+                let message =
+                    "the columns have other names now than in the recording: begin another session for them";
+                return vec![Taken::Problem(message.to_owned())];
             }
+            self.is_foreign = is_foreign || (self.is_foreign && self.names != names);
+        } else if !self.are_given && !self.headers.contains(&names) {
+            if self.headers.len() == MOST_HEADERS {
+                self.headers.remove(0);
+            }
+            self.headers.push(names);
         }
-        let file = match read {
-            Ok(file) => file,
-            Err(error) => return vec![Taken::Problem(error.to_string())],
-        };
-        let layout = Layout::of(&file);
-        if layout.axes[0].is_none() {
-            return vec![Taken::Problem(
-                "no column is known to be an accelerometer's: name them with option `columns`".to_owned(),
-            )];
-        }
-        self.layout = Some(layout);
-        let clock = if self.arrivals.is_some() { "t_s," } else { "" };
-        let mut taken = vec![Taken::Header(format!("{clock}{}", self.names.join(",")))];
-        for (row, at_s) in std::mem::take(&mut self.first) {
-            taken.extend(self.row(row, at_s));
-        }
-        taken
+        Vec::new()
     }
 
-    fn read(&self, by_arrival: bool) -> Result<ImuFile> {
+    /// Recognises the columns by the first rows: by the last header that the reader knows.
+    fn recognise(&mut self) -> Vec<Taken> {
+        let mut problem = None;
+        for names in self.headers.clone().into_iter().rev() {
+            match self.recognised(&names) {
+                Ok((layout, by_arrival)) => {
+                    self.names = names;
+                    self.layout = Some(layout);
+                    self.arrivals = by_arrival.then(Arrivals::default);
+                    let clock = if by_arrival { "t_s," } else { "" };
+                    let mut taken = vec![Taken::Header(format!("{clock}{}", self.names.join(",")))];
+                    for (row, at_s) in std::mem::take(&mut self.first) {
+                        if row.len() == self.names.len() {
+                            taken.extend(self.row(row, at_s));
+                        }
+                    }
+                    return taken;
+                }
+                // the first header is more likely than what a board says later
+                Err(why) => problem = Some(why),
+            }
+        }
+        problem.map(Taken::Problem).into_iter().collect()
+    }
+
+    fn recognised(&self, names: &[String]) -> std::result::Result<(Layout, bool), String> {
+        let mut rows: Vec<&(Vec<String>, f64)> =
+            self.first.iter().filter(|(row, _)| row.len() == names.len()).collect();
+        let mut bad = 0;
+        loop {
+            let read = self.read(names, &rows, false);
+            let asks_rate = read.as_ref().is_err_and(|error| {
+                error.code() == Refusal::RateUnknown || error.to_string().contains("rate")
+            });
+            let read = match read {
+                Err(_) if asks_rate => self.read(names, &rows, true).map(|file| (file, true)),
+                read => read.map(|file| (file, false)),
+            };
+            match read {
+                Ok((file, by_arrival)) => {
+                    let layout = Layout::of(&file);
+                    if layout.axes[0].is_some() {
+                        return Ok((layout, by_arrival));
+                    }
+                    let message =
+                        "no column is known to be an accelerometer's: name them by option `columns`";
+                    return Err(with_options_worded(message.to_owned()));
+                }
+                Err(Error::Recording(error)) => {
+                    // a damaged row is none, as later in the stream
+                    let line =
+                        error.line.and_then(|line| line.checked_sub(2)).filter(|line| *line < rows.len());
+                    match line {
+                        Some(line) if bad < MOST_BAD => {
+                            rows.remove(line);
+                            bad += 1;
+                        }
+                        _ => return Err(format!("{} ({})", error.message, error.help)),
+                    }
+                }
+                Err(error) => return Err(error.to_string()),
+            }
+        }
+    }
+
+    fn read(&self, names: &[String], rows: &[&(Vec<String>, f64)], by_arrival: bool) -> Result<ImuFile> {
         let mut text = if by_arrival { "t_s,".to_owned() } else { String::new() };
-        text.push_str(&self.names.join(","));
+        text.push_str(&names.join(","));
         let mut arrivals = Arrivals::default();
-        for (row, at_s) in &self.first {
+        for (row, at_s) in rows {
             text.push('\n');
             if by_arrival {
                 text.push_str(&format!("{},", arrivals.next(*at_s)));
@@ -189,7 +248,7 @@ impl<'s> Stream<'s> {
             row.insert(0, t_s.to_string());
         } else if let Some((column, per_second)) = layout.time {
             let Some(ticks) = row[column].parse::<f64>().ok().filter(|ticks| ticks.is_finite()) else {
-                return vec![Taken::Dropped];
+                return vec![Taken::Dropped(NUMBER)];
             };
             let mut clock = ticks + self.offset;
             if let Some(wrapped) = self.last_ticks.and_then(|(last, _)| wrapped(clock, last, per_second)) {
@@ -201,11 +260,11 @@ impl<'s> Stream<'s> {
                 let began_anew =
                     step_s < 0.0 || (step_s > JUMP_S && step_s > 2.0 * (at_s - last_at_s) + JUMP_S);
                 if step_s == 0.0 {
-                    return vec![Taken::Dropped];
+                    return vec![Taken::Dropped(STANDS)];
                 }
                 // one row out of order is none of a new clock
                 if began_anew && step_s > -PAUSE_S && !self.restarted {
-                    return vec![Taken::Dropped];
+                    return vec![Taken::Dropped(STANDS)];
                 }
                 if began_anew {
                     let pause = PAUSE_S.max(at_s - last_at_s) * per_second;
@@ -222,7 +281,7 @@ impl<'s> Stream<'s> {
         }
         match layout.sample(&row) {
             Some(sample) => taken.push(Taken::Row(row.join(","), sample)),
-            None => taken.push(Taken::Dropped),
+            None => taken.push(Taken::Dropped(NUMBER)),
         }
         taken
     }
@@ -250,9 +309,8 @@ impl<'s> Stream<'s> {
     /// Goes on after the rows of a session that is continued; `names`: of the columns, where they are given.
     pub(crate) fn resumed(&mut self, names: Vec<String>) {
         self.without_clock(&names);
-        if self.names.is_empty() {
-            self.are_given = !names.is_empty();
-            self.names = names;
+        if self.layout.is_none() && !names.is_empty() {
+            (self.are_given, self.headers) = (true, vec![names]);
         }
         self.restarted = true;
     }
@@ -303,13 +361,37 @@ mod tests {
     fn units_and_clock_are_those_of_the_reader_and_rows_stay_as_they_came() {
         let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
         let taken = taken(&["Hello from board 7", header], row);
-        assert_eq!(taken[..2], [Taken::Dropped, Taken::Header(header.to_owned())]);
+        assert_eq!(taken[..2], [Taken::Dropped(OTHER), Taken::Header(header.to_owned())]);
         assert!(matches!(&taken[2], Taken::Row(text, _) if *text == row(0)));
         let samples = samples(&taken);
         assert_eq!(samples.len(), 40);
         assert!((samples[3].t_s - 1.03).abs() < 1e-9, "{:?}", samples[3]);
         let [Some(force), Some(rate)] = samples[3].readings else { panic!("both sensors") };
         assert!((force[2] - 1.003 * 9.806_65).abs() < 1e-9 && (rate[1] - 0.2_f64.to_radians()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn words_and_damaged_rows_do_not_hide_the_header() {
+        let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
+        let taken = taken(&[header, "Initializing the I2C devices", "a b c d e f g"], |k| match k {
+            7 => row(k).replace("0.2,1", "inf,1"),
+            _ => row(k),
+        });
+        assert_eq!(taken[0], Taken::Header(header.to_owned()), "{:?}", taken.first());
+        assert_eq!(samples(&taken).len(), 39);
+    }
+
+    #[test]
+    fn other_names_later_are_of_another_session() {
+        let session = session();
+        let mut stream = Stream::new(&session);
+        stream.take("millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps", 0.0);
+        (0..40).for_each(|k| drop(stream.take(&row(k), 0.01 * k as f64)));
+        let swapped = stream.take("millis,gx_dps,gy_dps,gz_dps,ax_g,ay_g,az_g", 1.0);
+        assert!(matches!(swapped.as_slice(), [Taken::Problem(_)]));
+        assert_eq!(stream.take(&row(50), 1.0), [Taken::Dropped(FOREIGN)]);
+        stream.take("millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps", 0.0);
+        assert!(matches!(stream.take(&row(51), 1.0).as_slice(), [Taken::Row(..)]));
     }
 
     #[test]
@@ -369,7 +451,7 @@ mod tests {
         for k in 0..40 {
             taken.extend(stream.take(&row(k), 0.01 * k as f64));
         }
-        assert_eq!(stream.take("1400,0.1,0.2", 0.41), [Taken::Dropped]);
+        assert_eq!(stream.take("1400,0.1,0.2", 0.41), [Taken::Dropped(WIDTH)]);
         assert!(stream.take(header, 2.0).is_empty());
         assert_eq!(wrapped(4.0, 2.0_f64.powi(30) - 5.0, 1e6), Some(2.0_f64.powi(30) + 4.0));
         assert_eq!(wrapped(4.0, 5e6, 1e6), None);

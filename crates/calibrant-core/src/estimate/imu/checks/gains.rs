@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Check;
 use crate::diagnostic::Code;
-use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, ParameterImplausible};
+use crate::diagnostic::datasheet::{BiasImplausible, GainImplausible, GainUnusual, ParameterImplausible};
 use crate::estimate::datasheet::{
     allows_bias, allows_gain, beyond_datasheet, implausible_bias, implausible_gains,
 };
@@ -11,8 +11,8 @@ use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::sensor::{Axis, ImuQuantity, Parameter, ParameterList, Quantity, SensorKind};
 
 /// What these checks say. The accelerometer's own fit says it of an accelerometer that is not final.
-pub(crate) const CODES: [Code; 3] =
-    [ParameterImplausible::CODE, BiasImplausible::CODE, GainImplausible::CODE];
+pub(crate) const CODES: [Code; 4] =
+    [ParameterImplausible::CODE, BiasImplausible::CODE, GainImplausible::CODE, GainUnusual::CODE];
 
 /// Parameters and gains that are not plausible.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
