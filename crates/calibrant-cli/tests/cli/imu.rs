@@ -450,3 +450,31 @@ fn without_a_gyroscope_the_accelerometer_is_calibrated_and_the_result_says_so() 
     assert_eq!(rows[0][5..], ["–"], "{rows:?}");
     assert_eq!(rows[1], ["alone", "gyroscope-missing"], "{rows:?}");
 }
+
+/// A gain that is far off is asked about, and stated with a standard deviation it is not.
+#[test]
+fn an_unusual_gain_may_be_stated() {
+    let bench = Bench::new();
+    bench.preset("imu", "hand.toml", &[]);
+    bench.run("simulate hand.toml -o hand").done();
+    let larger = |line: &str| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let Ok(value) = cells[1].parse::<f64>() {
+            cells[1] = (1.12 * value).to_string();
+        }
+        cells.join(",")
+    };
+    let text: Vec<String> = bench.read("hand/recording.csv").lines().map(larger).collect();
+    bench.write("larger.csv", text.join("\n") + "\n");
+    let codes = |experiment: &str| {
+        bench.run(&format!("calibrate {experiment} larger.csv --no-report -o out"));
+        bench.json("out/calibration.json")["verdict"]["codes"].to_string()
+    };
+    assert!(codes("hand.toml").contains("gain-unusual"));
+    let known = r#"[known]
+"accelerometer.scale.x" = { value = 1.1, sd = 0.03 }
+"#;
+    bench.preset("imu", "stated.toml", &[("[known] ", &format!("{known} "))]);
+    let stated = codes("stated.toml");
+    assert!(!stated.contains("gain-unusual"), "{stated}");
+}
