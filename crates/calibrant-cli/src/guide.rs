@@ -60,7 +60,7 @@ pub(crate) struct Arguments {
     /// Go on with the session in DIR.
     #[arg(long)]
     resume: bool,
-    /// End as soon as it is good enough.
+    /// End as soon as it is good enough, or as six holds more do not make it so.
     #[arg(long)]
     stop: bool,
     /// Folder of the session.

@@ -85,8 +85,7 @@ pub(crate) fn next_pose(
     };
     // where hardly anything is gained, all are as good
     let as_good = |value: f64| value - best <= (AS_GOOD * best.abs()).max(0.1 * gain);
-    let chosen =
-        scored.iter().filter(|(up, value, _)| as_good(*value) || put_off.iter().any(|of| of.dot(up) > 0.95));
+    let chosen = scored.iter().filter(|(_, value, _)| as_good(*value));
     let (up, _, after) = chosen.min_by(|one, other| cost(&one.0).total_cmp(&cost(&other.0)))?;
     let ratios = |after: &DMatrix<f64>| -> Vec<f64> {
         (0..before.nrows()).map(|k| (after[(k, k)] / before[(k, k)]).sqrt()).collect()

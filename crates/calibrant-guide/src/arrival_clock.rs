@@ -32,7 +32,13 @@ impl Arrivals {
         let period = ((at_s - first) / self.rows).max(1e-4);
         let even = last_s + period;
         let off = at_s - even;
-        let next = if off.abs() > Self::FAR_S { at_s.max(last_s + 1e-4) } else { even + Self::FOLLOWS * off };
+        let next = if off.abs() > Self::FAR_S {
+            // behind a gap the period is another mean
+            (self.first, self.rows) = (Some(at_s), 0.0);
+            at_s.max(last_s + 1e-4)
+        } else {
+            even + Self::FOLLOWS * off
+        };
         let next = (next.max(last_s + 1e-5) * 1e6).round() / 1e6;
         self.last_s = Some(next);
         next

@@ -36,8 +36,8 @@ impl Run<'_> {
                 self.say(Kind::Good, format!("Got it: {} s.", one(seconds)))?;
                 self.question(true)?;
             }
-            Decision::Ended { end_s, .. } => {
-                let Some(last) = self.held.last_mut() else { return Ok(()) };
+            Decision::Ended { start_s, end_s } => {
+                let Some(last) = self.held.last_mut().filter(|last| last.0 == start_s) else { return Ok(()) };
                 let was_s = last.1 - last.0;
                 last.1 = end_s;
                 // what is hardly longer tells hardly more
@@ -99,7 +99,11 @@ impl Run<'_> {
     }
 
     fn whole(&mut self, estimate: Estimate) -> Result<()> {
-        self.waits_for_answer = 0;
+        // an older answer knows nothing of what was held, or taken back, since
+        if estimate.number < self.asked {
+            return Ok(());
+        }
+        self.waits_for_answer = false;
         let holds_before = self.told.estimate.holds.len();
         self.refused(&estimate)?;
         if let (Some(before), Some(now)) = (self.ratio_before.take(), estimate.worst_ratio()) {
@@ -111,7 +115,7 @@ impl Run<'_> {
                 )?;
             }
         }
-        let is_new = estimate.holds.len() != holds_before;
+        let is_new = estimate.holds.len() > holds_before;
         let reaches = estimate.reaches_all();
         self.reached = match (reaches, is_new) {
             (false, _) => 0,

@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 
 /// What is asked.
 pub(crate) struct Question {
+    pub(crate) number: u64,
     /// Does it follow a hold that is new?
     pub(crate) of_new_hold: bool,
     pub(crate) recording: ImuRecording,
@@ -53,6 +54,8 @@ pub(crate) struct KnownHold {
 /// What the holds tell.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Estimate {
+    /// Of the question.
+    pub(crate) number: u64,
     pub(crate) of_new_hold: bool,
     pub(crate) parameters: Vec<Known>,
     pub(crate) holds: Vec<KnownHold>,
@@ -112,6 +115,7 @@ impl Estimator<'_> {
                 let holds = question.held.iter().filter_map(known).collect();
                 let of_new_hold = question.of_new_hold;
                 return Estimate {
+                    number: question.number,
                     of_new_hold,
                     holds,
                     next,
@@ -166,6 +170,7 @@ impl Estimator<'_> {
             these.map(Diagnostic::without_file).collect()
         };
         let mut estimate = Estimate {
+            number: question.number,
             of_new_hold: question.of_new_hold,
             holds: holds.collect(),
             accelerometer: Some(*imu.sensor(SensorKind::Accelerometer)),

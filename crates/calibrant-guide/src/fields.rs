@@ -26,6 +26,7 @@ impl Fields {
             return match serde_json::from_str::<Value>(line) {
                 Ok(value) => {
                     flatten("", &value, &mut named);
+                    named.iter_mut().for_each(|(name, _)| *name = name.replace([',', '"', '\n', '\r'], " "));
                     if named.len() < FEWEST { Self::Other } else { Self::Named(named) }
                 }
                 Err(_) => Self::Other,
@@ -58,7 +59,7 @@ impl Fields {
 /// A number with a decimal comma, as a spreadsheet of some countries writes it between semicolons, with a point.
 fn with_point(field: &str) -> String {
     let pointed = field.replacen(',', ".", 1);
-    if field.contains(',') && is_number(&pointed) { pointed } else { field.to_owned() }
+    if field.contains(',') && is_number(&pointed) { pointed } else { field.replace([',', '"'], " ") }
 }
 
 fn is_number(field: &str) -> bool {

@@ -23,7 +23,7 @@ impl KnownForce {
 
     /// Gravity in the unit of the readings, where a gain is known.
     pub(crate) fn gravity(&self) -> Option<f64> {
-        self.gain.map(|gain| gain.mean().abs() * GRAVITY)
+        self.gain.map(|gain| gain.abs().mean() * GRAVITY)
     }
 
     /// The direction of the specific force; `None` where a reading does not tell it, as counts whose offset nobody knows.

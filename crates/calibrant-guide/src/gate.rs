@@ -60,6 +60,8 @@ pub(crate) struct Limits {
     pub(crate) gravity: Option<f64>,
     /// Largest readings of each axis, where they are known.
     pub(crate) range: [Option<f64>; AXES],
+    /// Scatter that a gyroscope in counts may have.
+    pub(crate) gyroscope_floor: f64,
     /// Are accelerometer and gyroscope in m/s² and rad/s?
     pub(crate) in_si: [bool; 2],
 }
@@ -158,6 +160,17 @@ impl Gate {
         found
     }
 
+    /// Leaves the hold that began then; was it still held?
+    pub(crate) fn leave(&mut self, start_s: f64) -> bool {
+        let is_held = self.hold.as_ref().is_some_and(|hold| hold.start_s == start_s);
+        if is_held {
+            (self.hold, self.moves_since, self.grace_s) = (None, None, 0.0);
+            self.window.clear();
+            self.phase = Phase::Moving;
+        }
+        is_held
+    }
+
     /// How far the hold is: seconds, and how many it needs.
     pub(crate) fn progress(&self) -> Option<(f64, f64)> {
         let hold = self.hold.as_ref()?;
@@ -204,12 +217,20 @@ impl Gate {
         } else if self.limits.in_si[1] {
             quietest.clamp(LEAST_RADPS, LARGEST_RADPS)
         } else {
-            quietest
+            // counts of a gyroscope that hardly flickers
+            quietest.max(self.limits.gyroscope_floor)
         }
     }
 
     fn step(&mut self, end_s: f64, step: &Sums, found: &mut Vec<Decision>) {
-        let Some((start_s, window)) = self.window.whole() else {
+        let whole = self.window.whole();
+        if whole.as_ref().is_some_and(|(_, window)| window.count(0) < 3.0) {
+            // of a hold that was taken back
+            self.end(end_s, found);
+            self.phase = Phase::Moving;
+            return;
+        }
+        let Some((start_s, window)) = whole else {
             self.phase = if self.phase == Phase::Waiting { Phase::Waiting } else { Phase::Moving };
             return;
         };
@@ -238,6 +259,10 @@ impl Gate {
                 self.end(since, found);
             } else {
                 found.push(Decision::Cut);
+                // what a knock reached is not the hold
+                if let Some(hold) = &mut self.hold {
+                    hold.clips = None;
+                }
             }
         }
         if self.hold.is_some() {
@@ -330,14 +355,15 @@ impl Gate {
 
     fn end(&mut self, end_s: f64, found: &mut Vec<Decision>) {
         let Some(hold) = self.hold.take() else { return };
-        let (seconds, Limits { hold_s, least_s, .. }) = (end_s - hold.start_s, self.limits);
+        self.grace_s = 0.0;
+        let (seconds, Limits { least_s, .. }) = (end_s - hold.start_s, self.limits);
         if !hold.told && seconds >= least_s && hold.clips.is_none() {
             found.push(self.held(&hold, seconds));
         }
-        if hold.told || seconds >= least_s {
+        if (hold.told || seconds >= least_s) && hold.clips.is_none() {
             found.push(Decision::Ended { start_s: hold.start_s, end_s });
         } else if seconds > 0.5 * least_s {
-            found.push(Decision::Short { seconds, needed_s: hold_s });
+            found.push(Decision::Short { seconds, needed_s: least_s });
         }
         self.moves_since = None;
     }
@@ -444,12 +470,26 @@ mod tests {
     }
 
     #[test]
+    fn a_hold_that_is_taken_back_is_left_and_blank_samples_are_none() {
+        let (found, mut gate) = run(4.0, |_| [0.0; 3]);
+        let [Decision::Held { start_s, .. }] = found.as_slice() else { panic!("{found:?}") };
+        assert!(gate.leave(*start_s) && !gate.leave(*start_s));
+        assert_eq!(gate.phase, Phase::Moving);
+        for k in 0..500_u32 {
+            let t_s = 4.0 + 0.01 * f64::from(k);
+            let g = [0.105, 1e-3 * f64::from(k % 7), 0.0];
+            let sample = Sample { t_s, readings: [None, Some(g)], temperature_c: None };
+            assert_eq!(gate.take(&sample), [], "no accelerometer, no hold");
+        }
+    }
+
+    #[test]
     fn a_slide_is_told_and_a_hold_that_is_too_short() {
         let (found, _) = run(6.0, |t| [0.05 * t, 0.0, 0.0]);
         assert!(!found.iter().any(|one| matches!(one, Decision::Held { .. })), "{found:?}");
         let (found, _) = run(5.0, |t| if t > 2.0 { [5.0 * (6.0 * t).sin(), 0.0, 0.0] } else { [0.0; 3] });
         assert!(
-            matches!(found.first(), Some(Decision::Short { needed_s, .. }) if *needed_s == 3.0),
+            matches!(found.first(), Some(Decision::Short { needed_s, .. }) if *needed_s == 2.5),
             "{found:?}"
         );
     }

@@ -52,6 +52,8 @@ pub enum Input {
 
 /// Usual rate of boards, baud.
 const USUAL_BAUD: u32 = 115_200;
+/// A server that says nothing for so long is asked again.
+const SILENT: Duration = Duration::from_secs(5);
 /// How long a read waits, and how long until a lost input is tried again.
 const WAIT: Duration = Duration::from_millis(100);
 const AGAIN: Duration = Duration::from_millis(500);
@@ -71,7 +73,7 @@ impl Input {
         }
         let with_speed = |of: &str, usual: f64| match of.rsplit_once('@') {
             Some((of, speed)) => {
-                let number = speed.parse().ok().filter(|speed: &f64| *speed > 0.0 && speed.is_finite());
+                let number = speed.parse().ok().filter(|speed: &f64| (1e-3..=1e3).contains(speed));
                 Ok((of.to_owned(), number.ok_or_else(|| refused(format!("\"{speed}\" is no speed")))?))
             }
             None => Ok((of.to_owned(), usual)),
@@ -143,7 +145,12 @@ impl Input {
             }
             Self::Tcp(address) => {
                 let to_server = address.clone();
-                let connect = move || TcpStream::connect(to_server.as_str());
+                let connect = move || {
+                    let stream = TcpStream::connect(to_server.as_str())?;
+                    // a board that is switched off says nothing
+                    stream.set_read_timeout(Some(SILENT))?;
+                    Ok(stream)
+                };
                 let first = connect().map_err(|error| absent(&format!("tcp {address}"), &error))?;
                 thread::spawn(move || again_and_again(first, connect, &to, begin));
             }

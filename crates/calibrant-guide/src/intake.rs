@@ -3,6 +3,7 @@
 use crate::arrival::Arrival;
 use crate::force::KnownForce;
 use crate::layout::Sample;
+use crate::lines::Lines;
 use crate::run::Run;
 use crate::shown::Kind;
 use crate::stream::Taken;
@@ -28,6 +29,8 @@ impl Run<'_> {
                     format!("The board is gone: {why}. The recording is safe; plug it in again."),
                 )?;
                 self.lost = Some(why);
+                // half a line and the rest of another are none
+                self.lines = Lines::default();
             }
             Arrival::Back => {
                 self.lost = None;
@@ -77,6 +80,12 @@ impl Run<'_> {
             *unit = known.unwrap_or(*unit);
         }
         self.force = KnownForce::new(&self.options.experiment.sensor, self.units[0]);
+        if self.units[0] == ReadingUnit::Counts {
+            // a range is in m/s²
+            self.gate.limits.range[..3].fill(None);
+        }
+        let gain = self.options.experiment.imu.as_ref().and_then(|imu| imu.gyroscope.gain);
+        self.gate.limits.gyroscope_floor = gain.map_or(2.0, |gain| 0.03 * gain.abs().mean());
         for (sensor, largest) in self.stream.largest().into_iter().enumerate() {
             for range in &mut self.gate.limits.range[3 * sensor..3 * sensor + 3] {
                 *range = range.or(largest);

@@ -25,9 +25,11 @@ impl KeptSamples {
     pub(crate) fn push(&mut self, sample: Sample) {
         let Some(every) = self.every else {
             self.first.push(sample);
-            if self.first.len() == FIRST {
-                let seconds = self.first[FIRST - 1].t_s - self.first[0].t_s;
-                let rate_hz = (FIRST - 1) as f64 / seconds.max(1e-6);
+            let count = self.first.len();
+            let seconds = self.first[count - 1].t_s - self.first[0].t_s;
+            // rows of one block have the times of one
+            if count >= FIRST && seconds >= 1.0 {
+                let rate_hz = (count - 1) as f64 / seconds;
                 self.every = Some((rate_hz / MOST_HZ).ceil().max(1.0) as usize);
                 std::mem::take(&mut self.first).into_iter().for_each(|sample| self.push(sample));
             }

@@ -68,7 +68,7 @@ impl Run<'_> {
                     }),
                 ),
                 // the pose that was advised before is the one that it has
-                Phase::Held if self.waits_for_answer > 0 => ("held", "Got it", "calibrating".to_owned()),
+                Phase::Held if self.waits_for_answer => ("held", "Got it", "calibrating".to_owned()),
                 Phase::Held => ("held", "Got it", next),
             }
         };

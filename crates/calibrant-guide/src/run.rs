@@ -2,7 +2,7 @@
 
 use crate::arrival::Arrival;
 use crate::demo::Advice;
-use crate::estimate::{Answer, Question};
+use crate::estimate::{Answer, Estimate, Question};
 use crate::force::KnownForce;
 use crate::gate::{Gate, Limits};
 use crate::goals::Goals;
@@ -60,7 +60,9 @@ pub(crate) struct Run<'s> {
     /// Do parts of the recording agree, as far as it was asked?
     pub(crate) folds_agree: Option<bool>,
     pub(crate) ratio_before: Option<f64>,
-    pub(crate) waits_for_answer: usize,
+    /// Number of questions, and is the last one open?
+    pub(crate) asked: u64,
+    pub(crate) waits_for_answer: bool,
     pub(crate) unfit: Unfit,
     /// Is what is recorded taken again? Then it is told already.
     pub(crate) is_replay: bool,
@@ -130,7 +132,14 @@ impl<'s> Run<'s> {
             ask,
             lines: Lines::default(),
             stream: Stream::new(session),
-            gate: Gate::new(Limits { hold_s, least_s, gravity: force.gravity(), range, in_si }),
+            gate: Gate::new(Limits {
+                hold_s,
+                least_s,
+                gravity: force.gravity(),
+                range,
+                gyroscope_floor: 0.0,
+                in_si,
+            }),
             kept: KeptSamples::default(),
             units,
             live: Live::default(),
@@ -147,7 +156,8 @@ impl<'s> Run<'s> {
             reached: 0,
             folds_agree: None,
             ratio_before: None,
-            waits_for_answer: 0,
+            asked: 0,
+            waits_for_answer: false,
             unfit: Unfit::default(),
             is_replay: false,
             shown_phase: "",
@@ -159,7 +169,7 @@ impl<'s> Run<'s> {
     /// Takes the rows of a session that is continued, as if they came now.
     pub(crate) fn replay(&mut self, lines: Vec<String>) -> Result<()> {
         let mut at_s = 0.0;
-        self.is_replay = true;
+        (self.is_replay, self.stream.is_replay) = (true, true);
         for line in &lines {
             for taken in self.stream.take(line, at_s) {
                 // they are in the recording already
@@ -174,6 +184,7 @@ impl<'s> Run<'s> {
             }
         }
         self.is_replay = false;
+        self.question(true)?;
         self.stream.resumed(self.options.columns.clone());
         self.live.lines = lines.len().saturating_sub(1) as u64;
         Ok(())
@@ -221,7 +232,7 @@ impl<'s> Run<'s> {
         };
         self.live.phase = "finished";
         self.live.word = "Finished".to_owned();
-        self.live.reason = "The recording and its calibration are in the folder.".to_owned();
+        self.live.reason = "The whole recording is calibrated into the folder.".to_owned();
         self.board.live(self.live.json());
         self.show_result();
         // pages take what they have not yet
@@ -233,7 +244,7 @@ impl<'s> Run<'s> {
     /// The holds up to the end are asked for, and the answer waited for.
     fn end_of_input(&mut self, answers: &Receiver<Answer>) -> Result<()> {
         self.question(false)?;
-        while self.waits_for_answer > 0 {
+        while self.waits_for_answer {
             match answers.recv_timeout(Duration::from_secs(60)) {
                 Ok(answer) => self.answer(answer)?,
                 Err(_) => break,
@@ -261,7 +272,7 @@ impl<'s> Run<'s> {
     }
 
     pub(crate) fn question(&mut self, of_new_hold: bool) -> Result<()> {
-        if self.held.is_empty() {
+        if self.held.is_empty() || self.is_replay {
             return Ok(());
         }
         let recording = self.kept.recording(self.units)?;
@@ -269,7 +280,9 @@ impl<'s> Run<'s> {
             self.held.iter().map(|(start_s, end_s, mean)| (*start_s, *end_s, self.force.up(mean))).collect();
         let asked = Instant::now();
         let units = self.units;
+        let number = self.asked + 1;
         let question = Question {
+            number,
             units,
             asked,
             of_new_hold,
@@ -279,7 +292,8 @@ impl<'s> Run<'s> {
             put_off: self.put_off.clone(),
         };
         if self.ask.send(question).is_ok() {
-            self.waits_for_answer = 1;
+            self.asked += 1;
+            self.waits_for_answer = true;
         }
         Ok(())
     }
@@ -293,13 +307,20 @@ impl<'s> Run<'s> {
                 self.show_result();
             }
             Action::Undo => {
-                let Some((start_s, end_s, _)) = self.held.pop() else {
+                let Some((start_s, mut end_s, _)) = self.held.pop() else {
                     self.say(Kind::Info, "There is no hold to undo.".to_owned())?;
                     self.show_result();
                     return Ok(());
                 };
+                if self.gate.leave(start_s) {
+                    end_s = self.last_s;
+                }
                 self.erase(start_s, end_s)?;
                 self.say(Kind::Info, "The last hold is taken back: its samples of the accelerometer are blank in the recording.".to_owned())?;
+                (self.reached, self.told.good_enough) = (0, false);
+                if self.held.is_empty() {
+                    self.told.estimate = Estimate::default();
+                }
                 self.question(true)?;
                 self.show_result();
             }

@@ -20,7 +20,7 @@ pub(crate) enum Action {
 }
 
 const PAGE: &str = include_str!("page.html");
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'; img-src data:";
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 /// Longest note, bytes.
 const LONGEST_NOTE: usize = 2000;
 /// A comment goes out after so long without an event, so that a page that left is noticed.
@@ -93,7 +93,10 @@ pub(crate) fn serve(address: &str, token: String, board: Board, actions: Sender<
     })?;
     let at = server.server_addr().to_ip();
     let url = match at {
-        Some(at) if at.ip().is_unspecified() => format!("http://127.0.0.1:{}/?token={token}", at.port()),
+        Some(at) if at.ip().is_unspecified() => format!(
+            "http://127.0.0.1:{port}/?token={token} (from another device: the address of this machine in place of 127.0.0.1)",
+            port = at.port()
+        ),
         Some(at) => format!("http://{at}/?token={token}"),
         None => format!("http://{address}/?token={token}"),
     };
@@ -113,6 +116,13 @@ struct Guard {
 
 impl Guard {
     fn answer(&self, mut request: Request, board: &Board, actions: &Sender<Action>) {
+        // a body that is not read would be read when the request is dropped, however long it says it is
+        if request.body_length().is_some_and(|length| length > LONGEST_NOTE)
+            || header(&request, "Transfer-Encoding").is_some()
+        {
+            std::mem::forget(request);
+            return;
+        }
         let path = request.url().split('?').next().unwrap_or("/").to_owned();
         if !self.is_own_host(&request) {
             return reply(request, 403, "this address is not that of the guide");

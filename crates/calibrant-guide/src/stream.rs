@@ -50,6 +50,8 @@ pub(crate) struct Stream<'s> {
     /// What may be a header, before the columns are known.
     headers: Vec<Vec<String>>,
     names: Vec<String>,
+    /// Are rows of a recording taken again?
+    pub(crate) is_replay: bool,
     /// Are the names now others?
     is_foreign: bool,
     layout: Option<Layout>,
@@ -73,6 +75,7 @@ impl<'s> Stream<'s> {
             are_given: false,
             headers: Vec::new(),
             names: Vec::new(),
+            is_replay: false,
             is_foreign: false,
             layout: None,
             first: Vec::new(),
@@ -142,8 +145,9 @@ impl<'s> Stream<'s> {
         self.without_clock(&names);
         if self.layout.is_some() {
             self.restarted |= self.names == names;
-            // as many words as columns, and others, are another board's
-            let is_foreign = self.names != names && names.len() == self.names.len();
+            // as many words as columns, some of them its names, are another board's
+            let is_like = names.iter().any(|name| self.names.contains(name));
+            let is_foreign = self.names != names && names.len() == self.names.len() && is_like;
             if is_foreign && !self.is_foreign {
                 self.is_foreign = true;
                 let message =
@@ -251,7 +255,17 @@ impl<'s> Stream<'s> {
                 return vec![Taken::Dropped(NUMBER)];
             };
             let mut clock = ticks + self.offset;
-            if let Some(wrapped) = self.last_ticks.and_then(|(last, _)| wrapped(clock, last, per_second)) {
+            if self.is_replay {
+                // the times of the recording are in order
+                self.last_ticks = Some((clock, at_s));
+                return layout
+                    .sample(&row)
+                    .map(|sample| Taken::Row(row.join(","), sample))
+                    .into_iter()
+                    .collect();
+            }
+            let of_counter = |(last, _): (f64, f64)| wrapped(clock, last, last - self.offset, per_second);
+            if let Some(wrapped) = self.last_ticks.and_then(of_counter) {
                 self.offset += wrapped - clock;
                 clock = wrapped;
             }
@@ -267,7 +281,8 @@ impl<'s> Stream<'s> {
                     return vec![Taken::Dropped(STANDS)];
                 }
                 if began_anew {
-                    let pause = PAUSE_S.max(at_s - last_at_s) * per_second;
+                    let waited = if last_at_s.is_finite() { at_s - last_at_s } else { 0.0 };
+                    let pause = PAUSE_S.max(waited) * per_second;
                     self.offset += (last + pause - clock).round();
                     clock = ticks + self.offset;
                     taken.push(Taken::Restarted);
@@ -308,6 +323,11 @@ impl<'s> Stream<'s> {
 
     /// Goes on after the rows of a session that is continued; `names`: of the columns, where they are given.
     pub(crate) fn resumed(&mut self, names: Vec<String>) {
+        self.is_replay = false;
+        // what the clock does meanwhile is not known
+        if let Some(last) = &mut self.last_ticks {
+            last.1 = f64::NEG_INFINITY;
+        }
         self.without_clock(&names);
         if self.layout.is_none() && !names.is_empty() {
             (self.are_given, self.headers) = (true, vec![names]);
@@ -317,13 +337,14 @@ impl<'s> Stream<'s> {
 }
 
 /// The time of a counter that went over its end since the last.
-fn wrapped(clock: f64, last: f64, per_second: f64) -> Option<f64> {
+fn wrapped(clock: f64, last: f64, last_shown: f64, per_second: f64) -> Option<f64> {
     if clock >= last {
         return None;
     }
     let goes_on = |next: &f64| (0.0..PAUSE_S * per_second).contains(&(next - last));
-    // of 16 bits, MicroPython's ticks of 30, of 32
-    [16, 30, 32].into_iter().map(|bits| clock + f64::from(2.0_f32.powi(bits))).find(goes_on)
+    // of 16 bits, MicroPython's ticks of 30, of 32; a counter never showed more than it has
+    let sizes = [16, 30, 32].into_iter().map(|bits| f64::from(2.0_f32.powi(bits)));
+    sizes.filter(|size| last_shown < *size).map(|size| clock + size).find(goes_on)
 }
 
 #[cfg(test)]
@@ -427,6 +448,31 @@ mod tests {
     }
 
     #[test]
+    fn a_recording_with_a_pause_goes_on_as_it_stands() {
+        let session = session();
+        let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
+        let mut stream = Stream::new(&session);
+        stream.is_replay = true;
+        stream.take(header, 0.0);
+        (0..40).for_each(|k| drop(stream.take(&row(k), 0.01 * k as f64)));
+        let later = row(41).replacen("1410", "91410", 1);
+        let taken = stream.take(&later, 0.41);
+        assert!(
+            matches!(&taken[..], [Taken::Row(text, sample)] if *text == later && sample.t_s > 90.0),
+            "{taken:?}"
+        );
+        stream.resumed(Vec::new());
+        // the board was not switched off: its clock goes on
+        let taken = stream.take(&row(42).replacen("1420", "93420", 1), 0.0);
+        assert!(
+            matches!(&taken[..], [Taken::Row(_, sample)] if (sample.t_s - 93.42).abs() < 1e-9),
+            "{taken:?}"
+        );
+        assert_eq!(stream.take("WARN: I2C timeout at 0x68 bus zero", 0.1), []);
+        assert!(matches!(&stream.take(&row(43).replacen("1430", "93430", 1), 0.1)[..], [Taken::Row(..)]));
+    }
+
+    #[test]
     fn json_and_pairs_name_their_columns() {
         let json = taken(&[], |k| {
             format!(
@@ -453,8 +499,11 @@ mod tests {
         }
         assert_eq!(stream.take("1400,0.1,0.2", 0.41), [Taken::Dropped(WIDTH)]);
         assert!(stream.take(header, 2.0).is_empty());
-        assert_eq!(wrapped(4.0, 2.0_f64.powi(30) - 5.0, 1e6), Some(2.0_f64.powi(30) + 4.0));
-        assert_eq!(wrapped(4.0, 5e6, 1e6), None);
+        assert_eq!(
+            wrapped(4.0, 2.0_f64.powi(30) - 5.0, 2.0_f64.powi(30) - 5.0, 1e6),
+            Some(2.0_f64.powi(30) + 4.0)
+        );
+        assert_eq!(wrapped(4.0, 5e6, 5e6, 1e6), None);
         let anew = stream.take("5,0.01,0.2,1.0,0.1,0.2,0.1", 2.4);
         let [Taken::Restarted, Taken::Row(text, sample)] = anew.as_slice() else { panic!("{anew:?}") };
         assert!(sample.t_s > 2.3 && text.starts_with("3"), "{text}");

@@ -5,6 +5,7 @@ from time import sleep_ms, ticks_us
 
 i2c = I2C(0, scl=Pin(22), sda=Pin(21), freq=400_000)
 i2c.writeto_mem(0x68, 0x6B, b"\x01")  # awake, clock of the gyroscope
+i2c.writeto_mem(0x68, 0x1B, b"\x00\x00")  # ranges: ±250 °/s, ±2 g
 i2c.writeto_mem(0x68, 0x1A, b"\x03")  # low-pass at 44 Hz
 lines = 0
 while True:

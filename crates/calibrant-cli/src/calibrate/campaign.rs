@@ -46,7 +46,15 @@ fn refuse_other_options(arguments: &Arguments) -> calibrant::Result<()> {
         let help = "leave it away; the report tells how the others predict each soak, and --validate tries another recording";
         return refused(format!("{option} is not for a campaign over temperature"), help);
     }
-    let same = |one: &Path, other: &Path| one.canonicalize().ok() == other.canonicalize().ok();
+    let same = |one: &Path, other: &Path| {
+        one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
+    };
+    if let Some(held_out) = arguments.validate.as_ref().filter(|path| !path.is_file()) {
+        // before an hour of work
+        let error =
+            InputError::new(Refusal::FileUnreadable, "no such file", "give the recording to validate on");
+        return Err(Error::recording(error.in_file(held_out)));
+    }
     if let Some(held_out) = &arguments.validate
         && arguments.recordings.iter().any(|recording| same(recording, held_out))
     {

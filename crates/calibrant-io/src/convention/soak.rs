@@ -48,8 +48,8 @@ struct HoldsCore {
 
 #[derive(Deserialize)]
 struct StillCore {
-    #[serde(alias = "between_holds_sd_radps")]
-    between_holds_sd_counts: Option<[f64; 3]>,
+    #[serde(alias = "between_holds_sd_radps", alias = "between_holds_sd_counts")]
+    between_holds_sd: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -89,7 +89,7 @@ pub fn parse_soak(text: &str, name: &str) -> Checked<ReadSoak> {
         between_holds_sd_mps2: fields.holds.as_ref().map_or(0.0, |holds| holds.between_holds_sd_mps2),
         gyroscope_between_holds_sd: fields
             .still_gyroscope
-            .and_then(|still| still.between_holds_sd_counts)
+            .and_then(|still| still.between_holds_sd)
             .map_or_else(Vector3::zeros, Vector3::from),
         between_rotations_sd_rad: fields.rotations.map_or(0.0, |rotations| rotations.excess_sd_rad),
         degrees: fields.holds.map_or(0.0, |holds| holds.degrees_of_freedom),

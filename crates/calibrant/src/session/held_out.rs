@@ -92,6 +92,13 @@ fn branches(
     let holds = setup.holds.found.as_deref().unwrap_or_default();
     let spans = holds.iter().map(|hold| (hold.start_s, hold.end_s));
     let temperatures = SoakTemperature::each(problem.recording, spans)?;
+    if temperatures.is_empty() {
+        let (what, help) = match holds.is_empty() {
+            true => ("it has no holds", "hold the sensor still in several orientations"),
+            false => ("it has no temperature", "name its column with temperature = \"…\" in [columns]"),
+        };
+        return Err(Error::recording(InputError::new(Refusal::HoldsMissing, what, help)));
+    }
     let paths = paths(&of.model.campaign, temperatures);
     let mut found = Vec::new();
     for (direction, name) in BRANCHES {

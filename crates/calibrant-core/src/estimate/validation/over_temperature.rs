@@ -99,5 +99,7 @@ pub fn validate_over_temperature(
         rotation_degrees: degrees,
         of_steps: Vector3::zeros(),
     };
+    // the noise is this recording's own, and says nothing beside itself
     on_another(&prediction, unused, &Caveats::default())
+        .map(|validation| Validation { noise: Vec::new(), ..validation })
 }
