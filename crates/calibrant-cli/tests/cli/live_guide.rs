@@ -131,19 +131,29 @@ fn the_page_acts_for_its_own_token_only() {
     let page = get("/", address);
     assert!(page.starts_with("HTTP/1.1 200") && page.contains("default-src 'none'"), "{page}");
     assert!(get("/", "evil.example:80").starts_with("HTTP/1.1 403"));
-    let post = |more: &str| {
-        let head =
-            format!("POST /finish HTTP/1.1\r\nHost: {address}\r\nContent-Length: 0\r\nConnection: close\r\n");
+    let post_to = |action: &str, more: &str| {
+        let head = format!(
+            "POST /{action} HTTP/1.1\r\nHost: {address}\r\nContent-Length: 0\r\nConnection: close\r\n"
+        );
         answer(address, &format!("{head}{more}\r\n"))
     };
+    let post = |more: &str| post_to("finish", more);
     assert!(post("").starts_with("HTTP/1.1 403"), "no token");
     assert!(post("X-Token: 0123\r\n").starts_with("HTTP/1.1 403"), "a wrong token");
     let foreign = format!("X-Token: {token}\r\nOrigin: http://evil.example\r\n");
     assert!(post(&foreign).starts_with("HTTP/1.1 403"), "another site");
     assert!(child.try_wait().expect("there").is_none(), "it still runs");
     let own = format!("X-Token: {token}\r\nOrigin: http://{address}\r\n");
+    // the last hold is taken back: its accelerometer is blank in the file
+    let held = || bench.read("session/events.jsonl").contains("Got it");
+    (0..100).take_while(|_| !held()).for_each(|_| std::thread::sleep(Duration::from_millis(100)));
+    assert!(post_to("undo", &own).starts_with("HTTP/1.1 200"));
+    std::thread::sleep(Duration::from_millis(300));
     assert!(post(&own).starts_with("HTTP/1.1 200"));
     child.wait().expect("it finishes");
+    let recorded = bench.read("session/recording.csv");
+    let blank = recorded.lines().filter(|line| line.contains(",,,")).count();
+    assert!(blank > 200, "{blank} of {}", recorded.lines().count());
     assert!(bench.read("session/events.jsonl").contains("\"finish\""));
 }
 
