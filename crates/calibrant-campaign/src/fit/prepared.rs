@@ -24,7 +24,7 @@ pub(super) struct Prepared<'a> {
     pub(super) channels: Vec<Channel>,
     pub(super) entries: Vec<Entry>,
     pub(super) measurements: Vec<Measurement>,
-    scatters: Vec<SoakScatter>,
+    pub(super) scatters: Vec<SoakScatter>,
 }
 
 impl<'a> Prepared<'a> {

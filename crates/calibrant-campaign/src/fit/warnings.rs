@@ -9,7 +9,7 @@ use calibrant_core::diagnostic::campaign::{
     RangeNotCovered, SEEN, ScatterStated, SoakDisagrees,
 };
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
-use calibrant_core::estimate::chi2_p_value;
+use calibrant_core::estimate::f_p_value;
 use calibrant_core::sensor::HIGHEST_ORDER;
 
 /// What speaks against a result must be less probable.
@@ -110,7 +110,10 @@ impl Prepared<'_> {
             .copied()
             .enumerate()
             .max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
-        let p = chi2_p_value(deviations * deviations, 1)? * f64::from(count);
+        // Student's t: the scatter is found from the others
+        let scatter = &others.scatters[self.entries[entry].channel];
+        let behind = if scatter.found { scatter.degrees } else { f64::INFINITY };
+        let p = f_p_value(deviations * deviations, 1, behind)? * f64::from(count);
         if p > RARE {
             return None;
         }
