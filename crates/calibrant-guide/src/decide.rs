@@ -75,10 +75,7 @@ impl Run<'_> {
                 )?;
             }
             Decision::Gap { seconds } => {
-                self.say(
-                    Kind::Warning,
-                    format!("No samples for {} s: the hold ended there.", significant(seconds, 2)),
-                )?;
+                self.say(Kind::Warning, format!("Samples are missing, for {} s.", significant(seconds, 2)))?;
             }
         }
         Ok(())
