@@ -37,7 +37,7 @@ fn recorded(bench: &Bench) -> Vec<String> {
 fn the_demonstration_is_good_enough_within_two_dozen_holds() {
     let bench = Bench::new();
     bench.run("init imu -o imu.toml").done();
-    let outcome = bench.run("guide imu.toml --from demo@20 --terminal --no-page --stop -o session").done();
+    let outcome = bench.run("guide imu.toml --from demo@10 --terminal --no-page --stop -o session").done();
     assert!(outcome.printed().contains("Good enough"), "{outcome:?}");
     let holds = outcome.stdout.matches("✓ Got it: ").count();
     assert!((11..24).contains(&holds), "{holds}: {}", outcome.stdout);
@@ -74,7 +74,7 @@ fn lines_from_standard_input_are_a_recording_whatever_stands_between_them() {
 fn what_was_recorded_survives_a_kill() {
     let bench = Bench::new();
     let rows = recorded(&bench);
-    for (number, wait_ms) in [700_u64, 1300, 1900].into_iter().enumerate() {
+    for (number, wait_ms) in [1500_u64, 2000, 2500].into_iter().enumerate() {
         let session = format!("session{number}");
         let mut child = guide(&bench, &format!("guide imu.toml --from - --no-page --terminal -o {session}"));
         let mut input = child.stdin.take().expect("piped");
@@ -93,8 +93,8 @@ fn what_was_recorded_survives_a_kill() {
         child.wait().expect("ended");
         let kept = bench.read(&format!("{session}/recording.csv"));
         let whole = kept.rfind('\n').map_or("", |end| &kept[..end]).lines().count();
-        // half a second is ten blocks
-        assert!(whole + 11 * 50 >= sent, "{whole} of {sent}");
+        // half a second is ten blocks; a machine that is busy may take as long again to come to it
+        assert!(whole + 20 * 50 >= sent, "{whole} of {sent}");
         bench.write("nothing", "");
         bench.run_from(
             "nothing",
