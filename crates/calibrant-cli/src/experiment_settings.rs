@@ -15,4 +15,13 @@ impl Settings {
     pub(crate) fn read(&self, path: &Path) -> calibrant::Result<Experiment> {
         Experiment::read_with(path, &self.set)
     }
+
+    /// The same; without a file this preset, which needs none.
+    #[cfg(any(feature = "guide", feature = "study"))]
+    pub(crate) fn read_or(&self, path: Option<&Path>, otherwise: &str) -> calibrant::Result<Experiment> {
+        match path {
+            Some(path) => self.read(path),
+            None => Experiment::parse(calibrant::io::preset(otherwise).unwrap_or_default(), None),
+        }
+    }
 }

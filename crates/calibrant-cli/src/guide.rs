@@ -3,9 +3,9 @@
 use crate::diagnostics::rules;
 use crate::exit::Exit;
 use crate::{console, interruption};
-use calibrant::io::{Experiment, ResultPlaces, SensorNaming, preset};
+use calibrant::io::{ResultPlaces, SensorNaming};
 use calibrant::session::SessionOptions;
-use calibrant_guide::{GuideOptions, Guided, Input, guide};
+use calibrant_guide::{GuideOptions, Input, guide};
 use std::path::PathBuf;
 
 /// The experiment without a file.
@@ -84,10 +84,7 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let experiment = match &arguments.experiment {
-        Some(path) => arguments.settings.read(path)?,
-        None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
-    };
+    let experiment = arguments.settings.read_or(arguments.experiment.as_deref(), DEFAULT)?;
     let input = Input::parse(arguments.from.as_deref().unwrap_or("demo"))?;
     let options = GuideOptions {
         experiment,
@@ -112,8 +109,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         interruption: interruption::keeping_the_best(),
     };
     let said = |address: &str| eprintln!("The page: {address}");
-    let Guided { outcome, .. } = guide(options, &said)?;
-    let outcome = outcome.map_err(|error| error.in_recording(&arguments.output.join("recording.csv")))?;
+    let outcome = guide(options, &said)?;
     let verdict = outcome.verdict();
     let files = ["report.html", "calibration.json", "recording.csv"].map(|name| arguments.output.join(name));
     console::result(false, String::new, &outcome.sheet(), None, &files)?;

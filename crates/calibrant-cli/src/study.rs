@@ -8,7 +8,7 @@ use calibrant::campaign::fit::CampaignModel;
 use calibrant::campaign::{design_over_cycles, rehearse, usual};
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{
-    CampaignStudyFile, Experiment, Plan, ResultPlaces, StudyFile, preset, to_json, write_json, write_text,
+    CampaignStudyFile, Experiment, Plan, ResultPlaces, StudyFile, to_json, write_json, write_text,
 };
 use calibrant::report::{About, campaign_study_sheet, study_sheet, usual_name};
 use calibrant::session::MotionSource;
@@ -68,10 +68,7 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let experiment = match &arguments.experiment {
-        Some(path) => arguments.settings.read(path)?,
-        None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
-    };
+    let experiment = arguments.settings.read_or(arguments.experiment.as_deref(), DEFAULT)?;
     if let Some(model) = experiment.campaign_model()? {
         return campaign(arguments, &experiment, &model);
     }

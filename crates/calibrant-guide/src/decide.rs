@@ -13,11 +13,11 @@ use serde_json::json;
 
 /// A pose within this angle of one that was held is known, cosine.
 const KNOWN: f64 = 0.985;
-/// A hold is estimated again at its end where it is so many times as long.
+/// At the end of a hold there is another estimate if the hold is longer than at the first one by this factor.
 const LONGER: f64 = 1.5;
-/// After so many holds with all goals reached, more do not mend a doubt.
+/// If a doubt is left after this many holds with all goals reached, more holds do not remove it.
 const ENOUGH: usize = 6;
-/// What a known pose gains is told below this share.
+/// A known pose that improves the result by less than this share is said to.
 const LITTLE: f64 = 0.02;
 
 impl Run<'_> {
@@ -149,7 +149,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Tells of a hold that the calibration leaves out since now.
+    /// Tells of the holds that this calibration leaves out and the one before did not.
     pub(crate) fn refused(&mut self, estimate: &Estimate) -> Result<()> {
         let before = &self.told.estimate.holds;
         let was_out = |start_s: f64| {

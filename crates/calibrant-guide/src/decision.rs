@@ -9,7 +9,7 @@ pub(crate) enum Decision {
     Ended { start_s: f64, end_s: f64 },
     /// A knock was cut out.
     Cut,
-    /// It ended too early: after so many of so many seconds.
+    /// It ended too early: it lasted `seconds`, and `needed_s` would do.
     Short { seconds: f64, needed_s: f64 },
     /// It slides by so much, in the unit of the readings.
     Slides { by: f64 },

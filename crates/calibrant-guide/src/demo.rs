@@ -1,6 +1,7 @@
 //! A simulated board in a simulated hand, which takes the poses that the guide advises.
 
 use crate::arrival::Arrival;
+use calibrant_core::simulate::{Purpose, Rng, normal, stream};
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::sync::mpsc::SyncSender;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -33,23 +34,10 @@ const GRAVITY: f64 = 9.806_65;
 
 /// The board: what it makes of force and rate.
 struct Board {
-    seed: u64,
+    rng: Rng,
 }
 
 impl Board {
-    /// A number that is nearly normal.
-    fn noise(&mut self) -> f64 {
-        let mut sum = 0.0;
-        for _ in 0..12 {
-            // xorshift of Marsaglia
-            self.seed ^= self.seed << 13;
-            self.seed ^= self.seed >> 7;
-            self.seed ^= self.seed << 17;
-            sum += (self.seed >> 11) as f64 / (1_u64 << 53) as f64;
-        }
-        sum - 6.0
-    }
-
     fn row(&mut self, t_s: f64, force: &Vector3<f64>, rate: &Vector3<f64>) -> String {
         let a = Vector3::new(
             1.012 * force.x + 0.21,
@@ -61,8 +49,8 @@ impl Board {
             1.006 * rate.y - 0.007 * rate.x - 0.018,
             1.013 * rate.z + 0.006 * rate.y + 0.009,
         );
-        let a = a.map(|value| value + 0.02 * self.noise());
-        let g = g.map(|value| value + 0.002 * self.noise());
+        let a = a.map(|value| value + 0.02 * normal(&mut self.rng));
+        let g = g.map(|value| value + 0.002 * normal(&mut self.rng));
         let celsius = 31.0 + 2.0 * (1.0 - (-t_s / 300.0).exp());
         format!("{t_s:.3},{:.5},{:.5},{:.5},{:.6},{:.6},{:.6},{celsius:.2}\n", a.x, a.y, a.z, g.x, g.y, g.z)
     }
@@ -72,7 +60,7 @@ impl Board {
 pub(crate) fn start(to: SyncSender<Arrival>, advice: Advice, speed: f64) {
     thread::spawn(move || {
         let begin = Instant::now();
-        let mut board = Board { seed: 0x9e37_79b9_7f4a_7c15 };
+        let mut board = Board { rng: stream(1, Purpose::Recording, 1) };
         let mut up = Vector3::z();
         let mut text = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps,temp_c\n".to_owned();
         let (mut t_s, mut count) = (0.0, 0_usize);

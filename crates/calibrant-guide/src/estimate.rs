@@ -100,7 +100,7 @@ pub(crate) struct Estimator<'s> {
 }
 
 impl Estimator<'_> {
-    /// The calibration of the samples so far, and what to do next. The parameters are told first: the next pose and the folds take longer.
+    /// The calibration of the samples so far, and what to do next. `first` gets the parameters early: the next pose and the folds take longer.
     pub(crate) fn answer(&self, question: &Question, first: impl FnOnce(Vec<Known>)) -> Estimate {
         let source = Source::from_recording("recording.csv", question.recording.clone());
         let outcome = match self.session.calibrate(&source) {

@@ -20,7 +20,7 @@ const LEAST_SHARE: f64 = 1e-2;
 const LARGEST_SHARE: f64 = 0.04;
 const LEAST_RADPS: f64 = 0.03;
 const LARGEST_RADPS: f64 = 0.1;
-/// A mean that moves by so many standard deviations, and by this share of gravity, is not settled.
+/// The sensor is not settled while its mean moves by more than this many standard deviations, and by more than this share of gravity.
 const DRIFT_SDS: f64 = 3.0;
 const DRIFT_SHARE: f64 = 1.5e-3;
 /// Longest knock, s, with the window that it is in.
@@ -29,7 +29,7 @@ const KNOCK_S: f64 = 0.3 + 0.5;
 const SAME_SHARE: f64 = 0.01;
 /// A hold slides where its thirds differ by this share of gravity, and by 3 standard deviations.
 const SLIDE_SHARE: f64 = 4e-3;
-/// Without samples for so long, and for so many periods, samples are missing; a hold goes on behind a shorter gap than the last, s.
+/// Samples are missing where two are farther apart than this, s, and than this many periods. A hold goes on after a gap shorter than the last of these, s.
 const GAP_S: f64 = 0.1;
 const GAP_PERIODS: f64 = 5.0;
 const BRIDGED_S: f64 = 1.0;
@@ -271,8 +271,7 @@ impl Gate {
         }
         let [before, after] = self.window.halves();
         let drift = self.distance(&before, &after);
-        let sd = (0..3).map(|axis| window.sd(axis).powi(2) / before.count(axis).max(1.0)).sum::<f64>().sqrt();
-        if drift > (DRIFT_SDS * std::f64::consts::SQRT_2 * sd).max(DRIFT_SHARE * magnitude) {
+        if drift > by_noise(&window, &before).max(DRIFT_SHARE * magnitude) {
             self.phase = Phase::Settling;
             return;
         }
@@ -318,16 +317,9 @@ impl Gate {
         let count = hold.thirds.len();
         if count >= 9 {
             let third = count / 3;
-            let join = |of: &[Sums]| {
-                let mut sums = Sums::default();
-                of.iter().for_each(|one| sums.join(one));
-                sums
-            };
-            let (first, last) = (join(&hold.thirds[..third]), join(&hold.thirds[count - third..]));
+            let [first, last] = [&hold.thirds[..third], &hold.thirds[count - third..]].map(Sums::joined);
             let by = self.distance(&first, &last);
-            let sd =
-                (0..3).map(|axis| first.sd(axis).powi(2) / first.count(axis).max(1.0)).sum::<f64>().sqrt();
-            if by > (DRIFT_SDS * std::f64::consts::SQRT_2 * sd).max(SLIDE_SHARE * magnitude) {
+            if by > by_noise(&first, &first).max(SLIDE_SHARE * magnitude) {
                 if !std::mem::replace(&mut hold.slid, true) {
                     found.push(Decision::Slides { by });
                 }
@@ -394,6 +386,12 @@ impl Gate {
             format!("the gyroscope's {name} shakes by {}, {} would do", two(sd), two(limit))
         }
     }
+}
+
+/// How far noise takes two means of the accelerometer from each other: `scatter` tells the noise, `of_mean` how many samples a mean has.
+fn by_noise(scatter: &Sums, of_mean: &Sums) -> f64 {
+    let variance = |axis: usize| scatter.sd(axis).powi(2) / of_mean.count(axis).max(1.0);
+    DRIFT_SDS * (2.0 * (0..3).map(variance).sum::<f64>()).sqrt()
 }
 
 #[cfg(test)]

@@ -11,7 +11,6 @@ use crate::shown::Kind;
 use calibrant::io::Plan;
 use calibrant::session::{Outcome, Session, SessionOptions, Source};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use std::path::PathBuf;
 use std::sync::mpsc::{channel, sync_channel};
 use std::thread;
 
@@ -20,24 +19,12 @@ const WAITING: usize = 1024;
 /// Folds of the last question before "good enough".
 const FOLDS: usize = 5;
 
-/// How a session ended.
-pub struct Guided {
-    /// The calibration of the whole recording, as `calibrate` makes it.
-    pub outcome: Result<Outcome>,
-    /// Was it good enough?
-    pub good_enough: bool,
-    /// Number of holds that the gate saw.
-    pub holds: usize,
-    /// The recording.
-    pub recording: PathBuf,
-}
-
-/// Guides a session until it is finished. `said` is told the address of the page.
+/// Guides a session until it is finished, and gives the calibration of the whole recording, as `calibrate` makes it. `said` is told the address of the page.
 ///
 /// # Errors
 /// [`Error::Experiment`] where the experiment is not of a sensor that is held still, the input is not there, the address is taken, or the folder has a session already;
-/// [`Error::Output`] where the recording cannot be written.
-pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
+/// [`Error::Output`] where the recording cannot be written. As [`Session::calibrate`] of the recording.
+pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
     let session_options =
         |report: bool, folds: Option<usize>| SessionOptions { report, folds, ..options.session.clone() };
     if !matches!(options.experiment.plan, Plan::Holds(_)) {
@@ -64,7 +51,7 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
     let (ask, questions) = channel::<Question>();
     let (tell, answers) = channel::<Answer>();
     let estimator = Estimator { session: &session, with_folds: &with_folds, goals: &goals };
-    let (good_enough, holds, not_understood) = thread::scope(|scope| {
+    let not_understood = thread::scope(|scope| {
         scope.spawn(move || {
             while let Ok(mut question) = questions.recv() {
                 // the last one counts
@@ -96,11 +83,10 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Guided> {
             help,
         )));
     }
-    let outcome = last.calibrate(&Source::from_file(&recording));
-    if let Ok(outcome) = &outcome {
-        outcome.write(&options.directory)?;
-    }
-    Ok(Guided { outcome, good_enough, holds, recording })
+    let outcome =
+        last.calibrate(&Source::from_file(&recording)).map_err(|error| error.in_recording(&recording))?;
+    outcome.write(&options.directory)?;
+    Ok(outcome)
 }
 
 /// A number that others do not know.

@@ -1,6 +1,6 @@
 //! Which columns hold what, and in which unit, as the reader of recordings says.
 
-use calibrant::io::{ColumnMeaning, ColumnUnit, ImuFile, ImuUnit, TimeUnit};
+use calibrant::io::{ColumnMeaning, ColumnUnit, ImuFile, ImuUnit};
 use calibrant_core::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 
 /// A sample in the units of the reader.
@@ -42,10 +42,7 @@ impl Layout {
             Some([x?, y?, z?])
         };
         let per_second = |unit: Option<ColumnUnit>| match unit {
-            Some(ColumnUnit::Time(TimeUnit::Millisecond)) => 1e3,
-            Some(ColumnUnit::Time(TimeUnit::TenthMillisecond)) => 1e4,
-            Some(ColumnUnit::Time(TimeUnit::Microsecond)) => 1e6,
-            Some(ColumnUnit::Time(TimeUnit::Nanosecond)) => 1e9,
+            Some(ColumnUnit::Time(unit)) => unit.per_second().unwrap_or(1.0),
             _ => 1.0,
         };
         Self {

@@ -38,6 +38,6 @@ mod terminal;
 mod unfit;
 mod window;
 
-pub use guide::{Guided, guide};
+pub use guide::guide;
 pub use input::Input;
 pub use options::GuideOptions;

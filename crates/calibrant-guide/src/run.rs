@@ -115,7 +115,6 @@ impl<'s> Run<'s> {
                 range[axis] = Some(of[axis]);
             }
         }
-        let in_si = [units[0] != ReadingUnit::Counts, units[1] != ReadingUnit::Counts];
         let force = KnownForce::new(&experiment.sensor, units[0]);
         let told = Told {
             sensor: options.session.naming.sensor.clone().unwrap_or_else(|| file_name(&options.directory)),
@@ -132,14 +131,8 @@ impl<'s> Run<'s> {
             ask,
             lines: Lines::default(),
             stream: Stream::new(session),
-            gate: Gate::new(Limits {
-                hold_s,
-                least_s,
-                gravity: force.gravity(),
-                range,
-                gyroscope_floor: 0.0,
-                in_si,
-            }),
+            // what follows from the units comes with the header
+            gate: Gate::new(Limits { hold_s, least_s, range, ..Limits::default() }),
             kept: KeptSamples::default(),
             units,
             live: Live::default(),
@@ -190,12 +183,13 @@ impl<'s> Run<'s> {
         Ok(())
     }
 
+    /// Runs until the session is finished. Gives why nothing was recorded, where nothing was.
     pub(crate) fn run(
         &mut self,
         arrivals: &Receiver<Arrival>,
         answers: &Receiver<Answer>,
         asked: &Receiver<Action>,
-    ) -> Result<(bool, usize, Option<String>)> {
+    ) -> Result<Option<String>> {
         let mut pictured = Instant::now();
         let mut ended = false;
         self.show_result();
@@ -238,7 +232,7 @@ impl<'s> Run<'s> {
         // pages take what they have not yet
         thread::sleep(Duration::from_millis(if self.options.listen.is_some() { 300 } else { 0 }));
         self.board.close();
-        Ok((self.told.good_enough, self.held.len(), self.not_understood()))
+        Ok(self.not_understood())
     }
 
     /// The holds up to the end are asked for, and the answer waited for.
@@ -304,13 +298,10 @@ impl<'s> Run<'s> {
             Action::Note(text) => {
                 self.log.event(&json!({"at_s": self.last_s, "kind": "note", "text": text}))?;
                 self.say(Kind::Info, format!("Note: {text}"))?;
-                self.show_result();
             }
             Action::Undo => {
                 let Some((start_s, mut end_s, _)) = self.held.pop() else {
-                    self.say(Kind::Info, "There is no hold to undo.".to_owned())?;
-                    self.show_result();
-                    return Ok(());
+                    return self.say(Kind::Info, "There is no hold to undo.".to_owned());
                 };
                 if self.gate.leave(start_s) {
                     end_s = self.last_s;

@@ -87,17 +87,7 @@ fn line_without_time(text: &str) {
 }
 
 fn wrapped(before: &str, text: &str) {
-    let mut line = before.to_owned();
-    for word in text.split_whitespace() {
-        if line.chars().count() + 1 + word.chars().count() > WIDTH && line.trim().len() > before.trim().len()
-        {
-            println!("{}", line.trim_end());
-            line = " ".repeat(BEFORE);
-        }
-        if !line.ends_with(' ') {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    println!("{}", line.trim_end());
+    let behind = " ".repeat(BEFORE);
+    let options = textwrap::Options::new(WIDTH).initial_indent(before).subsequent_indent(&behind);
+    textwrap::wrap(text, options.break_words(false)).iter().for_each(|line| println!("{line}"));
 }

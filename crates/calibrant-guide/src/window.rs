@@ -24,6 +24,12 @@ impl Sums {
         self.square[axis] += value * value;
     }
 
+    pub(crate) fn joined<'a>(parts: impl IntoIterator<Item = &'a Self>) -> Self {
+        let mut sums = Self::default();
+        parts.into_iter().for_each(|part| sums.join(part));
+        sums
+    }
+
     pub(crate) fn join(&mut self, other: &Self) {
         for axis in 0..AXES {
             self.count[axis] += other.count[axis];
@@ -103,12 +109,14 @@ impl Window {
 
     /// Its sums and where it begins; `None` until it is full.
     pub(crate) fn whole(&self) -> Option<(f64, Sums)> {
-        (self.steps.len() == STEPS).then(|| (self.steps[0].start_s, joined(self.steps.iter())))
+        (self.steps.len() == STEPS)
+            .then(|| (self.steps[0].start_s, Sums::joined(self.steps.iter().map(|step| &step.sums))))
     }
 
     /// Its two halves, the middle step left out.
     pub(crate) fn halves(&self) -> [Sums; 2] {
-        [joined(self.steps.iter().take(STEPS / 2)), joined(self.steps.iter().skip(STEPS - STEPS / 2))]
+        let sums = || self.steps.iter().map(|step| &step.sums);
+        [Sums::joined(sums().take(STEPS / 2)), Sums::joined(sums().skip(STEPS - STEPS / 2))]
     }
 
     /// A mean as a reading.
@@ -119,10 +127,4 @@ impl Window {
         };
         Some([of(0)?, of(1)?, of(2)?])
     }
-}
-
-fn joined<'a>(steps: impl Iterator<Item = &'a Step>) -> Sums {
-    let mut sums = Sums::default();
-    steps.for_each(|step| sums.join(&step.sums));
-    sums
 }

@@ -55,7 +55,8 @@ impl TimeUnit {
 
     /// Ticks in a second; `None` for samples, which need a rate. (Times are divided by it: `1/1000` is no
     /// binary number.)
-    pub(crate) fn per_second(self) -> Option<f64> {
+    #[must_use]
+    pub fn per_second(self) -> Option<f64> {
         match self {
             Self::Second => Some(1.0),
             Self::Millisecond => Some(1e3),

@@ -7,16 +7,14 @@ use super::reader::Reader;
 use super::run::Session;
 use super::setup::Setup;
 use super::source::Source;
-use super::validation::on_recording;
+use super::validation::{extrapolated, on_recording};
 use crate::CampaignCalibration;
 use calibrant_campaign::fit::{SoakPath, paths};
-use calibrant_core::diagnostic::samples::CalibrationExtrapolated;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{
     ImuProblem, ImuSetup, SoakTemperature, Validation, validate_over_temperature,
 };
 use calibrant_core::motion::Hold;
-use calibrant_core::sensor::Temperatures;
 use calibrant_io::{Plan, file_name};
 
 impl Session {
@@ -49,10 +47,7 @@ impl Session {
         let mut setup = Kind::Imu(imu, plan).setup(source, &other.recording, &mut notes)?.of_other();
         notes.extend(take_out_repeats(&mut other.recording).into_iter().map(in_file));
         notes.extend(setup.prepare(&experiment.sensor, &mut other.recording).into_iter().map(in_file));
-        let range = Temperatures::of(&other.recording)?.and_then(|of| of.range_c());
-        let beyond =
-            range.and_then(|range| CalibrationExtrapolated::of(&of.fitted.imu.parameters.thermal, range));
-        notes.extend(beyond.map(|found| in_file(found.into())));
+        notes.extend(extrapolated(&of.fitted.imu.parameters.thermal, &other.recording)?.map(in_file));
         of.fitted.warnings.extend(notes);
         let (Problem::Imu(problem), Setup::Imu(_, setup)) =
             (setup.problem(&experiment.sensor, &other)?, &setup)

@@ -13,15 +13,15 @@ use super::recorded::Recorded;
 use super::report::about;
 use super::setup::Setup;
 use super::source::Source;
-use super::validation::{on_recording, unless_too_few};
-use calibrant_core::diagnostic::samples::{CalibrationExtrapolated, KnocksKept};
+use super::validation::{extrapolated, on_recording, unless_too_few};
+use calibrant_core::diagnostic::samples::KnocksKept;
 use calibrant_core::diagnostic::{Diagnostic, Severity};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{
     Calibration, CalibrationSettings, SoakTemperature, Validation, other_temperature,
 };
 use calibrant_core::noise::SensorNoise;
-use calibrant_core::sensor::{Sensor, SensorKind, Temperatures};
+use calibrant_core::sensor::{Sensor, SensorKind};
 use calibrant_io::{Experiment, Prior, file_name};
 
 /// What all recordings share.
@@ -194,10 +194,7 @@ impl<'e> Task<'e> {
         let mut validation = problem.validate(calibration).map_err(|error| error.in_recording(path))?;
         let temperature = other_temperature(calibration, &validation, &recorded.recording, &other.recording);
         validation.likely_explanations.extend(temperature);
-        let thermal = &calibration.imu.thermal;
-        let range = Temperatures::of(&other.recording)?.and_then(|temperatures| temperatures.range_c());
-        let beyond = range.and_then(|range| CalibrationExtrapolated::of(thermal, range));
-        notes.extend(beyond.map(|found| in_file(found.into())));
+        notes.extend(extrapolated(&calibration.imu.thermal, &other.recording)?.map(in_file));
         Ok(on_recording(path, validation))
     }
 }
