@@ -16,7 +16,7 @@ const DEFAULT: &str = "imu";
 /// Samples come as lines of text from a serial port, over the network, or from standard input: a header once and then rows, as in any recording, `name:value` pairs, or a JSON
 /// object for each sample. Hold the sensor still in any orientation; each hold is followed by a calibration of all so far, and by the pose that would help most.
 /// The page shows both; --terminal prints them. It is good enough when each standard deviation of [accept] is reached (usual ones without it) in two holds in a row, and
-/// parts of the recording agree.
+/// parts of the recording agree, and the verdict is ok.
 ///
 /// Every row is in DIR/recording.csv before it is used. At the end, DIR has what `calibrant calibrate EXPERIMENT DIR/recording.csv` writes: calibration.json and report.html.
 ///
