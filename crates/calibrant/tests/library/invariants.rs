@@ -35,6 +35,15 @@ fn permuted(case: &Case) -> Case {
     other
 }
 
+/// The same recording in another unit.
+fn scaled(case: &Case, gain: f64) -> Case {
+    let mut other = case.clone();
+    other.recording.readings_mut().iter_mut().for_each(|y| *y *= gain);
+    other.sensor.gain = Some(Vector3::repeat(gain));
+    other.sensor.noise_mps2 = case.sensor.noise_mps2.map(|noise| noise * gain);
+    other
+}
+
 /// Only the first `samples` of a recording.
 fn calibrate_first(case: &Case, samples: usize) -> calibrant::Result<Calibration> {
     let recording = case.recording.only(|k| k < samples);
@@ -46,6 +55,25 @@ fn calibrate_first(case: &Case, samples: usize) -> calibrant::Result<Calibration
     calibrate(&problem, &CalibrationSettings::default())
 }
 
+/// Both are calibrated, or both are refused: a few in ten thousand motions end so near to where they
+/// began that an axis without trust tells nothing.
+fn both(one: &Case, other: &Case) -> Option<(Calibration, Calibration)> {
+    match (one.calibrate(), other.calibrate()) {
+        (Ok(one), Ok(other)) => Some((one, other)),
+        (Err(one), Err(other)) if one.is_not_identifiable() && other.is_not_identifiable() => None,
+        (one, other) => panic!("one is refused: {:?}, {:?}", one.err(), other.err()),
+    }
+}
+
+#[test]
+fn an_axis_that_tells_nothing_is_rare_and_refused_in_every_unit() {
+    let case_of = |seed| Case::new(SensorModel::ScaleBias, Trust::Unknown, 8, 1.0, 20.0, seed);
+    assert!((0..2000).filter(|&seed| case_of(seed).calibrate().is_err()).count() <= 2);
+    let case = case_of(1701);
+    assert!(both(&case, &permuted(&case)).is_none());
+    assert!(both(&case, &scaled(&case, 1e-3)).is_none());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -53,7 +81,7 @@ proptest! {
     fn permuting_the_axes_permutes_the_answer(model in models(), trust in trusts(), seed in 0..10_000_u64) {
         prop_assume!(determined(model, trust));
         let case = Case::new(model, trust, 8, 1.0, 20.0, seed);
-        let (one, other) = (case.calibrate().expect("identifiable"), permuted(&case).calibrate().expect("identifiable"));
+        let Some((one, other)) = both(&case, &permuted(&case)) else { return Ok(()) };
         let sd = one.sd();
         for axis in 0..3 {
             let from = (axis + 1) % 3;
@@ -69,11 +97,7 @@ proptest! {
     fn scaling_the_readings_scales_the_answer(model in models(), trust in trusts(), seed in 0..10_000_u64, gain in 1e-3..1e5_f64) {
         prop_assume!(determined(model, trust));
         let case = Case::new(model, trust, 8, 1.0, 20.0, seed);
-        let mut scaled = case.clone();
-        scaled.recording.readings_mut().iter_mut().for_each(|y| *y *= gain);
-        scaled.sensor.gain = Some(Vector3::repeat(gain));
-        scaled.sensor.noise_mps2 = case.sensor.noise_mps2.map(|noise| noise * gain);
-        let (one, other) = (case.calibrate().expect("identifiable"), scaled.calibrate().expect("identifiable"));
+        let Some((one, other)) = both(&case, &scaled(&case, gain)) else { return Ok(()) };
         for k in 0..one.values.len() {
             prop_assert!((one.values[k] * gain - other.values[k]).abs() < 1e-5 * other.sd()[k]);
             prop_assert!((one.sd()[k] * gain / other.sd()[k] - 1.0).abs() < 1e-5);
@@ -94,10 +118,13 @@ proptest! {
     #[test]
     fn more_trust_never_widens_the_intervals(seed in 0..10_000_u64, floor in 1e-3..0.3_f64) {
         let case = Case::new(SensorModel::ScaleBias, Trust::Known, 8, 1.0, 20.0, seed);
-        let at = |trust, ends| case.with_trust(trust, ends).calibrate().expect("identifiable").sd();
-        let known = at(Trust::Known, KnownEnds::Start);
+        let at = |trust, ends| case.with_trust(trust, ends).calibrate().map(|calibration| calibration.sd());
+        let known = at(Trust::Known, KnownEnds::Start).expect("identifiable");
         let quiet = at(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Both);
         let noisy = at(Trust::Noisy(InputNoise { floor_mps3: 10.0 * floor, ratio: 0.0 }), KnownEnds::Both);
+        let (Ok(quiet), Ok(noisy)) = (quiet, noisy) else {
+            return Err(TestCaseError::reject("an axis that tells nothing"));
+        };
         for k in 0..6 {
             prop_assert!(known[k] < quiet[k] * 1.01 && quiet[k] < noisy[k] * 1.01, "{} {} {}", known[k], quiet[k], noisy[k]);
         }
@@ -114,8 +141,8 @@ proptest! {
                 prop_assert!(correlation.symmetric_eigenvalues().min() > 0.0);
                 prop_assert!(calibration.values.iter().all(|v| v.is_finite()));
             }
-            // few intervals cannot move three axes independently
-            Err(error) => prop_assert!(error.is_not_identifiable() && intervals < 4, "{error}"),
+            // few intervals cannot move three axes independently, and a few motions return to their beginning
+            Err(error) => prop_assert!(error.is_not_identifiable(), "{error}"),
         }
     }
 }
