@@ -1,8 +1,8 @@
 //! Which pose to take next: the one that improves the criterion of the design most, and of nearly equal ones the least turn.
 
 use calibrant::design::poses::{Allowed, PoseProblem, covariance_of_holds};
-use calibrant::io::Experiment;
-use calibrant_core::estimate::Calibration;
+use calibrant::io::{Experiment, Plan};
+use calibrant_core::estimate::{Calibration, ON_FACE_RAD};
 use nalgebra::{DMatrix, Vector3};
 use std::collections::BTreeMap;
 
@@ -23,15 +23,39 @@ pub(crate) struct NextPose {
     pub(crate) three_gain: f64,
 }
 
-/// The directions that a pose may have: where all are allowed, faces, edges and corners, which are easiest to hold and to say.
-fn candidates(allowed: &Allowed) -> Vec<Vector3<f64>> {
-    match allowed {
-        Allowed::Of(list) | Allowed::Near(list, _) => list.clone(),
+/// The directions that a pose may have: the known ones, of those that were held least often; where all are allowed, faces, edges and corners, which are
+/// easiest to hold and to say.
+fn candidates(experiment: &Experiment, held: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    if let Some(faces) = faces(experiment) {
+        let times = |face: &Vector3<f64>| held.iter().filter(|up| is_on(face, up)).count();
+        let fewest = faces.iter().map(times).min();
+        return faces.into_iter().filter(|face| Some(times(face)) == fewest).collect();
+    }
+    match experiment.design.allowed_directions().unwrap_or(Allowed::Anywhere) {
+        Allowed::Of(list) | Allowed::Near(list, _) => list,
         Allowed::Anywhere => match Allowed::cube(true, true) {
             Allowed::Of(list) => list,
             _ => Vec::new(),
         },
     }
+}
+
+/// The directions that holds have, where the experiment knows them.
+pub(crate) fn faces(experiment: &Experiment) -> Option<Vec<Vector3<f64>>> {
+    match &experiment.plan {
+        Plan::Holds(holds) => holds.directions(),
+        _ => None,
+    }
+}
+
+/// Is it an accelerometer on faces? Of these, folds tell nothing.
+pub(crate) fn is_on_faces_alone(experiment: &Experiment) -> bool {
+    experiment.imu.is_none() && faces(experiment).is_some()
+}
+
+/// Is a direction on this face?
+pub(crate) fn is_on(face: &Vector3<f64>, up: &Vector3<f64>) -> bool {
+    face.angle(up) <= ON_FACE_RAD
 }
 
 /// Before there is a calibration: the direction that is farthest from those held. `holds`: their number, whether or not it is known which way was up.
@@ -41,9 +65,8 @@ pub(crate) fn first_poses(
     held: &[Vector3<f64>],
     put_off: &[Vector3<f64>],
 ) -> Option<NextPose> {
-    let allowed = experiment.design.allowed_directions().unwrap_or(Allowed::Anywhere);
     let nearest = |of: &Vector3<f64>| held.iter().chain(put_off).map(|up| up.dot(of)).fold(-1.0, f64::max);
-    let all = candidates(&allowed);
+    let all = candidates(experiment, held);
     let up = if held.is_empty() {
         // which way was up is not known yet: one after the other
         *all.get(holds % all.len().max(1))?
@@ -62,7 +85,7 @@ pub(crate) fn next_pose(
     weakest: Option<Vector3<f64>>,
 ) -> Option<NextPose> {
     let (problem, held) = experiment.recorded_poses(calibration).ok()?;
-    let all = candidates(&problem.allowed);
+    let all = candidates(experiment, &held);
     let before = covariance_of_holds(&problem, &held)?;
     let with = |held: &[Vector3<f64>], up: &Vector3<f64>| {
         let mut poses = held.to_vec();

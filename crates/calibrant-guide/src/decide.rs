@@ -1,5 +1,6 @@
 //! What follows from a decision of the gate, and from an estimate.
 
+use crate::advice::{faces, is_on, is_on_faces_alone};
 use crate::decision::Decision;
 use crate::estimate::{Answer, Estimate};
 use crate::run::Run;
@@ -34,6 +35,7 @@ impl Run<'_> {
                 self.held.push((start_s, start_s + seconds, mean));
                 self.ratio_before = if is_known { self.told.estimate.worst_ratio() } else { None };
                 self.say(Kind::Good, format!("Got it: {} s.", one(seconds)))?;
+                self.says_if_on_no_face(up)?;
                 self.question(true)?;
             }
             Decision::Ended { start_s, end_s } => {
@@ -81,6 +83,18 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// A hold in none of the known directions does not count.
+    fn says_if_on_no_face(&mut self, up: Option<Vector3<f64>>) -> Result<()> {
+        let Some((up, faces)) = up.zip(faces(&self.options.experiment)) else { return Ok(()) };
+        if faces.iter().any(|face| is_on(face, &up)) {
+            return Ok(());
+        }
+        let nearest = faces.iter().map(|face| face.angle(&up)).fold(f64::INFINITY, f64::min);
+        let text =
+            format!("It is on no face, {:.0}° from the nearest: it does not count.", nearest.to_degrees());
+        self.say(Kind::Warning, text)
+    }
+
     pub(crate) fn answer(&mut self, answer: Answer) -> Result<()> {
         match answer {
             Answer::First(parameters, took) => {
@@ -120,8 +134,10 @@ impl Run<'_> {
             (true, false) => self.reached.max(1),
         };
         self.folds_agree = estimate.folds_agree.or(self.folds_agree.filter(|_| reaches));
-        let is_good =
-            self.reached >= 2 && self.folds_agree == Some(true) && estimate.usability == Some(Usability::Ok);
+        // each face once is what that procedure asks for; otherwise a second hold confirms, and folds do
+        let is_confirmed = reaches && is_on_faces_alone(&self.options.experiment)
+            || self.reached >= 2 && self.folds_agree == Some(true);
+        let is_good = is_confirmed && estimate.usability == Some(Usability::Ok);
         self.advice.give(estimate.next.as_ref().map(|next| next.up));
         self.force.calibrated = estimate.accelerometer.or(self.force.calibrated);
         self.told.now = self.up();
@@ -175,16 +191,15 @@ impl Run<'_> {
     }
 
     pub(crate) fn sentence(&self, estimate: &Estimate, reaches: bool) -> String {
+        if let Some((held, all)) = estimate.faces.filter(|(held, all)| held < all) {
+            return format!("{held} of {all} faces so far.");
+        }
         if let Some(missing) = &estimate.missing {
             return format!("{} so far: {missing}.", counted(self.held.len(), "hold"));
         }
         let gain = estimate.next.as_ref().map_or(0.0, |next| next.three_gain);
         let more = format!("3 more holds would gain {:.0} %", 100.0 * gain);
-        let usual = if self.are_usual_goals {
-            " The goals are usual ones; [accept] of the experiment sets yours."
-        } else {
-            ""
-        };
+        let usual = self.said_of_goals;
         if self.told.good_enough {
             return format!("Good enough; {more}.{usual}");
         }
@@ -203,10 +218,15 @@ impl Run<'_> {
         let worst = estimate.parameters.iter().filter_map(|of| Some((of, of.sd / of.goal?)));
         match worst.max_by(|one, other| one.1.total_cmp(&other.1)) {
             Some((of, _)) if of.goal.is_some_and(|goal| of.floor > goal) => format!(
-                "No hold brings {} below {} {}: gravity is not known better. Give holds.gravity_mps2, or your latitude and height.",
+                "No hold brings {} below {} {}: {}",
                 of.name,
                 significant(shown_unit(of.unit).1 * of.floor, 2),
-                shown_unit(of.unit).0
+                shown_unit(of.unit).0,
+                if of.floor_is_of_faces {
+                    "the faces are not known to be more square. Measure the box, and give holds.face_sd_deg."
+                } else {
+                    "gravity is not known better. Give holds.gravity_mps2, or your latitude and height."
+                }
             ),
             Some((of, ratio)) => {
                 format!("{} is {} times its goal; {more}.{usual}", of.name, significant(ratio, 2))

@@ -1,11 +1,11 @@
 //! What the holds tell so far: the same calibration as that of a recording, of the samples in memory.
 
-use crate::advice::{NextPose, first_poses, next_pose};
+use crate::advice::{NextPose, faces, first_poses, is_on, is_on_faces_alone, next_pose};
 use crate::goals::Goals;
 use calibrant::session::{Session, Source};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability};
 use calibrant_core::error::Error;
-use calibrant_core::estimate::CovarianceVerdict;
+use calibrant_core::estimate::{CovarianceVerdict, VarianceSource};
 use calibrant_core::sensor::{
     ImuQuantity, ImuRecording, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -35,8 +35,10 @@ pub(crate) struct Known {
     pub(crate) value: f64,
     pub(crate) sd: f64,
     pub(crate) goal: Option<f64>,
-    /// What gravity that is not exactly known leaves of it.
+    /// What gravity that is not exactly known, and faces that are not exactly level, leave of it.
     pub(crate) floor: f64,
+    /// Are it the faces that leave most of that?
+    pub(crate) floor_is_of_faces: bool,
     /// Standard deviation after the next pose.
     pub(crate) after: Option<f64>,
 }
@@ -65,15 +67,19 @@ pub(crate) struct Estimate {
     /// Do folds agree? Asked where all goals are reached.
     pub(crate) folds_agree: Option<bool>,
     pub(crate) next: Option<NextPose>,
+    /// How many of the faces were held, and how many there are, where these are known.
+    pub(crate) faces: Option<(usize, usize)>,
     /// Why there is no calibration yet.
     pub(crate) missing: Option<String>,
 }
 
 impl Estimate {
-    /// Are all goals reached?
+    /// Are all goals reached, and was each known face held?
     pub(crate) fn reaches_all(&self) -> bool {
-        let mut goals = self.parameters.iter().filter_map(|of| Some((of.sd, of.goal?))).peekable();
-        goals.peek().is_some() && goals.all(|(sd, goal)| sd <= goal)
+        let mut goals = self.parameters.iter().filter_map(|of| Some((of.sd, of.goal?)));
+        !self.parameters.is_empty()
+            && self.faces.is_none_or(|(held, all)| held == all)
+            && goals.all(|(sd, goal)| sd <= goal)
     }
 
     /// The largest standard deviation over its goal, without what gravity leaves.
@@ -112,13 +118,15 @@ impl Estimator<'_> {
                 let known = |(start_s, end_s, up): &(f64, f64, Option<Vector3<f64>>)| {
                     Some(KnownHold { start_s: *start_s, end_s: *end_s, up: (*up)?, left_out: None })
                 };
-                let holds = question.held.iter().filter_map(known).collect();
+                let holds: Vec<KnownHold> = question.held.iter().filter_map(known).collect();
+                let faces = self.faces_held(&holds);
                 let of_new_hold = question.of_new_hold;
                 return Estimate {
                     number: question.number,
                     of_new_hold,
                     holds,
                     next,
+                    faces,
                     missing: Some(missing(&error, question.held.len())),
                     ..Estimate::default()
                 };
@@ -131,10 +139,15 @@ impl Estimator<'_> {
         let mut parameters: Vec<Known> = Vec::new();
         for (k, quantity) in calibration.quantities.iter().enumerate() {
             let name = quantity.name();
-            let floor = calibration.gravity_slope.get(k).map_or(0.0, |slope| (slope * gravity_sd).abs());
+            let by_gravity = calibration.gravity_slope.get(k).map_or(0.0, |slope| (slope * gravity_sd).abs());
+            let of_faces =
+                calibration.budget.get(k).map_or(0.0, |row| row.part(VarianceSource::FaceAlignment));
+            let by_faces = of_faces.max(0.0).sqrt();
+            let floor = by_gravity.hypot(by_faces);
             parameters.push(Known {
                 goal: self.goals.of(*quantity, imu, question.units[quantity.sensor_kind() as usize], floor),
                 floor,
+                floor_is_of_faces: by_faces > by_gravity,
                 unit: calibration.unit_of(*quantity),
                 value: quantity.value(imu),
                 sd: sds[k],
@@ -159,12 +172,16 @@ impl Estimator<'_> {
                 known.name.starts_with("gyroscope").then(|| (rotations / (rotations + 1.0)).sqrt());
             known.after = by_pose.or(by_rotation).map(|ratio| (ratio * beside).hypot(known.floor));
         }
-        let holds = calibration.hold_results().iter().map(|hold| KnownHold {
-            start_s: hold.hold.start_s,
-            end_s: hold.hold.end_s,
-            up: hold.force_mps2.try_normalize(0.0).unwrap_or_else(Vector3::z),
-            left_out: hold.why_left_out().map(|why| why.to_string()),
-        });
+        let holds: Vec<KnownHold> = calibration
+            .hold_results()
+            .iter()
+            .map(|hold| KnownHold {
+                start_s: hold.hold.start_s,
+                end_s: hold.hold.end_s,
+                up: hold.force_mps2.try_normalize(0.0).unwrap_or_else(Vector3::z),
+                left_out: hold.why_left_out().map(|why| why.to_string()),
+            })
+            .collect();
         let told = |severity: Severity| -> Vec<String> {
             let these = outcome.warnings().iter().filter(|found| found.severity() >= severity);
             these.map(Diagnostic::without_file).collect()
@@ -172,7 +189,8 @@ impl Estimator<'_> {
         let mut estimate = Estimate {
             number: question.number,
             of_new_hold: question.of_new_hold,
-            holds: holds.collect(),
+            faces: self.faces_held(&holds),
+            holds,
             accelerometer: Some(*imu.sensor(SensorKind::Accelerometer)),
             usability: Some(outcome.verdict().usability),
             warnings: told(Severity::Warning),
@@ -180,7 +198,7 @@ impl Estimator<'_> {
             parameters,
             ..Estimate::default()
         };
-        if estimate.reaches_all() && estimate.of_new_hold {
+        if estimate.reaches_all() && estimate.of_new_hold && !is_on_faces_alone(self.session.experiment()) {
             let folds = self.with_folds.calibrate(&source).ok();
             estimate.folds_agree = folds.map(|of| {
                 let too_small = |kind: CovarianceVerdict| kind == CovarianceVerdict::TooSmall;
@@ -188,6 +206,14 @@ impl Estimator<'_> {
             });
         }
         estimate
+    }
+
+    /// How many of the known directions have a hold that counts, and how many there are.
+    fn faces_held(&self, holds: &[KnownHold]) -> Option<(usize, usize)> {
+        let faces = faces(self.session.experiment())?;
+        let has_hold =
+            |face: &&Vector3<f64>| holds.iter().any(|hold| hold.left_out.is_none() && is_on(face, &hold.up));
+        Some((faces.iter().filter(has_hold).count(), faces.len()))
     }
 }
 

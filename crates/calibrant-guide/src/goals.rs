@@ -3,9 +3,13 @@
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind};
 
-/// The largest standard deviations: those of `[accept]`, or usual ones.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Goals(Vec<AcceptanceLimit>);
+/// The largest standard deviations: those of `[accept]`, or usual ones; none of an accelerometer on faces, which shall be held once each.
+#[derive(Debug, Clone)]
+pub(crate) enum Goals {
+    Accept(Vec<AcceptanceLimit>),
+    Usual,
+    EachFace,
+}
 
 /// Usual ones: a bias of 1 mg, gains and axes of 0.1 % and 0.06°; a bias of 0.06 °/s, gains and axes of 0.3 %.
 const USUAL: [(SensorKind, f64, f64); 2] =
@@ -13,13 +17,24 @@ const USUAL: [(SensorKind, f64, f64); 2] =
 
 impl Goals {
     /// Those of these limits that are of standard deviations.
-    pub(crate) fn of_limits(limits: &[AcceptanceLimit]) -> Self {
-        Self(limits.iter().filter(|limit| limit.sd.is_some()).cloned().collect())
+    pub(crate) fn of_limits(limits: &[AcceptanceLimit], on_faces_alone: bool) -> Self {
+        let accept: Vec<_> = limits.iter().filter(|limit| limit.sd.is_some()).cloned().collect();
+        match (accept.is_empty(), on_faces_alone) {
+            (false, _) => Self::Accept(accept),
+            (true, true) => Self::EachFace,
+            (true, false) => Self::Usual,
+        }
     }
 
-    /// Are they the usual ones?
-    pub(crate) fn are_usual(&self) -> bool {
-        self.0.is_empty()
+    /// What a sentence says of them.
+    pub(crate) fn said(&self) -> &'static str {
+        match self {
+            Self::Accept(_) => "",
+            Self::Usual => " The goals are usual ones; [accept] of the experiment sets yours.",
+            Self::EachFace => {
+                " Each face was held; [accept] of the experiment sets goals for standard deviations."
+            }
+        }
     }
 
     /// That of a parameter, in its unit; `unit`: of the readings. `floor`: what gravity that is not exactly known leaves, which no hold makes less; a usual goal is beside it.
@@ -30,14 +45,14 @@ impl Goals {
         unit: ReadingUnit,
         floor: f64,
     ) -> Option<f64> {
-        if !self.are_usual() {
-            let name = quantity.name();
-            return self
-                .0
-                .iter()
-                .filter(|limit| limit.names(&name))
-                .filter_map(|limit| limit.sd)
-                .reduce(f64::min);
+        match self {
+            Self::Usual => {}
+            Self::EachFace => return None,
+            Self::Accept(limits) => {
+                let name = quantity.name();
+                let of_it = limits.iter().filter(|limit| limit.names(&name));
+                return of_it.filter_map(|limit| limit.sd).reduce(f64::min);
+            }
         }
         let ImuQuantity::Of(kind, of) = quantity else { return None };
         let (_, bias, share) = USUAL.into_iter().find(|(of, ..)| *of == kind)?;

@@ -1,5 +1,6 @@
 //! The guide: lines come in, holds are recognised, each is followed by a calibration of all that was held, and by what to do next.
 
+use crate::advice::is_on_faces_alone;
 use crate::demo::Advice;
 use crate::estimate::{Answer, Estimator, Question};
 use crate::goals::Goals;
@@ -8,7 +9,7 @@ use crate::run::Run;
 use crate::server::{Board, serve};
 use crate::session_log::SessionLog;
 use crate::shown::Kind;
-use calibrant::io::Plan;
+use calibrant::io::{Experiment, Plan};
 use calibrant::session::{Outcome, Session, SessionOptions, Source};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use std::sync::mpsc::{channel, sync_channel};
@@ -27,17 +28,10 @@ const FOLDS: usize = 5;
 pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
     let session_options =
         |report: bool, folds: Option<usize>| SessionOptions { report, folds, ..options.session.clone() };
-    if !matches!(options.experiment.plan, Plan::Holds(_)) {
-        let error = InputError::new(
-            Refusal::ExperimentUnsuited,
-            "the guide is for a sensor that is held still",
-            "take an experiment with [holds]: see `calibrant init imu` and `calibrant init static-poses`",
-        );
-        return Err(Error::experiment(error));
-    }
+    suits(&options.experiment)?;
     let new = |report, folds| Session::with(options.experiment.clone(), session_options(report, folds));
     let (session, with_folds, last) = (new(false, None)?, new(false, Some(FOLDS))?, new(true, None)?);
-    let goals = Goals::of_limits(session.limits());
+    let goals = Goals::of_limits(session.limits(), is_on_faces_alone(session.experiment()));
     let advice = Advice::default();
     let (to, arrivals) = sync_channel(WAITING);
     options.input.open(&session, to, &advice)?;
@@ -87,6 +81,33 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
         last.calibrate(&Source::from_file(&recording)).map_err(|error| error.in_recording(&recording))?;
     outcome.write(&options.directory)?;
     Ok(outcome)
+}
+
+/// Refuses an experiment that is not of holds, or that has the times of other ones.
+fn suits(experiment: &Experiment) -> Result<()> {
+    let refused =
+        |message, help| Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
+    let Plan::Holds(holds) = &experiment.plan else {
+        return refused(
+            "the guide is for a sensor that is held still",
+            "take an experiment with [holds]: see `calibrant init imu` and `calibrant init static-poses`",
+        );
+    };
+    if holds.intervals_s.is_some() {
+        let help = "remove holds.intervals_s: holds are found, and each is in the one of holds.directions that it shows";
+        return refused(
+            "holds.intervals_s has the times of holds, and nobody knows those of a live session",
+            help,
+        );
+    }
+    if experiment.imu.as_ref().is_some_and(|imu| !imu.turns.is_empty()) {
+        let help = "remove gyroscope.turns: the rotations between the holds determine the gyroscope";
+        return refused(
+            "gyroscope.turns has the times of turns, and nobody knows those of a live session",
+            help,
+        );
+    }
+    Ok(())
 }
 
 /// A number that others do not know.

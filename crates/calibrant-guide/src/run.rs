@@ -69,7 +69,8 @@ pub(crate) struct Run<'s> {
     /// The phase that the page knows.
     pub(crate) shown_phase: &'static str,
     pub(crate) finish: bool,
-    pub(crate) are_usual_goals: bool,
+    /// What a sentence says of the goals.
+    pub(crate) said_of_goals: &'static str,
 }
 
 /// Samples in a second, over the last second.
@@ -155,7 +156,7 @@ impl<'s> Run<'s> {
             is_replay: false,
             shown_phase: "",
             finish: false,
-            are_usual_goals: goals.are_usual(),
+            said_of_goals: goals.said(),
         }
     }
 

@@ -49,3 +49,54 @@ fn six_known_faces_determine_twelve_parameters() {
     assert_eq!(names(&found["parameters"]).len(), 12);
     assert_close_to_truth(&found, &bench.json("made/truth.json"));
 }
+
+#[test]
+fn holds_without_times_are_on_the_faces_that_they_show() {
+    let bench = Bench::new();
+    let in_order = "directions = [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]";
+    let edited = |file: &str, directions: &str| bench.preset("faces", file, &[(in_order, directions)]);
+    bench.preset("faces", "faces.toml", &[]);
+    bench.run("simulate faces.toml -o made").done();
+    let calibrate = |file: &str| format!("calibrate {file}.toml made/recording.csv --no-report -o {file}");
+    bench.run(&calibrate("faces")).done();
+    edited("other.toml", "directions = [\"-z\", \"y\", \"x\", \"z\", \"-x\", \"-y\"]");
+    assert!(!bench.run(&calibrate("other")).done().stderr.contains("faces-unmatched"));
+    let parameters = |folder: &str| bench.json(&format!("{folder}/calibration.json"))["parameters"].clone();
+    assert_eq!(parameters("other"), parameters("faces"), "in any order");
+    edited("five.toml", "directions = [\"x\", \"-x\", \"y\", \"-y\", \"z\", [1, 1, -1]]");
+    let said = bench.run(&calibrate("five")).done();
+    said.says("not used: hold 6 (61.1 to 71.8 s) with -z up; no hold has (+0.6, +0.6, -0.6) up");
+    edited("none.toml", "directions = [[1, 1, 1]]");
+    bench.refuses(&calibrate("none"), 2, &["no hold is in one of holds.directions", "lay the sensor"]);
+    // counts of unknown gain: by the ends of each axis
+    let counts: Vec<String> = bench.read("made/recording.csv").lines().map(in_counts).collect();
+    bench.write("counts.csv", counts.join("\n"));
+    bench.preset("faces", "counts.toml", &[("unit = \"mps2\" ", "unit = \"counts\" ")]);
+    bench.run("calibrate counts.toml counts.csv --no-report -o counts").done();
+    let gain = |folder: &str| parameters(folder)[3]["value"].as_f64().expect("a number");
+    assert!((gain("counts") / gain("faces") / 400.0 - 1.0).abs() < 1e-3, "{}", gain("counts"));
+}
+
+/// A row of a recording in m/s² in counts.
+fn in_counts(row: &str) -> String {
+    let fields: Vec<&str> = row.split(',').collect();
+    match fields[1].parse::<f64>() {
+        Err(_) => "t_s,ax_counts,ay_counts,az_counts".to_owned(),
+        Ok(_) => {
+            let count = |of: &&str| format!("{:.0}", 400.0 * of.parse::<f64>().expect("a number") + 3e4);
+            format!("{},{}", fields[0], fields[1..].iter().map(count).collect::<Vec<_>>().join(","))
+        }
+    }
+}
+
+#[test]
+fn an_imu_may_lie_on_faces_too() {
+    let bench = Bench::new();
+    let faces = format!("[holds]\ndirections = [{FACES}]\nface_sd_deg = 0.3");
+    bench.preset("imu", "imu.toml", &[("[holds]", &faces)]);
+    bench.run("simulate imu.toml -o made").done();
+    let done = bench.run("calibrate imu.toml made/recording.csv --no-report -o result").done();
+    assert!(done.printed().contains("from 12 of 12 holds"), "{}", done.stdout);
+    assert!(done.printed().contains("face alignment is 0.30° about each axis, as given"), "{}", done.stdout);
+    assert_close_to_truth(&bench.json("result/calibration.json"), &bench.json("made/truth.json"));
+}

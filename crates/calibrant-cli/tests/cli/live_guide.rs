@@ -106,6 +106,23 @@ fn what_was_recorded_survives_a_kill() {
     }
 }
 
+#[test]
+fn a_fixture_is_done_when_each_face_was_held() {
+    let bench = Bench::new();
+    bench.run("init faces -o faces.toml").done();
+    let outcome = bench.run("guide faces.toml --from demo@10 --terminal --no-page --stop -o session").done();
+    assert_eq!(outcome.stdout.matches("✓ Got it: ").count(), 6, "{}", outcome.stdout);
+    assert!(outcome.printed().contains("5 of 6 faces so far"), "{}", outcome.stdout);
+    is_that_of_calibrate(&bench, "session", "faces.toml");
+    let times = "directions = [\"z\", \"-z\"]\nintervals_s = [[0, 3], [5, 8]]\n# was";
+    bench.preset("faces", "timed.toml", &[("directions =", times)]);
+    bench.refuses(
+        "guide timed.toml --from demo --no-page --terminal -o other",
+        2,
+        &["remove holds.intervals_s"],
+    );
+}
+
 /// The answer to a request.
 fn answer(address: &str, request: &str) -> String {
     let mut stream = TcpStream::connect(address).expect("it listens");

@@ -22,6 +22,26 @@ checks! {
         listed(faces, "; ")
     );
 
+    /// The holds were found, and not all of them are in one of the given directions, or a direction has none.
+    FacesUnmatched "faces-unmatched" Note {
+        /// Holds in none: the nearest direction, and what the accelerometer shows.
+        holds: Vec<FaceMismatch>,
+        /// Directions that have none.
+        missing: Vec<String>,
+    }
+    decided "A hold is in a direction if its mean shows it within 20°."
+    remedy "Lay the sensor on the face that is missing; give holds.intervals_s where the holds are not the ones that were found."
+    says format!(
+        "{}{}{}",
+        if holds.is_empty() {
+            String::new()
+        } else {
+            format!("in none of holds.directions, and not used: {}", listed(&unmatched(holds), ", "))
+        },
+        if holds.is_empty() || missing.is_empty() { "" } else { "; " },
+        if missing.is_empty() { String::new() } else { format!("no hold has {} up", listed(missing, ", or ")) }
+    );
+
     /// A face was held for only a few samples.
     FaceBrief "face-brief" Warning {
         hold: HoldSpan,
@@ -105,6 +125,11 @@ impl Part for FacePointing {
     fn add_to(&self, parts: &mut Parts, _: &'static str) {
         parts.subject.push(format!("axis {} {}", self.axis, if self.is_up { "up" } else { "down" }));
     }
+}
+
+/// Holds that are on no face, with what they show.
+fn unmatched(holds: &[FaceMismatch]) -> Vec<String> {
+    holds.iter().map(|of| format!("{} with {} up", of.hold, direction_in_words(&of.shown))).collect()
 }
 
 /// A hold whose given direction differs from the accelerometer's.

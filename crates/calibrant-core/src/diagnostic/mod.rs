@@ -48,7 +48,7 @@ pub use acceptance::LimitMiss;
 pub use change::{Change, Changed, Course};
 pub use check::Check;
 pub use code::{Code, CodeEntry};
-pub(crate) use direction::AGREES_RAD;
+pub(crate) use direction::{AGREES_RAD, direction_in_words};
 pub use faces::{FaceMismatch, FacePointing};
 pub use hold_span::{HoldReason, HoldSpan};
 pub use late_times::{late, repair};

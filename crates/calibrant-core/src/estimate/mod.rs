@@ -69,10 +69,10 @@ pub use holds::{
     find_clean_holds, find_holds, holds_between, holds_lost_to_filter, refused_rests,
 };
 pub use imu::{
-    ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,
-    NoiseSource, RotationResult, ThermalModel, ThermometerLag, TimeOffset, Turn, TurnResult, WhiteNoise,
-    WhiteNoiseSearch, calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds,
-    find_imu_holds, swapped_sensors,
+    ClockRate, FacesFound, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup,
+    KnownTerm, NoiseSource, ON_FACE_RAD, RotationResult, ThermalModel, ThermometerLag, TimeOffset, Turn,
+    TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_faces, calibrate_imu, calibrate_imu_with,
+    faces_found, find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use json::{Budget, FitInUnit};
 pub use motion_outliers::without_motion_outliers;

@@ -33,7 +33,7 @@ pub struct HoldsPlan {
     /// Start and end of each hold, s, in order. Without it the program searches for them.
     #[serde(deserialize_with = "intervals")]
     pub intervals_s: Option<Vec<(f64, f64)>>,
-    /// Direction of the specific force (up) in each of these holds, where it is known.
+    /// Direction of the specific force (up) in each of these holds, where it is known. Without intervals: those that the holds of a recording are in, in any order.
     pub directions: Option<Vec<Direction>>,
     /// Face alignment of these directions about each axis. Without it, the scatter of the holds determines it.
     pub face_sd_deg: Option<Within<SmallTilt>>,
@@ -189,7 +189,7 @@ impl HoldsPlan {
             return Err(refused(format!("holds.intervals_s[{}]", late + 1), message, help));
         }
         match &self.directions {
-            // without intervals each direction has a recording of its own
+            // without intervals the holds are found, or each direction has a recording of its own
             Some(directions) if self.intervals_s.is_some() && directions.len() != intervals.len() => {
                 let message = format!("{} directions for {} holds", directions.len(), intervals.len());
                 Err(refused("holds.directions", message, remedy("holds.directions")))

@@ -8,7 +8,7 @@ use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::estimate::{
     CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Stimulus, WhiteNoise,
-    recording_at,
+    faces_found, recording_at,
 };
 use calibrant_core::motion::{CommandedMotion, Hold};
 use calibrant_core::sensor::{ImuRecording, Recording, Sensor, SensorKind};
@@ -75,41 +75,26 @@ impl<'e> Setup<'e> {
         }
     }
 
-    /// One hold for each direction: the longest of each recording, where there are as many recordings as directions. To be called with all holds found.
-    pub(crate) fn one_hold_each(&mut self) -> Result<()> {
-        let Self::Faces(Faces { holds, directions, .. }) = self else { return Ok(()) };
-        let recordings = holds.further_from_s.len() + 1;
-        if recordings == 1 {
-            return Ok(());
-        }
-        let refuse =
-            |message, help| Err(Error::experiment(InputError::new(Refusal::HoldsInvalid, message, help)));
-        if recordings != directions.len() {
-            return refuse(
-                format!(
-                    "{recordings} recordings are calibrated together, and holds.directions has {}",
-                    directions.len()
-                ),
-                "give one recording for each direction, in their order",
-            );
-        }
-        let found = holds.found.clone().unwrap_or_default();
-        let longest = |recording: usize| {
-            let of_it =
-                found.iter().filter(|hold| recording_at(&holds.further_from_s, hold.start_s) == recording);
-            of_it.max_by(|one, other| one.duration_s().total_cmp(&other.duration_s())).cloned()
+    /// Gives each hold its direction, where these are known and no times were given. To be called with all holds found.
+    pub(crate) fn set_faces(&mut self, accelerometer: &Sensor) -> Result<Option<Diagnostic>> {
+        let (holds, directions) = match self {
+            Self::Faces(faces) if !faces.holds.further_from_s.is_empty() => {
+                return faces.one_hold_each().map(|()| None);
+            }
+            Self::Faces(Faces { holds, directions, .. }) => (holds, directions),
+            Self::Imu(_, setup) => match &mut setup.directions {
+                Some(directions) => (&mut setup.holds, directions),
+                None => return Ok(None),
+            },
+            Self::Motion(_) | Self::Holds(_) => return Ok(None),
         };
-        let chosen: Vec<Option<Hold>> = (0..recordings).map(longest).collect();
-        if let Some(missing) = chosen.iter().position(Option::is_none) {
-            return refuse(
-                format!("no hold was found in recording {} of {recordings}", missing + 1),
-                "hold the sensor still in each recording, longer than holds.minimum_hold_s",
-            );
+        if holds.intervals_s.is_some() {
+            return Ok(None);
         }
-        let chosen: Vec<Hold> = chosen.into_iter().flatten().collect();
-        holds.intervals_s = Some(chosen.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
-        holds.found = Some(chosen);
-        Ok(())
+        let found = faces_found(accelerometer, holds.found.as_deref().unwrap_or_default(), directions)?;
+        *directions = found.directions;
+        set_found(holds, found.holds);
+        Ok(found.unmatched)
     }
 
     /// The uncertainty of the sample rate of these recordings, and where each further one begins.
@@ -175,6 +160,46 @@ impl<'e> Setup<'e> {
         let recording = recorded.accelerometer()?;
         Ok(Problem::Accelerometer(CalibrationProblem { sensor: accelerometer, recording, stimulus }))
     }
+}
+
+impl Faces {
+    /// One hold for each direction: the longest of each recording, where there are as many recordings as directions.
+    fn one_hold_each(&mut self) -> Result<()> {
+        let Self { holds, directions, .. } = self;
+        let recordings = holds.further_from_s.len() + 1;
+        let refuse =
+            |message, help| Err(Error::experiment(InputError::new(Refusal::HoldsInvalid, message, help)));
+        if recordings != directions.len() {
+            return refuse(
+                format!(
+                    "{recordings} recordings are calibrated together, and holds.directions has {}",
+                    directions.len()
+                ),
+                "give one recording for each direction, in their order",
+            );
+        }
+        let found = holds.found.clone().unwrap_or_default();
+        let longest = |recording: usize| {
+            let of_it =
+                found.iter().filter(|hold| recording_at(&holds.further_from_s, hold.start_s) == recording);
+            of_it.max_by(|one, other| one.duration_s().total_cmp(&other.duration_s())).cloned()
+        };
+        let chosen: Vec<Option<Hold>> = (0..recordings).map(longest).collect();
+        if let Some(missing) = chosen.iter().position(Option::is_none) {
+            return refuse(
+                format!("no hold was found in recording {} of {recordings}", missing + 1),
+                "hold the sensor still in each recording, longer than holds.minimum_hold_s",
+            );
+        }
+        set_found(holds, chosen.into_iter().flatten().collect());
+        Ok(())
+    }
+}
+
+/// These holds are the ones.
+fn set_found(holds: &mut HoldsSetup, chosen: Vec<Hold>) {
+    holds.intervals_s = Some(chosen.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
+    holds.found = Some(chosen);
 }
 
 /// Given intervals, found holds and further recordings belong to the first recording, and are dropped.

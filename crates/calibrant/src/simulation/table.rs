@@ -37,10 +37,21 @@ pub(super) fn accelerometer_on_table(
     Ok(simulate_table(&imu, steps, &setup, rng)[SensorKind::Accelerometer].clone().unwrap_or(nothing))
 }
 
-/// The steps on the table, in order of time; `None` where the sensor is turned by hand.
+/// The sensor is on its way from one face to the next for so long, s, where no times are given.
+const MOVES_S: f64 = 2.0;
+
+/// The steps on the table, in order of time; `None` where the sensor is turned by hand. Without times one face follows the other.
 pub(super) fn table(holds: &HoldsPlan, turns: &[Turn]) -> Option<Vec<TableStep>> {
-    let (intervals, directions) = (holds.intervals_s.as_ref()?, holds.directions()?);
-    let faces = intervals.iter().zip(directions).map(|(&(start_s, end_s), direction)| TableStep {
+    let directions = holds.directions()?;
+    let intervals = match &holds.intervals_s {
+        Some(given) => given.clone(),
+        None if turns.is_empty() => {
+            let start_s = |k: usize| 1.0 + k as f64 * (holds.hold_s + MOVES_S);
+            (0..directions.len()).map(|k| (start_s(k), start_s(k) + holds.hold_s)).collect()
+        }
+        None => return None,
+    };
+    let faces = intervals.into_iter().zip(directions).map(|((start_s, end_s), direction)| TableStep {
         start_s,
         end_s,
         action: TableAction::Hold(direction),
