@@ -1,6 +1,6 @@
 //! Which pose to take next: the one that improves the criterion of the design most, and of nearly equal ones the least turn.
 
-use calibrant::design::poses::{Allowed, PoseProblem, covariance_of_holds};
+use calibrant::design::poses::{Allowed, PoseProblem, covariance_of_holds, shares_of_holds};
 use calibrant::io::{Experiment, Plan};
 use calibrant_core::estimate::{Calibration, ON_FACE_RAD};
 use nalgebra::{DMatrix, Vector3};
@@ -21,6 +21,8 @@ pub(crate) struct NextPose {
     pub(crate) after: Ratios,
     /// How much smaller three more holds make the standard deviations, on average.
     pub(crate) three_gain: f64,
+    /// How much each hold that is used tells, as a share of what all tell, in order of time.
+    pub(crate) shares: Vec<f64>,
 }
 
 /// The directions that a pose may have: the known ones, of those that were held least often; where all are allowed, faces, edges and corners, which are
@@ -73,7 +75,7 @@ pub(crate) fn first_poses(
     } else {
         all.into_iter().min_by(|one, other| nearest(one).total_cmp(&nearest(other)))?
     };
-    Some(NextPose { up, after: Ratios::new(), three_gain: 0.0 })
+    Some(NextPose { up, after: Ratios::new(), three_gain: 0.0, shares: Vec::new() })
 }
 
 /// The best next pose of a calibration. `now`: the direction in which the sensor lies; `put_off`: those that were refused; `weakest`: the axis of the gyroscope that is known least.
@@ -115,7 +117,12 @@ pub(crate) fn next_pose(
     };
     let names = problem.list.names();
     let named = names.into_iter().map(|name| format!("accelerometer.{name}")).zip(ratios(after)).collect();
-    Some(NextPose { up: *up, after: named, three_gain: three_gain(&problem, &held, &all, &before) })
+    Some(NextPose {
+        up: *up,
+        after: named,
+        three_gain: three_gain(&problem, &held, &all, &before),
+        shares: shares_of_holds(&problem, &held).unwrap_or_default(),
+    })
 }
 
 /// How much smaller the standard deviations are with three more holds, on average: each the best by itself.

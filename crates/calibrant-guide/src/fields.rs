@@ -21,6 +21,9 @@ const FEWEST: usize = 3;
 impl Fields {
     pub(crate) fn of(line: &str) -> Self {
         let line = line.trim();
+        if line.contains(char::REPLACEMENT_CHARACTER) {
+            return Self::Other;
+        }
         if line.starts_with('{') {
             let mut named = Vec::new();
             return match serde_json::from_str::<Value>(line) {
@@ -33,23 +36,26 @@ impl Fields {
             };
         }
         let fields = split(line);
-        if fields.len() < FEWEST {
+        // a line may end with a separator; whether a row does is for its header to say
+        let ends = usize::from(fields.last().is_some_and(|last| last.is_empty()));
+        let named = &fields[..fields.len() - ends];
+        if named.len() < FEWEST {
             return Self::Other;
         }
         let pair = |field: &&str| {
             let (name, value) = field.split_once([':', '='])?;
             is_number(value).then(|| (name.trim().to_owned(), value.trim().to_owned()))
         };
-        if let Some(named) = fields.iter().map(pair).collect::<Option<Vec<_>>>() {
+        if let Some(named) = named.iter().map(pair).collect::<Option<Vec<_>>>() {
             return Self::Named(named);
         }
         let numbers = fields.iter().filter(|field| is_number(&with_point(field)) || field.is_empty()).count();
-        let owned = |fields: Vec<&str>| fields.into_iter().map(with_point).collect();
+        let owned = |fields: &[&str]| fields.iter().map(|field| with_point(field)).collect();
         match numbers {
             // a time of day, or a word such as the name of a sensor
-            _ if numbers + 1 >= fields.len() && numbers >= FEWEST => Self::Row(owned(fields)),
-            0 | 1 if fields.iter().all(|field| field.chars().any(char::is_alphabetic)) => {
-                Self::Names(owned(fields))
+            _ if numbers + 1 >= fields.len() && numbers >= FEWEST => Self::Row(owned(&fields)),
+            0..=2 if named.iter().all(|field| field.chars().any(char::is_alphabetic)) => {
+                Self::Names(owned(named))
             }
             _ => Self::Other,
         }
@@ -69,11 +75,7 @@ fn is_number(field: &str) -> bool {
 fn split(line: &str) -> Vec<&str> {
     for delimiter in [';', '\t', ','] {
         if line.contains(delimiter) {
-            let mut fields: Vec<&str> = line.split(delimiter).map(str::trim).collect();
-            if fields.last().is_some_and(|last| last.is_empty()) {
-                fields.pop();
-            }
-            return fields;
+            return line.split(delimiter).map(str::trim).collect();
         }
     }
     line.split_whitespace().collect()
@@ -109,7 +111,7 @@ mod tests {
     fn each_form_is_known() {
         let texts = |of: &[&str]| of.iter().map(|one| (*one).to_owned()).collect::<Vec<_>>();
         assert_eq!(Fields::of("t_s, ax,ay,az"), Fields::Names(texts(&["t_s", "ax", "ay", "az"])));
-        assert_eq!(Fields::of("1,2.5,-3,"), Fields::Row(texts(&["1", "2.5", "-3"])));
+        assert_eq!(Fields::of("1,2.5,-3,"), Fields::Row(texts(&["1", "2.5", "-3", ""])));
         assert_eq!(Fields::of("0,5;-2,25;3"), Fields::Row(texts(&["0.5", "-2.25", "3"])));
         assert_eq!(Fields::of("1\t2\t3"), Fields::Row(texts(&["1", "2", "3"])));
         let named = |of: &[(&str, &str)]| {

@@ -11,7 +11,7 @@
 
 use crate::decision::Decision;
 use crate::layout::Sample;
-use crate::window::{AXES, Sums, Window};
+use crate::window::{AXES, Step, Sums, Window};
 
 /// Times the quietest scatter.
 const STILL: f64 = 2.5;
@@ -48,6 +48,8 @@ pub(crate) enum Phase {
     Settling,
     Holding,
     Held,
+    /// It is held, and does not count.
+    Refused,
 }
 
 /// What is known of the sensor.
@@ -90,7 +92,8 @@ pub(crate) struct Gate {
 struct Hold {
     start_s: f64,
     end_s: f64,
-    thirds: Vec<Sums>,
+    /// When each step begins, and its sums.
+    steps: Vec<(f64, Sums)>,
     all: Sums,
     told: bool,
     slid: bool,
@@ -130,7 +133,7 @@ impl Gate {
         self.last_t_s = Some(sample.t_s);
         self.watch_ranges(sample);
         if let Some(step) = self.window.push(sample) {
-            self.step(step.end_s, &step.sums, &mut found);
+            self.step(&step, &mut found);
         }
         found
     }
@@ -222,7 +225,8 @@ impl Gate {
         }
     }
 
-    fn step(&mut self, end_s: f64, step: &Sums, found: &mut Vec<Decision>) {
+    fn step(&mut self, step: &Step, found: &mut Vec<Decision>) {
+        let end_s = step.end_s;
         let whole = self.window.whole();
         if whole.as_ref().is_some_and(|(_, window)| window.count(0) < 3.0) {
             // of a hold that was taken back
@@ -266,7 +270,7 @@ impl Gate {
             }
         }
         if self.hold.is_some() {
-            self.holds(end_s, step, magnitude, found);
+            self.holds(step, magnitude, found);
             return;
         }
         let [before, after] = self.window.halves();
@@ -282,7 +286,7 @@ impl Gate {
         self.hold = Some(Hold {
             start_s,
             end_s,
-            thirds: vec![window],
+            steps: vec![(start_s, window)],
             all: window,
             told: false,
             slid: false,
@@ -309,15 +313,16 @@ impl Gate {
         }
     }
 
-    fn holds(&mut self, end_s: f64, step: &Sums, magnitude: f64, found: &mut Vec<Decision>) {
+    fn holds(&mut self, step: &Step, magnitude: f64, found: &mut Vec<Decision>) {
         let Some(mut hold) = self.hold.take() else { return };
-        hold.end_s = end_s;
-        hold.all.join(step);
-        hold.thirds.push(*step);
-        let count = hold.thirds.len();
+        hold.end_s = step.end_s;
+        hold.all.join(&step.sums);
+        hold.steps.push((step.start_s, step.sums));
+        let count = hold.steps.len();
         if count >= 9 {
             let third = count / 3;
-            let [first, last] = [&hold.thirds[..third], &hold.thirds[count - third..]].map(Sums::joined);
+            let sums = |steps: &[(f64, Sums)]| Sums::joined(steps.iter().map(|(_, sums)| sums));
+            let [first, last] = [&hold.steps[..third], &hold.steps[count - third..]].map(sums);
             let by = self.distance(&first, &last);
             if by > by_noise(&first, &first).max(SLIDE_SHARE * magnitude) {
                 if !std::mem::replace(&mut hold.slid, true) {
@@ -325,8 +330,8 @@ impl Gate {
                 }
                 // what is at its end may be still
                 hold = Hold {
-                    start_s: end_s - 0.1 * third as f64,
-                    thirds: hold.thirds[count - third..].to_vec(),
+                    start_s: hold.steps[count - third].0,
+                    steps: hold.steps[count - third..].to_vec(),
                     all: last,
                     told: false,
                     ..hold
@@ -341,7 +346,11 @@ impl Gate {
                 None => found.push(self.held(&hold, seconds)),
             }
         }
-        self.phase = if hold.told { Phase::Held } else { Phase::Holding };
+        self.phase = match (hold.told, hold.clips) {
+            (false, _) => Phase::Holding,
+            (true, None) => Phase::Held,
+            (true, Some(_)) => Phase::Refused,
+        };
         self.hold = Some(hold);
     }
 

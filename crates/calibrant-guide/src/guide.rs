@@ -34,18 +34,20 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
     let goals = Goals::of_limits(session.limits(), is_on_faces_alone(session.experiment()));
     let advice = Advice::default();
     let (to, arrivals) = sync_channel(WAITING);
-    options.input.open(&session, to, &advice)?;
-    let (log, lines) = SessionLog::open(&options.directory, options.resume)?;
     let board = Board::default();
     let (actions, asked) = channel();
-    if let Some(address) = &options.listen {
-        said(&serve(address, token(), board.clone(), actions)?);
+    let served = options.listen.as_ref().map(|address| serve(address, token(), board.clone(), actions));
+    let url = served.transpose()?;
+    options.input.open(&session, to, &advice)?;
+    let (log, lines) = SessionLog::open(&options.directory, options.resume)?;
+    if let Some(url) = url {
+        said(&url);
     }
     let resumed = lines.len();
     let (ask, questions) = channel::<Question>();
     let (tell, answers) = channel::<Answer>();
     let estimator = Estimator { session: &session, with_folds: &with_folds, goals: &goals };
-    let not_understood = thread::scope(|scope| {
+    thread::scope(|scope| {
         scope.spawn(move || {
             while let Ok(mut question) = questions.recv() {
                 // the last one counts
@@ -66,8 +68,15 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
         if resumed > 0 {
             run.told.say(run.last_s, Kind::Info, format!("Goes on with {} rows.", resumed.saturating_sub(1)));
         }
-        run.run(&arrivals, &answers, &asked)
-    })?;
+        run.run(&arrivals, &answers, asked)?;
+        let outcome = calibrated(&last, &options, run.not_understood());
+        run.close(&outcome);
+        outcome
+    })
+}
+
+/// The calibration of the whole recording, written beside it. `not_understood`: why nothing was recorded, where nothing was.
+fn calibrated(session: &Session, options: &GuideOptions, not_understood: Option<String>) -> Result<Outcome> {
     let recording = options.directory.join("recording.csv");
     if let Some(why) = not_understood.filter(|_| !recording.exists()) {
         let help = "let the board print a header such as t_ms,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps once in a while, or name the columns by option `columns`";
@@ -78,7 +87,7 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
         )));
     }
     let outcome =
-        last.calibrate(&Source::from_file(&recording)).map_err(|error| error.in_recording(&recording))?;
+        session.calibrate(&Source::from_file(&recording)).map_err(|error| error.in_recording(&recording))?;
     outcome.write(&options.directory)?;
     Ok(outcome)
 }

@@ -1,7 +1,9 @@
 //! What arrives: bytes become lines, lines rows, rows samples.
 
 use crate::arrival::Arrival;
+use crate::fields::Fields;
 use crate::force::KnownForce;
+use crate::input::Input;
 use crate::layout::Sample;
 use crate::lines::Lines;
 use crate::run::Run;
@@ -31,6 +33,7 @@ impl Run<'_> {
                 self.lost = Some(why);
                 // half a line and the rest of another are none
                 self.lines = Lines::default();
+                self.may_be_half = matches!(self.options.input, Input::Serial { .. });
             }
             Arrival::Back => {
                 self.lost = None;
@@ -42,6 +45,12 @@ impl Run<'_> {
     }
 
     pub(crate) fn line(&mut self, line: &str, at_s: f64) -> Result<()> {
+        if std::mem::take(&mut self.may_be_half)
+            && !line.starts_with('{')
+            && !matches!(Fields::of(line), Fields::Names(_))
+        {
+            return Ok(());
+        }
         for taken in self.stream.take(line, at_s) {
             match taken {
                 Taken::Header(header) => {
@@ -98,7 +107,10 @@ impl Run<'_> {
     pub(crate) fn sample(&mut self, sample: &Sample) -> Result<()> {
         self.first_s.get_or_insert(sample.t_s);
         self.last_s = sample.t_s;
-        self.rate.count(sample.t_s);
+        // the gyroscope may have rows of its own
+        if sample.readings[0].is_some() {
+            self.rate.count(sample.t_s);
+        }
         self.live.temperature_c = sample.temperature_c.or(self.live.temperature_c);
         self.kept.push(*sample);
         for decision in self.gate.take(sample) {

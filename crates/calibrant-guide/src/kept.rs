@@ -1,4 +1,4 @@
-//! The samples of the session in memory: those of a fast sensor as means of several, so that an hour of them fits.
+//! The samples of the session in memory: those of a fast sensor, or of a long session, as means of several.
 
 use crate::layout::Sample;
 use calibrant_core::error::Result;
@@ -7,6 +7,8 @@ use nalgebra::Vector3;
 
 /// Samples of a faster sensor are averaged, Hz.
 const MOST_HZ: f64 = 110.0;
+/// So many are kept, a quarter of an hour: with more, two become one.
+const MOST_KEPT: usize = 100_000;
 /// Samples by which the rate is known.
 const FIRST: usize = 20;
 
@@ -35,20 +37,30 @@ impl KeptSamples {
             }
             return;
         };
-        if every == 1 {
-            self.kept.push(sample);
-            return;
-        }
         // samples of two sensors may be in rows of their own; a mean across a gap is none
         let gap = self.sum.last().is_some_and(|last| sample.t_s - last.t_s > 0.05);
         if gap {
             self.sum.clear();
         }
         self.sum.push(sample);
-        if self.sum.len() == every {
+        if self.sum.len() >= every {
             self.kept.push(mean(&self.sum));
             self.sum.clear();
         }
+        if self.kept.len() >= MOST_KEPT {
+            self.halve(every);
+        }
+    }
+
+    /// Two samples become one: the memory and the time of an estimate stay what they are.
+    fn halve(&mut self, every: usize) {
+        let seconds = |samples: &[Sample]| samples[samples.len() - 1].t_s - samples[0].t_s;
+        let longest_s = 5.0 * seconds(&self.kept) / self.kept.len() as f64;
+        let pairs = self.kept.chunks(2);
+        // across a gap the first stays
+        let one = |pair: &[Sample]| if seconds(pair) > longest_s { pair[0] } else { mean(pair) };
+        self.kept = pairs.map(one).collect();
+        self.every = Some(2 * every);
     }
 
     /// Leaves the accelerometer's readings between two times out.
@@ -75,7 +87,8 @@ impl KeptSamples {
             let readings =
                 of.clone().filter_map(|sample| sample.readings[number].map(Vector3::from)).collect();
             if number == 0 {
-                let mut last = None;
+                // before the first one it is that
+                let mut last = of.clone().find_map(|sample| sample.temperature_c);
                 temperature_c = of
                     .map(|sample| *last.insert(sample.temperature_c.or(last).unwrap_or(f64::NAN)))
                     .collect();
@@ -104,6 +117,22 @@ fn mean(samples: &[Sample]) -> Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_long_session_two_samples_become_one() {
+        let mut kept = KeptSamples::default();
+        let sample = |t_s: f64| Sample { t_s, readings: [Some([t_s, 1.0, 9.8]), None], temperature_c: None };
+        (0..1000).for_each(|k| kept.push(sample(k as f64 * 0.01)));
+        (0..1000).for_each(|k| kept.push(sample(20.005 + k as f64 * 0.01)));
+        kept.halve(1);
+        (0..1000).for_each(|k| kept.push(sample(40.0 + k as f64 * 0.01)));
+        assert_eq!(kept.kept.len(), 1500);
+        assert!(
+            kept.kept
+                .iter()
+                .all(|of| of.readings[0].is_some_and(|reading| (reading[0] - of.t_s).abs() < 1e-9))
+        );
+    }
 
     #[test]
     fn a_fast_sensor_is_averaged_and_a_slow_one_is_not() {

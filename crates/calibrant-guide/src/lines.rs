@@ -25,10 +25,10 @@ impl Lines {
             match byte {
                 b'\n' | b'\r' => {
                     let line = std::mem::take(&mut self.rest);
-                    if let Ok(line) = String::from_utf8(line)
-                        && !line.trim().is_empty()
-                    {
-                        lines.push(line);
+                    // what is no text becomes a line that is no row, and counts as one
+                    let line = String::from_utf8_lossy(&line);
+                    if !line.trim().is_empty() {
+                        lines.push(line.into_owned());
                     }
                 }
                 _ if self.rest.len() < LONGEST => self.rest.push(*byte),
@@ -59,6 +59,7 @@ mod tests {
         assert!(lines.push(b"1,2").is_empty());
         assert_eq!(lines.push(b",3\r\n\r\n4"), ["1,2,3"]);
         assert_eq!(lines.push(b",5,6\n"), ["4,5,6"]);
+        assert_eq!(lines.push(b"7,\xff8,9\n"), ["7,\u{fffd}8,9"], "it counts as a line");
         let noise: Vec<u8> = (0..2048_u32).map(|k| (k * 37 % 256) as u8).collect();
         lines.push(&noise);
         assert!(lines.is_noise);

@@ -29,17 +29,17 @@ impl Run<'_> {
             });
         let (phase, word, reason) = if let Some(why) = &self.lost {
             ("silent", "The board is gone", format!("{why}; it is tried again"))
-        } else if self.lines.is_noise {
-            (
-                "silent",
-                "No text",
-                "what arrives is no text: is the baud rate that of the board (115200 is usual)?".to_owned(),
-            )
         } else if age_s > SILENT_S {
             (
                 "silent",
                 "No data",
                 format!("nothing came for {age_s:.0} s: is the board plugged in, and does it send?"),
+            )
+        } else if self.lines.is_noise {
+            (
+                "silent",
+                "No text",
+                "what arrives is no text: is the baud rate that of the board (115200 is usual)?".to_owned(),
             )
         } else if let Some(problem) = &self.problem {
             ("silent", "Not understood", problem.clone())
@@ -70,6 +70,9 @@ impl Run<'_> {
                 // the pose that was advised before is the one that it has
                 Phase::Held if self.waits_for_answer => ("held", "Got it", "calibrating".to_owned()),
                 Phase::Held => ("held", "Got it", next),
+                Phase::Refused => {
+                    ("refused", "Refused", "an axis is at the end of its range: take another pose".to_owned())
+                }
             }
         };
         live.phase = phase;

@@ -6,6 +6,7 @@ use crate::estimate::{Answer, Estimate, Question};
 use crate::force::KnownForce;
 use crate::gate::{Gate, Limits};
 use crate::goals::Goals;
+use crate::input::Input;
 use crate::kept::KeptSamples;
 use crate::lines::Lines;
 use crate::options::GuideOptions;
@@ -16,7 +17,7 @@ use crate::stream::{Stream, Taken};
 use crate::terminal::Terminal;
 use crate::unfit::Unfit;
 use calibrant::io::{Plan, file_name};
-use calibrant::session::Session;
+use calibrant::session::{Outcome, Session};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::ReadingUnit;
 use nalgebra::Vector3;
@@ -39,6 +40,8 @@ pub(crate) struct Run<'s> {
     pub(crate) advice: Advice,
     pub(crate) ask: Sender<Question>,
     pub(crate) lines: Lines,
+    /// May the next line be the rest of one, since a port was just opened?
+    pub(crate) may_be_half: bool,
     pub(crate) stream: Stream<'s>,
     pub(crate) gate: Gate,
     pub(crate) kept: KeptSamples,
@@ -131,6 +134,7 @@ impl<'s> Run<'s> {
             advice,
             ask,
             lines: Lines::default(),
+            may_be_half: matches!(options.input, Input::Serial { .. }),
             stream: Stream::new(session),
             // what follows from the units comes with the header
             gate: Gate::new(Limits { hold_s, least_s, range, ..Limits::default() }),
@@ -178,19 +182,23 @@ impl<'s> Run<'s> {
             }
         }
         self.is_replay = false;
+        if !self.stream.is_known() && !lines.is_empty() {
+            // too few rows to know their columns: they wait in memory for those that follow
+            self.log.begin_anew()?;
+        }
         self.question(true)?;
         self.stream.resumed(self.options.columns.clone());
         self.live.lines = lines.len().saturating_sub(1) as u64;
         Ok(())
     }
 
-    /// Runs until the session is finished. Gives why nothing was recorded, where nothing was.
+    /// Runs until the session is finished.
     pub(crate) fn run(
         &mut self,
         arrivals: &Receiver<Arrival>,
         answers: &Receiver<Answer>,
-        asked: &Receiver<Action>,
-    ) -> Result<Option<String>> {
+        asked: Receiver<Action>,
+    ) -> Result<()> {
         let mut pictured = Instant::now();
         let mut ended = false;
         self.show_result();
@@ -219,21 +227,40 @@ impl<'s> Run<'s> {
         }
         self.log.event(&json!({"at_s": self.last_s, "kind": "finish"}))?;
         self.log.keep(true)?;
-        self.told.finished = true;
-        self.told.sentence = if self.told.good_enough {
-            "Good enough.".to_owned()
-        } else {
-            "Finished before all goals were reached.".to_owned()
-        };
+        self.live.phase = "held";
+        self.live.word = "Calibrating".to_owned();
+        self.live.reason = "all samples of the recording, for the result".to_owned();
+        self.live.progress = None;
+        self.board.live(self.live.json());
+        Ok(())
+    }
+
+    /// Shows the result of the whole recording, and leaves the pages.
+    pub(crate) fn close(&mut self, outcome: &Result<Outcome>) {
+        let told = &mut self.told;
+        told.finished = true;
         self.live.phase = "finished";
         self.live.word = "Finished".to_owned();
-        self.live.reason = "The whole recording is calibrated into the folder.".to_owned();
+        match outcome {
+            Ok(outcome) => {
+                told.estimate.usability = Some(outcome.verdict().usability);
+                let goals =
+                    if told.good_enough { "Good enough." } else { "Finished before all goals were reached." };
+                told.sentence = goals.to_owned();
+                self.live.reason = "The result of the whole recording is in the folder.".to_owned();
+            }
+            Err(error) => {
+                told.estimate.usability = None;
+                told.good_enough = false;
+                told.sentence = error.to_string();
+                self.live.reason = "There is no result.".to_owned();
+            }
+        }
         self.board.live(self.live.json());
         self.show_result();
         // pages take what they have not yet
         thread::sleep(Duration::from_millis(if self.options.listen.is_some() { 300 } else { 0 }));
         self.board.close();
-        Ok(self.not_understood())
     }
 
     /// The holds up to the end are asked for, and the answer waited for.
@@ -249,7 +276,7 @@ impl<'s> Run<'s> {
     }
 
     /// Why nothing was recorded, where nothing was.
-    fn not_understood(&self) -> Option<String> {
+    pub(crate) fn not_understood(&self) -> Option<String> {
         let why = self.unfit.why.map(|why| format!("of the last line, {why}"));
         let silent = || "nothing came".to_owned();
         (!self.stream.is_known()).then(|| self.problem.clone().or(why).unwrap_or_else(silent))

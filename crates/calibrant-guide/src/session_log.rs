@@ -75,6 +75,12 @@ impl SessionLog {
         written.map_err(|error: std::io::Error| output(&self.path, error))
     }
 
+    /// Takes the recording away: its rows will be written again.
+    pub(crate) fn begin_anew(&mut self) -> Result<()> {
+        self.recording = None;
+        std::fs::remove_file(&self.path).map_err(|error| output(&self.path, error))
+    }
+
     /// Appends a decision.
     pub(crate) fn event(&mut self, event: &Value) -> Result<()> {
         writeln!(self.events, "{event}")

@@ -108,18 +108,21 @@ impl Told {
 
     pub(crate) fn json(&self) -> String {
         let used = self.estimate.holds.iter().filter(|hold| hold.left_out.is_none()).count();
-        let share = 1.0 / used.max(1) as f64;
+        // as much as the others, before there is a calibration
+        let shares = self.estimate.next.as_ref().map_or(&[][..], |next| &next.shares);
+        let mut shares = shares.iter().copied().chain(std::iter::repeat(1.0 / used.max(1) as f64));
         let holds: Vec<Value> = self
             .estimate
             .holds
             .iter()
             .enumerate()
             .map(|(number, hold)| {
+                let share = if hold.left_out.is_none() { shares.next() } else { None };
                 json!({
                     "number": number + 1,
                     "up": <[f64; 3]>::from(hold.up),
                     "seconds": rounded(hold.end_s - hold.start_s, 1),
-                    "share": if hold.left_out.is_none() { share } else { 0.0 },
+                    "share": rounded(share.unwrap_or(0.0), 4),
                     "used": hold.left_out.is_none(),
                     "why": hold.left_out.as_deref().unwrap_or(""),
                 })

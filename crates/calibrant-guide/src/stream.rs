@@ -62,6 +62,9 @@ pub(crate) struct Stream<'s> {
     /// What is added to the sender's clock, ticks.
     offset: f64,
     last_ticks: Option<(f64, f64)>,
+    /// Which sensors have a reading of that time.
+    has: [bool; 2],
+    noted_s: Option<f64>,
     /// Were the names given?
     are_given: bool,
     /// A header came that is no other than the first.
@@ -83,6 +86,8 @@ impl<'s> Stream<'s> {
             arrivals: None,
             offset: 0.0,
             last_ticks: None,
+            has: [false; 2],
+            noted_s: None,
             restarted: false,
         }
     }
@@ -104,7 +109,7 @@ impl<'s> Stream<'s> {
 
     /// What a line gives; `at_s`: when it arrived.
     pub(crate) fn take(&mut self, line: &str, at_s: f64) -> Vec<Taken> {
-        let row = match Fields::of(line) {
+        let mut row = match Fields::of(line) {
             Fields::Names(names) => return self.header(names),
             Fields::Row(row) => row,
             Fields::Named(named) => {
@@ -120,24 +125,39 @@ impl<'s> Stream<'s> {
         if self.is_foreign {
             return vec![Taken::Dropped(FOREIGN)];
         }
+        if row.last().is_some_and(String::is_empty) && self.has_width(row.len() - 1) {
+            // behind the last separator there is nothing
+            row.pop();
+        }
         if self.layout.is_some() {
             if row.len() != self.names.len() {
                 return vec![Taken::Dropped(WIDTH)];
             }
             return self.row(row, at_s);
         }
-        if !self.headers.iter().any(|names| names.len() == row.len()) {
+        if !self.has_width(row.len()) {
             return vec![Taken::Dropped(if self.headers.is_empty() { NO_HEADER } else { WIDTH })];
-        }
-        if self.first.len() >= MOST_ROWS {
-            self.first.remove(0);
         }
         self.first.push((row, at_s));
         if self.first.len() < self.next_try {
             return Vec::new();
         }
-        self.next_try = (2 * self.next_try).min(MOST_ROWS);
-        self.recognise()
+        self.next_try *= 2;
+        let taken = self.recognise();
+        if self.layout.is_none() && self.first.len() >= MOST_ROWS {
+            // what was not understood so far is not kept for ever
+            self.first.clear();
+            self.next_try = FIRST_ROWS;
+        }
+        taken
+    }
+
+    /// Do columns with names, or what may be such, have so many fields?
+    fn has_width(&self, width: usize) -> bool {
+        match self.layout {
+            Some(_) => self.names.len() == width,
+            None => self.headers.iter().any(|names| names.len() == width),
+        }
     }
 
     /// Names of columns, or words that a board says.
@@ -273,7 +293,9 @@ impl<'s> Stream<'s> {
                 let step_s = (clock - last) / per_second;
                 let began_anew =
                     step_s < 0.0 || (step_s > JUMP_S && step_s > 2.0 * (at_s - last_at_s) + JUMP_S);
-                if step_s == 0.0 {
+                // the sensors may have rows of their own for one time
+                let of_other = || layout.sample(&row).is_some_and(|sample| self.is_of_other(&sample));
+                if step_s == 0.0 && !of_other() {
                     return vec![Taken::Dropped(STANDS)];
                 }
                 // one row out of order is none of a new clock
@@ -295,10 +317,28 @@ impl<'s> Stream<'s> {
             }
         }
         match layout.sample(&row) {
-            Some(sample) => taken.push(Taken::Row(row.join(","), sample)),
+            Some(sample) => {
+                self.note(&sample);
+                taken.push(Taken::Row(row.join(","), sample));
+            }
             None => taken.push(Taken::Dropped(NUMBER)),
         }
         taken
+    }
+
+    /// Has a sample what those of its time had not?
+    fn is_of_other(&self, sample: &Sample) -> bool {
+        let mut both = sample.readings.iter().zip(self.has);
+        sample.readings.iter().any(Option::is_some) && both.all(|(reading, has)| reading.is_none() || !has)
+    }
+
+    /// Notes which sensors have a reading of this time.
+    fn note(&mut self, sample: &Sample) {
+        let is_same_time = self.noted_s == Some(sample.t_s);
+        for (has, reading) in self.has.iter_mut().zip(&sample.readings) {
+            *has = reading.is_some() || (*has && is_same_time);
+        }
+        self.noted_s = Some(sample.t_s);
     }
 
     /// A row without the accelerometer's readings, where its time is between these.

@@ -44,6 +44,17 @@ pub fn covariance_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -
     if undetermined(&f, &f.diagonal(), 0).is_empty() { covariance(&f) } else { None }
 }
 
+/// How much each hold tells, as a share of what all tell: `tr(m(u_j) C) / Σ_k tr(m(u_k) C)` with the covariance `C` of [`covariance_of_holds`].
+/// `None` where they leave parameters undetermined.
+#[must_use]
+pub fn shares_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -> Option<Vec<f64>> {
+    let (information, covariance) =
+        (HoldInformation::new(problem)?, covariance_of_holds(problem, directions)?);
+    let told: Vec<f64> = directions.iter().map(|u| information.of_hold(u).dot(&covariance)).collect();
+    let all: f64 = told.iter().sum();
+    Some(told.into_iter().map(|one| one / all).collect())
+}
+
 /// The information of these poses, given as directions of the specific force (up) in the sensor's axes, in the
 /// order in which they were taken. They are compared with as many in any directions. All count the same.
 ///

@@ -34,7 +34,7 @@ mod usual;
 mod work;
 
 pub use allowed::Allowed;
-pub use evaluate::{PoseEvaluation, covariance_of_holds, evaluate_poses};
+pub use evaluate::{PoseEvaluation, covariance_of_holds, evaluate_poses, shares_of_holds};
 pub use fewest::{FewestPoses, fewest_poses};
 pub use problem::{DirectionKnowledge, PoseNuisance, PoseProblem};
 pub use result::{PoseBound, PoseDesign};

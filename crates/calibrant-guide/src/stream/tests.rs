@@ -129,6 +129,24 @@ fn json_and_pairs_name_their_columns() {
 }
 
 #[test]
+fn the_sensors_may_have_rows_of_their_own_for_one_time() {
+    let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
+    let taken = taken(&[header], |k| match k % 2 {
+        0 => format!("{},0.0{},0.2,1.00{},,,", 10 * k, k % 7, k % 5),
+        _ => format!("{},,,,0.1,0.2,0.{}", 10 * (k - 1), k % 3),
+    });
+    let samples = samples(&taken);
+    assert_eq!(samples.len(), 40, "{:?}", taken.first());
+    assert!(samples[6].readings[1].is_none() && samples[7].readings[0].is_none());
+    let session = session();
+    let mut stream = Stream::new(&session);
+    stream.take(header, 0.0);
+    // a separator at the end of a line is no column
+    (0..40).for_each(|k| drop(stream.take(&format!("{},", row(k)), 0.01 * k as f64)));
+    assert_eq!(stream.take(&row(39), 0.4), [Taken::Dropped(STANDS)]);
+}
+
+#[test]
 fn a_clock_that_begins_anew_goes_on_and_half_lines_are_dropped() {
     let header = "millis,ax_g,ay_g,az_g,gx_dps,gy_dps,gz_dps";
     let session = session();

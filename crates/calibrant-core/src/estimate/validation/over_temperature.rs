@@ -28,12 +28,14 @@ pub struct HoldScatter {
 }
 
 impl HoldScatter {
-    /// That of several recordings: root mean squares.
+    /// That of several recordings: root mean squares, weighted by degrees of freedom.
     #[must_use]
     pub fn pooled<'a>(of: impl IntoIterator<Item = &'a Self> + Clone) -> Self {
-        let count = of.clone().into_iter().count().max(1) as f64;
+        let weight = |one: &Self| one.degrees.max(1.0);
+        let all: f64 = of.clone().into_iter().map(weight).sum();
         let rms = |part: &dyn Fn(&Self) -> f64| {
-            (of.clone().into_iter().map(|one| part(one).powi(2)).sum::<f64>() / count).sqrt()
+            let squares = of.clone().into_iter().map(|one| weight(one) * part(one).powi(2));
+            (squares.sum::<f64>() / all.max(1.0)).sqrt()
         };
         Self {
             between_holds_sd_mps2: rms(&|of| of.between_holds_sd_mps2),
