@@ -35,7 +35,7 @@ impl Run<'_> {
                 self.held.push((start_s, start_s + seconds, mean));
                 self.ratio_before = if is_known { self.told.estimate.worst_ratio() } else { None };
                 self.say(Kind::Good, format!("Got it: {} s.", one(seconds)))?;
-                self.says_if_on_no_face(up)?;
+                self.says_if_on_no_face(&mean)?;
                 self.question(true)?;
             }
             Decision::Ended { start_s, end_s } => {
@@ -84,8 +84,11 @@ impl Run<'_> {
     }
 
     /// A hold in none of the known directions does not count.
-    fn says_if_on_no_face(&mut self, up: Option<Vector3<f64>>) -> Result<()> {
-        let Some((up, faces)) = up.zip(faces(&self.options.experiment)) else { return Ok(()) };
+    fn says_if_on_no_face(&mut self, mean: &Vector3<f64>) -> Result<()> {
+        // by the datasheet, as the session sees it
+        let Some((up, faces)) = self.force.nominal().up(mean).zip(faces(&self.options.experiment)) else {
+            return Ok(());
+        };
         if faces.iter().any(|face| is_on(face, &up)) {
             return Ok(());
         }
@@ -97,7 +100,8 @@ impl Run<'_> {
 
     pub(crate) fn answer(&mut self, answer: Answer) -> Result<()> {
         match answer {
-            Answer::First(parameters, took) => {
+            Answer::First(number, _, _) if number < self.asked => Ok(()),
+            Answer::First(_, parameters, took) => {
                 let (took_ms, holds) = (took.as_millis() as u64, self.held.len());
                 self.told.estimate.parameters = parameters;
                 self.show_result();
@@ -134,9 +138,10 @@ impl Run<'_> {
             (true, false) => self.reached.max(1),
         };
         self.folds_agree = estimate.folds_agree.or(self.folds_agree.filter(|_| reaches));
-        // each face once is what that procedure asks for; otherwise a second hold confirms, and folds do
-        let is_confirmed = reaches && is_on_faces_alone(&self.options.experiment)
-            || self.reached >= 2 && self.folds_agree == Some(true);
+        // each face once is what that procedure asks for; otherwise a second hold confirms, and folds, which faces do not have, do
+        let experiment = &self.options.experiment;
+        let folds_agree = faces(experiment).is_some() || self.folds_agree == Some(true);
+        let is_confirmed = reaches && is_on_faces_alone(experiment) || self.reached >= 2 && folds_agree;
         let is_good = is_confirmed && estimate.usability == Some(Usability::Ok);
         self.advice.give(estimate.next.as_ref().map(|next| next.up));
         self.force.calibrated = estimate.accelerometer.or(self.force.calibrated);
@@ -191,7 +196,9 @@ impl Run<'_> {
     }
 
     pub(crate) fn sentence(&self, estimate: &Estimate, reaches: bool) -> String {
-        if let Some((held, all)) = estimate.faces.filter(|(held, all)| held < all) {
+        // counts whose gain nobody knows do not show a face at first
+        let are_shown = estimate.missing.is_none() || estimate.holds.len() == self.held.len();
+        if let Some((held, all)) = estimate.faces.filter(|(held, all)| are_shown && held < all) {
             return format!("{held} of {all} faces so far.");
         }
         if let Some(missing) = &estimate.missing {
@@ -215,7 +222,7 @@ impl Run<'_> {
                 None => format!("All goals are reached; one more hold confirms it.{usual}"),
             };
         }
-        let worst = estimate.parameters.iter().filter_map(|of| Some((of, of.sd / of.goal?)));
+        let worst = estimate.parameters.iter().filter_map(|of| Some((of, of.ratio()?)));
         match worst.max_by(|one, other| one.1.total_cmp(&other.1)) {
             Some((of, _)) if of.goal.is_some_and(|goal| of.floor > goal) => format!(
                 "No hold brings {} below {} {}: {}",

@@ -1,6 +1,6 @@
 //! What the holds tell so far: the same calibration as that of a recording, of the samples in memory.
 
-use crate::advice::{NextPose, faces, first_poses, is_on, is_on_faces_alone, next_pose};
+use crate::advice::{NextPose, faces, first_poses, is_on, next_pose};
 use crate::goals::Goals;
 use calibrant::session::{Session, Source};
 use calibrant_core::diagnostic::{Diagnostic, Severity, Usability};
@@ -43,6 +43,18 @@ pub(crate) struct Known {
     pub(crate) after: Option<f64>,
 }
 
+impl Known {
+    /// The standard deviation without what gravity and faces leave.
+    fn sd_beside_floor(&self) -> f64 {
+        (self.sd.powi(2) - self.floor.powi(2)).max(0.0).sqrt()
+    }
+
+    /// The standard deviation over its goal.
+    pub(crate) fn ratio(&self) -> Option<f64> {
+        Some(self.sd / self.goal?)
+    }
+}
+
 /// A hold so far.
 #[derive(Debug, Clone)]
 pub(crate) struct KnownHold {
@@ -76,24 +88,23 @@ pub(crate) struct Estimate {
 impl Estimate {
     /// Are all goals reached, and was each known face held?
     pub(crate) fn reaches_all(&self) -> bool {
-        let mut goals = self.parameters.iter().filter_map(|of| Some((of.sd, of.goal?)));
+        let mut ratios = self.parameters.iter().filter_map(Known::ratio);
         !self.parameters.is_empty()
             && self.faces.is_none_or(|(held, all)| held == all)
-            && goals.all(|(sd, goal)| sd <= goal)
+            && ratios.all(|ratio| ratio <= 1.0)
     }
 
     /// The largest standard deviation over its goal, without what gravity leaves.
     pub(crate) fn worst_ratio(&self) -> Option<f64> {
-        let beside = |of: &Known| (of.sd.powi(2) - of.floor.powi(2)).max(0.0).sqrt();
-        let ratios = self.parameters.iter().filter_map(|of| Some(beside(of) / of.goal?));
+        let ratios = self.parameters.iter().filter_map(|of| Some(of.sd_beside_floor() / of.goal?));
         ratios.reduce(f64::max)
     }
 }
 
 /// An answer, in two parts.
 pub(crate) enum Answer {
-    /// The parameters so far, and how long they took.
-    First(Vec<Known>, Duration),
+    /// Number of the question, the parameters so far, and how long they took.
+    First(u64, Vec<Known>, Duration),
     /// All of it.
     Whole(Box<Estimate>),
 }
@@ -107,8 +118,9 @@ pub(crate) struct Estimator<'s> {
 
 impl Estimator<'_> {
     /// The calibration of the samples so far, and what to do next. `first` gets the parameters early: the next pose and the folds take longer.
-    pub(crate) fn answer(&self, question: &Question, first: impl FnOnce(Vec<Known>)) -> Estimate {
-        let source = Source::from_recording("recording.csv", question.recording.clone());
+    pub(crate) fn answer(&self, mut question: Question, first: impl FnOnce(Answer)) -> Estimate {
+        let recording = std::mem::take(&mut question.recording);
+        let source = Source::from_recording("recording.csv", recording);
         let outcome = match self.session.calibrate(&source) {
             Ok(outcome) => outcome,
             Err(error) => {
@@ -155,7 +167,7 @@ impl Estimator<'_> {
                 name,
             });
         }
-        first(parameters.clone());
+        first(Answer::First(question.number, parameters.clone(), question.asked.elapsed()));
         let next = next_pose(
             self.session.experiment(),
             calibration,
@@ -166,7 +178,7 @@ impl Estimator<'_> {
         let rotations = calibration.used_rotations().count() as f64;
         for known in &mut parameters {
             let by_pose = next.as_ref().and_then(|next| next.after.get(&known.name)).copied();
-            let beside = (known.sd.powi(2) - known.floor.powi(2)).max(0.0).sqrt();
+            let beside = known.sd_beside_floor();
             // one rotation more, whatever its axis
             let by_rotation =
                 known.name.starts_with("gyroscope").then(|| (rotations / (rotations + 1.0)).sqrt());
@@ -198,7 +210,7 @@ impl Estimator<'_> {
             parameters,
             ..Estimate::default()
         };
-        if estimate.reaches_all() && estimate.of_new_hold && !is_on_faces_alone(self.session.experiment()) {
+        if estimate.reaches_all() && estimate.of_new_hold && estimate.faces.is_none() {
             let folds = self.with_folds.calibrate(&source).ok();
             estimate.folds_agree = folds.map(|of| {
                 let too_small = |kind: CovarianceVerdict| kind == CovarianceVerdict::TooSmall;

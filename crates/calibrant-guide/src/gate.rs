@@ -2,7 +2,7 @@
 //!
 //! | state | until |
 //! |---|---|
-//! | moving | each axis scatters less than 2.5 times as in the quietest half second so far |
+//! | moving | each axis scatters less than 2.5 times as in the quietest half second so far, or than 1 % of gravity and 0.03 rad/s |
 //! | settling | the mean of the last half second stays: 3 standard deviations |
 //! | holding | it lasted long enough |
 //! | held | it moves |
@@ -15,7 +15,7 @@ use crate::window::{AXES, Step, Sums, Window};
 
 /// Times the quietest scatter.
 const STILL: f64 = 2.5;
-/// Before a quiet half second was seen: shares of gravity, and rad/s.
+/// What is still in any case, and what is not: shares of gravity, and rad/s.
 const LEAST_SHARE: f64 = 1e-2;
 const LARGEST_SHARE: f64 = 0.04;
 const LEAST_RADPS: f64 = 0.03;
@@ -84,6 +84,8 @@ pub(crate) struct Gate {
     /// Since when it moves within a hold.
     moves_since: Option<f64>,
     fast: Option<usize>,
+    /// An axis at the end of its range, since the last step.
+    clips: Option<usize>,
     /// Why it is not still: axis, scatter, limit.
     pub(crate) shakes: Option<(usize, f64, f64)>,
 }
@@ -113,6 +115,7 @@ impl Gate {
             hold: None,
             moves_since: None,
             fast: None,
+            clips: None,
             shakes: None,
         }
     }
@@ -146,7 +149,7 @@ impl Gate {
             self.grace_s += seconds;
             return;
         }
-        self.end(last, found);
+        self.end(self.moves_since.unwrap_or(last), found);
         self.phase = Phase::Moving;
         found.push(Decision::Gap { seconds });
     }
@@ -155,7 +158,7 @@ impl Gate {
     pub(crate) fn interrupt(&mut self) -> Vec<Decision> {
         let mut found = Vec::new();
         if let Some(last) = self.last_t_s.take() {
-            self.end(last, &mut found);
+            self.end(self.moves_since.unwrap_or(last), &mut found);
         }
         found.retain(|decision| !matches!(decision, Decision::Short { .. }));
         self.window.clear();
@@ -193,9 +196,7 @@ impl Gate {
                 let axis = 3 * sensor + of;
                 let Some(range) = self.limits.range[axis] else { continue };
                 if sensor == 0 && value.abs() >= CLIPS * range {
-                    if let Some(hold) = &mut self.hold {
-                        hold.clips = Some(axis);
-                    }
+                    self.clips = Some(axis);
                 } else if sensor == 1 && value.abs() >= FAST * range {
                     self.fast = Some(axis);
                 }
@@ -226,7 +227,7 @@ impl Gate {
     }
 
     fn step(&mut self, step: &Step, found: &mut Vec<Decision>) {
-        let end_s = step.end_s;
+        let (end_s, clips) = (step.end_s, self.clips.take());
         let whole = self.window.whole();
         if whole.as_ref().is_some_and(|(_, window)| window.count(0) < 3.0) {
             // of a hold that was taken back
@@ -263,13 +264,11 @@ impl Gate {
                 self.end(since, found);
             } else {
                 found.push(Decision::Cut);
-                // what a knock reached is not the hold
-                if let Some(hold) = &mut self.hold {
-                    hold.clips = None;
-                }
             }
         }
-        if self.hold.is_some() {
+        if let Some(hold) = &mut self.hold {
+            // what a knock reaches is not the hold
+            hold.clips = hold.clips.or(clips);
             self.holds(step, magnitude, found);
             return;
         }
@@ -290,7 +289,7 @@ impl Gate {
             all: window,
             told: false,
             slid: false,
-            clips: None,
+            clips,
         });
     }
 
@@ -328,14 +327,10 @@ impl Gate {
                 if !std::mem::replace(&mut hold.slid, true) {
                     found.push(Decision::Slides { by });
                 }
-                // what is at its end may be still
-                hold = Hold {
-                    start_s: hold.steps[count - third].0,
-                    steps: hold.steps[count - third..].to_vec(),
-                    all: last,
-                    told: false,
-                    ..hold
-                };
+                // what is at its end may be still; a hold that was counted stays one
+                let start_s = if hold.told { hold.start_s } else { hold.steps[count - third].0 };
+                let steps = hold.steps[count - third..].to_vec();
+                hold = Hold { start_s, steps, all: last, ..hold };
             }
         }
         let seconds = hold.end_s - hold.start_s;
@@ -358,10 +353,12 @@ impl Gate {
         let Some(hold) = self.hold.take() else { return };
         self.grace_s = 0.0;
         let (seconds, Limits { least_s, .. }) = (end_s - hold.start_s, self.limits);
-        if !hold.told && seconds >= least_s && hold.clips.is_none() {
-            found.push(self.held(&hold, seconds));
-        }
-        if (hold.told || seconds >= least_s) && hold.clips.is_none() {
+        if hold.told || seconds >= least_s {
+            match hold.clips {
+                _ if hold.told => {}
+                Some(axis) => found.push(Decision::Clips { axis }),
+                None => found.push(self.held(&hold, seconds)),
+            }
             found.push(Decision::Ended { start_s: hold.start_s, end_s });
         } else if seconds > 0.5 * least_s {
             found.push(Decision::Short { seconds, needed_s: least_s });

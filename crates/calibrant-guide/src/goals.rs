@@ -3,7 +3,7 @@
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::sensor::{ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind};
 
-/// The largest standard deviations: those of `[accept]`, or usual ones; none of an accelerometer on faces, which shall be held once each.
+/// The largest standard deviations: those of `[accept]`, or usual ones; on known faces, of the gyroscope's biases and gains only: each face shall be held.
 #[derive(Debug, Clone)]
 pub(crate) enum Goals {
     Accept(Vec<AcceptanceLimit>),
@@ -17,9 +17,9 @@ const USUAL: [(SensorKind, f64, f64); 2] =
 
 impl Goals {
     /// Those of these limits that are of standard deviations.
-    pub(crate) fn of_limits(limits: &[AcceptanceLimit], on_faces_alone: bool) -> Self {
+    pub(crate) fn of_limits(limits: &[AcceptanceLimit], on_faces: bool) -> Self {
         let accept: Vec<_> = limits.iter().filter(|limit| limit.sd.is_some()).cloned().collect();
-        match (accept.is_empty(), on_faces_alone) {
+        match (accept.is_empty(), on_faces) {
             (false, _) => Self::Accept(accept),
             (true, true) => Self::EachFace,
             (true, false) => Self::Usual,
@@ -47,7 +47,16 @@ impl Goals {
     ) -> Option<f64> {
         match self {
             Self::Usual => {}
-            Self::EachFace => return None,
+            // how level and square the faces are decides what is known of axes
+            Self::EachFace => {
+                let is_own = matches!(
+                    quantity,
+                    ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Bias(_) | Quantity::Scale(_))
+                );
+                if !is_own {
+                    return None;
+                }
+            }
             Self::Accept(limits) => {
                 let name = quantity.name();
                 let of_it = limits.iter().filter(|limit| limit.names(&name));

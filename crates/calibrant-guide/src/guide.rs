@@ -1,6 +1,6 @@
 //! The guide: lines come in, holds are recognised, each is followed by a calibration of all that was held, and by what to do next.
 
-use crate::advice::is_on_faces_alone;
+use crate::advice::faces;
 use crate::demo::Advice;
 use crate::estimate::{Answer, Estimator, Question};
 use crate::goals::Goals;
@@ -9,7 +9,7 @@ use crate::run::Run;
 use crate::server::{Board, serve};
 use crate::session_log::SessionLog;
 use crate::shown::Kind;
-use calibrant::io::{Experiment, Plan};
+use calibrant::io::Plan;
 use calibrant::session::{Outcome, Session, SessionOptions, Source};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use std::sync::mpsc::{channel, sync_channel};
@@ -28,10 +28,10 @@ const FOLDS: usize = 5;
 pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
     let session_options =
         |report: bool, folds: Option<usize>| SessionOptions { report, folds, ..options.session.clone() };
-    suits(&options.experiment)?;
+    suits(&options)?;
     let new = |report, folds| Session::with(options.experiment.clone(), session_options(report, folds));
     let (session, with_folds, last) = (new(false, None)?, new(false, Some(FOLDS))?, new(true, None)?);
-    let goals = Goals::of_limits(session.limits(), is_on_faces_alone(session.experiment()));
+    let goals = Goals::of_limits(session.limits(), faces(session.experiment()).is_some());
     let advice = Advice::default();
     let (to, arrivals) = sync_channel(WAITING);
     let board = Board::default();
@@ -54,10 +54,10 @@ pub fn guide(options: GuideOptions, said: &dyn Fn(&str)) -> Result<Outcome> {
                 while let Ok(newer) = questions.try_recv() {
                     question = Question { of_new_hold: question.of_new_hold || newer.of_new_hold, ..newer };
                 }
-                let first = |parameters| {
-                    let _ = tell.send(Answer::First(parameters, question.asked.elapsed()));
+                let first = |first| {
+                    let _ = tell.send(first);
                 };
-                let whole = estimator.answer(&question, first);
+                let whole = estimator.answer(question, first);
                 if tell.send(Answer::Whole(Box::new(whole))).is_err() {
                     return;
                 }
@@ -93,7 +93,8 @@ fn calibrated(session: &Session, options: &GuideOptions, not_understood: Option<
 }
 
 /// Refuses an experiment that is not of holds, or that has the times of other ones.
-fn suits(experiment: &Experiment) -> Result<()> {
+fn suits(options: &GuideOptions) -> Result<()> {
+    let experiment = &options.experiment;
     let refused =
         |message, help| Err(Error::experiment(InputError::new(Refusal::ExperimentUnsuited, message, help)));
     let Plan::Holds(holds) = &experiment.plan else {
@@ -102,6 +103,10 @@ fn suits(experiment: &Experiment) -> Result<()> {
             "take an experiment with [holds]: see `calibrant init imu` and `calibrant init static-poses`",
         );
     };
+    if options.session.reading.rows_are_holds {
+        let help = "leave option `rows_are_holds` away; a table of means is for `calibrate`";
+        return refused("a live session has samples, and finds its holds in them", help);
+    }
     if holds.intervals_s.is_some() {
         let help = "remove holds.intervals_s: holds are found, and each is in the one of holds.directions that it shows";
         return refused(

@@ -18,6 +18,8 @@ pub(crate) struct KeptSamples {
     first: Vec<Sample>,
     /// So many are one.
     every: Option<usize>,
+    /// Samples farther apart than this have others missing between them, s.
+    longest_s: f64,
     sum: Vec<Sample>,
     kept: Vec<Sample>,
     erased: Vec<(f64, f64)>,
@@ -33,12 +35,13 @@ impl KeptSamples {
             if count >= FIRST && seconds >= 1.0 {
                 let rate_hz = (count - 1) as f64 / seconds;
                 self.every = Some((rate_hz / MOST_HZ).ceil().max(1.0) as usize);
+                self.longest_s = 5.0 / rate_hz;
                 std::mem::take(&mut self.first).into_iter().for_each(|sample| self.push(sample));
             }
             return;
         };
         // samples of two sensors may be in rows of their own; a mean across a gap is none
-        let gap = self.sum.last().is_some_and(|last| sample.t_s - last.t_s > 0.05);
+        let gap = self.sum.last().is_some_and(|last| sample.t_s - last.t_s > self.longest_s.max(0.05));
         if gap {
             self.sum.clear();
         }

@@ -68,6 +68,11 @@ impl Layout {
         }
     }
 
+    /// Has each row its time?
+    pub(crate) fn has_clock(&self) -> bool {
+        self.time.is_some()
+    }
+
     /// The sample of a row; `None` where a number is none.
     pub(crate) fn sample(&self, row: &[String]) -> Option<Sample> {
         let number = |column: usize| row.get(column)?.parse::<f64>().ok().filter(|value| value.is_finite());

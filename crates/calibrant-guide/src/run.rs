@@ -18,7 +18,7 @@ use crate::terminal::Terminal;
 use crate::unfit::Unfit;
 use calibrant::io::{Plan, file_name};
 use calibrant::session::{Outcome, Session};
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::ReadingUnit;
 use nalgebra::Vector3;
 use serde_json::json;
@@ -31,6 +31,8 @@ const ROUND: Duration = Duration::from_millis(20);
 const PICTURE: Duration = Duration::from_millis(50);
 /// A hold is wanted so long, s; one of `minimum_hold_s` counts.
 const HOLD_S: f64 = 3.0;
+
+const BEGIN: &str = "Hold the sensor still in any orientation.";
 
 /// A session while it runs.
 pub(crate) struct Run<'s> {
@@ -123,7 +125,7 @@ impl<'s> Run<'s> {
         let told = Told {
             sensor: options.session.naming.sensor.clone().unwrap_or_else(|| file_name(&options.directory)),
             path: log.path().display().to_string(),
-            sentence: "Hold the sensor still in any orientation.".to_owned(),
+            sentence: BEGIN.to_owned(),
             ..Told::default()
         };
         Self {
@@ -177,14 +179,22 @@ impl<'s> Run<'s> {
                         at_s = sample.t_s;
                         self.sample(&sample)?;
                     }
+                    Taken::Problem(problem) => self.problem = Some(problem),
                     _ => {}
                 }
             }
         }
         self.is_replay = false;
-        if !self.stream.is_known() && !lines.is_empty() {
+        match self.problem.take() {
             // too few rows to know their columns: they wait in memory for those that follow
-            self.log.begin_anew()?;
+            None if !self.stream.is_known() && !lines.is_empty() => self.log.begin_anew()?,
+            None => {}
+            Some(problem) => {
+                let message = format!("the recording of this session is not understood: {problem}");
+                let help = "go on with the experiment and the options that it was begun with";
+                let error = InputError::new(Refusal::OptionsContradict, message, help);
+                return Err(Error::recording(error.in_file(self.log.path())));
+            }
         }
         self.question(true)?;
         self.stream.resumed(self.options.columns.clone());
@@ -294,6 +304,8 @@ impl<'s> Run<'s> {
     }
 
     pub(crate) fn question(&mut self, of_new_hold: bool) -> Result<()> {
+        // the answer that is awaited will be an older one
+        let of_new_hold = of_new_hold || self.waits_for_answer;
         if self.held.is_empty() || self.is_replay {
             return Ok(());
         }
@@ -338,7 +350,10 @@ impl<'s> Run<'s> {
                 self.say(Kind::Info, "The last hold is taken back: its samples of the accelerometer are blank in the recording.".to_owned())?;
                 (self.reached, self.told.good_enough) = (0, false);
                 if self.held.is_empty() {
+                    // no answer that is awaited counts
+                    (self.asked, self.waits_for_answer) = (self.asked + 1, false);
                     self.told.estimate = Estimate::default();
+                    self.told.sentence = BEGIN.to_owned();
                 }
                 self.question(true)?;
                 self.show_result();
@@ -366,6 +381,7 @@ impl<'s> Run<'s> {
     }
 
     pub(crate) fn show_result(&mut self) {
+        self.told.held = self.held.len();
         if self.options.listen.is_some() {
             self.board.result(self.told.json());
         }

@@ -23,8 +23,8 @@ const PAGE: &str = include_str!("page.html");
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 /// Longest note, bytes.
 const LONGEST_NOTE: usize = 2000;
-/// A comment goes out after so long without an event, so that a page that left is noticed.
-const QUIET: Duration = Duration::from_secs(2);
+/// After so long without an event the last one goes out again: a page that left is noticed, and one that is there knows that the guide is.
+const QUIET: Duration = Duration::from_secs(1);
 
 /// What the pages show.
 #[derive(Debug, Default)]
@@ -75,7 +75,10 @@ impl Board {
             if shown.closed {
                 return None;
             }
-            text.push_str(": still here\n\n");
+            text.push_str(&match shown.live.1.as_str() {
+                "" => ": still here\n\n".to_owned(),
+                live => format!("event: live\ndata: {live}\n\n"),
+            });
         }
         *seen = (shown.live.0, shown.result.0);
         Some(text)

@@ -84,6 +84,8 @@ pub(crate) struct Told {
     pub(crate) sensor: String,
     pub(crate) path: String,
     pub(crate) estimate: Estimate,
+    /// Number of holds by the gate.
+    pub(crate) held: usize,
     pub(crate) now: Option<Vector3<f64>>,
     pub(crate) good_enough: bool,
     pub(crate) finished: bool,
@@ -149,6 +151,7 @@ impl Told {
             "finished": self.finished,
             "sentence": self.sentence,
             "verdict": verdict,
+            "held": self.held,
             "holds": holds,
             "next": next,
             "table": table,
@@ -173,7 +176,7 @@ pub(crate) fn shown_unit(unit: &'static str) -> (&'static str, f64) {
 fn row(known: &Known) -> Value {
     let (unit, factor) = shown_unit(known.unit);
     let two = |value: f64| significant(factor * value, 2);
-    let ratio = known.goal.map(|goal| known.sd / goal);
+    let ratio = known.ratio();
     json!({
         "name": known.name,
         "unit": unit,

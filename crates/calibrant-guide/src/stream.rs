@@ -32,6 +32,7 @@ const NO_HEADER: &str = "no line named the columns before it";
 const WIDTH: &str = "it has another number of fields than the columns have names";
 const NUMBER: &str = "a field is no number";
 const STANDS: &str = "its time is not after that of the row before";
+const JUMPS: &str = "its time jumps";
 const FOREIGN: &str = "the columns have other names now";
 /// Headers, or words of a board, that are kept until the columns are known, and damaged rows that are left out of the first.
 const MOST_HEADERS: usize = 8;
@@ -39,8 +40,9 @@ const MOST_BAD: usize = 10;
 /// Rows from which the columns are recognised, at least and at most.
 const FIRST_ROWS: usize = 20;
 const MOST_ROWS: usize = 20_000;
-/// A clock that goes back, or on by more than this, began anew, s.
+/// A clock that goes back, or on by more than this while nobody waited, jumps, s. One that goes on by more than the second began anew.
 const JUMP_S: f64 = 10.0;
+const LONGEST_PAUSE_S: f64 = 3600.0;
 /// Between the last sample before and the first after it, s.
 const PAUSE_S: f64 = 1.0;
 
@@ -62,6 +64,8 @@ pub(crate) struct Stream<'s> {
     /// What is added to the sender's clock, ticks.
     offset: f64,
     last_ticks: Option<(f64, f64)>,
+    /// The sender's clock in the last row, where that was far from the one before.
+    odd: Option<f64>,
     /// Which sensors have a reading of that time.
     has: [bool; 2],
     noted_s: Option<f64>,
@@ -86,6 +90,7 @@ impl<'s> Stream<'s> {
             arrivals: None,
             offset: 0.0,
             last_ticks: None,
+            odd: None,
             has: [false; 2],
             noted_s: None,
             restarted: false,
@@ -110,7 +115,10 @@ impl<'s> Stream<'s> {
     /// What a line gives; `at_s`: when it arrived.
     pub(crate) fn take(&mut self, line: &str, at_s: f64) -> Vec<Taken> {
         let mut row = match Fields::of(line) {
-            Fields::Names(names) => return self.header(names),
+            Fields::Names(names) => {
+                self.restarted |= self.names == names;
+                return self.header(names);
+            }
             Fields::Row(row) => row,
             Fields::Named(named) => {
                 let (names, row): (Vec<String>, Vec<String>) = named.into_iter().unzip();
@@ -164,7 +172,6 @@ impl<'s> Stream<'s> {
     fn header(&mut self, names: Vec<String>) -> Vec<Taken> {
         self.without_clock(&names);
         if self.layout.is_some() {
-            self.restarted |= self.names == names;
             // as many words as columns, some of them its names, are another board's
             let is_like = names.iter().any(|name| self.names.contains(name));
             let is_foreign = self.names != names && names.len() == self.names.len() && is_like;
@@ -215,16 +222,18 @@ impl<'s> Stream<'s> {
         let mut bad = 0;
         loop {
             let read = self.read(names, &rows, false);
-            let asks_rate = read.as_ref().is_err_and(|error| {
-                error.code() == Refusal::RateUnknown || error.to_string().contains("rate")
-            });
-            let read = match read {
-                Err(_) if asks_rate => self.read(names, &rows, true).map(|file| (file, true)),
-                read => read.map(|file| (file, false)),
+            let has_no_clock = read.as_ref().is_err_and(|error| error.code() == Refusal::RateUnknown);
+            let read = match has_no_clock {
+                true => self.read(names, &rows, true).map(|file| (file, true)),
+                false => read.map(|file| (file, false)),
             };
             match read {
                 Ok((file, by_arrival)) => {
                     let layout = Layout::of(&file);
+                    if !layout.has_clock() {
+                        let message = "the rows have no time, and a rate is stated: leave it away (option `rate_hz`, rate_hz in [columns]), and each row gets the time at which it came";
+                        return Err(with_options_worded(message.to_owned()));
+                    }
                     if layout.axes[0].is_some() {
                         return Ok((layout, by_arrival));
                     }
@@ -298,14 +307,21 @@ impl<'s> Stream<'s> {
                 if step_s == 0.0 && !of_other() {
                     return vec![Taken::Dropped(STANDS)];
                 }
-                // one row out of order is none of a new clock
-                if began_anew && step_s > -PAUSE_S && !self.restarted {
-                    return vec![Taken::Dropped(STANDS)];
+                if began_anew && !self.restarted {
+                    // one row out of order, or damaged, is none of a new clock; a second one that goes on from it is
+                    let goes_on = |odd: f64| (0.0..=PAUSE_S * per_second).contains(&(ticks - odd));
+                    let is_second = self.odd.replace(ticks).is_some_and(goes_on);
+                    if !is_second || (-PAUSE_S..0.0).contains(&step_s) {
+                        return vec![Taken::Dropped(JUMPS)];
+                    }
                 }
-                if began_anew {
+                self.odd = None;
+                // a clock that was set to a later time stays
+                if step_s < 0.0 || (began_anew && step_s > LONGEST_PAUSE_S) {
                     let waited = if last_at_s.is_finite() { at_s - last_at_s } else { 0.0 };
                     let pause = PAUSE_S.max(waited) * per_second;
-                    self.offset += (last + pause - clock).round();
+                    let offset = last + pause - clock;
+                    self.offset += if ticks.fract() == 0.0 { offset.round() } else { offset };
                     clock = ticks + self.offset;
                     taken.push(Taken::Restarted);
                 }

@@ -2,6 +2,7 @@
 
 use crate::shown::{Kind, Told, shown_unit};
 use calibrant_core::number_format::significant;
+use std::io::Write;
 
 /// Prints, or does not.
 pub(crate) struct Terminal {
@@ -48,14 +49,13 @@ impl Terminal {
             return;
         }
         let estimate = &told.estimate;
-        let mut rows: Vec<_> =
-            estimate.parameters.iter().filter_map(|of| Some((of, of.sd / of.goal?))).collect();
+        let mut rows: Vec<_> = estimate.parameters.iter().filter_map(|of| Some((of, of.ratio()?))).collect();
         rows.sort_by(|one, other| other.1.total_cmp(&one.1));
         if !rows.is_empty() {
-            println!(
+            print(&format!(
                 "          {:<26}{:>10}{:>10}{:>10}  unit",
                 "farthest from its goal", "sd", "goal", "after"
-            );
+            ));
         }
         for (of, ratio) in rows.iter().take(4) {
             let (unit, factor) = shown_unit(of.unit);
@@ -63,7 +63,13 @@ impl Terminal {
             let sign = if *ratio <= 1.0 { "✓" } else { " " };
             let after = of.after.map_or_else(|| "–".to_owned(), two);
             let goal = of.goal.map_or_else(|| "–".to_owned(), two);
-            println!("        {sign} {:<26}{:>10}{:>10}{:>10}  {unit}", of.name, two(of.sd), goal, after);
+            print(&format!(
+                "        {sign} {:<26}{:>10}{:>10}{:>10}  {unit}",
+                of.name,
+                two(of.sd),
+                goal,
+                after
+            ));
         }
         line_without_time(&told.sentence);
         if let Some((_, words, turn)) = told.next_in_words() {
@@ -89,5 +95,11 @@ fn line_without_time(text: &str) {
 fn wrapped(before: &str, text: &str) {
     let behind = " ".repeat(BEFORE);
     let options = textwrap::Options::new(WIDTH).initial_indent(before).subsequent_indent(&behind);
-    textwrap::wrap(text, options.break_words(false)).iter().for_each(|line| println!("{line}"));
+    textwrap::wrap(text, options.break_words(false)).iter().for_each(|line| print(line));
+}
+
+/// Prints a line. A terminal that is gone ends no session, and what a board says controls none.
+fn print(line: &str) {
+    let line: String = line.chars().filter(|c| !c.is_control()).collect();
+    let _ = writeln!(std::io::stdout(), "{line}");
 }

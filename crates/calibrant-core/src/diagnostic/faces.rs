@@ -127,9 +127,10 @@ impl Part for FacePointing {
     }
 }
 
-/// Holds that are on no face, with what they show.
+/// Holds that are on no face, with what they show: by their times, since those on faces are numbered without them.
 fn unmatched(holds: &[FaceMismatch]) -> Vec<String> {
-    holds.iter().map(|of| format!("{} with {} up", of.hold, direction_in_words(&of.shown))).collect()
+    let times = |of: &HoldSpan| format!("{:.1} to {:.1} s", of.start_s, of.end_s);
+    holds.iter().map(|of| format!("{} with {} up", times(&of.hold), direction_in_words(&of.shown))).collect()
 }
 
 /// A hold whose given direction differs from the accelerometer's.

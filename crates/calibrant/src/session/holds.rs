@@ -1,24 +1,29 @@
 //! The holds of a recording are found once, and handed on to the estimator, the noise and the validation.
 
+use calibrant_core::error::Result;
 use calibrant_core::estimate::{HoldsSetup, find_clean_holds, find_clean_imu_holds, holds_between};
+use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 /// The setup with the holds of this recording, from which outliers were taken out: those in the given intervals, else those that are found.
 ///
 /// Where there are none to be found, the setup has none, and the estimator says why.
 pub(crate) fn with_holds(setup: &HoldsSetup, recording: &ImuRecording) -> HoldsSetup {
+    HoldsSetup { found: holds_of(setup, recording).ok().flatten(), ..setup.clone() }
+}
+
+/// The holds of this recording, or why there are none; `None` without an accelerometer.
+pub(crate) fn holds_of(setup: &HoldsSetup, recording: &ImuRecording) -> Result<Option<Vec<Hold>>> {
     let minimum_s = setup.minimum_hold_s;
-    let found = match (
-        &setup.intervals_s,
-        &recording[SensorKind::Accelerometer],
-        &recording[SensorKind::Gyroscope],
-    ) {
-        (_, None, _) => None,
-        (Some(intervals), Some(accelerometer), _) => holds_between(accelerometer, intervals).ok(),
-        (None, Some(accelerometer), None) => find_clean_holds(accelerometer, minimum_s).ok(),
-        (None, Some(_), Some(_)) => find_clean_imu_holds(recording, minimum_s).ok(),
-    };
-    HoldsSetup { found, ..setup.clone() }
+    let (accelerometer, gyroscope) =
+        (&recording[SensorKind::Accelerometer], &recording[SensorKind::Gyroscope]);
+    match (&setup.intervals_s, accelerometer, gyroscope) {
+        (_, None, _) => return Ok(None),
+        (Some(intervals), Some(accelerometer), _) => holds_between(accelerometer, intervals),
+        (None, Some(accelerometer), None) => find_clean_holds(accelerometer, minimum_s),
+        (None, Some(_), Some(_)) => find_clean_imu_holds(recording, minimum_s),
+    }
+    .map(Some)
 }
 
 /// Are the given holds one sample each: rows that are means? The first tells: the estimator refuses some of one sample and some of more.

@@ -1,7 +1,7 @@
 //! What is known of the motion in one recording.
 
 use super::clean::{take_out_motion_outliers, take_out_outliers};
-use super::holds::{are_means, with_holds};
+use super::holds::{are_means, holds_of, with_holds};
 use super::problem::Problem;
 use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
@@ -76,7 +76,11 @@ impl<'e> Setup<'e> {
     }
 
     /// Gives each hold its direction, where these are known and no times were given. To be called with all holds found.
-    pub(crate) fn set_faces(&mut self, accelerometer: &Sensor) -> Result<Option<Diagnostic>> {
+    pub(crate) fn set_faces(
+        &mut self,
+        accelerometer: &Sensor,
+        recording: &ImuRecording,
+    ) -> Result<Option<Diagnostic>> {
         let (holds, directions) = match self {
             Self::Faces(faces) if !faces.holds.further_from_s.is_empty() => {
                 return faces.one_hold_each().map(|()| None);
@@ -91,7 +95,12 @@ impl<'e> Setup<'e> {
         if holds.intervals_s.is_some() {
             return Ok(None);
         }
-        let found = faces_found(accelerometer, holds.found.as_deref().unwrap_or_default(), directions)?;
+        let all = match holds.found.take() {
+            Some(found) => found,
+            // again, for the reason
+            None => holds_of(holds, recording)?.unwrap_or_default(),
+        };
+        let found = faces_found(accelerometer, &all, directions)?;
         *directions = found.directions;
         set_found(holds, found.holds);
         Ok(found.unmatched)
@@ -199,6 +208,7 @@ impl Faces {
 /// These holds are the ones.
 fn set_found(holds: &mut HoldsSetup, chosen: Vec<Hold>) {
     holds.intervals_s = Some(chosen.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
+    holds.intervals_are_found = true;
     holds.found = Some(chosen);
 }
 

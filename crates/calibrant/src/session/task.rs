@@ -73,7 +73,7 @@ impl<'e> Task<'e> {
             _ => None,
         };
         before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
-        before.extend(setup.set_faces(self.accelerometer)?);
+        before.extend(setup.set_faces(self.accelerometer, &recorded.recording)?);
         let mut outcome = self.calibrate(source, &recorded, &setup, options.report);
         if let Some((gyroscope, samples, at_rest)) = knocks {
             let cut = recorded.recording[SensorKind::Gyroscope].replace(gyroscope);

@@ -122,11 +122,11 @@ fn directions_fix_the_frame_and_their_errors_count() {
     assert!(found.frame_is_known() && found.quantities.len() == 12);
     assert_eq!(found.holds().and_then(|holds| holds.tilt).expect("faces").source, TiltSource::Given);
     assert!((found.imu[SensorKind::Accelerometer].matrix - truth.matrix).amax() < 4e-3);
-    // twice the alignment, twice the standard deviation of the cross-axis terms
+    // twice the alignment, twice the standard deviation of the cross-axis terms; more where poses that are held again do not show it
     let doubled = run(&recorded, &poses(), Some(4e-3)).expect("determined");
     let cross = |of: &Calibration| -> f64 { of.sd()[6..].iter().sum() };
     let by = cross(&doubled) / cross(&found);
-    assert!((by - 2.0).abs() < 0.05, "{by}");
+    assert!((1.95..2.3).contains(&by), "{by}");
     // without directions, the frame is that of a gauge
     let (sensor, stimulus) = (&Sensor::triaxial(SensorModel::Full), Stimulus::Holds(&recorded.1));
     let problem = CalibrationProblem { sensor, recording: &recorded.0, stimulus };

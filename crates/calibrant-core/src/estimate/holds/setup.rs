@@ -14,6 +14,8 @@ pub struct HoldsSetup {
     pub nonlinearity: Vec<NonlinearTerm>,
     /// Holds given by the user as (start, end) in s; `None` to find them.
     pub intervals_s: Option<Vec<(f64, f64)>>,
+    /// Were these times found by the program, for holds of known directions?
+    pub intervals_are_found: bool,
     /// Standard deviation of the drift of each bias from the first hold to the last, m/s²; 0 for none. See [`BiasDrift`](crate::estimate::BiasDrift).
     pub bias_drift_sd_mps2: f64,
     /// Duration of the shortest hold, s.
@@ -27,6 +29,12 @@ pub struct HoldsSetup {
 impl HoldsSetup {
     /// Usual drift of a bias over a recording, m/s²: 2 mg, as while a MEMS sensor warms up.
     pub const USUAL_DRIFT_SD_MPS2: f64 = 0.02;
+
+    /// Did the user give the times of the holds?
+    #[must_use]
+    pub fn times_are_given(&self) -> bool {
+        self.intervals_s.is_some() && !self.intervals_are_found
+    }
 
     /// The parameters that are estimated of an accelerometer of this model, in the gauge: 6 for scale-bias, 9 for full, and 3 of each term.
     #[must_use]
@@ -49,6 +57,7 @@ impl Default for HoldsSetup {
             gauge: Gauge::Upper,
             nonlinearity: Vec::new(),
             intervals_s: None,
+            intervals_are_found: false,
             bias_drift_sd_mps2: Self::USUAL_DRIFT_SD_MPS2,
             minimum_hold_s: 1.0,
             further_from_s: Vec::new(),

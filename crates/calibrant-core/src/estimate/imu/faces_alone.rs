@@ -59,10 +59,12 @@ fn solved(problem: &FacesProblem<'_>, settings: &CalibrationSettings) -> Result<
     let parameters = list.describe_accelerometer(problem.sensor, &nominal);
     let (gravity, used) = (problem.holds.gravity.magnitude_mps2, first.used_holds());
     let scatter = first.alignment.map_or_else(Default::default, |alignment| alignment.widened);
-    let on_face = |(hold, force): (&&Hold, &Vector3<f64>)| {
-        HoldData::on_face(hold.mean, first.weight_on_face(hold, force, &scatter), *force)
+    let (means, forces) = first.repeats.means(&used.holds, &used.forces);
+    let on_face = |(mean, force): (&Hold, &Vector3<f64>)| {
+        let weight = first.weight_by(mean, force, &first.repeats.of_face(&scatter, force));
+        HoldData::on_face(mean.mean, weight, *force)
     };
-    let holds = used.holds.iter().zip(&used.forces).map(on_face).collect();
+    let holds = means.iter().zip(&forces).map(on_face).collect();
     let model = ImuModel::of_accelerometer(list.of_accelerometer(), gravity, holds, prior);
     let sensor = model.sensor_on_faces().ok_or_else(singular)?;
     let fit = model.linearised_on_faces(&sensor).ok_or_else(singular)?;
@@ -74,7 +76,7 @@ fn solved(problem: &FacesProblem<'_>, settings: &CalibrationSettings) -> Result<
         uncertainty.add(VarianceSource::FaceAlignment, &error, 1.0);
     }
     let squares: Vector3<f64> =
-        model.holds.iter().zip(&used.forces).fold(Vector3::zeros(), |sum, (hold, force)| {
+        model.holds.iter().zip(&forces).fold(Vector3::zeros(), |sum, (hold, force)| {
             let residual = hold.accelerometer - sensor.reading(force);
             sum + residual.component_mul(&residual) / model.holds.len() as f64
         });

@@ -41,9 +41,10 @@ pub fn faces_found(sensor: &Sensor, found: &[Hold], directions: &[Vector3<f64>])
     if holds.is_empty() {
         let message = match off.first() {
             Some(first) => format!(
-                "no hold is in one of holds.directions: the accelerometer shows {} up in {}",
+                "no hold is in one of holds.directions: the accelerometer shows {} up from {:.1} to {:.1} s",
                 direction_in_words(&first.shown),
-                first.hold
+                first.hold.start_s,
+                first.hold.end_s
             ),
             None => "no hold was found".to_owned(),
         };

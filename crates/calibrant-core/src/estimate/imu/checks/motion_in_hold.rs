@@ -12,8 +12,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
         .map(|place| HoldSpan::of(used.numbers[place], used.holds[place]))
         .collect();
     let rate_rms = gyroscope.turning.iter().flatten().copied().fold(0.0, f64::max);
-    let (unit, are_given) =
-        (evidence.problem.gyroscope.unit, evidence.problem.setup.holds.intervals_s.is_some());
+    let (unit, are_given) = (evidence.problem.gyroscope.unit, evidence.problem.setup.holds.times_are_given());
     let moved = Diagnostic::from(HoldMoved { holds, rate_rms, unit, are_given });
     if rate_rms > 0.0 { vec![moved] } else { Vec::new() }
 }

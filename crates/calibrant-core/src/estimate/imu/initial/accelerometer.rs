@@ -4,6 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::hold_variance::{between_variance, noise_variance};
 use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
+use crate::estimate::imu::initial::face_repeats::FaceRepeats;
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorParameters, SensorThermal};
 use nalgebra::{Matrix3, Vector3};
@@ -21,6 +22,8 @@ pub(crate) struct InitialAccelerometer {
     pub(crate) holds: HoldCalibration,
     /// How well the sensor was placed on the faces, where the directions are known.
     pub(crate) alignment: Option<FaceAlignment>,
+    /// How often each face was held.
+    pub(crate) repeats: FaceRepeats,
     pub(crate) warnings: Vec<Diagnostic>,
     /// Its temperature terms, if they were fitted, and the recording converted to the reference temperature.
     pub(crate) thermal: SensorThermal,
@@ -35,17 +38,27 @@ impl InitialAccelerometer {
         Matrix3::from_diagonal(&variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)))
     }
 
-    /// Inverse covariance of the mean on a face.
+    /// Inverse covariance of the mean of a hold on a face, beside the others on it.
     pub(crate) fn weight_on_face(
         &self,
         hold: &Hold,
         force: &Vector3<f64>,
         scatter: &FaceScatter,
     ) -> Matrix3<f64> {
+        self.weight_by(hold, force, &self.repeats.of_hold(scatter, force))
+    }
+
+    /// Inverse covariance of the mean of a hold, with this one of its force.
+    pub(crate) fn weight_by(
+        &self,
+        hold: &Hold,
+        force: &Vector3<f64>,
+        covariance: &Matrix3<f64>,
+    ) -> Matrix3<f64> {
         inverse_covariance(
             &noise_variance(hold, &self.within, &self.of_mean),
             &self.sensor.by_stimulus(force),
-            &scatter.covariance(force),
+            covariance,
         )
     }
 }

@@ -63,6 +63,8 @@ pub(crate) struct FaceAlignment {
     pub(crate) shown_rad: Option<f64>,
     /// Does it contradict the given tilt?
     pub(crate) contradicted: bool,
+    /// What is new at each placement on a face, rad²: beside the scatter, which is the faces'.
+    placement_rad2: f64,
 }
 
 /// The residuals of the faces, for the scatter.
@@ -81,7 +83,7 @@ pub(crate) struct Chi2 {
 }
 
 impl FaceScatter {
-    fn of(tilt_rad: f64, along_mps2: f64, faces: usize) -> Self {
+    pub(crate) fn of(tilt_rad: f64, along_mps2: f64, faces: usize) -> Self {
         let of_square = tilt_rad.powi(4) * (1.0 + 6.0 / faces.max(1) as f64);
         Self { tilt_rad, along_mps2, of_square }
     }
@@ -137,6 +139,7 @@ impl Degrees {
             along_degrees: self.along,
             shown_rad: (source == TiltSource::Recording).then_some(scatter.tilt_rad),
             contradicted: false,
+            placement_rad2: 0.0,
         }
     }
 }
@@ -229,15 +232,36 @@ fn probability(degrees_of_freedom: usize, chi2: f64) -> f64 {
 }
 
 impl FaceAlignment {
+    /// With what is new at each placement, which the scatter of the faces is beside. The tilt that is reported is that of a hold.
+    pub(crate) fn with_placement(mut self, placement_rad2: f64, given_rad: Option<f64>) -> Self {
+        self.placement_rad2 = placement_rad2;
+        self.tilt.sd_rad = given_rad.unwrap_or(self.of_hold().tilt_rad);
+        if let Some(given_rad) = given_rad {
+            self.tilt.shared_sd_rad = given_rad * std::f64::consts::FRAC_1_SQRT_2;
+        }
+        self
+    }
+
+    /// The scatter of one hold.
+    pub(crate) fn of_hold(&self) -> FaceScatter {
+        FaceScatter { tilt_rad: self.whole(self.scatter.tilt_rad), ..self.scatter }
+    }
+
+    /// A tilt of the faces with that of each placement, rad.
+    fn whole(&self, tilt_rad: f64) -> f64 {
+        tilt_rad.hypot(self.placement_rad2.sqrt())
+    }
+
     /// Mean share of gravity along the direction. It follows the scatter if this contradicts the given tilt.
     pub(crate) fn cosine(&self) -> f64 {
         let shown_rad = self.shown_rad.filter(|_| self.contradicted);
-        1.0 - shown_rad.unwrap_or(self.scatter.tilt_rad).powi(2)
+        1.0 - self.whole(shown_rad.unwrap_or(self.scatter.tilt_rad)).powi(2)
     }
 
     /// The warning about a scatter beyond the given tilt. A smaller one says nothing of the errors that opposite faces share.
     pub(crate) fn contradiction(&self) -> Option<Diagnostic> {
-        let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.scatter.tilt_rad);
+        let shown_rad = self.whole(self.shown_rad.filter(|_| self.contradicted)?);
+        let given_rad = self.whole(self.scatter.tilt_rad);
         (shown_rad > given_rad).then(|| Diagnostic::from(TiltContradicted { shown_rad, given_rad }))
     }
 }

@@ -18,6 +18,7 @@ use crate::estimate::imu::checks::accelerometer_gains;
 use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, inverse_covariance};
 use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceScatter, align_faces};
+use crate::estimate::imu::initial::face_repeats::FaceRepeats;
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
 use crate::estimate::imu::model::{HoldData, ImuModel, Prior};
 use crate::estimate::problem::FacesProblem;
@@ -75,7 +76,13 @@ pub(crate) fn from_faces(
     let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
     let gravity = setup.gravity.magnitude_mps2;
-    let faces = Faces { holds: &usable, forces: &along, list, gravity, within, of_mean, prior: None };
+    let repeats = FaceRepeats::of(&along);
+    let (means, of_means) = repeats.means(&usable.iter().collect::<Vec<_>>(), &along);
+    let mut faces =
+        Faces { holds: &means, forces: &of_means, list, gravity, within, of_mean, prior: None, repeats };
+    if let Some(rough) = faces.fit(&Matrix3::identity(), &FaceScatter::default()) {
+        faces.repeats = faces.repeats.with_placement(&usable, &along, &rough.matrix, (&within, &of_mean));
+    }
     let solved = match (faces.solve(problem.face_sd_rad), prior) {
         (Err(Error::NotIdentifiable(_)), Some(_)) => {
             Faces { prior, ..faces.clone() }.solve(problem.face_sd_rad)
@@ -91,7 +98,7 @@ pub(crate) fn from_faces(
             return Err(with_clipped(error, &clipped, as_read));
         }
     };
-    let of_tilt = alignment.contradiction().or_else(|| alignment.tilt.assumed(usable.len()));
+    let of_tilt = alignment.contradiction().or_else(|| alignment.tilt.assumed(means.len()));
     sensor.matrix /= alignment.cosine();
     let mirrored = sensor.matrix.determinant() <= 0.0;
     let shown_rad = alignment.shown_rad.unwrap_or(alignment.scatter.tilt_rad);
@@ -114,7 +121,9 @@ pub(crate) fn from_faces(
         .map(|((hold, force), clipped)| {
             let off = corrected(hold).norm() - setup.gravity.magnitude_mps2;
             let along = sensor.by_stimulus(force) * force.normalize();
-            let weight = faces.weight(hold, force, &sensor.by_stimulus(force), &alignment.scatter);
+            let noise = noise_variance(hold, &within, &of_mean);
+            let covariance = alignment.of_hold().covariance(force);
+            let weight = inverse_covariance(&noise, &sensor.by_stimulus(force), &covariance);
             let precision = along.dot(&(weight * along)).sqrt();
             HoldResult {
                 hold: hold.clone(),
@@ -142,7 +151,7 @@ pub(crate) fn from_faces(
         between_holds_dominates: alignment.scatter.along_mps2 > 0.0,
         tilt: Some(alignment.tilt),
         condition_number: condition,
-        detected: false,
+        detected: !setup.times_are_given(),
         before: Uncalibrated::accelerometer(problem.sensor, &sensor),
         temperatures_c: None,
         thermometer: None,
@@ -151,6 +160,7 @@ pub(crate) fn from_faces(
     Ok(InitialAccelerometer {
         sensor,
         alignment: Some(alignment),
+        repeats: faces.repeats,
         within,
         of_mean,
         warnings: turned
@@ -191,6 +201,7 @@ fn scattered(
     Diagnostic::from(FacesScatter { tilt_rad, along_mps2, worst_rad: most, worst })
 }
 
+/// The mean of each face.
 #[derive(Clone)]
 struct Faces<'a> {
     holds: &'a [Hold],
@@ -200,6 +211,7 @@ struct Faces<'a> {
     within: Vector3<f64>,
     of_mean: Vector3<f64>,
     prior: Option<&'a Prior>,
+    repeats: FaceRepeats,
 }
 
 impl Faces<'_> {
@@ -225,12 +237,14 @@ impl Faces<'_> {
         let weights =
             self.holds.iter().zip(self.forces).map(|(hold, force)| self.weight(hold, force, &rough, &none));
         let noise = noise_rad2(weights, &rough, self.gravity);
-        let (alignment, sensor) = align_faces(degrees, given_rad, (self.gravity, noise), |scatter| {
+        let placement_rad2 = self.repeats.placement_rad2;
+        let fixed_rad = given_rad.map(|given| (given * given - placement_rad2).max(0.0).sqrt());
+        let (alignment, sensor) = align_faces(degrees, fixed_rad, (self.gravity, noise), |scatter| {
             let sensor = self.fit(&rough, scatter)?;
             Some((self.chi2(&sensor, &rough, scatter)?, sensor))
         })
         .ok_or_else(singular)?;
-        Ok((sensor, alignment, condition))
+        Ok((sensor, alignment.with_placement(placement_rad2, given_rad), condition))
     }
 
     /// The fit with other terms, the weights those of this sensor. `None` where the faces do not determine it.
@@ -266,7 +280,8 @@ impl Faces<'_> {
         s: &Matrix3<f64>,
         scatter: &FaceScatter,
     ) -> Matrix3<f64> {
-        inverse_covariance(&noise_variance(hold, &self.within, &self.of_mean), s, &scatter.covariance(force))
+        let noise = noise_variance(hold, &self.within, &self.of_mean);
+        inverse_covariance(&noise, s, &self.repeats.of_face(scatter, force))
     }
 
     /// The least squares. `s`: the matrix by which tilts move the readings.

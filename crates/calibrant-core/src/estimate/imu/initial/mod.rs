@@ -3,6 +3,7 @@
 pub(crate) mod accelerometer;
 pub(crate) mod accelerometer_alone;
 pub(crate) mod face_alignment;
+pub(crate) mod face_repeats;
 pub(crate) mod face_statistics;
 pub(crate) mod gyroscope;
 pub(crate) mod known_faces;

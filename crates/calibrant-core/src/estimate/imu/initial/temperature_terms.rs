@@ -65,6 +65,8 @@ pub(crate) fn with_temperature_terms(
             Scatter::OfMagnitudes(between) => between,
             Scatter::OfFaces(alignment) => {
                 next.alignment = Some(alignment);
+                // the tilt is that of a hold: all of it may be the face's
+                next.repeats.placement_rad2 = 0.0;
                 next.holds.tilt = Some(alignment.tilt);
                 next.holds.degrees_of_freedom = alignment.along_degrees;
                 alignment.scatter.along_mps2
@@ -203,7 +205,7 @@ impl<'a> AccelerometerOnly<'a> {
         };
         if let Some(rough) = &self.first.alignment {
             let on_faces = |scatter: &FaceScatter| {
-                self.weighed(|hold, force| self.first.weight_on_face(hold, force, scatter))
+                self.weighed(|hold, force| self.first.weight_by(hold, force, &scatter.covariance(force)))
             };
             let model = on_faces(&rough.scatter);
             identifiability::check(&model, &self.start, &model.linearised(&self.start, settings)?)?;

@@ -5,6 +5,7 @@ use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
+use crate::estimate::imu::initial::face_repeats::FaceRepeats;
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::stationary::intervals::find_clean_imu_holds;
 use crate::estimate::problem::{CalibrationProblem, Stimulus};
@@ -70,6 +71,7 @@ pub(crate) fn from_unknown_directions(
         of_mean,
         holds,
         alignment: None,
+        repeats: FaceRepeats::default(),
         warnings,
         thermal,
         adjusted,
