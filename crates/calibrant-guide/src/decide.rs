@@ -1,8 +1,8 @@
 //! What follows from a decision of the gate, and from an estimate.
 
-use crate::advice::{faces, is_on, is_on_faces_alone};
+use crate::advice::{faces, is_on_faces_alone};
 use crate::decision::Decision;
-use crate::estimate::{Answer, Estimate};
+use crate::estimate::{Answer, Estimate, KnownHold};
 use crate::run::Run;
 use crate::shown::{Kind, shown_unit};
 use calibrant_core::diagnostic::Usability;
@@ -35,7 +35,13 @@ impl Run<'_> {
                 self.held.push((start_s, start_s + seconds, mean));
                 self.ratio_before = if is_known { self.told.estimate.worst_ratio() } else { None };
                 self.say(Kind::Good, format!("Got it: {} s.", one(seconds)))?;
-                self.says_if_on_no_face(&mean)?;
+                if self.held.len() == 1 && self.units[0] != ReadingUnit::Counts && up.is_none() {
+                    let text = format!(
+                        "At rest it shows {} m/s², and gravity is 9.8: is the unit right that its columns state?",
+                        significant(mean.norm(), 2)
+                    );
+                    self.say(Kind::Warning, text)?;
+                }
                 self.question(true)?;
             }
             Decision::Ended { start_s, end_s } => {
@@ -84,18 +90,14 @@ impl Run<'_> {
     }
 
     /// A hold in none of the known directions does not count.
-    fn says_if_on_no_face(&mut self, mean: &Vector3<f64>) -> Result<()> {
-        // by the datasheet, as the session sees it
-        let Some((up, faces)) = self.force.nominal().up(mean).zip(faces(&self.options.experiment)) else {
-            return Ok(());
-        };
-        if faces.iter().any(|face| is_on(face, &up)) {
+    fn says_if_on_no_face(&mut self, estimate: &Estimate) -> Result<()> {
+        let Some((start_s, end_s, _)) = self.held.last().copied() else { return Ok(()) };
+        let counts = |hold: &KnownHold| hold.start_s < end_s && hold.end_s > start_s;
+        let is_told = estimate.missing.is_some() || !estimate.of_new_hold;
+        if is_told || faces(&self.options.experiment).is_none() || estimate.holds.iter().any(counts) {
             return Ok(());
         }
-        let nearest = faces.iter().map(|face| face.angle(&up)).fold(f64::INFINITY, f64::min);
-        let text =
-            format!("It is on no face, {:.0}° from the nearest: it does not count.", nearest.to_degrees());
-        self.say(Kind::Warning, text)
+        self.say(Kind::Warning, "It is on no face, by more than 20°: it does not count.".to_owned())
     }
 
     pub(crate) fn answer(&mut self, answer: Answer) -> Result<()> {
@@ -121,6 +123,7 @@ impl Run<'_> {
         self.waits_for_answer = false;
         let holds_before = self.told.estimate.holds.len();
         self.refused(&estimate)?;
+        self.says_if_on_no_face(&estimate)?;
         if let (Some(before), Some(now)) = (self.ratio_before.take(), estimate.worst_ratio()) {
             let gain = 1.0 - now / before;
             if gain < LITTLE {

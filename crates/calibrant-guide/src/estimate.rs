@@ -131,7 +131,9 @@ impl Estimator<'_> {
                     Some(KnownHold { start_s: *start_s, end_s: *end_s, up: (*up)?, left_out: None })
                 };
                 let holds: Vec<KnownHold> = question.held.iter().filter_map(known).collect();
-                let faces = self.faces_held(&holds);
+                // another error is said, whatever was held
+                let is_early = matches!(error, Error::NotIdentifiable(_));
+                let faces = if is_early { self.faces_held(&holds) } else { None };
                 let of_new_hold = question.of_new_hold;
                 return Estimate {
                     number: question.number,

@@ -26,11 +26,6 @@ impl KnownForce {
         self.gain.map(|gain| gain.abs().mean() * GRAVITY)
     }
 
-    /// The same without a calibration.
-    pub(crate) fn nominal(&self) -> Self {
-        Self { calibrated: None, ..self.clone() }
-    }
-
     /// The direction of the specific force; `None` where a reading does not tell it, as counts whose offset nobody knows.
     pub(crate) fn up(&self, reading: &Vector3<f64>) -> Option<Vector3<f64>> {
         let by = |sensor: &SensorParameters| Some(sensor.matrix.try_inverse()? * (reading - sensor.bias));

@@ -51,7 +51,13 @@ impl Run<'_> {
         {
             return Ok(());
         }
-        for taken in self.stream.take(line, at_s) {
+        let taken = self.stream.take(line, at_s);
+        self.taken(taken)
+    }
+
+    /// What came of lines.
+    pub(crate) fn taken(&mut self, taken: Vec<Taken>) -> Result<()> {
+        for taken in taken {
             match taken {
                 Taken::Header(header) => {
                     self.log.row(&header)?;

@@ -275,6 +275,8 @@ impl<'s> Run<'s> {
 
     /// The holds up to the end are asked for, and the answer waited for.
     fn end_of_input(&mut self, answers: &Receiver<Answer>) -> Result<()> {
+        let taken = self.stream.end();
+        self.taken(taken)?;
         self.question(false)?;
         while self.waits_for_answer {
             match answers.recv_timeout(Duration::from_secs(60)) {

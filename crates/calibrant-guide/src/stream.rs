@@ -160,6 +160,11 @@ impl<'s> Stream<'s> {
         taken
     }
 
+    /// What comes of the rows that wait, where no more follow.
+    pub(crate) fn end(&mut self) -> Vec<Taken> {
+        if self.layout.is_some() || self.first.is_empty() { Vec::new() } else { self.recognise() }
+    }
+
     /// Do columns with names, or what may be such, have so many fields?
     fn has_width(&self, width: usize) -> bool {
         match self.layout {

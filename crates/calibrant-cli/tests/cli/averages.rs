@@ -96,12 +96,7 @@ fn each_face_may_have_a_recording_of_its_own() {
     let (whole, found) = (bench.json("whole/calibration.json"), bench.json("out/calibration.json"));
     let off = difference(&whole, &found);
     assert!(off < 1.0, "{off}");
-    bench.refuses(
-        &format!("calibrate faces.toml {} --together -o out", names[..5].join(" ")),
-        2,
-        &[
-            "5 recordings are calibrated together, and holds.directions has 6",
-            "give one recording for each direction",
-        ],
-    );
+    // of fewer, each hold is on the face that it shows
+    let five = format!("calibrate faces.toml {} --together -o out", names[..5].join(" "));
+    bench.run(&five).done().says("no hold has -z up");
 }

@@ -82,9 +82,7 @@ impl<'e> Setup<'e> {
         recording: &ImuRecording,
     ) -> Result<Option<Diagnostic>> {
         let (holds, directions) = match self {
-            Self::Faces(faces) if !faces.holds.further_from_s.is_empty() => {
-                return faces.one_hold_each().map(|()| None);
-            }
+            Self::Faces(faces) if faces.has_recording_each() => return faces.one_hold_each().map(|()| None),
             Self::Faces(Faces { holds, directions, .. }) => (holds, directions),
             Self::Imu(_, setup) => match &mut setup.directions {
                 Some(directions) => (&mut setup.holds, directions),
@@ -172,21 +170,16 @@ impl<'e> Setup<'e> {
 }
 
 impl Faces {
-    /// One hold for each direction: the longest of each recording, where there are as many recordings as directions.
+    /// Has each direction a recording of its own?
+    fn has_recording_each(&self) -> bool {
+        let further = self.holds.further_from_s.len();
+        further > 0 && further + 1 == self.directions.len()
+    }
+
+    /// One hold for each direction: the longest of each recording.
     fn one_hold_each(&mut self) -> Result<()> {
-        let Self { holds, directions, .. } = self;
+        let holds = &mut self.holds;
         let recordings = holds.further_from_s.len() + 1;
-        let refuse =
-            |message, help| Err(Error::experiment(InputError::new(Refusal::HoldsInvalid, message, help)));
-        if recordings != directions.len() {
-            return refuse(
-                format!(
-                    "{recordings} recordings are calibrated together, and holds.directions has {}",
-                    directions.len()
-                ),
-                "give one recording for each direction, in their order",
-            );
-        }
         let found = holds.found.clone().unwrap_or_default();
         let longest = |recording: usize| {
             let of_it =
@@ -195,10 +188,11 @@ impl Faces {
         };
         let chosen: Vec<Option<Hold>> = (0..recordings).map(longest).collect();
         if let Some(missing) = chosen.iter().position(Option::is_none) {
-            return refuse(
+            return Err(Error::experiment(InputError::new(
+                Refusal::HoldsInvalid,
                 format!("no hold was found in recording {} of {recordings}", missing + 1),
                 "hold the sensor still in each recording, longer than holds.minimum_hold_s",
-            );
+            )));
         }
         set_found(holds, chosen.into_iter().flatten().collect());
         Ok(())

@@ -113,6 +113,32 @@ fn intervals_of_twelve_parameters_cover_the_truth() {
     assert!(off.is_empty(), "{off:#?}");
 }
 
+/// What a box is off square, it is at each placement: holding its faces again makes the biases no better, and bends no response.
+#[test]
+fn a_box_off_square_is_off_at_each_placement() {
+    let tilt_rad = 0.5_f64.to_radians();
+    let nominal: Vec<Vector3<f64>> = std::iter::repeat_with(faces).take(4).flatten().collect();
+    for given in [Some(tilt_rad), None] {
+        let of = |sensor: u64| -> Vec<f64> {
+            let mut rng = stream(313, Purpose::Sensor, sensor);
+            let truth = draw(0.0, &mut rng);
+            let mut tilt =
+                || Rotation3::from_scaled_axis(Vector3::from_fn(|_, _| tilt_rad * normal(&mut rng)));
+            let off: Vec<Vector3<f64>> = faces().iter().map(|face| tilt() * face).collect();
+            let met: Vec<Vector3<f64>> = std::iter::repeat_n(off, 4).flatten().collect();
+            let recorded = record(&truth, &met, 0.05 * tilt_rad, &mut rng);
+            let found = run(&recorded, &nominal, given).expect("determined");
+            assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+            let off = found.imu[SensorKind::Accelerometer].bias - truth.bias;
+            off.iter().zip(found.sd()).map(|(off, sd)| off / sd).collect()
+        };
+        let z: Vec<f64> = (0..120).into_par_iter().flat_map_iter(of).collect();
+        let covered = z.iter().filter(|z| z.abs() < 1.959_964).count() as f64 / z.len() as f64;
+        // of 360: 1.1 % is a standard deviation
+        assert!((0.92..=0.98).contains(&covered), "{given:?}: {covered}");
+    }
+}
+
 #[test]
 fn directions_fix_the_frame_and_their_errors_count() {
     let mut rng = stream(311, Purpose::Sensor, 0);

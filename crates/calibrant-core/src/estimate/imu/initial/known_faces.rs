@@ -54,7 +54,7 @@ pub(crate) fn from_faces(
         return Err(Error::experiment(InputError::new(
             Refusal::HoldsInvalid,
             format!("{} holds are given, and {} directions", intervals.len(), directions.len()),
-            "each hold of holds.intervals_s needs one direction, in the same order",
+            "each hold of holds.intervals_s, or row of a table, needs one direction, in the same order",
         )));
     }
     if intervals.windows(2).any(|pair| pair[1].0 < pair[0].0) {
