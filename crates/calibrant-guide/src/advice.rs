@@ -19,19 +19,36 @@ pub(crate) struct NextPose {
     pub(crate) up: Vector3<f64>,
     /// Standard deviations after it over those now, by the names of parameters; none before there is a calibration.
     pub(crate) after: Ratios,
-    /// How much smaller three more holds make the standard deviations, on average.
-    pub(crate) three_gain: f64,
+    /// How much smaller three more holds make the standard deviations, on average; not of known faces, of which each counts once.
+    pub(crate) three_gain: Option<f64>,
     /// How much each hold that is used tells, as a share of what all tell, in order of time.
     pub(crate) shares: Vec<f64>,
 }
 
-/// The directions that a pose may have: the known ones, of those that were held least often; where all are allowed, faces, edges and corners, which are
+/// The directions that a pose may have: the known ones, of those that were held least often, and by turns that were made least often; where all are allowed, faces, edges and corners, which are
 /// easiest to hold and to say.
 fn candidates(experiment: &Experiment, held: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     if let Some(faces) = faces(experiment) {
         let times = |face: &Vector3<f64>| held.iter().filter(|up| is_on(face, up)).count();
-        let fewest = faces.iter().map(times).min();
-        return faces.into_iter().filter(|face| Some(times(face)) == fewest).collect();
+        // a gyroscope needs turns from each face to each other: there and back is one
+        let turns = |face: &Vector3<f64>| match held.last() {
+            Some(last) if experiment.imu.is_some() && !is_on(face, last) => {
+                let is_it = |pair: &[Vector3<f64>]| {
+                    is_on(face, &pair[0]) && pair[1].angle(last) <= ON_FACE_RAD
+                        || is_on(face, &pair[1]) && pair[0].angle(last) <= ON_FACE_RAD
+                };
+                held.windows(2).filter(|pair| is_it(pair)).count()
+            }
+            Some(_) if experiment.imu.is_some() => usize::MAX,
+            _ => 0,
+        };
+        // first each face once
+        let order = |face: &Vector3<f64>| match times(face) {
+            0 => (0, 0, 0),
+            times => (1, turns(face), times),
+        };
+        let first = faces.iter().map(order).min();
+        return faces.into_iter().filter(|face| Some(order(face)) == first).collect();
     }
     match experiment.design.allowed_directions().unwrap_or(Allowed::Anywhere) {
         Allowed::Of(list) | Allowed::Near(list, _) => list,
@@ -75,7 +92,7 @@ pub(crate) fn first_poses(
     } else {
         all.into_iter().min_by(|one, other| nearest(one).total_cmp(&nearest(other)))?
     };
-    Some(NextPose { up, after: Ratios::new(), three_gain: 0.0, shares: Vec::new() })
+    Some(NextPose { up, after: Ratios::new(), three_gain: None, shares: Vec::new() })
 }
 
 /// The best next pose of a calibration. `now`: the direction in which the sensor lies; `put_off`: those that were refused; `weakest`: the axis of the gyroscope that is known least.
@@ -89,15 +106,6 @@ pub(crate) fn next_pose(
     let (problem, held) = experiment.recorded_poses(calibration).ok()?;
     let all = candidates(experiment, &held);
     let before = covariance_of_holds(&problem, &held)?;
-    let with = |held: &[Vector3<f64>], up: &Vector3<f64>| {
-        let mut poses = held.to_vec();
-        poses.push(*up);
-        covariance_of_holds(&problem, &poses)
-    };
-    let scored = all.iter().filter_map(|up| Some((*up, with(&held, up)?)));
-    let scored: Vec<_> = scored.map(|(up, after)| (up, problem.criterion.value(&after), after)).collect();
-    let best = scored.iter().map(|(_, value, _)| *value).reduce(f64::min)?;
-    let gain = problem.criterion.value(&before) - best;
     let cost = |up: &Vector3<f64>| {
         let refused = put_off.iter().any(|of| of.dot(up) > 0.95);
         let turn = now.map_or(0.0, |now| now.angle(up));
@@ -108,6 +116,23 @@ pub(crate) fn next_pose(
         };
         turn / std::f64::consts::PI - along + if refused { 10.0 } else { 0.0 }
     };
+    let shares = shares_of_holds(&problem, &held).unwrap_or_default();
+    if faces(experiment).is_some() {
+        // the rotations between faces tell of a gyroscope, and a face again of nothing
+        let is_held = |face: &Vector3<f64>| held.iter().any(|up| is_on(face, up));
+        let open = all.iter().filter(|face| experiment.imu.is_some() || !is_held(face));
+        let up = *open.min_by(|one, other| cost(one).total_cmp(&cost(other)))?;
+        return Some(NextPose { up, after: Ratios::new(), three_gain: None, shares });
+    }
+    let with = |held: &[Vector3<f64>], up: &Vector3<f64>| {
+        let mut poses = held.to_vec();
+        poses.push(*up);
+        covariance_of_holds(&problem, &poses)
+    };
+    let scored = all.iter().filter_map(|up| Some((*up, with(&held, up)?)));
+    let scored: Vec<_> = scored.map(|(up, after)| (up, problem.criterion.value(&after), after)).collect();
+    let best = scored.iter().map(|(_, value, _)| *value).reduce(f64::min)?;
+    let gain = problem.criterion.value(&before) - best;
     // where hardly anything is gained, all are as good
     let as_good = |value: f64| value - best <= (AS_GOOD * best.abs()).max(0.1 * gain);
     let chosen = scored.iter().filter(|(_, value, _)| as_good(*value));
@@ -120,8 +145,8 @@ pub(crate) fn next_pose(
     Some(NextPose {
         up: *up,
         after: named,
-        three_gain: three_gain(&problem, &held, &all, &before),
-        shares: shares_of_holds(&problem, &held).unwrap_or_default(),
+        three_gain: Some(three_gain(&problem, &held, &all, &before)),
+        shares,
     })
 }
 

@@ -207,11 +207,12 @@ impl Run<'_> {
         if let Some(missing) = &estimate.missing {
             return format!("{} so far: {missing}.", counted(self.held.len(), "hold"));
         }
-        let gain = estimate.next.as_ref().map_or(0.0, |next| next.three_gain);
-        let more = format!("3 more holds would gain {:.0} %", 100.0 * gain);
+        let gain = estimate.next.as_ref().and_then(|next| next.three_gain);
+        let more =
+            gain.map_or_else(String::new, |gain| format!("; 3 more holds would gain {:.0} %", 100.0 * gain));
         let usual = self.said_of_goals;
         if self.told.good_enough {
-            return format!("Good enough; {more}.{usual}");
+            return format!("Good enough{more}.{usual}");
         }
         if reaches {
             let why = estimate.warnings.first().cloned();
@@ -238,10 +239,15 @@ impl Run<'_> {
                     "gravity is not known better. Give holds.gravity_mps2, or your latitude and height."
                 }
             ),
+            Some((of, ratio)) if is_on_faces_alone(&self.options.experiment) => format!(
+                "{} is {} times its goal, and a face that is held again tells little more. Measure how square the box is (holds.face_sd_deg), or add directions.",
+                of.name,
+                significant(ratio, 2)
+            ),
             Some((of, ratio)) => {
-                format!("{} is {} times its goal; {more}.{usual}", of.name, significant(ratio, 2))
+                format!("{} is {} times its goal{more}.{usual}", of.name, significant(ratio, 2))
             }
-            None => format!("{more}."),
+            None => "Go on.".to_owned(),
         }
     }
 }

@@ -53,10 +53,10 @@ impl Run<'_> {
                 Phase::Moving => (
                     "moving",
                     "Moving",
-                    if self.gate.why().is_empty() {
-                        next
-                    } else {
-                        format!("{next} Then hold still: {}.", self.gate.why())
+                    match (next.as_str(), self.gate.why().as_str()) {
+                        (_, "") => next,
+                        ("", why) => format!("hold still: {why}."),
+                        (next, why) => format!("{next} Then hold still: {why}."),
                     },
                 ),
                 Phase::Settling => ("settling", "Settling", "nearly still".to_owned()),

@@ -114,6 +114,13 @@ fn a_fixture_is_done_when_each_face_was_held() {
     assert_eq!(outcome.stdout.matches("✓ Got it: ").count(), 6, "{}", outcome.stdout);
     assert!(outcome.printed().contains("5 of 6 faces so far"), "{}", outcome.stdout);
     is_that_of_calibrate(&bench, "session", "faces.toml");
+    // the faces of an IMU are turned into each other about all axes
+    let faces = "[holds]\ndirections = [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]\nface_sd_deg = 0.3";
+    bench.preset("imu", "imu.toml", &[("[holds]", faces)]);
+    let outcome = bench.run("guide imu.toml --from demo@20 --terminal --no-page --stop -o imu").done();
+    let holds = outcome.stdout.matches("✓ Got it: ").count();
+    assert!((8..=16).contains(&holds), "{holds}: {}", outcome.stdout);
+    is_that_of_calibrate(&bench, "imu", "imu.toml");
     let times = "directions = [\"z\", \"-z\"]\nintervals_s = [[0, 3], [5, 8]]\n# was";
     bench.preset("faces", "timed.toml", &[("directions =", times)]);
     bench.refuses(
