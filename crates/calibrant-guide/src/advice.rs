@@ -116,7 +116,7 @@ pub(crate) fn next_pose(
         };
         turn / std::f64::consts::PI - along + if refused { 10.0 } else { 0.0 }
     };
-    let shares = shares_of_holds(&problem, &held).unwrap_or_default();
+    let shares = shares_of_holds(&problem, &held, &before).unwrap_or_default();
     if faces(experiment).is_some() {
         // the rotations between faces tell of a gyroscope, and a face again of nothing
         let is_held = |face: &Vector3<f64>| held.iter().any(|up| is_on(face, up));

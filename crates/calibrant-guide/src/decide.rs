@@ -8,7 +8,7 @@ use crate::shown::{Kind, shown_unit};
 use calibrant_core::diagnostic::Usability;
 use calibrant_core::error::Result;
 use calibrant_core::number_format::{counted, significant};
-use calibrant_core::sensor::ReadingUnit;
+use calibrant_core::sensor::{Axis, ReadingUnit};
 use nalgebra::Vector3;
 use serde_json::json;
 
@@ -69,7 +69,7 @@ impl Run<'_> {
                     Kind::Error,
                     format!(
                         "Refused: {} is at the end of its range. Take another pose, or a larger range.",
-                        ["x", "y", "z"][axis % 3]
+                        Axis::ALL[axis % 3]
                     ),
                 )?;
             }
@@ -78,7 +78,7 @@ impl Run<'_> {
                     Kind::Warning,
                     format!(
                         "Turned too fast about {}: that rotation may not count. Turn more slowly.",
-                        ["x", "y", "z"][axis % 3]
+                        Axis::ALL[axis % 3]
                     ),
                 )?;
             }
@@ -173,7 +173,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Tells of the holds that this calibration leaves out and the one before did not.
+    /// Says which holds this calibration leaves out that the one before used.
     pub(crate) fn refused(&mut self, estimate: &Estimate) -> Result<()> {
         let before = &self.told.estimate.holds;
         let was_out = |start_s: f64| {

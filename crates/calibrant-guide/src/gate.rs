@@ -12,6 +12,7 @@
 use crate::decision::Decision;
 use crate::layout::Sample;
 use crate::window::{AXES, Step, Sums, Window};
+use calibrant_core::sensor::Axis;
 
 /// Times the quietest scatter.
 const STILL: f64 = 2.5;
@@ -377,7 +378,7 @@ impl Gate {
         let Some((axis, sd, limit)) = self.shakes.filter(|(_, sd, limit)| *sd < 10.0 * limit) else {
             return String::new();
         };
-        let name = ["x", "y", "z"][axis % 3];
+        let name = Axis::ALL[axis % 3];
         let two = |value: f64| calibrant_core::number_format::significant(value, 2);
         if axis < 3 {
             let unit = if self.limits.in_si[0] { " m/s²" } else { "" };

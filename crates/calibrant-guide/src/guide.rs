@@ -20,7 +20,7 @@ const WAITING: usize = 1024;
 /// Folds of the last question before "good enough".
 const FOLDS: usize = 5;
 
-/// Guides a session until it is finished, and gives the calibration of the whole recording, as `calibrate` makes it. `said` is told the address of the page.
+/// Guides a session until it is finished, and gives the calibration of the whole recording, the same as `calibrate` gives. `said` is called with the address of the page.
 ///
 /// # Errors
 /// [`Error::Experiment`] where the experiment is not of a sensor that is held still, the input is not there, the address is taken, or the folder has a session already;

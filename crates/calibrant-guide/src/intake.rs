@@ -125,7 +125,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// A line that is no row. Many of them are told.
+    /// Counts a line that is no row, and says so where there are many.
     fn dropped(&mut self, why: &'static str) -> Result<()> {
         self.live.dropped += 1;
         match self.unfit.dropped(why) {

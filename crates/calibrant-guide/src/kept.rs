@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 /// Samples of a faster sensor are averaged, Hz.
 const MOST_HZ: f64 = 110.0;
-/// So many are kept, a quarter of an hour: with more, two become one.
+/// Most samples that are kept, those of a quarter of an hour: beyond them each two are averaged into one.
 const MOST_KEPT: usize = 100_000;
 /// Samples by which the rate is known.
 const FIRST: usize = 20;

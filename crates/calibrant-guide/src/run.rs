@@ -69,7 +69,7 @@ pub(crate) struct Run<'s> {
     pub(crate) asked: u64,
     pub(crate) waits_for_answer: bool,
     pub(crate) unfit: Unfit,
-    /// Is what is recorded taken again? Then it is told already.
+    /// Are rows of the recording read again, in a session that is continued? Their messages were given before.
     pub(crate) is_replay: bool,
     /// The phase that the page knows.
     pub(crate) shown_phase: &'static str,

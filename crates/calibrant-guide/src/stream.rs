@@ -165,7 +165,7 @@ impl<'s> Stream<'s> {
         if self.layout.is_some() || self.first.is_empty() { Vec::new() } else { self.recognise() }
     }
 
-    /// Do columns with names, or what may be such, have so many fields?
+    /// Has the header, or before it is known a line that may be one, so many fields?
     fn has_width(&self, width: usize) -> bool {
         match self.layout {
             Some(_) => self.names.len() == width,

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Lines that are looked at together, and the share of them that is told, at most so often.
+/// The share of unusable lines is taken over so many lines; where it is larger than this, a message says so, at most so often.
 const TOGETHER: u32 = 200;
 const MANY: f64 = 0.05;
 const AGAIN: Duration = Duration::from_secs(20);

@@ -31,16 +31,12 @@ checks! {
     }
     decided "A hold is in a direction if its mean shows it within 20°."
     remedy "Lay the sensor on the face that is missing; give holds.intervals_s where the holds are not the ones that were found."
-    says format!(
-        "{}{}{}",
-        if holds.is_empty() {
-            String::new()
-        } else {
-            format!("in none of holds.directions, and not used: {}", listed(&unmatched(holds), ", "))
-        },
-        if holds.is_empty() || missing.is_empty() { "" } else { "; " },
-        if missing.is_empty() { String::new() } else { format!("no hold has {} up", listed(missing, ", or ")) }
-    );
+    says {
+        let off = format!("in none of holds.directions, and not used: {}", listed(&unmatched(holds), ", "));
+        let open = format!("no hold has {} up", listed(missing, ", or "));
+        let said = [(off, holds.is_empty()), (open, missing.is_empty())];
+        listed(&said.into_iter().filter(|(_, is_none)| !is_none).map(|(text, _)| text).collect::<Vec<_>>(), "; ")
+    };
 
     /// A face was held for only a few samples.
     FaceBrief "face-brief" Warning {

@@ -45,12 +45,14 @@ pub fn covariance_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -
 }
 
 /// How much each hold tells, as a share of what all tell: `tr(m(u_j) C) / Σ_k tr(m(u_k) C)` with the covariance `C` of [`covariance_of_holds`].
-/// `None` where they leave parameters undetermined.
 #[must_use]
-pub fn shares_of_holds(problem: &PoseProblem, directions: &[Vector3<f64>]) -> Option<Vec<f64>> {
-    let (information, covariance) =
-        (HoldInformation::new(problem)?, covariance_of_holds(problem, directions)?);
-    let told: Vec<f64> = directions.iter().map(|u| information.of_hold(u).dot(&covariance)).collect();
+pub fn shares_of_holds(
+    problem: &PoseProblem,
+    directions: &[Vector3<f64>],
+    covariance: &DMatrix<f64>,
+) -> Option<Vec<f64>> {
+    let information = HoldInformation::new(problem)?;
+    let told: Vec<f64> = directions.iter().map(|u| information.of_hold(u).dot(covariance)).collect();
     let all: f64 = told.iter().sum();
     Some(told.into_iter().map(|one| one / all).collect())
 }

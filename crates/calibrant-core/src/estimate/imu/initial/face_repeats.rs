@@ -36,10 +36,6 @@ impl FaceRepeats {
 
     /// The mean of the holds on each face, and its force.
     pub(crate) fn means(&self, holds: &[&Hold], forces: &[Vector3<f64>]) -> (Vec<Hold>, Vec<Vector3<f64>>) {
-        let on = |face: &Vector3<f64>| -> Vec<(&Hold, Vector3<f64>)> {
-            let all = holds.iter().copied().zip(forces.iter().copied());
-            all.filter(|(_, force)| force.normalize().dot(face) > SAME).collect()
-        };
         let mean = |these: Vec<(&Hold, Vector3<f64>)>| {
             let samples: usize = these.iter().map(|(hold, _)| hold.samples()).sum();
             let (first, force) = *these.first()?;
@@ -51,13 +47,13 @@ impl FaceRepeats {
                 force,
             ))
         };
-        self.faces.iter().filter_map(|(face, _)| mean(on(face))).unzip()
+        self.faces.iter().filter_map(|(face, _)| mean(on(face, holds, forces))).unzip()
     }
 
     /// The same with the scatter of placements that these holds show; `s`: the matrix by which tilts move the readings.
     pub(crate) fn with_placement(
         self,
-        holds: &[Hold],
+        holds: &[&Hold],
         forces: &[Vector3<f64>],
         s: &Matrix3<f64>,
         (within, of_mean): (&Vector3<f64>, &Vector3<f64>),
@@ -65,16 +61,12 @@ impl FaceRepeats {
         let Some(to_force) = s.try_inverse() else { return self };
         let (mut squares, mut noise, mut degrees) = (0.0, 0.0, 0.0);
         for (face, times) in self.faces.iter().filter(|(_, times)| *times > 1) {
-            let these: Vec<(&Hold, f64)> = holds
-                .iter()
-                .zip(forces)
-                .filter(|(_, force)| force.normalize().dot(face) > SAME)
-                .map(|(hold, force)| (hold, force.norm()))
-                .collect();
+            let these = on(face, holds, forces);
             let count = *times as f64;
             let mean = these.iter().fold(Vector3::zeros(), |sum, (hold, _)| sum + hold.mean) / count;
-            for (hold, gravity) in &these {
-                let off = to_force * (hold.mean - mean) / *gravity;
+            for (hold, force) in &these {
+                let gravity = force.norm();
+                let off = to_force * (hold.mean - mean) / gravity;
                 squares += (off - face * face.dot(&off)).norm_squared();
                 let variance = Matrix3::from_diagonal(&noise_variance(hold, within, of_mean));
                 let by_noise = to_force * variance * to_force.transpose() / gravity.powi(2);
@@ -105,4 +97,10 @@ impl FaceRepeats {
         let up = force.normalize();
         self.faces.iter().find(|(face, _)| face.dot(&up) > SAME).map_or(1.0, |(_, times)| *times as f64)
     }
+}
+
+/// The holds on a face, with their forces.
+fn on<'h>(face: &Vector3<f64>, holds: &[&'h Hold], forces: &[Vector3<f64>]) -> Vec<(&'h Hold, Vector3<f64>)> {
+    let all = holds.iter().copied().zip(forces.iter().copied());
+    all.filter(|(_, force)| force.normalize().dot(face) > SAME).collect()
 }

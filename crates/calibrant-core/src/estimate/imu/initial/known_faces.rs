@@ -77,11 +77,12 @@ pub(crate) fn from_faces(
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
     let gravity = setup.gravity.magnitude_mps2;
     let repeats = FaceRepeats::of(&along);
-    let (means, of_means) = repeats.means(&usable.iter().collect::<Vec<_>>(), &along);
+    let each: Vec<&Hold> = usable.iter().collect();
+    let (means, of_means) = repeats.means(&each, &along);
     let mut faces =
         Faces { holds: &means, forces: &of_means, list, gravity, within, of_mean, prior: None, repeats };
     if let Some(rough) = faces.fit(&Matrix3::identity(), &FaceScatter::default()) {
-        faces.repeats = faces.repeats.with_placement(&usable, &along, &rough.matrix, (&within, &of_mean));
+        faces.repeats = faces.repeats.with_placement(&each, &along, &rough.matrix, (&within, &of_mean));
     }
     let solved = match (faces.solve(problem.face_sd_rad), prior) {
         (Err(Error::NotIdentifiable(_)), Some(_)) => {
