@@ -165,6 +165,7 @@ pub(crate) fn measure(
                 rate_k_per_min: soak.direction.sign() * left * campaign.ramp_k_per_min,
                 range_c: [soak.temperature_c; 2],
             },
+            prior: Vec::new(),
         }
     };
     soaks.iter().enumerate().map(soak).collect()

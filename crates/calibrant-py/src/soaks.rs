@@ -9,7 +9,7 @@ use crate::work::{How, Run, run_as};
 use calibrant::batch::{Batch, BatchOptions, BatchRow, folder_names};
 use calibrant::diagnostic::Diagnostic;
 use calibrant::session::{Session, SessionOptions};
-use calibrant::{CampaignCalibration, Error, Result};
+use calibrant::{CampaignCalibration, Error, Result, calibrate_with_the_others};
 use pyo3::prelude::*;
 
 /// A soak's name, and the text of its calibration or why there is none.
@@ -38,6 +38,7 @@ pub(crate) fn calibrate_campaign(
         let batch =
             Batch::new(session, sources, BatchOptions { keep_json: true, ..BatchOptions::default() })?;
         let mut rows = batch.run(&progress).rows;
+        let together = calibrate_with_the_others(&experiment.read, &batch, &mut rows)?;
         // where none can be used, the first says why
         if rows.iter().all(|row| row.outcome.is_err()) && !rows.is_empty() {
             let BatchRow { outcome, recording, .. } = rows.swap_remove(0);
@@ -47,7 +48,8 @@ pub(crate) fn calibrate_campaign(
             let text = row.outcome.map(|result| result.json).map_err(|error| error.to_string());
             (row.folder, text)
         };
-        over_temperature(&experiment, rows.into_iter().map(soak).collect(), of_all, held_out.as_ref())
+        let soaks = rows.into_iter().map(soak).collect();
+        over_temperature(&experiment, soaks, of_all, (held_out.as_ref(), together))
     })
 }
 
@@ -67,7 +69,7 @@ pub(crate) fn calibrate_soaks(
     run_as(py, How::default(), move |_| {
         let (names, texts): (Vec<String>, Vec<String>) = soaks.into_iter().unzip();
         let soaks = folder_names(&names).into_iter().zip(texts.into_iter().map(Ok)).collect();
-        over_temperature(&experiment, soaks, options, held_out.as_ref())
+        over_temperature(&experiment, soaks, options, (held_out.as_ref(), None))
     })
 }
 
@@ -79,9 +81,9 @@ fn over_temperature(
     experiment: &Experiment,
     soaks: Vec<Soak>,
     options: SessionOptions,
-    held_out: Option<&calibrant::session::Source>,
+    (held_out, together): (Option<&calibrant::session::Source>, Option<Diagnostic>),
 ) -> Result<Outcome> {
-    let mut notes = Vec::new();
+    let mut notes: Vec<Diagnostic> = together.into_iter().collect();
     let found = CampaignCalibration::of_soaks(&experiment.read, soaks, &options.allowed, &mut notes);
     let mut found =
         found.map_err(|error| with_reason(error, &notes)).map_err(Experiment::placed(&experiment.file))?;

@@ -7,6 +7,7 @@ mod entry;
 mod least_squares;
 mod model;
 mod prepared;
+mod prior;
 mod result;
 mod scatter;
 mod soak;
@@ -24,6 +25,7 @@ pub use verdicts::WaldTest;
 use calibrant_core::error::Result;
 use check::{at_its_temperature, check, open};
 use prepared::Prepared;
+use prior::without_prior;
 
 /// One calibration over all soaks, which are in the order of time.
 ///
@@ -32,7 +34,8 @@ use prepared::Prepared;
 /// [`Error::NotIdentifiable`](calibrant_core::Error::NotIdentifiable) with the coefficients that they leave open.
 pub fn fit(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<FittedCampaign> {
     let quantities = check(model, soaks)?;
-    let at: Vec<SoakCalibration> = soaks.iter().map(at_its_temperature).collect::<Result<_>>()?;
+    let alone = soaks.iter().map(|soak| without_prior(soak).unwrap_or_else(|| soak.clone()));
+    let at: Vec<SoakCalibration> = alone.map(|soak| at_its_temperature(&soak)).collect::<Result<_>>()?;
     let prepared = Prepared::of(model, &at, &quantities)?;
     let solution = prepared.solve().ok_or_else(|| open(&prepared.channels, &prepared.paths))?;
     Ok(prepared.result(&solution))

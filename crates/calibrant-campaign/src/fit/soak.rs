@@ -2,7 +2,7 @@
 
 use crate::Campaign;
 use crate::campaign::ROOM_C;
-use calibrant_core::estimate::SoakTemperature;
+use calibrant_core::estimate::{KnownTerm, SoakTemperature};
 use calibrant_core::sensor::CalibratedImu;
 
 /// The calibration of one soak.
@@ -14,6 +14,8 @@ pub struct SoakCalibration {
     pub imu: CalibratedImu,
     /// The temperature over its holds.
     pub temperature: SoakTemperature,
+    /// What other soaks say of the parameters, on which the calibration rests; empty where it determines them by itself.
+    pub prior: Vec<KnownTerm>,
 }
 
 /// From where a soak came to its temperature.

@@ -5,7 +5,6 @@ use super::job;
 use crate::console;
 use crate::diagnostics::{rules, tell_all, tell_in};
 use crate::exit::Exit;
-use calibrant::CampaignCalibration;
 use calibrant::Error;
 use calibrant::batch::{BatchResults, BatchRow, folder_names};
 use calibrant::diagnostic::Check;
@@ -14,6 +13,7 @@ use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, write_summary};
 use calibrant::progress::Progress;
 use calibrant::session::{Session, SessionOptions};
+use calibrant::{CampaignCalibration, calibrate_with_the_others};
 use std::path::Path;
 
 /// Are these the soaks of a campaign?
@@ -111,13 +111,18 @@ fn each(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<(So
     if let Some(Err(error)) = repeated.map(|number| results.rows.swap_remove(number).outcome) {
         return Err(error);
     }
-    let mut exit = Exit::DONE;
+    let together = calibrate_with_the_others(experiment, &batch, &mut results.rows)?;
+    tell_all(together.iter());
+    let (mut exit, mut open_is_told) = (Exit::DONE, false);
     for row in &results.rows {
         // what checks a soak are the others
         let told = row.told().iter().filter(|found| found.code() != NothingToCheck::CODE);
         told.for_each(|found| tell_in(found, Some(&row.folder)));
         if let Err(error) = &row.outcome {
-            console::error_in(error, &row.recording);
+            // one of many that leave parameters open is enough here: all are named as left out
+            if !matches!(error, Error::NotIdentifiable(_)) || !std::mem::replace(&mut open_is_told, true) {
+                console::error_in(error, &row.recording);
+            }
             exit = exit.max(Exit::of(error));
         }
     }

@@ -184,6 +184,15 @@ checks! {
     remedy "Nothing: what hysteresis may do there is part of its standard deviation."
     says format!("nobody knows from where {} came to its temperature: the prior of hysteresis is added to its variance", soaks.join(", "));
 
+    /// Soaks that leave parameters open, with what the others say of these.
+    SoaksTogether "soaks-together" Note {
+        /// The soaks.
+        soaks: Vec<String>,
+    }
+    decided "They do not determine all parameters by themselves, and other soaks do."
+    remedy "Nothing: the fit over all soaks takes from each what it measured. Their own folders rest on the others."
+    says format!("do not determine all parameters by themselves, and are fitted together with the others: {}", soaks.join(", "));
+
     /// Soaks are not used.
     SoakLeftOut "soak-left-out" Warning {
         /// The soaks.

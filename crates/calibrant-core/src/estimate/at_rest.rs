@@ -48,6 +48,7 @@ impl AtRest {
             recovered: Recovered::Holds(holds),
             gyroscope: None,
             soak: None,
+            soak_prior: Vec::new(),
             changes: Vec::new(),
             warnings: Vec::new(),
         }

@@ -6,6 +6,7 @@ use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use super::{RecoveredClock, RecoveredGravity, SoakTemperature, datasheet};
 use crate::diagnostic::{Change, Diagnostic};
 use crate::estimate::budget::BudgetRow;
+use crate::estimate::imu::KnownTerm;
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
     Axis, CalibratedImu, CovarianceDegrees, CovariancePart, Gauge, ImuParameters, ImuQuantity, Parameter,
@@ -59,6 +60,8 @@ pub struct Calibration {
     pub gyroscope: Option<Box<GyroscopeCalibration>>,
     /// The temperature over the holds, where the recording has one.
     pub soak: Option<SoakTemperature>,
+    /// What other soaks of a campaign say of the parameters, on which the estimates rest; empty where the recording determines them by itself.
+    pub soak_prior: Vec<KnownTerm>,
     /// Changes of a sensor within the recording.
     pub changes: Vec<Change>,
     /// Warnings for the user.

@@ -7,7 +7,7 @@ use calibrant_campaign::fit::SoakCalibration;
 use calibrant_core::diagnostic::Check;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::convention::VerdictBad;
-use calibrant_core::estimate::{HoldScatter, SoakTemperature};
+use calibrant_core::estimate::{HoldScatter, KnownTerm, SoakTemperature};
 use calibrant_recording::files::utc_time::UtcTime;
 use calibrant_recording::text::decoding::Checked;
 use nalgebra::Vector3;
@@ -33,6 +33,8 @@ pub struct ReadSoak {
 #[derive(Deserialize)]
 struct SoakFields {
     soak: Option<SoakCore>,
+    #[serde(default)]
+    soak_prior: Vec<PriorCore>,
     recorded: Option<String>,
     sensor: Option<String>,
     holds: Option<HoldsCore>,
@@ -55,6 +57,13 @@ struct StillCore {
 #[derive(Deserialize)]
 struct RotationsCore {
     excess_sd_rad: f64,
+}
+
+#[derive(Deserialize)]
+struct PriorCore {
+    name: String,
+    value: f64,
+    sd: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -94,7 +103,15 @@ pub fn parse_soak(text: &str, name: &str) -> Checked<ReadSoak> {
         between_rotations_sd_rad: fields.rotations.map_or(0.0, |rotations| rotations.excess_sd_rad),
         degrees: fields.holds.map_or(0.0, |holds| holds.degrees_of_freedom),
     };
-    let calibration = SoakCalibration { name: name.to_owned(), imu, temperature };
+    let known = |PriorCore { name, value, sd }: PriorCore| {
+        let quantity = imu.quantities.iter().copied().find(|quantity| quantity.name() == name);
+        let quantity = quantity.ok_or_else(|| {
+            invalid(format!("`soak_prior` has {name}, which is no parameter"), "give what `calibrate` wrote")
+        })?;
+        Ok(KnownTerm { quantity, value, sd })
+    };
+    let prior = fields.soak_prior.into_iter().map(known).collect::<Checked<Vec<_>>>()?;
+    let calibration = SoakCalibration { name: name.to_owned(), imu, temperature, prior };
     let recorded = fields.recorded.as_deref().and_then(UtcTime::parse);
     Ok(ReadSoak { calibration, scatter, inputs, recorded, sensor: fields.sensor, bad })
 }

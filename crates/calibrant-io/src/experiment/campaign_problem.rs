@@ -138,6 +138,19 @@ impl Experiment {
     }
 }
 
+impl Experiment {
+    /// The experiment of a soak with what the others say of its parameters; what is known of them by `[known]` stays.
+    #[must_use]
+    pub fn with_soak_prior(&self, prior: Vec<KnownTerm>) -> Self {
+        let mut soak = self.clone();
+        if let Some(imu) = soak.imu.as_mut() {
+            let is_free = |of: &KnownTerm| imu.known.iter().all(|known| known.quantity != of.quantity);
+            imu.soak_prior = prior.into_iter().filter(is_free).collect();
+        }
+        soak
+    }
+}
+
 impl CampaignSection {
     /// The poses of a block.
     #[must_use]

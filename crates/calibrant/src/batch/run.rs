@@ -12,7 +12,7 @@ use crate::session::{Outcome, Session, Source};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::progress::Progress;
-use calibrant_io::{Finished, HashedFile, ResumeKey, write_text};
+use calibrant_io::{Experiment, Finished, HashedFile, ResumeKey, write_text};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -84,6 +84,21 @@ impl Batch {
             BatchRow { folder, recording, files: files.clone(), key, outcome, has_failure_page, told }
         };
         BatchResults { rows: in_parallel(count, row), copies: copies.groups() }
+    }
+
+    /// Calibrates from one of the recordings once more, by another experiment of the same kind. `row` is what came of it before.
+    pub(crate) fn again(&self, number: usize, row: &BatchRow, experiment: Experiment) -> Result<BatchRow> {
+        let session = Session::with(experiment, self.session.options().clone())?;
+        let (sources, records) = (vec![self.sources[number].clone()], RecordKeeper::open(None)?);
+        let options = BatchOptions { resume: false, records: None, ..self.options.clone() };
+        let other = Self { session, sources, options, records };
+        let mut told = Vec::new();
+        let outcome = other.result(&other.sources[0], &row.folder, row.key.as_ref(), &mut told);
+        let has_failure_page =
+            outcome.as_ref().is_err_and(|error| other.write_failure(&other.sources[0], &row.folder, error));
+        let (folder, recording) = (row.folder.clone(), row.recording.clone());
+        let (files, key) = (row.files.clone(), row.key.clone());
+        Ok(BatchRow { folder, recording, files, key, outcome, has_failure_page, told })
     }
 
     /// Calibrates from a recording into its folder, or takes over what is there, where the options ask for it. Without a `key` nothing is taken over.

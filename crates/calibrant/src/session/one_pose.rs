@@ -124,7 +124,7 @@ fn cut(
             covariance: Some(covariance),
             ..CalibratedImu::new(parameters, units, quantities.clone(), FRAME)
         };
-        Some(SoakCalibration { name: format!("piece {}", k + 1), imu, temperature })
+        Some(SoakCalibration { name: format!("piece {}", k + 1), imu, temperature, prior: Vec::new() })
     };
     Ok(spans.iter().zip(temperatures).enumerate().filter_map(piece).collect())
 }

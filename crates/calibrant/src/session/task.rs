@@ -93,6 +93,9 @@ impl<'e> Task<'e> {
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
         calibration.counts_per_unit = recorded.counts_per_unit;
         calibration.soak = SoakTemperature::of(&recorded.recording, calibration.hold_results())?;
+        if let Kind::Imu(imu, _) = self.kind {
+            calibration.soak_prior.clone_from(&imu.soak_prior);
+        }
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(recorded.unused(calibration.hold_results()));
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));

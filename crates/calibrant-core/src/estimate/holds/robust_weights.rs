@@ -12,11 +12,11 @@ use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::estimate::change::longest_run;
 use crate::estimate::datasheet::prior;
 use crate::estimate::hold_variance::{between_variance, noise_variance};
-use crate::estimate::imu::{HoldData, ImuModel, Prior};
+use crate::estimate::imu::{HoldData, ImuModel, KnownTerm, Prior};
 use crate::estimate::{CalibrationProblem, CalibrationSettings};
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{Correction, ParameterList, Quantity, SensorParameters};
+use crate::sensor::{Correction, ImuQuantity, ParameterList, Quantity, SensorParameters};
 use crate::solve::{
     Judged, ScaledInformation, Scatter, Trial, degrees_left, excess, hardly_determined, leave_out,
     shares_of_prior, studentised,
@@ -78,6 +78,7 @@ pub(super) fn fit(
     let within = pooled_sd(&usable, &start, setup.gravity.magnitude_mps2);
     let nominal = problem.sensor.nominal().filter(|_| settings.datasheet_prior);
     let prior = nominal.map(|nominal| prior(&list.describe(problem.sensor, &nominal)));
+    let prior = prior.or_else(|| known(&setup.known, &list));
     let problem = Problem {
         holds,
         sound,
@@ -115,6 +116,15 @@ pub(super) fn expect(
     let problem = Problem { holds, sound, list, gravity, within, of_mean, prior, conditions, settings };
     let information = problem.information(&start)?;
     Ok((start, within, information))
+}
+
+/// The prior of what is known.
+fn known(known: &[KnownTerm], list: &ParameterList) -> Option<Prior> {
+    let of = |quantity: ImuQuantity| {
+        let term = known.iter().find(|term| term.quantity == quantity);
+        term.and_then(|term| Some((term.value, term.sd?.powi(-2)))).unwrap_or_default()
+    };
+    (!known.is_empty()).then(|| list.of_accelerometer().into_iter().map(of).unzip())
 }
 
 fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {

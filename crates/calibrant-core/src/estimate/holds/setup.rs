@@ -1,5 +1,6 @@
 //! The prior knowledge of the holds.
 
+use crate::estimate::imu::KnownTerm;
 use crate::motion::{Gravity, Hold};
 use crate::sensor::{Gauge, NonlinearTerm, ParameterList, SensorModel};
 
@@ -24,6 +25,8 @@ pub struct HoldsSetup {
     pub further_from_s: Vec<f64>,
     /// The holds of this recording, if they were found before, after its outliers were removed. Neither step is repeated.
     pub found: Option<Vec<Hold>>,
+    /// What is known of the parameters of an IMU's accelerometer, for holds that do not determine them.
+    pub known: Vec<KnownTerm>,
 }
 
 impl HoldsSetup {
@@ -62,6 +65,7 @@ impl Default for HoldsSetup {
             minimum_hold_s: 1.0,
             further_from_s: Vec::new(),
             found: None,
+            known: Vec::new(),
         }
     }
 }

@@ -5,6 +5,8 @@ use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
 use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::problem::FacesProblem;
+use crate::json::if_some;
+use crate::json_object;
 use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{
     Gauge, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
@@ -249,6 +251,17 @@ pub struct KnownTerm {
     pub value: f64,
     /// Its standard uncertainty. `None`: it is fixed at the value.
     pub sd: Option<f64>,
+}
+
+json_object! {
+    /// A known quantity.
+    KnownTerm as of {
+        /// Name of the parameter.
+        name: of.quantity.name(),
+        /// In the unit of the parameter, as the standard deviation.
+        value: of.value,
+        sd: if_some(of.sd),
+    }
 }
 
 /// The orders of the temperature polynomials. Order 0: no term.

@@ -34,6 +34,8 @@ json_object! {
         holds: if_some(of.holds_in_unit()),
         /// The temperature over the holds, where the recording has one.
         soak: if_some(of.soak),
+        /// What other soaks say of the parameters, on which the estimates rest.
+        soak_prior: if_any(of.soak_prior.clone()),
         still_gyroscope: if_some(of.gyroscope.as_deref().map(StillOf)),
         rotations: if_some(of.gyroscope.as_deref().map(|gyroscope| RotationsOf { calibration: of, gyroscope })),
         /// The turns of known angle.

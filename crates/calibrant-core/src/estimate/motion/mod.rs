@@ -148,6 +148,7 @@ fn assemble(
         }),
         gyroscope: None,
         soak: None,
+        soak_prior: Vec::new(),
         changes: Vec::new(),
         warnings: Vec::new(),
     };

@@ -132,6 +132,7 @@ fn sensors(
         recovered: Recovered::OnMachine(found),
         gyroscope: None,
         soak: None,
+        soak_prior: Vec::new(),
         changes: Vec::new(),
         warnings: Vec::new(),
     }

@@ -41,7 +41,14 @@ pub(crate) fn from_unknown_directions(
     let stimulus = Stimulus::Holds(&setup);
     let as_read = problem.recording[SensorKind::Accelerometer].as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
-    let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
+    let mut found_alone = holds::calibrate(&alone, &setup, settings, as_read);
+    if matches!(found_alone, Err(Error::NotIdentifiable(_))) && !problem.setup.known.is_empty() {
+        let with_known = HoldsSetup { known: problem.setup.known.clone(), ..setup.clone() };
+        let stimulus = Stimulus::Holds(&with_known);
+        let alone = CalibrationProblem { stimulus, ..alone };
+        found_alone = holds::calibrate(&alone, &with_known, settings, as_read).or(found_alone);
+    }
+    let mut first = found_alone.map_err(|error| match detected {
         true => {
             let error = with_filter(error, as_read, &found, minimum_s);
             with_swapped_sensors(error, problem.recording, minimum_s)
