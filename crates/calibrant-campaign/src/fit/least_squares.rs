@@ -13,11 +13,26 @@ pub(super) struct Measurement {
     pub(super) values: DVector<f64>,
     pub(super) covariance: DMatrix<f64>,
     pub(super) shared: DMatrix<f64>,
+    /// The value and the variance of each entry by itself: those, or where the soak leaves parameters open, with what the others say of the rest (`prior`).
+    pub(super) one_by_one: (DVector<f64>, DVector<f64>),
 }
 
 impl Measurement {
-    /// Of a soak; `None` where it has no covariance.
-    pub(super) fn of(soak: &SoakCalibration, quantities: &[ImuQuantity], means: &Means) -> Option<Self> {
+    /// Of a soak, and of its parameters one by one; `None` where it has no covariance.
+    pub(super) fn of(
+        (soak, one_by_one): (&SoakCalibration, &SoakCalibration),
+        quantities: &[ImuQuantity],
+        means: &Means,
+    ) -> Option<Self> {
+        let mut found = Self::of_all(soak, quantities, means)?;
+        if !soak.prior.is_empty() {
+            let each = Self::of_all(one_by_one, quantities, means)?;
+            found.one_by_one = (each.values, each.covariance.diagonal());
+        }
+        Some(found)
+    }
+
+    fn of_all(soak: &SoakCalibration, quantities: &[ImuQuantity], means: &Means) -> Option<Self> {
         let imu = &soak.imu;
         let sigma = imu.covariance.as_ref()?;
         let mut values = DVector::zeros(quantities.len());
@@ -36,7 +51,9 @@ impl Measurement {
             .as_ref()
             .map_or_else(|| DMatrix::zeros(quantities.len(), 0), |of| &jacobian * &of.root);
         let covariance = &jacobian * sigma * jacobian.transpose() - &shared * shared.transpose();
-        Some(Self { values, covariance: 0.5 * (&covariance + covariance.transpose()), shared })
+        let covariance = 0.5 * (&covariance + covariance.transpose());
+        let one_by_one = (values.clone(), covariance.diagonal());
+        Some(Self { values, covariance, shared, one_by_one })
     }
 }
 

@@ -25,7 +25,7 @@ pub use verdicts::WaldTest;
 use calibrant_core::error::Result;
 use check::{at_its_temperature, check, open};
 use prepared::Prepared;
-use prior::without_prior;
+use prior::{one_by_one, without_prior};
 
 /// One calibration over all soaks, which are in the order of time.
 ///
@@ -36,7 +36,8 @@ pub fn fit(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<FittedCam
     let quantities = check(model, soaks)?;
     let alone = soaks.iter().map(|soak| without_prior(soak).unwrap_or_else(|| soak.clone()));
     let at: Vec<SoakCalibration> = alone.map(|soak| at_its_temperature(&soak)).collect::<Result<_>>()?;
-    let prepared = Prepared::of(model, &at, &quantities)?;
+    let each = soaks.iter().map(|soak| at_its_temperature(soak).map(|soak| one_by_one(&soak)));
+    let prepared = Prepared::of(model, &at, &each.collect::<Result<Vec<_>>>()?, &quantities)?;
     let solution = prepared.solve().ok_or_else(|| open(&prepared.channels, &prepared.paths))?;
     Ok(prepared.result(&solution))
 }

@@ -31,14 +31,16 @@ impl<'a> Prepared<'a> {
     pub(super) fn of(
         model: &'a CampaignModel,
         soaks: &'a [SoakCalibration],
+        one_by_one: &[SoakCalibration],
         quantities: &[ImuQuantity],
     ) -> Result<Self> {
         let campaign = &model.campaign;
         let means = Means::of(&soaks.iter().map(|soak| &soak.imu).collect::<Vec<_>>());
         let (channels, entries) = layout(model, quantities);
         let paths = paths(campaign, soaks.iter().map(|soak| soak.temperature));
+        let both = soaks.iter().zip(one_by_one);
         let measurements: Vec<Measurement> =
-            soaks.iter().filter_map(|soak| Measurement::of(soak, quantities, &means)).collect();
+            both.filter_map(|soak| Measurement::of(soak, quantities, &means)).collect();
         let mut prepared =
             Self { model, soaks, paths, means, channels, entries, measurements, scatters: Vec::new() };
         prepared.scatters = prepared.scattered()?;
@@ -53,8 +55,8 @@ impl<'a> Prepared<'a> {
         };
         of_channel
             .map(|k| AxisData {
-                values: of(k, |one, k| one.values[k]),
-                variances: of(k, |one, k| one.covariance[(k, k)]),
+                values: of(k, |one, k| one.one_by_one.0[k]),
+                variances: of(k, |one, k| one.one_by_one.1[k]),
             })
             .collect()
     }

@@ -12,6 +12,33 @@ const OPEN: f64 = 1e-2;
 /// The variance of an open direction, in that of the prior.
 const WIDE: f64 = 1e6;
 
+/// Each parameter without its own prior and with those of the others, as if they were independent: what a parameter by itself says of the scatter between soaks. The
+/// covariance of the soak alone has open directions, beside which the scatter would not be seen.
+pub(super) fn one_by_one(soak: &SoakCalibration) -> SoakCalibration {
+    let mut imu = soak.imu.clone();
+    let root = imu.shared.take().map(|shared| shared.root);
+    let Some(covariance) = &imu.covariance else { return soak.clone() };
+    let mut variances = covariance.diagonal();
+    for (k, quantity) in imu.quantities.iter().enumerate() {
+        if let Some(root) = &root {
+            variances[k] -= root.row(k).norm_squared();
+        }
+        let term = soak.prior.iter().find(|term| term.quantity == *quantity);
+        if let Some((value, sd)) = term.and_then(|term| Some((term.value, term.sd?))) {
+            let information = sd * sd / variances[k] - 1.0;
+            let off = quantity.value(&imu.parameters) - value;
+            if information < OPEN {
+                variances[k] = WIDE * sd * sd;
+            } else {
+                variances[k] = sd * sd / information;
+                quantity.add_to(&mut imu.parameters, off / information);
+            }
+        }
+    }
+    imu.covariance = Some(DMatrix::from_diagonal(&variances));
+    SoakCalibration { imu, ..soak.clone() }
+}
+
 /// The soak as it is without its prior; `None` where its covariance is singular.
 pub(super) fn without_prior(soak: &SoakCalibration) -> Option<SoakCalibration> {
     if soak.prior.is_empty() {

@@ -102,6 +102,40 @@ fn with_bias(text: &str, bias_mps2: f64) -> String {
 }
 
 /// Design, simulation, one calibration over all soaks, and its exports.
+/// Six faces determine no angle between axes; two soaks with corners do, and the others count with what they measured.
+#[test]
+fn soaks_on_six_faces_are_fitted_together_with_those_that_determine_all() {
+    let bench = bench(&SHORT);
+    bench.run("design campaign.toml -o plan").done();
+    bench.preset("campaign", "faces.toml", &[&SHORT[..], &[FACES]].concat());
+    bench.run("simulate campaign.toml --campaign plan/campaign.csv --seed 3 -o all").done();
+    bench.run("simulate faces.toml --campaign plan/campaign.csv --seed 3 -o faces").done();
+    let soaks = bench.read("plan/campaign.csv").lines().count() - 1;
+    let of = |soak: usize| if soak == 2 || soak == soaks { "all" } else { "faces" };
+    let recordings: Vec<String> =
+        (1..=soaks).map(|soak| format!("{}/soak_{soak:02}.csv", of(soak))).collect();
+    let run = |file: &str, recordings: &[String], output: &str| {
+        bench.run(&format!("calibrate {file} {} --no-report -o {output}", recordings.join(" ")))
+    };
+    let outcome = run("faces.toml", &recordings, "result").done();
+    assert!(outcome.stderr.contains("[soaks-together]"), "{}", outcome.stderr);
+    let found = bench.json("result/calibration.json");
+    assert_eq!(found["soaks"].as_array().map(Vec::len), Some(soaks));
+    let compared = bench.run("compare all/truth.json result/calibration.json --json").json();
+    let off = compared["quantities"].as_array().expect("a list").iter();
+    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
+    assert!(off.len() > 30 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    // their own files say on what they rest, so that nothing counts twice
+    let files: Vec<String> =
+        (1..=soaks).map(|soak| format!("result/soak_{soak:02}/calibration.json")).collect();
+    run("faces.toml", &files, "again").done();
+    assert_eq!(bench.json("again/calibration.json")["covariance"], found["covariance"]);
+    // without one that determines all, nothing says the angles
+    let faces: Vec<String> = (1..=soaks).map(|soak| format!("faces/soak_{soak:02}.csv")).collect();
+    let refused = run("faces.toml", &faces, "none");
+    assert!(refused.stderr.matches("[not-identifiable]").count() == 1, "{}", refused.stderr);
+}
+
 #[test]
 fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     let bench = bench(&SHORT);

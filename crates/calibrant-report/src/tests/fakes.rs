@@ -146,6 +146,7 @@ fn calibrated(
         }),
         gyroscope: None,
         soak: None,
+        soak_prior: Vec::new(),
         changes: Vec::new(),
         warnings: Vec::new(),
     }
@@ -251,6 +252,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         }),
         gyroscope: None,
         soak: None,
+        soak_prior: Vec::new(),
         changes: Vec::new(),
         warnings: vec![Diagnostic::from(HoldLeftOut {
             hold: HoldSpan { number: 18, start_s: 170.0, end_s: 175.0 },

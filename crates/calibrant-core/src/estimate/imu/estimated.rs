@@ -1,7 +1,8 @@
 //! The estimated quantities of an IMU, and their priors.
 
+use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::imu::model::Prior;
-use crate::estimate::imu::problem::{ImuProblem, KnownTerm};
+use crate::estimate::imu::problem::ImuProblem;
 use crate::sensor::{ImuParameters, ImuQuantity};
 
 /// The quantities that are estimated: all but the fixed ones.

@@ -3,10 +3,9 @@
 use crate::diagnostic::TurnSpan;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
+use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::imu::thermometer::ThermometerLag;
 use crate::estimate::problem::FacesProblem;
-use crate::json::if_some;
-use crate::json_object;
 use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{
     Gauge, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
@@ -239,28 +238,6 @@ impl Turn {
     pub fn repeats(&self, other: &Self) -> bool {
         let shared = self.end_s.min(other.end_s) - self.start_s.max(other.start_s);
         shared > 0.5 * (self.end_s - self.start_s).min(other.end_s - other.start_s)
-    }
-}
-
-/// A known quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownTerm {
-    /// The quantity.
-    pub quantity: ImuQuantity,
-    /// Its value.
-    pub value: f64,
-    /// Its standard uncertainty. `None`: it is fixed at the value.
-    pub sd: Option<f64>,
-}
-
-json_object! {
-    /// A known quantity.
-    KnownTerm as of {
-        /// Name of the parameter.
-        name: of.quantity.name(),
-        /// In the unit of the parameter, as the standard deviation.
-        value: of.value,
-        sd: if_some(of.sd),
     }
 }
 

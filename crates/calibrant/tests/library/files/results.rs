@@ -147,6 +147,7 @@ fn calibration(
         recovered,
         gyroscope: None,
         soak: None,
+        soak_prior: Vec::new(),
         changes: Vec::new(),
         warnings: vec![Diagnostic::from(WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] })],
     }

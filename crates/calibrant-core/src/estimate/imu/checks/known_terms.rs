@@ -5,7 +5,7 @@
 
 use crate::diagnostic::datasheet::KnownContradicted;
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::estimate::imu::problem::KnownTerm;
+use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::result::Calibration;
 use crate::sensor::{Condition, ImuQuantity, SensorKind};
 use crate::solve::CalibrationStatus;
