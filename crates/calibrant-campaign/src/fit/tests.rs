@@ -223,6 +223,32 @@ fn each_defect_is_named() {
     assert!(upwards.contains(&"one-direction"), "{upwards:?}");
 }
 
+/// Of how many sensors in a hundred nothing is seen of the bias's order 3, which is drawn `times` the size that is known.
+fn with_too_high_an_order(plan: &[Soak], times: f64) -> usize {
+    let model = model();
+    let is_noted = |seed: &u64| {
+        let mut rng = stream(*seed, Purpose::Sensor, 0);
+        let mut truth = draw(&model.campaign, &mut rng);
+        truth[0].iter_mut().for_each(|c| c[3] *= times);
+        let found = fit(&model, &measure(&model.campaign, plan, &truth, &mut rng)).expect("fits");
+        let named = |note: &calibrant_core::diagnostic::Diagnostic| {
+            note.code().name() == "order-too-high" && note.to_string().starts_with("accelerometer.bias: ")
+        };
+        found.warnings.iter().any(named)
+    };
+    (0..100).filter(is_noted).count()
+}
+
+#[test]
+fn an_order_of_which_nothing_is_seen_is_noted_and_one_that_is_there_is_not() {
+    // of three axes all within 1 sd: a third
+    assert!((20..50).contains(&with_too_high_an_order(&plan(), 0.0)));
+    assert_eq!(with_too_high_an_order(&plan(), 1.0), 0);
+    // of soaks that hardly see it, too
+    let few: Vec<Soak> = plan().into_iter().step_by(3).collect();
+    assert!(with_too_high_an_order(&few, 1.0) <= 5);
+}
+
 #[test]
 fn soaks_that_are_not_alike_or_too_few_are_refused() {
     let model = model();
