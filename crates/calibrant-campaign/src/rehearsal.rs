@@ -4,7 +4,7 @@ use crate::fit::{CampaignModel, SoakCalibration, fit};
 use crate::{Campaign, Channel, Soak};
 use calibrant_core::diagnostic::Severity;
 use calibrant_core::error::Result;
-use calibrant_core::estimate::SoakTemperature;
+use calibrant_core::estimate::{SoakTemperature, f_p_value};
 use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, PerSensor, ReadingUnit, SensorKind};
 use calibrant_core::simulate::{Purpose, Rng, normal, stream};
 use nalgebra::{DMatrix, DVector};
@@ -45,8 +45,13 @@ pub struct RehearsedChannel {
     pub stated_sd: f64,
     /// The share of 95 % intervals that hold the truth.
     pub coverage: f64,
+    /// Degrees of freedom of Student's t of these intervals, mean over the sensors: those of the scatter between soaks. `None` where too few soaks find it, so that
+    /// they are of the normal distribution.
+    pub degrees: Option<f64>,
 }
 
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
 /// Temperatures at which truth and estimate are compared.
 const PLACES: usize = 17;
 /// A coefficient of which nothing is known is drawn with so many times the next one.
@@ -81,13 +86,15 @@ pub fn rehearse(
             }
             for ((fitted, truth), channel) in fitted.channels.iter().zip(&truth).zip(&mut rehearsed.channels)
             {
+                let degrees = fitted.scatter.found.then_some(fitted.scatter.degrees);
+                channel.degrees = degrees.map(|of| channel.degrees.unwrap_or(0.0) + of / sensors as f64);
                 for (axis, truth) in truth.iter().enumerate() {
                     for place in 0..PLACES {
                         let x = -1.0 + 2.0 * place as f64 / (PLACES - 1) as f64;
                         let ((value, sd), mean) = (fitted.at(axis, x), fitted.relative_to[axis]);
                         let found =
                             if channel.name.ends_with(".bias") { value } else { mean * (1.0 + value) - 1.0 };
-                        channel.add(found - fitted.channel.polynomial_row(x).dot(truth), mean * sd);
+                        channel.add(found - fitted.channel.polynomial_row(x).dot(truth), mean * sd, degrees);
                     }
                 }
             }
@@ -102,13 +109,16 @@ pub fn rehearse(
 
 impl RehearsedChannel {
     fn of(channel: &Channel) -> Self {
-        Self { name: channel.name.clone(), unit: channel.unit, rms: 0.0, stated_sd: 0.0, coverage: 0.0 }
+        let (name, unit) = (channel.name.clone(), channel.unit);
+        Self { name, unit, rms: 0.0, stated_sd: 0.0, coverage: 0.0, degrees: None }
     }
 
-    fn add(&mut self, error: f64, sd: f64) {
+    fn add(&mut self, error: f64, sd: f64, degrees: Option<f64>) {
         self.rms += error * error;
         self.stated_sd += sd * sd;
-        self.coverage += f64::from(u8::from(error.abs() < 1.96 * sd));
+        // with one component it is the two-sided Student's t
+        let p_value = f_p_value((error / sd).powi(2), 1, degrees.unwrap_or(f64::INFINITY));
+        self.coverage += f64::from(u8::from(p_value.is_some_and(|p| p > 1.0 - LEVEL)));
     }
 
     fn finish(&mut self, count: f64) {

@@ -32,7 +32,7 @@ impl Experiment {
         let of = &self.read;
         let files = match &of.plan {
             Plan::Machine(plan) => plan.files(),
-            _ => Vec::new(),
+            _ => of.campaign_section().and_then(|campaign| campaign.poses_file()).into_iter().collect(),
         };
         json!({
             "plan": of.plan.section(), "is_campaign": of.campaign_section().is_some(), "is_imu": of.imu.is_some(), "sha256": of.origin().sha256, "files": files,

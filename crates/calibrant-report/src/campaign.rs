@@ -236,7 +236,7 @@ pub fn campaign_sweep_sheet<'a>(of: &'a CampaignSweep, about: &'a About) -> Shee
 #[must_use]
 pub fn campaign_study_sheet<'a>(of: &CampaignRehearsal, about: &'a About) -> Sheet<'a> {
     let mut errors = Section::new("Errors over the range").lead(
-        "Root mean square error of the mean of both branches over range, axes and sensors, the standard deviation that the calibrations state, and the share of their 95 % intervals that hold the truth.",
+        "Root mean square error of the mean of both branches over range, axes and sensors, the standard deviation that the calibrations state, and the share of their 95 % intervals that hold the truth. The intervals are of Student's t, with the degrees of freedom of the scatter between soaks; normal where too few soaks find that.",
     );
     let mut table = Table::new([
         Column::new("quantity"),
@@ -245,6 +245,7 @@ pub fn campaign_study_sheet<'a>(of: &CampaignRehearsal, about: &'a About) -> She
         Column::new("stated sd"),
         Column::new("unit"),
         Column::new("coverage").in_unit("%"),
+        Column::new("interval"),
     ]);
     for number in 0..of.campaigns.first().map_or(0, |campaign| campaign.channels.len()) {
         for campaign in &of.campaigns {
@@ -257,6 +258,7 @@ pub fn campaign_study_sheet<'a>(of: &CampaignRehearsal, about: &'a About) -> She
                 Cell::sd(channel.stated_sd, unit.factor),
                 unit.cell(channel.unit),
                 Cell::fixed(100.0 * channel.coverage, 1),
+                Cell::text(channel.degrees.map_or_else(|| "normal".to_owned(), |of| format!("t, {of:.0}"))),
             ]);
         }
     }

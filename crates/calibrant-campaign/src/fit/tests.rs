@@ -98,6 +98,31 @@ fn of_100_sensors_the_intervals_hold_and_good_campaigns_pass() {
     assert!(alarms <= 3, "{:?}", campaign.warnings);
 }
 
+/// Soaks that just find their scatter: intervals by the normal distribution would be too narrow.
+#[test]
+fn where_few_soaks_find_the_scatter_the_intervals_are_of_students_t() {
+    let mut model = CampaignModel { orders: vec![2, 1], ..model() };
+    for channel in &mut model.campaign.channels {
+        channel.spread.truncate(3);
+        (channel.hysteresis_sd, channel.lag_sd) = (Vec::new(), Vec::new());
+    }
+    let of = |count: u32| -> (String, Vec<Soak>) {
+        let soak = |k: u32| Soak {
+            temperature_c: 80.0 / f64::from(count - 1) * f64::from(k) - 20.0,
+            direction: Direction::Up,
+            wait_min: 60.0,
+            blocks: 1,
+        };
+        (count.to_string(), (0..count).map(soak).collect())
+    };
+    let found = rehearse(&model, &[of(5), of(6)], 300, 1, |_| ()).expect("fits");
+    let [stated, few] = [&found.campaigns[0].channels[0], &found.campaigns[1].channels[0]];
+    assert_eq!(stated.degrees, None, "two soaks more than coefficients");
+    // three axes of six soaks and three coefficients
+    assert!((few.degrees.expect("found") - 9.0).abs() < 0.5, "{few:?}");
+    assert!((0.93..0.975).contains(&few.coverage), "{few:?}");
+}
+
 /// Sensors on the branches of a ramp that was not used: errors are as predicted.
 #[test]
 fn a_branch_is_predicted_with_its_hysteresis_and_lag() {
@@ -196,6 +221,32 @@ fn each_defect_is_named() {
     assert!(bent.contains(&"order-too-low"), "{bent:?}");
     let upwards = with(|soaks| soaks.truncate(17));
     assert!(upwards.contains(&"one-direction"), "{upwards:?}");
+}
+
+/// Of how many sensors in a hundred nothing is seen of the bias's order 3, which is drawn `times` the size that is known.
+fn with_too_high_an_order(plan: &[Soak], times: f64) -> usize {
+    let model = model();
+    let is_noted = |seed: &u64| {
+        let mut rng = stream(*seed, Purpose::Sensor, 0);
+        let mut truth = draw(&model.campaign, &mut rng);
+        truth[0].iter_mut().for_each(|c| c[3] *= times);
+        let found = fit(&model, &measure(&model.campaign, plan, &truth, &mut rng)).expect("fits");
+        let named = |note: &calibrant_core::diagnostic::Diagnostic| {
+            note.code().name() == "order-too-high" && note.to_string().starts_with("accelerometer.bias: ")
+        };
+        found.warnings.iter().any(named)
+    };
+    (0..100).filter(is_noted).count()
+}
+
+#[test]
+fn an_order_of_which_nothing_is_seen_is_noted_and_one_that_is_there_is_not() {
+    // of three axes all within 1 sd: a third
+    assert!((20..50).contains(&with_too_high_an_order(&plan(), 0.0)));
+    assert_eq!(with_too_high_an_order(&plan(), 1.0), 0);
+    // of soaks that hardly see it, too
+    let few: Vec<Soak> = plan().into_iter().step_by(3).collect();
+    assert!(with_too_high_an_order(&few, 1.0) <= 5);
 }
 
 #[test]

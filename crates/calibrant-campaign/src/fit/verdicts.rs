@@ -110,6 +110,34 @@ impl ChannelData<'_> {
         chi2_p_value(chi2, count)
     }
 
+    /// Do the other soaks predict each soak better without the coefficients of this order? `None` where a soak alone determines a coefficient.
+    pub(super) fn is_better_without(&self, order: usize) -> Option<bool> {
+        let (rows, known) = (rows(self.campaign, self.channel, self.paths), self.channel.precision());
+        let with = self.left_out(&rows, &known)?;
+        let without =
+            self.left_out(&rows.remove_column(order), &known.remove_row(order).remove_column(order))?;
+        Some(without < with)
+    }
+
+    /// The squares of each soak less what the others predict of it, with the same scatter and over its variance, over the axes.
+    fn left_out(&self, rows: &DMatrix<f64>, known: &DMatrix<f64>) -> Option<f64> {
+        /// What is left of a variance.
+        const LEFT: f64 = 1e-6;
+        let added = self.added();
+        let mut squares = 0.0;
+        for data in self.axes {
+            let fit = AxisFit::of(rows, known, data, &added)?;
+            let covariance = fit.information.cholesky()?.inverse();
+            let residuals = &data.values - rows * (&covariance * &fit.right);
+            for (j, residual) in residuals.iter().enumerate() {
+                let variance = data.variances[j] + added[j];
+                let left = 1.0 - (rows.row(j) * &covariance * rows.row(j).transpose())[0] / variance;
+                squares += (left > LEFT).then(|| (residual / left).powi(2) / variance)?;
+            }
+        }
+        Some(squares)
+    }
+
     /// A drift from the first soak to the last, whose estimates are the whole change.
     pub(super) fn drift_test(&self) -> Option<WaldTest> {
         let count = self.paths.len();

@@ -5,8 +5,8 @@ use super::prepared::Prepared;
 use super::result::FittedChannel;
 use super::soak::{CHANGES, SoakPath};
 use calibrant_core::diagnostic::campaign::{
-    Aged, DirectionUnknown, HysteresisLarge, HysteresisSeen, LagSeen, NotSettled, OneDirection, OrderTooLow,
-    RangeNotCovered, SEEN, ScatterStated, SoakDisagrees,
+    Aged, DirectionUnknown, HysteresisLarge, HysteresisSeen, LagSeen, NotSettled, OneDirection, OrderTooHigh,
+    OrderTooLow, RangeNotCovered, SEEN, ScatterStated, SoakDisagrees,
 };
 use calibrant_core::diagnostic::{Diagnostic, Phrase};
 use calibrant_core::estimate::f_p_value;
@@ -69,6 +69,9 @@ impl Prepared<'_> {
         if data.beyond_p_value(channel.order).is_some_and(|p| p < RARE) && channel.order < HIGHEST_ORDER {
             let (order, next) = (channel.order, channel.order + 1);
             found.push(OrderTooLow { quantity: quantity.clone(), order, next }.into());
+        } else if self.is_unseen(number, channel) && data.is_better_without(channel.order) == Some(true) {
+            let (order, lower) = (channel.order, channel.order - 1);
+            found.push(OrderTooHigh { quantity: quantity.clone(), order, lower }.into());
         }
         // in one direction alone, time is temperature
         let drift = self.both_directions().then(|| data.drift_test()).flatten();
@@ -80,6 +83,19 @@ impl Prepared<'_> {
                 .fold(0.0, |most: f64, of| if of.abs() > most.abs() { of } else { most });
             found.push(Aged { quantity, unit, drift }.into());
         }
+    }
+
+    /// Are the coefficients of the order within 1 sd of 0 on all axes, where one of the size that is known beforehand would be more?
+    fn is_unseen(&self, number: usize, channel: &FittedChannel) -> bool {
+        /// Of a coefficient that is twice its standard deviation, three axes are all within one in 4 % of sensors.
+        const WOULD_BE_SEEN: f64 = 2.0;
+        let order = channel.order;
+        let known = self.model.campaign.channels[number].spread.get(order).copied().flatten();
+        order > 0
+            && channel.coefficients.iter().zip(&channel.covariances).all(|(c, covariance)| {
+                let sd = covariance[(order, order)].sqrt();
+                c[order].abs() < sd && known.is_none_or(|known| known > WOULD_BE_SEEN * sd)
+            })
     }
 
     /// The soak that is farthest from what the others say of it, where it is too far among so many. A soak that is off widens the scatter that is found with it: so the

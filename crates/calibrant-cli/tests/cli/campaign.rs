@@ -80,6 +80,30 @@ fn what_cannot_be_designed_is_refused_with_what_to_do() {
     );
 }
 
+/// Poses of a file: those of a cube's faces are the same block, and others are refused with what they leave open.
+#[test]
+fn a_block_may_be_poses_of_a_file() {
+    let from_file = bench(&[("poses = \"corners\" ", "poses = \"own.csv\" "), SHORT[0], SHORT[1]]);
+    let rows = |of: &[&str]| format!("pose,up_x,up_y,up_z\n{}\n", of.join("\n"));
+    let faces = ["1,0,0,1", "2,0,0,-1", "3,0,2,0", "4,0,-1,0", "5,1,0,0", "6,-1,0,0"];
+    // beside the experiment file, wherever the command runs
+    from_file.write("own.csv", rows(&faces));
+    from_file.run("design campaign.toml -o plan").done();
+    let of_cube = bench(&[FACES, SHORT[0], SHORT[1]]);
+    of_cube.run("design campaign.toml -o plan").done();
+    assert_eq!(from_file.read("plan/campaign.csv"), of_cube.read("plan/campaign.csv"));
+    from_file.write("one.csv", "soak,temperature_c,direction,wait_min,blocks\n1,20.0,up,10.0,1\n");
+    from_file.run("simulate campaign.toml --campaign one.csv -o sim").done();
+    // six holds of 10 s and the moves between them
+    let seconds = from_file.read("sim/soak_01.csv").lines().count() as f64 / 100.0;
+    assert!((80.0..125.0).contains(&seconds), "{seconds}");
+    from_file.write("own.csv", rows(&faces[2..]));
+    let says = ["accelerometer.bias.z, accelerometer.scale.z", "hold more orientations"];
+    from_file.refuses("design campaign.toml -o other", 2, &says);
+    from_file.write("own.csv", "pose,up_x,up_y\n1,0,0\n");
+    from_file.refuses("design campaign.toml -o other", 2, &["own.csv", "there is no column `up_z`"]);
+}
+
 /// Short holds: a campaign that a test can simulate.
 const SHORT: [(&str, &str); 5] = [
     ("budget_min = 360.0", "budget_min = 110.0"),

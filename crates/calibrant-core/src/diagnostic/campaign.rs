@@ -110,6 +110,22 @@ checks! {
         quantity.0
     );
 
+    /// The highest coefficient of a quantity is not seen.
+    OrderTooHigh "order-too-high" Note {
+        /// The quantity.
+        quantity: Phrase,
+        /// The order that is reported.
+        order: usize,
+        /// The one below.
+        lower: usize,
+    }
+    decided "Its coefficients of that order lie within 1 sd of 0 on all axes, where the soaks would see one of the size that is known beforehand; and without them the other soaks predict each soak better."
+    remedy "Lower the order in [temperature] by one."
+    says format!(
+        "{}: nothing is seen of order {order}, and without it the other soaks predict each soak better. Set order {lower} in [temperature]",
+        quantity.0
+    );
+
     /// A soak does not agree with the others.
     SoakDisagrees "soak-disagrees" Warning {
         /// The soak.

@@ -12,6 +12,7 @@ use super::temperature::TemperatureSection;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{HIGHEST_ORDER, SensorKind};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// In which directions temperatures are reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -89,7 +90,7 @@ pub struct CampaignSection {
     pub hold_s: Option<Within<Duration>>,
     /// Duration of the move to the next hold; 5 s without it.
     pub move_s: Option<Within<Duration>>,
-    /// The poses of a block of holds; six faces without it.
+    /// The poses of a block of holds, of a cube or of a file; six faces without it.
     pub poses: Option<CampaignPoses>,
     /// Soaks of one pass are at least this far apart; 5 K without it.
     pub spacing_c: Option<Within<Spacing>>,
@@ -195,6 +196,20 @@ impl CampaignSection {
     /// The same with the orders that `[temperature]` states.
     pub(super) fn with_orders(self, temperature: Option<&TemperatureSection>) -> Self {
         Self { orders: temperature.map(TemperatureSection::orders).unwrap_or_default(), ..self }
+    }
+
+    /// The same with its poses in the directory of the file.
+    pub(super) fn beside(self, directory: Option<&Path>) -> Self {
+        Self { poses: self.poses.map(|poses| poses.beside(directory)), ..self }
+    }
+
+    /// The file of its poses.
+    #[must_use]
+    pub fn poses_file(&self) -> Option<&Path> {
+        match &self.poses {
+            Some(CampaignPoses::File(path)) => Some(path),
+            _ => None,
+        }
     }
 
     /// Checks what no type says.

@@ -1,7 +1,7 @@
 //! Makes the campaign over temperature that an experiment file describes.
 
 use super::campaign::{CampaignDirections, CampaignLetter, CampaignSection, ChannelSection, USUAL, Usual};
-use super::campaign_block::CampaignPoses;
+use super::campaign_block::{CampaignBlock, CampaignPoses};
 use super::campaign_cycles::Cycles;
 use super::number::Within;
 use super::ranges::PriorSd;
@@ -11,7 +11,7 @@ use calibrant_campaign::{Campaign, CampaignCriterion, Channel, Direction};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{KnownTerm, ThermalModel, ThermometerLag};
 use calibrant_core::motion::Gravity;
-use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorKind, ThermalPart, ThermalTerm};
+use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorKind, SensorModel, ThermalPart, ThermalTerm};
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
 
@@ -19,6 +19,8 @@ use std::ops::RangeInclusive;
 const USUAL_RANGE_K: f64 = 80.0;
 /// The faces of [`Usual::block_sd`].
 const FACES: f64 = 6.0;
+/// Their [`CampaignBlock::sds`], of bias and of gain: each axis has two holds.
+const OF_FACES: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Where biases and gains are given, where the experiment does not say, °C.
 const REFERENCE_C: f64 = 25.0;
 /// The holds of [`Usual::block_sd`], s.
@@ -152,10 +154,12 @@ impl Experiment {
 }
 
 impl CampaignSection {
-    /// The poses of a block.
-    #[must_use]
-    pub fn poses(&self) -> CampaignPoses {
-        self.poses.unwrap_or(CampaignPoses::Faces)
+    /// A block of holds.
+    ///
+    /// # Errors
+    /// As [`CampaignPoses::block`].
+    pub fn block(&self, model: SensorModel) -> Result<CampaignBlock> {
+        self.poses.as_ref().unwrap_or(&CampaignPoses::Faces).block(model)
     }
 
     /// The numbers of cycles to try.
@@ -182,14 +186,14 @@ impl CampaignSection {
 
     fn problem(&self, experiment: &Experiment) -> Result<Campaign> {
         let hold_s = self.hold_s();
-        let poses = self.poses();
+        let block = self.block(experiment.sensor.model)?;
         let [low, high] = self.range_c()?;
         let half_range_share = (high - low) / USUAL_RANGE_K;
         let there = |of: &Usual| of.sensor_kind == SensorKind::Accelerometer || experiment.imu.is_some();
         let channel = |(of, section): (&Usual, Option<&ChannelSection>)| Channel {
             block_sd: section
                 .and_then(|section| section.block_sd)
-                .map_or_else(|| block_sd(of, experiment, hold_s, poses), f64::from),
+                .map_or_else(|| block_sd(of, experiment, hold_s, &block), f64::from),
             goal_sd: self.goal(of),
             ..channel_of(of, section, half_range_share)
         };
@@ -199,7 +203,7 @@ impl CampaignSection {
             budget_min: self.budget_min.get(),
             ramp_k_per_min: self.ramp_k_per_min.get(),
             time_constant_min: self.time_constant_min.map_or(10.0, f64::from),
-            block_min: poses.directions().len() as f64 * (hold_s + self.move_s()) / 60.0,
+            block_min: block.directions.len() as f64 * (hold_s + self.move_s()) / 60.0,
             directions: match self.directions {
                 Some(CampaignDirections::Up) => vec![Direction::Up],
                 Some(CampaignDirections::Both) | None => vec![Direction::Up, Direction::Down],
@@ -218,12 +222,11 @@ impl CampaignSection {
 }
 
 /// Standard deviation from a block: where the noise is stated, that of its holds. Otherwise that of usual sensors.
-fn block_sd(of: &Usual, experiment: &Experiment, hold_s: f64, poses: CampaignPoses) -> f64 {
-    let ([bias, gain], of_faces) = (poses.sds(), CampaignPoses::Faces.sds());
-    let holds = poses.directions().len() as f64;
+fn block_sd(of: &Usual, experiment: &Experiment, hold_s: f64, block: &CampaignBlock) -> f64 {
+    let ([bias, gain], holds) = (block.sds, block.directions.len() as f64);
     let beside_faces = match of.name {
-        "accelerometer.bias" => bias / of_faces[0],
-        "accelerometer.scale" => gain / of_faces[1],
+        "accelerometer.bias" => bias / OF_FACES,
+        "accelerometer.scale" => gain / OF_FACES,
         _ => (FACES / holds).sqrt(),
     };
     let usual = of.block_sd * (USUAL_HOLD_S / hold_s).sqrt() * beside_faces;

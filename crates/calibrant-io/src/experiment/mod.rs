@@ -82,7 +82,7 @@ pub mod sections {
     pub use super::campaign::{
         CampaignDirections, CampaignLetter, CampaignSection, ChannelSection, GoalsSection,
     };
-    pub use super::campaign_block::CampaignPoses;
+    pub use super::campaign_block::{CampaignBlock, CampaignPoses};
     pub use super::campaign_cycles::Cycles;
     pub use super::columns::ColumnsSection;
     pub use super::direction::{Direction, WrittenDirection};

@@ -214,7 +214,10 @@ impl ExperimentFile {
             source,
             read: String::new(),
             limits: limits.flatten().unwrap_or_default(),
-            campaign: self.campaign.clone().map(|campaign| campaign.with_orders(self.temperature.as_ref())),
+            campaign: self
+                .campaign
+                .clone()
+                .map(|campaign| campaign.with_orders(self.temperature.as_ref()).beside(directory)),
             columns: options_of(self.columns.as_ref())?,
             calibrate,
             accept: limits_of(self.accept.as_ref())?,

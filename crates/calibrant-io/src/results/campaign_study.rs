@@ -50,5 +50,7 @@ json_object! {
         stated_sd: of.0.stated_sd,
         /// The share of 95 % intervals that hold the truth.
         coverage: of.0.coverage,
+        /// Degrees of freedom of Student's t of these intervals, mean over the sensors; without it they are of the normal distribution, as the scatter between soaks is stated.
+        degrees_of_freedom: of.0.degrees,
     }
 }

@@ -97,7 +97,7 @@ pub fn simulate_campaign(
         gyroscope_unit: plan.gyroscope.unit,
         ..usual
     };
-    let directions = section.poses().directions();
+    let directions = section.block(experiment.sensor.model)?.directions;
     let recordings = soaks.iter().enumerate().map(|(k, soak)| {
         let mut rng = stream(random.seed, Purpose::Recording, 1 + k as u64);
         let at = at_soak(campaign, &truth, &axes, soak, &mut rng);
