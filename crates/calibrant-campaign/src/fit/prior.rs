@@ -94,7 +94,7 @@ mod tests {
         let estimate = &covariance * &row * (0.3 * 1e4);
         let mut parameters = ImuParameters::identity();
         quantities.iter().zip(estimate.iter()).for_each(|(of, value)| of.add_to(&mut parameters, *value));
-        let units = [Some(ReadingUnit::MetersPerSecondSquared), None];
+        let units = [Some(ReadingUnit::MetrePerSecondSquared), None];
         let imu = CalibratedImu {
             covariance: Some(covariance),
             ..CalibratedImu::new(parameters, units, quantities.to_vec(), "")
