@@ -163,6 +163,7 @@
 
 pub mod batch;
 mod campaign_calibration;
+mod campaign_rehearsal;
 mod conversion;
 mod correction;
 mod design_plan;
@@ -195,6 +196,7 @@ pub use calibrant_report as report;
 #[cfg(feature = "study")]
 pub use calibrant_study as study;
 pub use campaign_calibration::CampaignCalibration;
+pub use campaign_rehearsal::CampaignStudy;
 pub use conversion::Conversion;
 pub use correction::{Applied, apply, read_for_correction};
 pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};
