@@ -192,6 +192,14 @@ def design_poses(
 def design_campaign(
     experiment: Experiment, known: list[str], *, add_min: float | None = None, threads: int | None = None
 ) -> Page: ...
+def sweep_campaign(
+    experiment: Experiment,
+    known: list[str],
+    budgets_min: list[float],
+    *,
+    threads: int | None = None,
+    progress: _Progress = None,
+) -> Page: ...
 
 class CampaignSimulation:
     def samples(self, soak: int, sensor: str) -> _Samples | None: ...

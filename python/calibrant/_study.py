@@ -13,7 +13,7 @@ from ._progress import Progress, Told
 
 
 class Study(Page):
-    """What a study found. `data` has all of it, as in ``study.json``; of a machine under ``rehearsal``."""
+    """What a study found. `data` has all of it, as in ``study.json``; of a machine under ``rehearsal``, of a campaign under ``campaigns``."""
 
 
 def study(
@@ -30,7 +30,8 @@ def study(
     """Simulate many sensors, and compare estimates with the truth. Ctrl-C gives those that are finished.
 
     Of a ``[motion]`` experiment each sensor is calibrated on a random motion, then on the best one. With joints in ``[machine]`` it rehearses the
-    machine: the best trajectory is designed, and each sensor is calibrated on a plain routine and on that trajectory.
+    machine: the best trajectory is designed, and each sensor is calibrated on a plain routine and on that trajectory. With ``[campaign]`` it rehearses the
+    best campaign over temperature beside the usual ones in its time; Ctrl-C then gives nothing.
 
     Parameters
     ----------
@@ -39,7 +40,7 @@ def study(
     motion : Motion, path or frame, optional
         The initial motion of every sensor; a random one for each by default. A rehearsal takes none.
     sensors, starts, seed : int, optional
-        Number of sensors, starts of each design, seed; those of the experiment by default.
+        Number of sensors, starts of each design, seed; those of the experiment by default. Of a campaign 30 sensors by default, and no starts.
     force : bool
         Do it in spite of its size.
     threads : int, optional

@@ -10,7 +10,8 @@ import numpy.typing as npt
 from . import _native
 from ._arrays import Array, as_list, thread_count
 from ._calibrate import as_experiment
-from ._choice import Known, choice
+from ._choice import Known, choice, texts_of
+from ._exceptions import experiment_error
 from ._frames import frame, library_of
 from ._page import Page
 from ._progress import Progress, Told
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Sweep(Page):
-    """The best motions as one quantity changes. Where it was interrupted, it has the values that are finished.
+    """The best motions or campaigns as one quantity changes. Where it was interrupted, it has the values that are finished.
 
     Attributes
     ----------
@@ -29,9 +30,9 @@ class Sweep(Page):
     values : (n,) array
         Its values, in `unit`. A duration is a whole number of intervals.
     parameters : tuple of str
-        The names of the parameters.
+        The names of the parameters; of a campaign of its quantities, such as ``"accelerometer.bias"``.
     sd : (n, p) array
-        Standard deviation of each parameter with the best motion, in its unit; NaN where there is none.
+        Standard deviation of each parameter with the best motion, in its unit; NaN where there is none. Of a campaign the root of its mean variance over the range.
     diagnostics : tuple of Diagnostic
         What was noticed.
     data : dict
@@ -41,17 +42,18 @@ class Sweep(Page):
     def __init__(self, quantity: str, page: _native.Page) -> None:
         super().__init__(page)
         self.quantity = quantity
-        self.unit = str(self.data.get("unit", "s"))
-        points = self.data["points"]
-        key = "value" if self.data["kind"] == "sweep" else "duration_s"
+        kind = self.data["kind"]
+        self.unit = "min" if kind == "campaign-sweep" else str(self.data.get("unit", "s"))
+        points = self.data["campaigns" if kind == "campaign-sweep" else "points"]
+        key = {"sweep": "value", "campaign-sweep": "budget_min"}.get(kind, "duration_s")
         self.values: Array = np.array([of[key] for of in points], dtype=np.float64)
-        if self.data["kind"] == "sweep":
+        if kind == "sweep":
             designs = [of.get("design") or {} for of in points]
             listed: list[Any] = next((of["parameters"] for of in designs if of), [])
             self.parameters = tuple(str(of["name"]) for of in listed)
             sds = [(of.get("optimal") or {}).get("sd") for of in designs]
         else:
-            self.parameters = tuple(self.data["parameters"])
+            self.parameters = tuple(self.data["quantities" if kind == "campaign-sweep" else "parameters"])
             sds = [of["sd"] for of in points]
         none = [np.nan] * len(self.parameters)
         rows = [none if sd is None else [np.nan if of is None else of for of in sd] for sd in sds]
@@ -87,19 +89,21 @@ def sweep(
     threads: int | None = None,
     progress: Progress = False,
 ) -> Sweep:
-    """Design the best motion, or the best trajectory of a machine, for each value of a quantity. Ctrl-C gives the values that are finished.
+    """Design the best motion, trajectory of a machine, or campaign over temperature, for each value of a quantity.
+
+    Ctrl-C gives the values that are finished; of a campaign none.
 
     Parameters
     ----------
     experiment : Experiment, path or str
-        An experiment with ``[motion]`` and ``[limits]``, or with ``[machine]`` and joints.
+        An experiment with ``[motion]`` and ``[limits]``, with ``[machine]`` and joints, or with ``[campaign]``.
     quantity : str
         ``"duration"`` in s; of a motion also ``"acceleration"``, ``"jerk"``, ``"intercept"``, ``"velocity"``, ``"displacement"``, ``"rate"``
-        or ``"noise"``, in SI.
+        or ``"noise"``, in SI. Of a campaign ``"budget"``, its time in min.
     values : (n,) array
         Its values, above 0; at most 1000.
     known, criterion, starts, seed, certificate, force, threads, progress
-        As in :func:`design`.
+        As in :func:`design`. A campaign takes `known`, `threads` and `progress`.
 
     Returns
     -------
@@ -112,10 +116,24 @@ def sweep(
     >>> bool(swept.sd[1, 1] < swept.sd[0, 1])
     True
     """
+    made = as_experiment(experiment)
+    listed = as_list("values", values).tolist()
+    if made._is_campaign:
+        if quantity != "budget":
+            raise experiment_error(f"`quantity` is {quantity!r}", 'a campaign over temperature is swept over its time: "budget", in min')
+        if criterion is not None or starts is not None or not certificate:
+            raise experiment_error(
+                "`criterion`, `starts` and `certificate` are not for a campaign over temperature",
+                "leave them away; what a campaign minimises stands in [campaign]",
+                code="experiment-unsuited",
+            )
+        with Told(progress) as told:
+            page = _native.sweep_campaign(
+                made._native, texts_of(known), listed, threads=thread_count(threads), progress=told
+            )
+        return Sweep(quantity, page)
     chosen = choice(
         known=known, criterion=criterion, starts=starts, seed=seed, certificate=certificate, force=force
     )
-    made = as_experiment(experiment)
-    listed = as_list("values", values).tolist()
     with Told(progress) as told:
         return Sweep(quantity, _native.sweep(made._native, quantity, listed, chosen, threads=thread_count(threads), progress=told))

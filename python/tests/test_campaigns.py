@@ -174,6 +174,33 @@ def test_all_of_it_is_as_on_the_command_line(short: cb.Experiment, cli: Cli, tmp
         cb.design_campaign(path, known=cb.Calibration.load(tmp_path / "result" / "soak_01" / "calibration.json"))
 
 
+def test_a_sweep_says_what_time_buys_as_on_the_command_line(short: cb.Experiment, cli: Cli, tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "campaign.toml"
+    path.write_text(short.to_toml(), encoding="utf-8")
+    swept = cb.sweep(path, "budget", [90, 150])
+    assert cli("design", path, "--sweep", "budget=90,150", "-o", tmp_path / "sweep", "--json").stdout == swept.to_json()
+    assert list(swept.values) == [90.0, 150.0] and swept.unit == "min" and swept.sd.shape == (2, 4)
+    k = swept.parameters.index("accelerometer.bias")
+    assert swept.sd[1, k] < swept.sd[0, k]
+    for quantity, others in (("duration", {}), ("budget", {"starts": 3})):
+        with pytest.raises(cb.ExperimentError, match="a campaign"):
+            cb.sweep(path, quantity, [90, 150], **others)
+    with pytest.raises(cb.ExperimentError, match="give at least"):
+        cb.sweep(path, "budget", [5])
+
+
+def test_a_study_rehearses_the_campaign_as_on_the_command_line(short: cb.Experiment, cli: Cli, tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "campaign.toml"
+    path.write_text(short.to_toml(), encoding="utf-8")
+    steps: list[int] = []
+    study = cb.study(path, sensors=3, seed=2, progress=lambda done, total, what: steps.append(done))
+    assert cli("study", path, "--sensors", 3, "--seed", 2, "-o", tmp_path / "study", "--json").stdout == study.to_json()
+    assert study.data["campaigns"][0]["name"] == "this campaign" and steps == [1, 2, 3]
+    assert all(0.5 < of["coverage"] <= 1.0 for of in study.data["campaigns"][0]["quantities"])
+    with pytest.raises(cb.ExperimentError, match="`starts` is not for a campaign"):
+        cb.study(path, starts=3)
+
+
 def warm_up(path: pathlib.Path) -> None:
     """A board that lies on its desk while it warms up."""
     rng = np.random.default_rng(1)

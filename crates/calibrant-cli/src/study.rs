@@ -4,16 +4,14 @@ use crate::budget::budget;
 use crate::diagnostics::tell_all;
 use crate::exit::Exit;
 use crate::{console, interruption};
-use calibrant::campaign::fit::CampaignModel;
-use calibrant::campaign::{design_over_cycles, rehearse, usual};
 use calibrant::error::{Error, InputError, Refusal};
 use calibrant::io::{
     CampaignStudyFile, Experiment, Plan, ResultPlaces, StudyFile, to_json, write_json, write_text,
 };
-use calibrant::report::{About, campaign_study_sheet, study_sheet, usual_name};
+use calibrant::report::{About, campaign_study_sheet, study_sheet};
 use calibrant::session::MotionSource;
 use calibrant::study::Studies;
-use calibrant::{DesignChoice, RehearsalPlan, StudyChoice, StudyPlan, TrajectoryPlan};
+use calibrant::{CampaignStudy, DesignChoice, RehearsalPlan, StudyChoice, StudyPlan, TrajectoryPlan};
 use std::path::PathBuf;
 
 /// The experiment without a file: the thesis's chapters 3 and 4.
@@ -69,8 +67,8 @@ impl crate::run::Run for Arguments {
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = arguments.settings.read_or(arguments.experiment.as_deref(), DEFAULT)?;
-    if let Some(model) = experiment.campaign_model()? {
-        return campaign(arguments, &experiment, &model);
+    if experiment.campaign_section().is_some() {
+        return campaign(arguments, &experiment);
     }
     let of_thesis = experiment.is_of_thesis();
     let studies = match experiment.plan {
@@ -144,20 +142,11 @@ fn rehearsed(arguments: &Arguments, experiment: Experiment) -> calibrant::Result
 }
 
 /// The rehearsal of a campaign over temperature: the best one, and the usual ones in the same time.
-fn campaign(
-    arguments: &Arguments,
-    experiment: &Experiment,
-    model: &CampaignModel,
-) -> calibrant::Result<Exit> {
-    let cycles = experiment.campaign_section().map_or(1..=1, |section| section.cycles());
-    let (campaign, best) = design_over_cycles(&model.campaign, cycles)?;
-    let best = std::iter::once(("this campaign".to_owned(), best.soaks));
-    let usual = usual(&campaign).into_iter().map(|usual| (usual_name(&usual), usual.soaks));
-    let campaigns: Vec<_> = best.chain(usual).collect();
-    let sensors = arguments.sensors.map_or(30, |sensors| sensors as usize);
-    let seed = arguments.seed.unwrap_or(experiment.study.seed);
-    let bar = console::progress(sensors as u64, "sensors");
-    let found = rehearse(model, &campaigns, sensors, seed, |done| bar.set_position(done as u64));
+fn campaign(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Exit> {
+    let sensors = arguments.sensors.map(|sensors| sensors as usize);
+    let study = CampaignStudy::new(experiment, sensors, arguments.seed);
+    let bar = console::progress(study.sensors as u64, "sensors");
+    let found = study.run(|done| bar.set_position(done as u64));
     bar.finish_and_clear();
     let found = found?;
     write_json(&arguments.output.join("study.json"), &CampaignStudyFile(&found))?;

@@ -1,21 +1,24 @@
 //! Campaigns over temperature: the best soaks, and simulated ones.
 
 use crate::arrays::{Numbers, as_array};
+use crate::choice::teller;
 use crate::experiment::Experiment;
 use crate::failure::{invalid, raised};
 use crate::options::{parsed, positive};
 use crate::page::{Page, page};
 use crate::recording::{Samples, samples, sensor_kind};
+use crate::sweep::checked;
 use crate::work::{How, run, run_as};
 use calibrant::campaign::{
-    Campaign, PlannedCampaign, Soak, design_over_cycles, time_needed_min, timetable, usual,
+    Campaign, CampaignSweep, PlannedCampaign, Soak, design_over_cycles, time_needed_min, timetable, usual,
 };
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{CampaignFile, CampaignRow, to_json, with_soaks_of};
-use calibrant::report::{About, campaign_sheet};
+use calibrant::io::{CampaignFile, CampaignRow, CampaignSweepFile, to_json, with_soaks_of};
+use calibrant::report::{About, campaign_sheet, campaign_sweep_sheet};
 use calibrant::{Error, Result, SimulatedCampaign, simulate_campaign as simulated};
 use pyo3::prelude::*;
 use serde_json::json;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -36,7 +39,8 @@ pub(crate) fn design_campaign(
     })
 }
 
-fn best(experiment: &Experiment, known: &[String], add_min: Option<f64>) -> Result<Page> {
+/// The campaign of an experiment after these soaks, and the numbers of cycles to try.
+fn campaign_of(experiment: &Experiment, known: &[String]) -> Result<(Campaign, RangeInclusive<usize>)> {
     let read = &experiment.read;
     let (Some(campaign), Some(section)) = (read.campaign()?, read.campaign_section()) else {
         let help = "see `calibrant init campaign`";
@@ -47,8 +51,36 @@ fn best(experiment: &Experiment, known: &[String], add_min: Option<f64>) -> Resu
         )));
     };
     let campaign = known.iter().try_fold(campaign, |campaign, text| with_soaks_of(&campaign, text))?;
+    Ok((campaign, section.cycles()))
+}
+
+/// Finds the best campaign in each of these times.
+#[pyfunction]
+#[pyo3(signature = (experiment, known, budgets_min, *, threads=None, progress=None))]
+pub(crate) fn sweep_campaign(
+    py: Python<'_>,
+    experiment: &Experiment,
+    known: Vec<String>,
+    budgets_min: Vec<f64>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Page> {
+    let experiment = experiment.clone();
+    run_as(py, How { threads, progress, keeps_the_best: false }, move |given| {
+        checked(&budgets_min)?;
+        let told = teller(&given, "campaigns", budgets_min.len());
+        let swept = campaign_of(&experiment, &known)
+            .and_then(|(campaign, cycles)| CampaignSweep::over(&campaign, cycles, &budgets_min, told));
+        let swept = swept.map_err(Experiment::placed(&experiment.file))?;
+        let about = About { title: "Campaign over temperature".into(), ..About::default() };
+        Ok(page(to_json(&CampaignSweepFile(&swept)), &[], &campaign_sweep_sheet(&swept, &about)))
+    })
+}
+
+fn best(experiment: &Experiment, known: &[String], add_min: Option<f64>) -> Result<Page> {
+    let (campaign, cycles) = campaign_of(experiment, known)?;
     let budget_min = add_min.unwrap_or(campaign.budget_min);
-    let (campaign, found) = design_over_cycles(&Campaign { budget_min, ..campaign }, section.cycles())?;
+    let (campaign, found) = design_over_cycles(&Campaign { budget_min, ..campaign }, cycles)?;
     let (rows, usual) = (timetable(&campaign, &found.soaks), usual(&campaign));
     let missed = campaign.channels.iter().zip(&found.sd).any(|(channel, sd)| *sd > channel.goal_sd);
     let planned = PlannedCampaign {

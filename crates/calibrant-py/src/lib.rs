@@ -62,7 +62,7 @@ mod _native {
     #[pymodule_export]
     use crate::calibration::{Correction, compare, convert_calibration, read_calibration};
     #[pymodule_export]
-    use crate::campaign::{CampaignSimulation, design_campaign, simulate_campaign};
+    use crate::campaign::{CampaignSimulation, design_campaign, simulate_campaign, sweep_campaign};
     #[pymodule_export]
     use crate::design::{assess, design};
     #[pymodule_export]

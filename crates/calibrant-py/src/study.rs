@@ -1,17 +1,17 @@
-//! Studies of simulated sensors, and rehearsals of machines.
+//! Studies of simulated sensors, and rehearsals of machines and campaigns.
 
-use crate::choice::counter;
+use crate::choice::{counter, teller};
 use crate::experiment::Experiment;
 use crate::failure::invalid;
 use crate::motion::Motion;
 use crate::options::budget;
 use crate::page::{Page, page};
 use crate::work::{How, Run, run_as};
-use calibrant::io::{Plan, StudyFile, to_json};
-use calibrant::report::{About, study_sheet};
+use calibrant::io::{CampaignStudyFile, Plan, StudyFile, to_json};
+use calibrant::report::{About, campaign_study_sheet, study_sheet};
 use calibrant::session::MotionSource;
 use calibrant::study::Studies;
-use calibrant::{DesignChoice, RehearsalPlan, Result, StudyChoice, StudyPlan, TrajectoryPlan};
+use calibrant::{CampaignStudy, DesignChoice, RehearsalPlan, Result, StudyChoice, StudyPlan, TrajectoryPlan};
 use pyo3::prelude::*;
 
 /// What is chosen in place of what the experiment says.
@@ -23,7 +23,7 @@ struct Choice {
     force: bool,
 }
 
-/// Runs the studies of an experiment; on a machine its rehearsal.
+/// Runs the studies of an experiment; of a machine or a campaign its rehearsal.
 #[pyfunction]
 #[pyo3(signature = (experiment, *, motion=None, sensors=None, starts=None, seed=None, force=false, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "each is an argument of the Python function")]
@@ -40,11 +40,16 @@ pub(crate) fn study(
 ) -> PyResult<Page> {
     let choice = Choice { motion: motion.map(|motion| motion.0.clone()), sensors, starts, seed, force };
     let experiment = experiment.clone();
-    run_as(py, How { threads, progress, keeps_the_best: true }, move |given| {
+    // of a campaign, what is not finished is nothing
+    let keeps_the_best = experiment.read.campaign_section().is_none();
+    run_as(py, How { threads, progress, keeps_the_best }, move |given| {
         for (name, number) in [("sensors", choice.sensors), ("starts", choice.starts)] {
             if number == Some(0) {
                 return Err(invalid(format!("`{name}` is 0"), "give a number from 1"));
             }
+        }
+        if experiment.read.campaign_section().is_some() {
+            return campaign(&experiment, &choice, &given);
         }
         let studies = match experiment.read.plan {
             Plan::Machine(_) => rehearsed(&experiment, &choice, &given),
@@ -64,6 +69,18 @@ fn studied(experiment: &Experiment, choice: Choice, given: &Run) -> Result<Studi
     let choice = StudyChoice { motion, sensors, seed, starts, budget: budget(force), interruption };
     let plan = StudyPlan::new(&experiment.read, &choice)?;
     plan.run(&counter(given, "sensors", plan.steps()))
+}
+
+/// The rehearsal of a campaign over temperature, and of the usual ones in its time.
+fn campaign(experiment: &Experiment, choice: &Choice, given: &Run) -> Result<Page> {
+    let refused = [("motion", choice.motion.is_some()), ("starts", choice.starts.is_some())];
+    if let Some((name, _)) = refused.iter().find(|(_, is_there)| *is_there) {
+        return Err(invalid(format!("`{name}` is not for a campaign over temperature"), "leave it away"));
+    }
+    let study = CampaignStudy::new(&experiment.read, choice.sensors, choice.seed);
+    let found = study.run(teller(given, "sensors", study.sensors));
+    let found = found.map_err(Experiment::placed(&experiment.file))?;
+    Ok(page(to_json(&CampaignStudyFile(&found)), &[], &campaign_study_sheet(&found, &About::default())))
 }
 
 /// The rehearsal of a machine.

@@ -43,7 +43,8 @@ fn variable(name: &str) -> Result<SweepVariable> {
     })
 }
 
-fn checked(values: &[f64]) -> Result<()> {
+/// Checks the values of a sweep.
+pub(crate) fn checked(values: &[f64]) -> Result<()> {
     if values.is_empty() || values.len() > MOST {
         return Err(invalid(format!("there are {} `values`", values.len()), "give 1 to 1000"));
     }

@@ -2,7 +2,7 @@
 
 use super::check::checks;
 use super::parts::Phrase;
-use crate::number_format::{counted, significant, without_trailing_zeros};
+use crate::number_format::{counted, plain, significant, without_trailing_zeros};
 use crate::sensor::{Axis, ReadingUnit, SensorKind, Thermal};
 
 checks! {
@@ -196,6 +196,19 @@ checks! {
          takes temperatures as recorded, and is right where they change slowly.",
         if *lag_s > 0.0 { "lag" } else { "be ahead of" },
         lag_s.abs()
+    );
+
+    /// The thermometer shows coarse steps, and something follows temperature.
+    ThermometerCoarse "thermometer-coarse" Note {
+        /// The smallest difference between two temperatures, K.
+        step_k: f64,
+    }
+    decided "No two temperatures differ by less than 0.5 K. Some sensors report whole degrees."
+    remedy "Record more digits where the thermometer has them. Otherwise nothing: what steps do differs between holds and between soaks, and is part of their scatter."
+    says format!(
+        "the temperature comes in steps of {} K: one that stays within a step is known to {} K (sd), and rates are averaged over several steps",
+        plain(*step_k, 2),
+        plain(step_k / 12.0_f64.sqrt(), 2)
     );
 
     /// The recording goes beyond the temperatures of its holds. The polynomials extrapolate there.

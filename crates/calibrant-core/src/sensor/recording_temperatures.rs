@@ -52,6 +52,18 @@ impl<'a> Temperatures<'a> {
         Some(self.values_c.iter().fold([first; 2], wider))
     }
 
+    /// Smallest difference between two of the temperatures, K; `None` of a constant one.
+    #[must_use]
+    pub fn step_k(&self) -> Option<f64> {
+        /// Smaller ones are rounding.
+        const SAME_K: f64 = 1e-6;
+        let mut values = self.values_c.to_vec();
+        values.dedup();
+        values.sort_by(f64::total_cmp);
+        let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > SAME_K);
+        steps.reduce(f64::min)
+    }
+
     /// The question to the user about a temperature that is implausible for a sensor.
     #[must_use]
     pub fn question(value: f64) -> String {
@@ -108,6 +120,14 @@ mod tests {
         assert_eq!(found, [20.0, 21.0, 22.0, 24.0, 30.0]);
         assert_eq!(temperatures.mean(0.0, 1.0), 21.0);
         assert_eq!(temperatures.mean(1.2, 1.8), 26.0, "between samples");
+    }
+
+    #[test]
+    fn a_step_is_the_smallest_difference_that_is_no_rounding() {
+        let step = |values: &[f64]| Temperatures { times_s: &[], values_c: values }.step_k();
+        assert_eq!(step(&[20.0, 22.0, 22.0, 21.0, 22.0]), Some(1.0));
+        assert_eq!(step(&[20.0, 20.0 + 1e-9, 20.5]).map(|step| (2.0 * step).round()), Some(1.0));
+        assert_eq!(step(&[20.0, 20.0]), None);
     }
 
     #[test]

@@ -222,6 +222,22 @@ fn recorded(model: &ThermalModel, temperature_c: [f64; 2]) -> (ImuParameters, Im
 }
 
 #[test]
+fn a_temperature_in_whole_degrees_is_noted_where_something_follows_it() {
+    let (_, mut recording) = recorded(&GYROSCOPE_BIAS, [20.0, 45.0]);
+    let step = |recording: &ImuRecording, setup: &ImuSetup| -> Option<String> {
+        let calibration = run(recording, setup).expect("determined");
+        let coarse = calibration.warnings.iter().find(|of| of.code().name() == "thermometer-coarse");
+        coarse.map(ToString::to_string)
+    };
+    let follows = setup(GYROSCOPE_BIAS);
+    assert_eq!(step(&recording, &follows), None);
+    recording.temperature_c.iter_mut().flatten().for_each(|celsius| *celsius = celsius.round());
+    let said = step(&recording, &follows).expect("noted");
+    assert!(said.contains("steps of 1 K") && said.contains("0.29 K"), "{said}");
+    assert_eq!(step(&recording, &steady_imu()), None);
+}
+
+#[test]
 fn a_constant_temperature_is_named_and_a_prior_alone_determines_a_term() {
     let (_, recording) = recorded(&ThermalModel::default(), [30.0, 30.2]);
     let error = run(&recording, &setup(GYROSCOPE_BIAS)).expect_err("not determined");
