@@ -39,7 +39,6 @@ mod saturation;
 mod sensor_change;
 mod session;
 mod session_in_memory;
-mod soaks_together;
 mod spikes;
 #[cfg(feature = "study")]
 mod statistics;
