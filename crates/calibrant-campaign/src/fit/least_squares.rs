@@ -18,14 +18,14 @@ pub(super) struct Measurement {
 }
 
 impl Measurement {
-    /// Of a soak, and of its parameters one by one; `None` where it has no covariance.
+    /// Of a soak, and of its parameters one by one where they rest on other soaks; `None` where it has no covariance.
     pub(super) fn of(
-        (soak, one_by_one): (&SoakCalibration, &SoakCalibration),
+        (soak, one_by_one): (&SoakCalibration, Option<&SoakCalibration>),
         quantities: &[ImuQuantity],
         means: &Means,
     ) -> Option<Self> {
         let mut found = Self::of_all(soak, quantities, means)?;
-        if !soak.prior.is_empty() {
+        if let Some(one_by_one) = one_by_one {
             let each = Self::of_all(one_by_one, quantities, means)?;
             found.one_by_one = (each.values, each.covariance.diagonal());
         }

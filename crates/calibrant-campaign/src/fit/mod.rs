@@ -36,8 +36,13 @@ pub fn fit(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<FittedCam
     let quantities = check(model, soaks)?;
     let alone = soaks.iter().map(|soak| without_prior(soak).unwrap_or_else(|| soak.clone()));
     let at: Vec<SoakCalibration> = alone.map(|soak| at_its_temperature(&soak)).collect::<Result<_>>()?;
-    let each = soaks.iter().map(|soak| at_its_temperature(soak).map(|soak| one_by_one(&soak)));
-    let prepared = Prepared::of(model, &at, &each.collect::<Result<Vec<_>>>()?, &quantities)?;
+    // the others are what they are by themselves
+    let each = |soak: &SoakCalibration| {
+        let rests = (!soak.prior.is_empty()).then(|| at_its_temperature(soak));
+        rests.transpose().map(|soak| soak.as_ref().map(one_by_one))
+    };
+    let each = soaks.iter().map(each).collect::<Result<Vec<_>>>()?;
+    let prepared = Prepared::of(model, &at, &each, &quantities)?;
     let solution = prepared.solve().ok_or_else(|| open(&prepared.channels, &prepared.paths))?;
     Ok(prepared.result(&solution))
 }

@@ -31,14 +31,14 @@ impl<'a> Prepared<'a> {
     pub(super) fn of(
         model: &'a CampaignModel,
         soaks: &'a [SoakCalibration],
-        one_by_one: &[SoakCalibration],
+        one_by_one: &[Option<SoakCalibration>],
         quantities: &[ImuQuantity],
     ) -> Result<Self> {
         let campaign = &model.campaign;
         let means = Means::of(&soaks.iter().map(|soak| &soak.imu).collect::<Vec<_>>());
         let (channels, entries) = layout(model, quantities);
         let paths = paths(campaign, soaks.iter().map(|soak| soak.temperature));
-        let both = soaks.iter().zip(one_by_one);
+        let both = soaks.iter().zip(one_by_one.iter().map(Option::as_ref));
         let measurements: Vec<Measurement> =
             both.filter_map(|soak| Measurement::of(soak, quantities, &means)).collect();
         let mut prepared =

@@ -4,13 +4,19 @@
 //! information `I = C⁻¹ − Π`, the estimate `m + I⁻¹ Π (m − μ)` and shares `I⁻¹ C⁻¹ s`. In directions that it leaves open the variance is a million times the prior's.
 
 use super::soak::SoakCalibration;
-use calibrant_core::sensor::{CalibratedImu, SharedErrors};
+use calibrant_core::sensor::{CalibratedImu, ImuQuantity, SharedErrors};
 use nalgebra::{DMatrix, DVector};
 
 /// A direction is open where a soak has less than this share of the prior's information.
 const OPEN: f64 = 1e-2;
 /// The variance of an open direction, in that of the prior.
 const WIDE: f64 = 1e6;
+
+/// What the prior says of a parameter, and its standard deviation.
+fn said(soak: &SoakCalibration, quantity: ImuQuantity) -> Option<(f64, f64)> {
+    let term = soak.prior.iter().find(|term| term.quantity == quantity)?;
+    Some((term.value, term.sd?))
+}
 
 /// Each parameter without its own prior and with those of the others, as if they were independent: what a parameter by itself says of the scatter between soaks. The
 /// covariance of the soak alone has open directions, beside which the scatter would not be seen.
@@ -23,8 +29,7 @@ pub(super) fn one_by_one(soak: &SoakCalibration) -> SoakCalibration {
         if let Some(root) = &root {
             variances[k] -= root.row(k).norm_squared();
         }
-        let term = soak.prior.iter().find(|term| term.quantity == *quantity);
-        if let Some((value, sd)) = term.and_then(|term| Some((term.value, term.sd?))) {
+        if let Some((value, sd)) = said(soak, *quantity) {
             let information = sd * sd / variances[k] - 1.0;
             let off = quantity.value(&imu.parameters) - value;
             if information < OPEN {
@@ -52,8 +57,7 @@ pub(super) fn without_prior(soak: &SoakCalibration) -> Option<SoakCalibration> {
     let (mut unit, mut known) = (own.diagonal().map(f64::sqrt), DVector::zeros(size));
     let mut off = DVector::zeros(size);
     for (k, quantity) in imu.quantities.iter().enumerate() {
-        let term = soak.prior.iter().find(|term| term.quantity == *quantity);
-        if let Some((value, sd)) = term.and_then(|term| Some((term.value, term.sd?))) {
+        if let Some((value, sd)) = said(soak, *quantity) {
             (unit[k], known[k]) = (sd, 1.0);
             off[k] = (quantity.value(&imu.parameters) - value) / sd;
         }
@@ -81,7 +85,7 @@ pub(super) fn without_prior(soak: &SoakCalibration) -> Option<SoakCalibration> {
 mod tests {
     use super::*;
     use calibrant_core::estimate::{KnownTerm, SoakTemperature};
-    use calibrant_core::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind};
+    use calibrant_core::sensor::{Axis, ImuParameters, Quantity, ReadingUnit, SensorKind};
 
     /// Two biases of which the soak measures the sum, 0.3 ± 0.01: with a prior of 0 ± 1 each, and without it.
     #[test]

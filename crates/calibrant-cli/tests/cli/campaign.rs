@@ -126,6 +126,14 @@ fn with_bias(text: &str, bias_mps2: f64) -> String {
 }
 
 /// Design, simulation, one calibration over all soaks, and its exports.
+/// The truth lies within the stated standard deviations.
+fn finds_the_truth(bench: &Bench, truth: &str) {
+    let compared = bench.run(&format!("compare {truth} result/calibration.json --json")).json();
+    let off = compared["quantities"].as_array().expect("a list").iter();
+    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
+    assert!(off.len() > 30 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+}
+
 /// Six faces determine no angle between axes; two soaks with corners do, and the others count with what they measured.
 #[test]
 fn soaks_on_six_faces_are_fitted_together_with_those_that_determine_all() {
@@ -145,10 +153,7 @@ fn soaks_on_six_faces_are_fitted_together_with_those_that_determine_all() {
     assert!(outcome.stderr.contains("[soaks-together]"), "{}", outcome.stderr);
     let found = bench.json("result/calibration.json");
     assert_eq!(found["soaks"].as_array().map(Vec::len), Some(soaks));
-    let compared = bench.run("compare all/truth.json result/calibration.json --json").json();
-    let off = compared["quantities"].as_array().expect("a list").iter();
-    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
-    assert!(off.len() > 30 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    finds_the_truth(&bench, "all/truth.json");
     // their own files say on what they rest, so that nothing counts twice
     let files: Vec<String> =
         (1..=soaks).map(|soak| format!("result/soak_{soak:02}/calibration.json")).collect();
@@ -175,11 +180,7 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     let found = bench.json("result/calibration.json");
     assert_eq!(found["kind"], "campaign-calibration");
     assert_eq!(found["soaks"].as_array().map(Vec::len), Some(soaks));
-    // the truth lies within the stated standard deviations
-    let compared = bench.run("compare sim/truth.json result/calibration.json --json").json();
-    let off = compared["quantities"].as_array().expect("a list").iter();
-    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
-    assert!(off.len() > 30 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    finds_the_truth(&bench, "sim/truth.json");
     // from the calibrations of the soaks, the same
     let files: Vec<String> =
         (1..=soaks).map(|soak| format!("result/soak_{soak:02}/calibration.json")).collect();
