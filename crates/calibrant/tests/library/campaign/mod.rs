@@ -3,6 +3,7 @@
 mod coverage;
 mod defects;
 mod good;
+mod joint_fit;
 
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;
