@@ -112,7 +112,6 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     warnings
         .extend(drift.and_then(|drift| drift.beyond_expected(calibration.unit(SensorKind::Accelerometer))));
     warnings.extend(left_out(holds));
-    warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.used().collect();
     if calibration.fit.degrees_of_freedom == 0 {
         warnings.push(
@@ -158,7 +157,7 @@ pub(in crate::estimate) fn are_correlated(calibration: &Calibration, parameters:
     largest.map(|(i, j)| correlation[(i, j)].abs()).fold(0.0, f64::max) > CORRELATED
 }
 
-/// The unused holds, and why.
+/// The unused holds and why, and those in a row.
 pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<Diagnostic> {
     holds
         .holds
@@ -168,6 +167,7 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<Diagnostic> 
             let why = hold.why_left_out()?;
             Some(Diagnostic::from(HoldLeftOut { hold: HoldSpan::of(k, &hold.hold), why }))
         })
+        .chain(left_out_in_a_row(holds))
         .collect()
 }
 

@@ -3,7 +3,7 @@
 mod coverage;
 mod defects;
 mod good;
-mod joint_fit;
+mod soaks;
 
 use crate::common::draw_imu;
 use crate::common::hand::ByHand;

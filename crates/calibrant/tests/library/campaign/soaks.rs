@@ -1,4 +1,4 @@
-//! Soaks that each determine all parameters: fitted together, each with what the others say as its prior, as in two stages.
+//! Soaks of a campaign: what each says by itself, and together.
 
 use calibrant::campaign::fit::{FittedCampaign, SoakCalibration, SoakPath, fit};
 use calibrant::campaign::{Direction, Soak};
@@ -10,10 +10,23 @@ use calibrant::{Session, SessionOptions, Source, simulate_campaign};
 /// A prior is so many times as wide as what the others say, as `calibrate` takes it.
 const WIDER: f64 = 3.0;
 
-fn calibrated(experiment: &Experiment, recording: &ImuRecording, name: &str) -> SoakCalibration {
+/// The campaign of the preset, with blocks that determine all.
+fn campaign() -> Experiment {
+    let text = preset("campaign").expect("it exists").replace("\"faces\"", "\"corners\"");
+    Experiment::parse(&text, None).expect("valid")
+}
+
+fn soak((temperature_c, direction, wait_min): (f64, Direction, f64)) -> Soak {
+    Soak { temperature_c, direction, wait_min, blocks: 1 }
+}
+
+fn json(experiment: &Experiment, recording: &ImuRecording, name: &str) -> String {
     let session = Session::with(experiment.clone(), SessionOptions::default()).expect("one");
-    let outcome = session.calibrate(&Source::from_recording(name, recording.clone())).expect("determined");
-    parse_soak(&outcome.json(), name).expect("a soak").calibration
+    session.calibrate(&Source::from_recording(name, recording.clone())).expect("determined").json()
+}
+
+fn calibrated(experiment: &Experiment, recording: &ImuRecording, name: &str) -> SoakCalibration {
+    parse_soak(&json(experiment, recording, name), name).expect("a soak").calibration
 }
 
 fn known(others: &FittedCampaign, path: &SoakPath) -> Vec<KnownTerm> {
@@ -23,22 +36,15 @@ fn known(others: &FittedCampaign, path: &SoakPath) -> Vec<KnownTerm> {
     terms.map(|(k, of)| KnownTerm { quantity: *of, value: of.value(&imu.parameters), sd: sd(k) }).collect()
 }
 
+/// Fitted together, each with what the others say as its prior.
 #[test]
 fn the_joint_fit_is_that_of_two_stages_where_each_soak_determines_all() {
-    let text = preset("campaign").expect("it exists").replace("\"faces\"", "\"corners\"");
-    let experiment = Experiment::parse(&text, None).expect("valid");
+    let experiment = campaign();
     let of_one = experiment.of_one_soak().expect("one");
     let model = experiment.campaign_model().expect("valid").expect("there");
-    let soaks: Vec<Soak> = [-20.0, 0.0, 20.0, 40.0, 60.0, 50.0, 30.0, 10.0, -10.0]
-        .into_iter()
-        .enumerate()
-        .map(|(k, temperature_c)| Soak {
-            temperature_c,
-            direction: if k < 5 { Direction::Up } else { Direction::Down },
-            wait_min: 10.0,
-            blocks: 1,
-        })
-        .collect();
+    let up = [-20.0, 0.0, 20.0, 40.0, 60.0].map(|of| soak((of, Direction::Up, 10.0)));
+    let down = [50.0, 30.0, 10.0, -10.0].map(|of| soak((of, Direction::Down, 10.0)));
+    let soaks: Vec<Soak> = up.into_iter().chain(down).collect();
     let simulated = simulate_campaign(&experiment, &soaks, Some(1)).expect("simulated");
     let recordings = simulated.soaks.iter().enumerate();
     let alone: Vec<SoakCalibration> =
@@ -68,4 +74,15 @@ fn the_joint_fit_is_that_of_two_stages_where_each_soak_determines_all() {
             }
         }
     }
+}
+
+/// The accelerometer without its temperature terms leaves three holds of the last soak out; with them it uses all.
+#[test]
+fn holds_that_their_temperature_explains_are_not_said_to_be_left_out() {
+    let experiment = campaign();
+    let up = [(25.0, 5.0), (30.0, 10.0), (35.0, 0.0), (50.0, 10.0)];
+    let soaks = up.map(|(temperature_c, wait_min)| soak((temperature_c, Direction::Up, wait_min)));
+    let simulated = simulate_campaign(&experiment, &soaks, Some(1)).expect("simulated");
+    let json = json(&experiment.of_one_soak().expect("one"), &simulated.soaks[3], "soak");
+    assert!(!json.contains("holds-left-out-in-a-row"));
 }
