@@ -66,9 +66,13 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     // without orders of its own, a recording of a campaign is one soak
     let is_soak = experiment.campaign_section().is_some()
-        && experiment.imu.as_ref().is_some_and(|imu| imu.thermal.is_none());
-    let experiment = if is_soak && !arguments.together { experiment.of_one_soak()? } else { experiment };
-    let batch = job::batch(arguments, &experiment)?;
+        && experiment.imu.as_ref().is_some_and(|imu| imu.thermal.is_none())
+        && !arguments.together;
+    let of_one = if is_soak { experiment.of_one_soak()? } else { experiment.clone() };
+    let batch = job::batch(arguments, &of_one)?;
+    if is_soak && campaign::is_of_ramp(&batch) {
+        return campaign::run(arguments, &experiment);
+    }
     match batch.sources() {
         [source] => Ok(one::run(arguments, &batch, source)),
         _ => batch::run(arguments, &batch),

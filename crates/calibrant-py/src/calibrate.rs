@@ -5,12 +5,13 @@ use crate::experiment::Experiment;
 use crate::failure::raised;
 use crate::motion::Motion;
 use crate::options::{Calibrate, parsed};
+use crate::soaks::of_recordings;
 use crate::source::Source;
 use crate::work::{How, Run, run, run_as};
 use calibrant::diagnostic::Diagnostic;
 use calibrant::error::{InputError, Refusal};
 use calibrant::session::{Given, Outcome as Found, Session, SessionOptions};
-use calibrant::{CampaignCalibration, Error};
+use calibrant::{CampaignCalibration, Error, is_ramp};
 use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
@@ -67,9 +68,15 @@ pub(crate) fn calibrate(
         let read = if is_soak && source.further.is_empty() {
             experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?
         } else {
-            experiment.read
+            experiment.read.clone()
         };
-        let session = Session::with(read, options)?;
+        let session = Session::with(read, options.clone())?;
+        if is_soak && is_ramp(&session, &source).unwrap_or(false) {
+            let held_out = options.validate.clone();
+            let options = SessionOptions { validate: None, report: false, ..options };
+            let progress = options.progress.clone();
+            return of_recordings(&experiment, vec![source], options, held_out.as_ref(), &progress);
+        }
         notes.extend_from_slice(session.notes());
         match session.calibrate(&source) {
             Ok(mut outcome) => {

@@ -8,8 +8,9 @@ use crate::source::Source;
 use crate::work::{How, Run, run_as};
 use calibrant::batch::{Batch, BatchOptions, BatchRow, folder_names};
 use calibrant::diagnostic::Diagnostic;
+use calibrant::progress::Progress;
 use calibrant::session::{Session, SessionOptions};
-use calibrant::{CampaignCalibration, Error, Result, calibrate_with_the_others};
+use calibrant::{CampaignCalibration, Error, Result, calibrate_soaks as calibrated_soaks};
 use pyo3::prelude::*;
 
 /// A soak's name, and the text of its calibration or why there is none.
@@ -32,25 +33,35 @@ pub(crate) fn calibrate_campaign(
     let held_out = validate.map(|source| source.0.clone());
     let experiment = experiment.clone();
     run_as(py, How { threads, progress, keeps_the_best: false }, move |Run { interruption, progress }| {
-        let of_all = options.clone();
-        let of_one = experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?;
-        let session = Session::with(of_one, SessionOptions { interruption, ..options })?;
-        let batch =
-            Batch::new(session, sources, BatchOptions { keep_json: true, ..BatchOptions::default() })?;
-        let mut rows = batch.run(&progress).rows;
-        let together = calibrate_with_the_others(&experiment.read, &batch, &mut rows)?;
-        // where none can be used, the first says why
-        if rows.iter().all(|row| row.outcome.is_err()) && !rows.is_empty() {
-            let BatchRow { outcome, recording, .. } = rows.swap_remove(0);
-            outcome.map_err(|error| error.in_recording(&recording))?;
-        }
-        let soak = |row: BatchRow| {
-            let text = row.outcome.map(|result| result.json).map_err(|error| error.to_string());
-            (row.folder, text)
-        };
-        let soaks = rows.into_iter().map(soak).collect();
-        over_temperature(&experiment, soaks, of_all, (held_out.as_ref(), together))
+        let options = SessionOptions { interruption, ..options };
+        of_recordings(&experiment, sources, options, held_out.as_ref(), &progress)
     })
+}
+
+/// Calibrates each recording by itself, a ramp in pieces, then over temperature.
+pub(crate) fn of_recordings(
+    experiment: &Experiment,
+    sources: Vec<calibrant::session::Source>,
+    options: SessionOptions,
+    held_out: Option<&calibrant::session::Source>,
+    progress: &Progress,
+) -> Result<Outcome> {
+    let of_one = experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?;
+    let session = Session::with(of_one, options.clone())?;
+    let batch = Batch::new(session, sources, BatchOptions { keep_json: true, ..BatchOptions::default() })?;
+    let rows = batch.run(progress).rows;
+    let (mut rows, notes) = calibrated_soaks(&experiment.read, batch, rows, progress)?;
+    // where none can be used, the first says why
+    if rows.iter().all(|row| row.outcome.is_err()) && !rows.is_empty() {
+        let BatchRow { outcome, recording, .. } = rows.swap_remove(0);
+        outcome.map_err(|error| error.in_recording(&recording))?;
+    }
+    let soak = |row: BatchRow| {
+        let text = row.outcome.map(|result| result.json).map_err(|error| error.to_string());
+        (row.folder, text)
+    };
+    let soaks = rows.into_iter().map(soak).collect();
+    over_temperature(experiment, soaks, options, (held_out, notes))
 }
 
 /// Calibrates over temperature from the calibrations of the soaks: the name of each, and its text.
@@ -69,7 +80,7 @@ pub(crate) fn calibrate_soaks(
     run_as(py, How::default(), move |_| {
         let (names, texts): (Vec<String>, Vec<String>) = soaks.into_iter().unzip();
         let soaks = folder_names(&names).into_iter().zip(texts.into_iter().map(Ok)).collect();
-        over_temperature(&experiment, soaks, options, (held_out.as_ref(), None))
+        over_temperature(&experiment, soaks, options, (held_out.as_ref(), Vec::new()))
     })
 }
 
@@ -81,9 +92,8 @@ fn over_temperature(
     experiment: &Experiment,
     soaks: Vec<Soak>,
     options: SessionOptions,
-    (held_out, together): (Option<&calibrant::session::Source>, Option<Diagnostic>),
+    (held_out, mut notes): (Option<&calibrant::session::Source>, Vec<Diagnostic>),
 ) -> Result<Outcome> {
-    let mut notes: Vec<Diagnostic> = together.into_iter().collect();
     let found = CampaignCalibration::of_soaks(&experiment.read, soaks, &options.allowed, &mut notes);
     let mut found =
         found.map_err(|error| with_reason(error, &notes)).map_err(Experiment::placed(&experiment.file))?;

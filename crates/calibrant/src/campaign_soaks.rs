@@ -19,7 +19,7 @@ const WIDER: f64 = 3.0;
 ///
 /// # Errors
 /// Where the experiment makes no sense.
-pub fn calibrate_with_the_others(
+pub(crate) fn calibrate_with_the_others(
     experiment: &Experiment,
     batch: &Batch,
     rows: &mut [BatchRow],

@@ -163,6 +163,7 @@
 
 pub mod batch;
 mod campaign_calibration;
+mod campaign_ramps;
 mod campaign_rehearsal;
 mod campaign_soaks;
 mod conversion;
@@ -197,8 +198,8 @@ pub use calibrant_report as report;
 #[cfg(feature = "study")]
 pub use calibrant_study as study;
 pub use campaign_calibration::CampaignCalibration;
+pub use campaign_ramps::{calibrate_soaks, is_ramp};
 pub use campaign_rehearsal::CampaignStudy;
-pub use campaign_soaks::calibrate_with_the_others;
 pub use conversion::Conversion;
 pub use correction::{Applied, apply, read_for_correction};
 pub use design_plan::{DesignChoice, DesignPlan, RecordedPoses};

@@ -6,20 +6,26 @@ use crate::console;
 use crate::diagnostics::{rules, tell_all, tell_in};
 use crate::exit::Exit;
 use calibrant::Error;
-use calibrant::batch::{BatchResults, BatchRow, folder_names};
+use calibrant::batch::{Batch, BatchResults, BatchRow, folder_names};
 use calibrant::diagnostic::Check;
-use calibrant::diagnostic::fit::NothingToCheck;
+use calibrant::diagnostic::fit::{FewDegreesOfFreedom, NothingToCheck};
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, write_summary};
 use calibrant::progress::Progress;
 use calibrant::session::{Session, SessionOptions};
-use calibrant::{CampaignCalibration, calibrate_with_the_others};
+use calibrant::{CampaignCalibration, calibrate_soaks, is_ramp};
 use std::path::Path;
 
 /// Are these the soaks of a campaign?
 pub(super) fn is_one(arguments: &Arguments, experiment: &Experiment) -> bool {
     let several = arguments.recordings.len() > 1 && !arguments.together;
     experiment.campaign_section().is_some() && (several || are_calibrated(arguments))
+}
+
+/// Is the one recording of the batch a ramp of a campaign? `batch` is of one soak.
+pub(super) fn is_of_ramp(batch: &Batch) -> bool {
+    // what cannot be read is told where it is calibrated
+    matches!(batch.sources(), [source] if is_ramp(batch.session(), source).unwrap_or(false))
 }
 
 /// Are the soaks calibrated already? Then their calibrations are given in place of the recordings.
@@ -111,12 +117,14 @@ fn each(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<(So
     if let Some(Err(error)) = repeated.map(|number| results.rows.swap_remove(number).outcome) {
         return Err(error);
     }
-    let together = calibrate_with_the_others(experiment, &batch, &mut results.rows)?;
-    tell_all(together.iter());
+    let (rows, notes) = calibrate_soaks(experiment, batch, results.rows, &Progress::default())?;
+    let results = BatchResults { rows, ..results };
+    tell_all(&notes);
     let (mut exit, mut open_is_told) = (Exit::DONE, false);
     for row in &results.rows {
         // what checks a soak are the others
-        let told = row.told().iter().filter(|found| found.code() != NothingToCheck::CODE);
+        let of_one = [NothingToCheck::CODE, FewDegreesOfFreedom::CODE];
+        let told = row.told().iter().filter(|found| !of_one.contains(&found.code()));
         told.for_each(|found| tell_in(found, Some(&row.folder)));
         if let Err(error) = &row.outcome {
             // one of many that leave parameters open is enough here: all are named as left out

@@ -165,6 +165,55 @@ fn soaks_on_six_faces_are_fitted_together_with_those_that_determine_all() {
     assert!(refused.stderr.matches("[not-identifiable]").count() == 1, "{}", refused.stderr);
 }
 
+/// A ramp up and one down: a block of six faces every 4 K, in one recording, or in one each.
+#[test]
+fn a_ramp_in_several_poses_is_cut_into_soaks() {
+    let of_axes =
+        ("model = \"full\"               # bias, scale factors and n", "model = \"scale-bias\" # n");
+    let bench = bench(&[
+        FACES,
+        of_axes,
+        ("model = \"full\"               # bias, scale factors, m", "model = \"scale-bias\" # m"),
+    ]);
+    let mut plan = "soak,temperature_c,direction,wait_min,blocks,begin_min,end_min\n".to_owned();
+    let up = (0..21).map(|k| (-20 + 4 * k, "up"));
+    let down = (0..20).map(|k| (56 - 4 * k, "down"));
+    for (k, (temperature_c, direction)) in up.chain(down).enumerate() {
+        let begin_min = 2.0 + 3.5 * k as f64;
+        writeln!(plan, "{},{temperature_c},{direction},0,1,{begin_min},{}", k + 1, begin_min + 1.5)
+            .expect("written");
+    }
+    bench.write("ramp.csv", &plan);
+    bench.run("simulate campaign.toml --campaign ramp.csv --seed 3 -o blocks").done();
+    let joined = |name: &str, blocks: std::ops::RangeInclusive<usize>| {
+        let mut all = String::new();
+        for (k, block) in blocks.enumerate() {
+            let text = bench.read(&format!("blocks/soak_{block:02}.csv"));
+            let (header, rows) = text.split_once('\n').expect("a header");
+            if k == 0 {
+                writeln!(all, "{header}").expect("written");
+            }
+            for row in rows.lines() {
+                let (time, rest) = row.split_once(',').expect("a time");
+                let time_s = time.parse::<f64>().expect("a time") + 150.0 * k as f64;
+                writeln!(all, "{time_s:.2},{rest}").expect("written");
+            }
+        }
+        bench.write(name, &all);
+    };
+    joined("up.csv", 1..=21);
+    joined("down.csv", 22..=41);
+    joined("both.csv", 1..=41);
+    for (recordings, cuts) in [("up.csv down.csv", 2), ("both.csv", 1)] {
+        let outcome =
+            bench.run(&format!("calibrate campaign.toml {recordings} --no-report -o result")).done();
+        assert_eq!(outcome.stderr.matches("[ramp-cut]").count(), cuts, "{}", outcome.stderr);
+        let found = bench.json("result/calibration.json");
+        assert!(found["soaks"].as_array().is_some_and(|soaks| soaks.len() > 24), "{}", found["soaks"]);
+        finds_the_truth(&bench, "blocks/truth.json");
+    }
+}
+
 #[test]
 fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     let bench = bench(&SHORT);

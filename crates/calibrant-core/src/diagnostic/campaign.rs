@@ -209,6 +209,21 @@ checks! {
     remedy "Nothing: the fit over all soaks takes from each what it measured. Their own folders rest on the others."
     says format!("do not determine all parameters by themselves, and are fitted together with the others: {}", soaks.join(", "));
 
+    /// A recording goes over more temperatures than a soak.
+    RampCut "ramp-cut" Note {
+        /// The recording.
+        recording: String,
+        /// Lowest temperature, °C.
+        from_c: f64,
+        /// Highest temperature, °C.
+        to_c: f64,
+        /// Number of pieces.
+        pieces: usize,
+    }
+    decided "Its temperature goes over more than 0.2 of the range of use."
+    remedy "Nothing: each piece is fitted as a soak at its temperature. Pieces without a hold are not used."
+    says format!("{recording} goes from {from_c:.0} to {to_c:.0} °C: it is cut into {pieces} pieces, and each is a soak");
+
     /// Soaks are not used.
     SoakLeftOut "soak-left-out" Warning {
         /// The soaks.

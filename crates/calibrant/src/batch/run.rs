@@ -1,5 +1,6 @@
 //! The batch and its work.
 
+use super::RESULT_FILES;
 use super::checks::check;
 use super::copies::Copies;
 use super::folders::folder_names;
@@ -84,6 +85,22 @@ impl Batch {
             BatchRow { folder, recording, files: files.clone(), key, outcome, has_failure_page, told }
         };
         BatchResults { rows: in_parallel(count, row), copies: copies.groups() }
+    }
+
+    /// The same of other recordings, without records.
+    pub(crate) fn with_sources(&self, sources: Vec<Source>) -> Result<Self> {
+        let session = Session::with(self.session.experiment().clone(), self.session.options().clone())?;
+        Self::new(session, sources, BatchOptions { records: None, ..self.options.clone() })
+    }
+
+    /// Removes what this run wrote of a recording: another result takes its place.
+    pub(crate) fn forget(&self, row: &BatchRow) {
+        if let Some(directory) = &self.options.directory {
+            let directory = directory.join(&row.folder);
+            // what is not there need not go
+            RESULT_FILES.iter().for_each(|name| drop(std::fs::remove_file(directory.join(name))));
+            drop(std::fs::remove_dir(directory));
+        }
     }
 
     /// Calibrates from one of the recordings once more, by another experiment of the same kind. `row` is what came of it before.

@@ -1,0 +1,197 @@
+//! Ramps of a campaign: recordings in which the sensor is turned while the temperature goes over more than a soak's. Each is cut into pieces, which are soaks.
+
+use crate::batch::{Batch, BatchRow, in_parallel};
+use crate::campaign_soaks::calibrate_with_the_others;
+use crate::session::{Readings, Session, Source};
+use calibrant_campaign::Campaign;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::diagnostic::campaign::RampCut;
+use calibrant_core::error::Result;
+use calibrant_core::estimate::SoakTemperature;
+use calibrant_core::progress::Progress;
+use calibrant_core::sensor::ImuRecording;
+use calibrant_io::{Experiment, HashedFile, ImuFile, file_name, parse_soak};
+
+/// A soak spans at most this share of the range of use: within, a parabola of the biases and a line of the gains are enough.
+const WIDEST: f64 = 0.2;
+/// Temperatures are means over so many seconds.
+const STEP_S: f64 = 10.0;
+
+/// Calibrates the soaks of a campaign from what came of each recording by itself: ramps are cut into pieces, and what leaves parameters open is fitted together with the
+/// others. `batch` is of one soak; its rows are in the order of its recordings.
+///
+/// # Errors
+/// Where the experiment makes no sense.
+pub fn calibrate_soaks(
+    experiment: &Experiment,
+    mut batch: Batch,
+    mut rows: Vec<BatchRow>,
+    progress: &Progress,
+) -> Result<(Vec<BatchRow>, Vec<Diagnostic>)> {
+    let mut notes: Vec<Diagnostic> = Vec::new();
+    let mut is_piece = vec![false; rows.len()];
+    let ramps = match experiment.campaign()? {
+        Some(campaign) => in_parallel(rows.len(), |k| {
+            is_wide(&rows[k], &campaign).then(|| pieces(batch.session(), &batch.sources()[k], &campaign))?
+        }),
+        None => Vec::new(),
+    };
+    if ramps.iter().any(Option::is_some) {
+        let cut: Vec<Source> = ramps.iter().flatten().flat_map(|ramp| ramp.pieces.clone()).collect();
+        let of_pieces = batch.with_sources(cut)?;
+        let mut found = of_pieces.run(progress).rows.into_iter();
+        let (mut all, mut sources) = (Vec::new(), Vec::new());
+        is_piece.clear();
+        for ((row, source), ramp) in rows.into_iter().zip(batch.sources()).zip(ramps) {
+            let Some(Ramp { pieces, range_c: [from_c, to_c] }) = ramp else {
+                all.push(row);
+                sources.push(source.clone());
+                is_piece.push(false);
+                continue;
+            };
+            batch.forget(&row);
+            notes.push(RampCut { recording: row.folder, from_c, to_c, pieces: pieces.len() }.into());
+            all.extend(found.by_ref().take(pieces.len()));
+            is_piece.extend(pieces.iter().map(|_| true));
+            sources.extend(pieces);
+        }
+        (rows, batch) = (all, batch.with_sources(sources)?);
+    }
+    notes.extend(calibrate_with_the_others(experiment, &batch, &mut rows)?);
+    // between two stops of the chamber there may be no hold
+    let has_result = rows.iter().zip(&is_piece).any(|(row, is_piece)| *is_piece && row.outcome.is_ok());
+    let kept = rows
+        .into_iter()
+        .zip(is_piece)
+        .filter(|(row, is_piece)| !(has_result && *is_piece && row.outcome.is_err()));
+    Ok((kept.map(|(row, _)| row).collect(), notes))
+}
+
+/// A recording whose temperature goes over more than a soak's.
+struct Ramp {
+    pieces: Vec<Source>,
+    /// From its first temperature to its last; of one there and back the extremes.
+    range_c: [f64; 2],
+}
+
+/// May a recording be a ramp? Its holds say; where it has no result, it is looked at.
+fn is_wide(row: &BatchRow, campaign: &Campaign) -> bool {
+    let Ok(result) = &row.outcome else { return !row.is_interrupted() };
+    let soak = parse_soak(&result.json, &row.folder);
+    soak.is_ok_and(|soak| spans_widely(soak.calibration.temperature.range_c, campaign))
+}
+
+fn spans_widely([low, high]: [f64; 2], campaign: &Campaign) -> bool {
+    high - low > WIDEST * (campaign.range_c[1] - campaign.range_c[0])
+}
+
+/// Is the recording a ramp in several poses?
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn is_ramp(of_one: &Session, source: &Source) -> Result<bool> {
+    let campaign = of_one.experiment().campaign()?;
+    let ramp = campaign.and_then(|campaign| pieces(of_one, source, &campaign));
+    Ok(ramp.is_some() && of_one.one_pose(source)?.is_none())
+}
+
+/// The pieces of a recording; `None` where its temperature stays, or cannot be read.
+fn pieces(of_one: &Session, source: &Source, campaign: &Campaign) -> Option<Ramp> {
+    let file = of_one.read(source).ok().filter(|_| source.further.is_empty() && source.sections.is_none())?;
+    let temperatures = temperatures(&file.recording)?;
+    let range = temperatures.iter().map(|(_, t)| [*t; 2]).reduce(|[a, b], [t, _]| [a.min(t), b.max(t)]);
+    let range_c = range.filter(|range| spans_widely(*range, campaign))?;
+    let least = (60.0 * campaign.block_min, campaign.spacing_c);
+    let spans = spans(&temperatures, least);
+    let digits = spans.len().to_string().len();
+    let path = source.path();
+    let piece = |(k, span): (usize, &(f64, f64))| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let path = path.with_file_name(format!("{name}-{:0digits$}", k + 1));
+        Source::new(Readings::read_already(&path, part(&file, *span, (k == 0, &file_name(&path)))))
+    };
+    Some(Ramp { pieces: spans.iter().enumerate().map(piece).collect(), range_c })
+}
+
+/// Mean temperatures over equal times, and when each begins.
+fn temperatures(recording: &ImuRecording) -> Option<Vec<(f64, f64)>> {
+    let times = recording.sensors().next()?.1.times_s();
+    let (first, last) = (*times.first()?, *times.last()?);
+    let starts = (0..).map(|k| first + STEP_S * f64::from(k)).take_while(|start| start + STEP_S <= last);
+    let starts: Vec<f64> = starts.collect();
+    let each = SoakTemperature::each(recording, starts.iter().map(|start| (*start, start + STEP_S))).ok()?;
+    (!each.is_empty()).then(|| starts.into_iter().zip(each.iter().map(|of| of.mean_c)).collect())
+}
+
+/// Pieces in which the temperature goes one way, each over `least` s and K at least: the first begins, and the last ends, with the recording.
+fn spans(temperatures: &[(f64, f64)], (least_s, least_k): (f64, f64)) -> Vec<(f64, f64)> {
+    let mut cuts = vec![f64::NEG_INFINITY];
+    let (mut begin, mut extreme) = (temperatures[0], temperatures[0]);
+    for &(time_s, temperature_c) in temperatures {
+        let way = extreme.1 - begin.1;
+        if (temperature_c - begin.1).abs() >= way.abs() {
+            extreme = (time_s, temperature_c);
+        }
+        let turned = (temperature_c - extreme.1).abs() >= least_k && way.abs() >= 0.5 * least_k;
+        let at = if turned { extreme } else { (time_s, temperature_c) };
+        let is_far = (temperature_c - begin.1).abs() >= least_k;
+        if (turned || is_far) && at.0 - begin.0 >= least_s {
+            cuts.push(at.0);
+            (begin, extreme) = (at, (time_s, temperature_c));
+        }
+    }
+    let end_s = temperatures[temperatures.len() - 1].0 + STEP_S;
+    if cuts.len() > 1 && end_s - begin.0 < least_s {
+        cuts.pop();
+    }
+    cuts.iter().zip(cuts[1..].iter().chain([&f64::INFINITY])).map(|(from, to)| (*from, *to)).collect()
+}
+
+/// The samples of a recording within these times, as a recording of its own. What was noticed in the file stays with the first.
+fn part(file: &ImuFile, (from_s, to_s): (f64, f64), (is_first, name): (bool, &str)) -> ImuFile {
+    let within = |time_s: &f64| (from_s..to_s).contains(time_s);
+    let times = file.recording.sensors().next().map(|(_, sensor)| sensor.times_s());
+    let with_times = times.zip(file.recording.temperature_c.as_ref());
+    let temperatures = with_times.map(|(times, values)| {
+        let samples = times.iter().zip(values).filter(|(time_s, _)| within(time_s));
+        samples.map(|(_, value)| *value).collect()
+    });
+    let mut recording = ImuRecording { temperature_c: temperatures, ..ImuRecording::default() };
+    for (kind, sensor) in file.recording.sensors() {
+        recording[kind] = Some(sensor.only(|sample| within(&sensor.times_s()[sample])));
+    }
+    let of_part = format!("{} {from_s} {to_s}", file.sha256.concat());
+    ImuFile {
+        rows: recording.sensors().map(|(_, sensor)| sensor.len()).max().unwrap_or(0),
+        recording,
+        sha256: vec![HashedFile::of_bytes(name.to_owned(), of_part.as_bytes()).sha256],
+        findings: if is_first { file.all_findings().cloned().collect() } else { Vec::new() },
+        second: None,
+        format: file.format,
+        columns: file.columns.clone(),
+        counted_from_ns: file.counted_from_ns,
+        rate_sd_ppm: file.rate_sd_ppm,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Up and down over 44 K at 2 K/min, with a stop of 10 min on top: pieces of 5 K at least, and none goes both ways.
+    #[test]
+    fn a_ramp_is_cut_by_its_temperature_and_where_it_turns() {
+        let at = |minute: f64| match minute {
+            m if m < 22.0 => 2.0 * m,
+            m if m < 32.0 => 44.0,
+            m => 44.0 - 2.0 * (m - 32.0),
+        };
+        let temperatures: Vec<(f64, f64)> =
+            (0..324).map(|k| 10.0 * f64::from(k)).map(|time_s| (time_s, at(time_s / 60.0))).collect();
+        let found = spans(&temperatures, (90.0, 5.0));
+        let minutes = found.iter().skip(1).map(|(from, _)| (from / 60.0).round());
+        let (up, down) = ([3, 5, 8, 10, 13, 15, 18, 20], [35, 37, 40, 42, 45, 47, 50, 52]);
+        let expected = up.into_iter().chain([32]).chain(down).map(f64::from);
+        assert!(minutes.eq(expected), "{found:?}");
+    }
+}
