@@ -18,7 +18,8 @@ pub use campaign::{Campaign, Direction, Soak};
 pub use channel::Channel;
 pub use criterion::CampaignCriterion;
 pub use design::{
-    CampaignDesign, RelaxedCampaign, RelaxedSoak, design, design_over_cycles, relaxed, time_needed_min,
+    CampaignDesign, MOST_TIMES, RelaxedCampaign, RelaxedSoak, design, design_over_cycles, relaxed,
+    time_needed_min,
 };
 pub use planned::{CampaignSweep, PlannedCampaign, SweptCampaign};
 pub use rehearsal::{CampaignRehearsal, RehearsedCampaign, RehearsedChannel, rehearse};

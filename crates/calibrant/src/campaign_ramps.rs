@@ -103,6 +103,9 @@ fn pieces(of_one: &Session, source: &Source, campaign: &Campaign) -> Option<Ramp
     let range_c = range.filter(|range| spans_widely(*range, campaign))?;
     let least = (60.0 * campaign.block_min, campaign.spacing_c);
     let spans = spans(&temperatures, least);
+    if spans.len() < 2 {
+        return None;
+    }
     let digits = spans.len().to_string().len();
     let path = source.path();
     let piece = |(k, span): (usize, &(f64, f64))| {

@@ -9,7 +9,7 @@ mod time_needed;
 mod whole;
 
 pub use relaxed::{RelaxedCampaign, RelaxedSoak, relaxed};
-pub use time_needed::time_needed_min;
+pub use time_needed::{MOST_TIMES, time_needed_min};
 
 use crate::{Campaign, Soak};
 use calibrant_core::error::Result;

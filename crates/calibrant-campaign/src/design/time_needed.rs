@@ -3,8 +3,8 @@
 use super::relaxed::relaxed;
 use crate::{Campaign, CampaignCriterion};
 
-/// So many times the stated time at most.
-const MOST_TIMES: f64 = 32.0;
+/// [`time_needed_min`] looks at so many times the stated time at most.
+pub const MOST_TIMES: f64 = 32.0;
 /// Steps of the bisection.
 const STEPS: usize = 12;
 

@@ -29,11 +29,14 @@ json_object! {
 }
 
 impl SoakTemperature {
-    /// Over the holds that were used; `None` where the recording has no temperature, or no hold.
+    /// Over the holds that were used; `None` where the recording has no temperature, one that jumps as none does, or no hold.
     ///
     /// # Errors
     /// As [`Temperatures::of`].
     pub fn of(recording: &ImuRecording, holds: &[HoldResult]) -> Result<Option<Self>> {
+        if Temperatures::of(recording)?.is_some_and(|of| of.jumps()) {
+            return Ok(None);
+        }
         let used = holds.iter().filter(|hold| hold.used).map(|hold| (hold.hold.start_s, hold.hold.end_s));
         let each = Self::each(recording, used)?;
         let count = each.len() as f64;

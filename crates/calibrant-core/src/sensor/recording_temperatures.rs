@@ -52,6 +52,16 @@ impl<'a> Temperatures<'a> {
         Some(self.values_c.iter().fold([first; 2], wider))
     }
 
+    /// Does it change between two samples by more than a sensor's can?
+    #[must_use]
+    pub fn jumps(&self) -> bool {
+        /// Of one sample, K, and most of a second, K: a pause may be long.
+        const JUMP_K: f64 = 5.0;
+        const MOST_K_PER_S: f64 = 1.0;
+        let steps = self.times_s.windows(2).zip(self.values_c.windows(2));
+        steps.into_iter().any(|(t, of)| (of[1] - of[0]).abs() > JUMP_K.max(MOST_K_PER_S * (t[1] - t[0])))
+    }
+
     /// Smallest difference between two of the temperatures, K; `None` of a constant one.
     #[must_use]
     pub fn step_k(&self) -> Option<f64> {
@@ -110,6 +120,14 @@ mod tests {
             unit: ReadingUnit::MetrePerSecondSquared,
         };
         ImuRecording { sensors: [Some(sensor), None].into(), temperature_c: Some(values.to_vec()) }
+    }
+
+    #[test]
+    fn no_sensor_warms_by_6_k_from_one_second_to_the_next() {
+        let jumps =
+            |values: &[f64]| Temperatures::of(&recording(values)).expect("plausible").map(|of| of.jumps());
+        assert_eq!(jumps(&[20.0, 20.0, 26.0]), Some(true));
+        assert_eq!(jumps(&[20.0, 24.0, 28.0]), Some(false));
     }
 
     #[test]

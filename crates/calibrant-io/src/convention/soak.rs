@@ -88,8 +88,8 @@ pub fn parse_soak(text: &str, name: &str) -> Checked<ReadSoak> {
         serde_json::from_str(text).map_err(|error| super::calibrant_json::broken(&error))?;
     let SoakCore { mean_c, rate_k_per_min, range_c } = fields.soak.ok_or_else(|| {
         invalid(
-            "this calibration has no `soak`: its recording had no temperature",
-            "name the column with temperature = \"\u{2026}\" in [columns], and calibrate the recording again",
+            "this calibration has no `soak`: its recording had no temperature, or one that jumps by more than 5 K between two samples",
+            "name the column with temperature = \"\u{2026}\" in [columns], take out what is no temperature, and calibrate the recording again",
         )
     })?;
     let temperature = SoakTemperature { mean_c, rate_k_per_min, range_c };
