@@ -109,7 +109,7 @@ impl CampaignCalibration {
     ///
     /// # Errors
     /// [`Error::Recording`] where the recording cannot be read, has no temperature or no holds, or is another sensor's. [`Error::Experiment`] where it is one of
-    /// the soaks, or where the experiment has no gyroscope.
+    /// the soaks.
     pub fn validate(mut self, of_one_soak: &Session, recording: &Source) -> Result<Self> {
         self.validations = of_one_soak.on_held_out(recording, &mut self)?;
         self.fitted.warnings.extend(doubts(&self.validations));

@@ -12,7 +12,7 @@ use crate::session::{Outcome, Session, Source};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::progress::Progress;
-use calibrant_io::{Experiment, Finished, HashedFile, ResumeKey, write_text};
+use calibrant_io::{Finished, HashedFile, ResumeKey, write_text};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -86,9 +86,8 @@ impl Batch {
         BatchResults { rows: in_parallel(count, row), copies: copies.groups() }
     }
 
-    /// Calibrates from one of the recordings once more, by another experiment of the same kind. `row` is what came of it before.
-    pub(crate) fn again(&self, number: usize, row: &BatchRow, experiment: Experiment) -> Result<BatchRow> {
-        let session = Session::with(experiment, self.session.options().clone())?;
+    /// Calibrates from one of the recordings once more, by another session of the same kind. `row` is what came of it before.
+    pub(crate) fn again(&self, number: usize, row: &BatchRow, session: Session) -> Result<BatchRow> {
         let (sources, records) = (vec![self.sources[number].clone()], RecordKeeper::open(None)?);
         let options = BatchOptions { resume: false, records: None, ..self.options.clone() };
         let other = Self { session, sources, options, records };
