@@ -1,5 +1,6 @@
 //! One calibration over temperature from the calibrations of several soaks: reads, fits, judges, writes.
 
+use crate::batch::in_parallel;
 use crate::session::{Session, Source, doubts};
 use calibrant_campaign::fit::{CampaignModel, FittedCampaign, fit};
 use calibrant_core::diagnostic::campaign::SoakLeftOut;
@@ -51,11 +52,14 @@ impl CampaignCalibration {
         })?;
         let mut kept: Vec<ReadSoak> = Vec::new();
         let mut left_out: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for (name, text) in soaks {
-            let read = text.and_then(|text| {
-                let soak = parse_soak(&text, &name).map_err(|error| error.to_string())?;
-                soak.bad.as_ref().map_or(Ok(soak.clone()), |bad| Err(bad.without_file()))
-            });
+        let soaks: Vec<_> = soaks.into_iter().collect();
+        let read = |k: usize| {
+            let (name, text) = &soaks[k];
+            let soak = parse_soak(text.as_ref()?, name).map_err(|error| error.to_string())?;
+            soak.bad.as_ref().map_or(Ok(soak.clone()), |bad| Err(bad.without_file()))
+        };
+        let all = in_parallel(soaks.len(), read);
+        for ((name, _), read) in soaks.into_iter().zip(all) {
             match read {
                 Ok(soak) => kept.push(soak),
                 Err(why) => left_out.entry(why).or_default().push(name),
@@ -109,7 +113,7 @@ impl CampaignCalibration {
     ///
     /// # Errors
     /// [`Error::Recording`] where the recording cannot be read, has no temperature or no holds, or is another sensor's. [`Error::Experiment`] where it is one of
-    /// the soaks, or where the experiment has no gyroscope.
+    /// the soaks.
     pub fn validate(mut self, of_one_soak: &Session, recording: &Source) -> Result<Self> {
         self.validations = of_one_soak.on_held_out(recording, &mut self)?;
         self.fitted.warnings.extend(doubts(&self.validations));

@@ -13,9 +13,11 @@ use calibrant_io::{Experiment, parse_soak};
 
 /// The prior of a soak is so many times as wide as what the others say.
 const WIDER: f64 = 3.0;
+/// The temperature of an accelerometer alone changes in a soak where the means of its holds differ by so much, K.
+const CHANGES_K: f64 = 0.1;
 
 /// Calibrates the soaks that leave parameters open with what the others say of them: first with those that determine all, then with all. Without one of these, or where
-/// the experiment is no campaign of an IMU, the rows stay as they are. `batch` is of one soak; its rows are in the order of its recordings.
+/// the experiment is no campaign, the rows stay as they are. Those of an accelerometer alone are taken to their mean temperatures by what all soaks say. `batch` is of one soak; its rows are in the order of its recordings.
 ///
 /// # Errors
 /// Where the experiment makes no sense.
@@ -24,12 +26,13 @@ pub(crate) fn calibrate_with_the_others(
     batch: &Batch,
     rows: &mut [BatchRow],
 ) -> Result<Option<Diagnostic>> {
+    let model = experiment.campaign_model()?;
+    if let Some(model) = model.as_ref().filter(|_| experiment.imu.is_none()) {
+        return at_one_temperature_each(model, batch, rows).map(|()| None);
+    }
     let is_open = |row: &BatchRow| matches!(row.outcome, Err(Error::NotIdentifiable(_)));
     let open: Vec<usize> = (0..rows.len()).filter(|k| is_open(&rows[*k])).collect();
-    let model = experiment.campaign_model()?;
-    let (Some(model), false, true) = (model, open.is_empty(), experiment.imu.is_some()) else {
-        return Ok(None);
-    };
+    let (Some(model), false) = (model, open.is_empty()) else { return Ok(None) };
     let temperatures: Vec<Option<f64>> =
         in_parallel(open.len(), |k| temperature_of(batch.session(), &batch.sources()[open[k]]));
     let of_spread = CampaignModel { orders: vec![0; model.orders.len()], ..model.clone() };
@@ -42,7 +45,9 @@ pub(crate) fn calibrate_with_the_others(
                 None => SoakPath { temperature_c: temperatures[k]?, direction: 0.0, lag_left: 0.0 },
             };
             let prior = prior(&others, &path)?;
-            Some(batch.session().experiment().with_soak_prior(prior)).map(|of| batch.again(open[k], row, of))
+            let experiment = batch.session().experiment().with_soak_prior(prior);
+            let session = Session::with(experiment, batch.session().options().clone());
+            Some(session.and_then(|session| batch.again(open[k], row, session)))
         });
         for (number, row) in open.iter().zip(again) {
             if let Some(row) = row.transpose()? {
@@ -53,6 +58,31 @@ pub(crate) fn calibrate_with_the_others(
     let done = open.iter().filter(|k| rows[**k].outcome.is_ok());
     let soaks: Vec<String> = done.map(|k| rows[*k].folder.clone()).collect();
     Ok((!soaks.is_empty()).then(|| SoaksTogether { soaks }.into()))
+}
+
+/// The soaks of an accelerometer alone, whose calibration has no temperature terms: once more, with their holds taken to the mean temperature by what all soaks say of the
+/// sensor.
+fn at_one_temperature_each(model: &CampaignModel, batch: &Batch, rows: &mut [BatchRow]) -> Result<()> {
+    let Some(all) = fitted(model, rows) else { return Ok(()) };
+    let again = in_parallel(rows.len(), |k| -> Option<Result<BatchRow>> {
+        let row = &rows[k];
+        let soak = parse_soak(&row.outcome.as_ref().ok()?.json, &row.folder).ok()?.calibration;
+        let [low, high] = soak.temperature.range_c;
+        if high - low < CHANGES_K {
+            return None;
+        }
+        let found = all.soaks.iter().find(|found| found.name == row.folder);
+        let imu = found.map_or(all.imu.parameters, |found| all.on_path(&found.path).parameters);
+        let (experiment, options) = (batch.session().experiment(), batch.session().options());
+        let session = Session::with(experiment.clone(), options.clone());
+        Some(session.and_then(|of| batch.again(k, row, of.with_sensor_over_temperature(imu))))
+    });
+    for (row, again) in rows.iter_mut().zip(again) {
+        if let Some(again) = again.transpose()? {
+            *row = again;
+        }
+    }
+    Ok(())
 }
 
 /// The fit of the rows that have a result; `None` where they do not determine it.

@@ -297,6 +297,65 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     );
 }
 
+/// An accelerometer alone: the loop of an IMU, without a gyroscope. Waits are short, so that its temperature changes within a soak.
+#[test]
+fn an_accelerometer_alone_goes_from_its_design_to_the_firmware() {
+    let text = |bench: &Bench| bench.read("campaign.toml");
+    let bench = bench(&[&SHORT[..], &[("kind = \"imu\" ", "kind = \"accelerometer\" ")]].concat());
+    let whole = text(&bench);
+    let [from, to] = ["\n[gyroscope]", "\n[holds]"].map(|section| whole.find(section).expect("there"));
+    let alone = format!("{}{}", &whole[..from], &whole[to..]);
+    bench.write("campaign.toml", format!("{alone}\n[temperature]\naccelerometer_bias = 2\n"));
+    bench.run("design campaign.toml -o plan").done();
+    let mut plan = "soak,temperature_c,direction,wait_min,blocks\n".to_owned();
+    for (soak, (celsius, direction)) in
+        [(20, "up"), (30, "up"), (40, "up"), (30, "down"), (15, "down"), (0, "down"), (10, "up")]
+            .iter()
+            .enumerate()
+    {
+        let _ = writeln!(plan, "{},{celsius},{direction},0,1", soak + 1);
+    }
+    bench.write("short.csv", plan);
+    bench.run("simulate campaign.toml --campaign short.csv --seed 3 -o sim").done();
+    assert!(bench.read("sim/soak_01.csv").starts_with("t_s,ax_mps2,ay_mps2,az_mps2,temp_c\n"));
+    let recordings: Vec<String> = (1..=7).map(|soak| format!("sim/soak_{soak:02}.csv")).collect();
+    bench.run(&format!("calibrate campaign.toml {} -o result", recordings.join(" "))).done();
+    let found = bench.json("result/calibration.json");
+    let names: Vec<_> =
+        found["channels"].as_array().expect("a list").iter().map(|of| of["order"].clone()).collect();
+    assert_eq!(names, [2, 2], "{found}");
+    let compared = bench.run("compare sim/truth.json result/calibration.json --json").json();
+    let off = compared["quantities"].as_array().expect("a list").iter();
+    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
+    assert!(off.len() > 20 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    // its holds are taken to one temperature: what it changes by in a soak is no scatter of them
+    let scatter = |soak: usize| {
+        bench.json(&format!("result/soak_{soak:02}/calibration.json"))["holds"]["between_holds_sd_mps2"]
+            .as_f64()
+    };
+    assert!((1..=7).all(|soak| scatter(soak).expect("there") < 1e-3), "{:?}", [1, 4, 7].map(scatter));
+    // another soak tries it, and one of a sensor that has changed
+    let held_out = |file: &str| {
+        let others = recordings[..6].join(" ");
+        let arguments =
+            format!("calibrate campaign.toml {others} --validate {file} --no-report --json -o held");
+        bench.run(&arguments).json()["validations"][0]["magnitude"]["factor_interval_99"][0]
+            .as_f64()
+            .expect("judged")
+    };
+    assert!(held_out(&recordings[6]) < 1.0);
+    bench.write("changed.csv", with_bias(&bench.read(&recordings[6]), 0.05));
+    assert!(held_out("changed.csv") > 1.0);
+    bench.run("study campaign.toml --sensors 4 -o study").done();
+    bench.run("convert result/calibration.json accelerometer.h").done();
+    assert!(bench.read("accelerometer.h").contains("calibrant_accelerometer_bias_per_k2[3]"));
+    bench.run("convert result/calibration.json table.csv --table 5").done();
+    let table = bench.read("table.csv");
+    assert!(table.contains("accelerometer.bias.z_mps2") && !table.contains("gyroscope"), "{table}");
+    bench.write("campaign.toml", text(&bench).replace("accelerometer_bias = 2", "gyroscope_bias = 2"));
+    bench.refuses("design campaign.toml -o other", 2, &["temperature.gyroscope_bias", "take this key out"]);
+}
+
 /// A board that lies on its desk while it warms up: what autopilots record.
 #[test]
 fn a_warm_up_in_one_pose_gives_the_biases_over_temperature() {

@@ -89,7 +89,7 @@ pub use uncalibrated::Uncalibrated;
 pub use uncertain_gravity::UncertainGravity;
 pub use unknown_latitude::UnknownLatitude;
 pub use validation::{
-    BiasShift, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, HoldScatter, NoiseRatio, ParameterPart,
-    UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu,
-    other_temperature, validate, validate_imu, validate_over_temperature,
+    BiasShift, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, HeldOutRecording, HoldScatter,
+    NoiseRatio, ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
+    cross_validate_imu, other_temperature, validate, validate_imu, validate_over_temperature,
 };

@@ -99,27 +99,32 @@ impl ImuCorrection {
     /// # Errors
     /// [`Error::Recording`] where the polynomial of a gain is not positive there.
     pub fn at(&self, temperature_c: f64) -> Result<Self> {
+        let mut there = self.clone();
+        there.move_to(temperature_c)?;
+        Ok(there)
+    }
+
+    /// Makes it that at a temperature, °C.
+    fn move_to(&mut self, temperature_c: f64) -> Result<()> {
+        self.temperature_c = temperature_c;
         if self.imu.thermal.is_none() {
-            return Ok(Self { temperature_c, ..self.clone() });
+            return Ok(());
         }
-        let imu = self.imu.at(temperature_c);
-        let tau_k = self.imu.thermal.tau_k(temperature_c);
-        let of = |sensor_kind: SensorKind| match self.imu.thermal.sensor(sensor_kind).gain_factor(tau_k).min()
+        let imu = &self.imu;
+        let tau_k = imu.thermal.tau_k(temperature_c);
+        let of = |sensor_kind: SensorKind| match imu.thermal.sensor(sensor_kind).gain_factor(tau_k).min()
             > 0.0
         {
-            true => Ok(Correction::of(imu.sensor(sensor_kind))),
+            true => Ok(Correction::of(&imu.sensor_at(sensor_kind, temperature_c))),
             false => Err(Error::recording(InputError::new(
                 Refusal::CalibrationUnsuited,
                 format!("at {temperature_c} °C the polynomial of the {sensor_kind}'s gain is not positive"),
                 "this is too far from the temperatures of the calibration",
             ))),
         };
-        Ok(Self {
-            accelerometer: self.accelerometer.map_or(Ok(None), |_| of(SensorKind::Accelerometer))?,
-            gyroscope: self.gyroscope.map_or(Ok(None), |_| of(SensorKind::Gyroscope))?,
-            temperature_c,
-            ..self.clone()
-        })
+        self.accelerometer = self.accelerometer.map_or(Ok(None), |_| of(SensorKind::Accelerometer))?;
+        self.gyroscope = self.gyroscope.map_or(Ok(None), |_| of(SensorKind::Gyroscope))?;
+        Ok(())
     }
 
     /// Does the correction depend on temperature, in its values or in their covariance?
@@ -362,12 +367,12 @@ impl ImuCorrection {
     ) -> Result<CorrectedSensor<'a>> {
         let mut values = Vec::with_capacity(readings.len());
         let mut sd = Some(Vec::new());
+        let mut here = self.clone();
         for k in 0..readings.readings.len() {
-            let found = match temperatures {
-                None => correct(self, k),
-                Some(temperatures) => correct(&self.at(temperatures.at(readings.times_s[k]))?, k),
-            };
-            if let Some((value, uncertainty)) = found {
+            if let Some(temperatures) = temperatures {
+                here.move_to(temperatures.near(readings.times_s[k], k))?;
+            }
+            if let Some((value, uncertainty)) = correct(&here, k) {
                 values.push(value);
                 sd = sd.zip(uncertainty).map(|(mut sd, uncertainty)| {
                     sd.push(uncertainty);

@@ -90,7 +90,12 @@ impl<'a> Temperatures<'a> {
     /// sample.
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
-        interpolated(self.times_s, |k| self.values_c[k], time_s, 0).unwrap_or(0.0)
+        self.near(time_s, 0)
+    }
+
+    /// The same; `sample` is where the time is sought first.
+    pub(crate) fn near(&self, time_s: f64, sample: usize) -> f64 {
+        interpolated(self.times_s, |k| self.values_c[k], time_s, sample).unwrap_or(0.0)
     }
 
     /// Mean temperature between two times. Where no sample lies between them, the temperature of the middle.

@@ -110,9 +110,10 @@ impl Recording {
             stuck.extend(self.stuck_axis(*axis, &distinct, &mut left_out));
         }
         let samples: Vec<usize> = (0..self.len()).filter(|k| left_out[*k]).collect();
-        let rate_hz = self.rate_hz() / each.unwrap_or(1.0);
-        let found = Repeats { each, rate_hz, stuck, of_samples: self.len() };
-        (!samples.is_empty()).then_some((samples, found))
+        (!samples.is_empty()).then(|| {
+            let rate_hz = self.rate_hz() / each.unwrap_or(1.0);
+            (samples, Repeats { each, rate_hz, stuck, of_samples: self.len() })
+        })
     }
 
     /// Where an axis is stuck by itself. `distinct`: the samples that count.

@@ -118,9 +118,9 @@ pub struct CampaignSection {
     /// Its gains, relative.
     #[serde(rename = "gyroscope.scale")]
     pub gyroscope_scale: Option<ChannelSection>,
-    /// The orders that `[temperature]` states, of the quantities in their order.
+    /// What `[temperature]` states.
     #[serde(skip)]
-    pub(super) orders: [Option<usize>; 4],
+    pub(super) temperature: TemperatureSection,
 }
 
 /// What consumer MEMS sensors do: spread of the coefficients over 32 published calibrations of autopilots' IMUs.
@@ -193,9 +193,9 @@ pub(super) const USUAL: [Usual; 4] = [
 const MOST_TERMS: usize = 2;
 
 impl CampaignSection {
-    /// The same with the orders that `[temperature]` states.
-    pub(super) fn with_orders(self, temperature: Option<&TemperatureSection>) -> Self {
-        Self { orders: temperature.map(TemperatureSection::orders).unwrap_or_default(), ..self }
+    /// The same with what `[temperature]` states.
+    pub(super) fn with_temperature(self, temperature: Option<&TemperatureSection>) -> Self {
+        Self { temperature: temperature.cloned().unwrap_or_default(), ..self }
     }
 
     /// The same with its poses in the directory of the file.

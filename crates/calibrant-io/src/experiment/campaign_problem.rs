@@ -48,15 +48,16 @@ impl Experiment {
     /// As [`campaign`](Self::campaign).
     pub fn campaign_model(&self) -> Result<Option<CampaignModel>> {
         let Some((section, campaign)) = self.campaign.as_ref().zip(self.campaign()?) else { return Ok(None) };
-        let thermal = self.imu.as_ref().map(|imu| imu.thermal).unwrap_or_default();
         let [low, high] = campaign.range_c;
         let order = |((of, channel), stated): ((&Usual, Option<&ChannelSection>), Option<usize>)| {
             let spread =
                 channel.and_then(|channel| channel.spread.as_ref()).map_or(of.spread.len(), Vec::len);
             stated.unwrap_or(spread)
         };
-        let there = section.channels().into_iter().zip(section.orders).take(campaign.channels.len());
-        let reference_c = thermal.reference_c.unwrap_or(REFERENCE_C.clamp(low, high));
+        let there =
+            section.channels().into_iter().zip(section.temperature.orders()).take(campaign.channels.len());
+        let stated_c = section.temperature.reference_c.map(f64::from);
+        let reference_c = stated_c.unwrap_or(REFERENCE_C.clamp(low, high));
         let orders = there.map(order).collect();
         Ok(Some(CampaignModel { orders, reference_c, campaign, one_recording: false }))
     }

@@ -217,7 +217,7 @@ impl ExperimentFile {
             campaign: self
                 .campaign
                 .clone()
-                .map(|campaign| campaign.with_orders(self.temperature.as_ref()).beside(directory)),
+                .map(|campaign| campaign.with_temperature(self.temperature.as_ref()).beside(directory)),
             columns: options_of(self.columns.as_ref())?,
             calibrate,
             accept: limits_of(self.accept.as_ref())?,
@@ -267,8 +267,15 @@ impl ExperimentFile {
     fn imu(&self, plan: &Plan) -> Result<Option<ImuPlan>> {
         let is_imu = self.sensor.is_imu();
         let kind = "kind = \"imu\" in [sensor]";
-        if self.temperature.is_some() && !is_imu {
-            return Err(refused("temperature", "[temperature] is read for an IMU only", kind));
+        if let Some(temperature) = self.temperature.as_ref().filter(|_| !is_imu) {
+            if self.campaign.is_none() {
+                return Err(refused(
+                    "temperature",
+                    "[temperature] is read for an IMU, or with [campaign]",
+                    kind,
+                ));
+            }
+            temperature.without_gyroscope()?;
         }
         match (&self.gyroscope, is_imu) {
             (Some(gyroscope), true) => match plan {

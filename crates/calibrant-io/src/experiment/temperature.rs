@@ -2,6 +2,8 @@
 
 use super::number::{Count, Within};
 use super::ranges::{Celsius, Lag, LagSd};
+use super::refused_key::refused;
+use calibrant_core::error::Result;
 use calibrant_core::estimate::{ThermalModel, ThermometerLag};
 use calibrant_core::sensor::HIGHEST_ORDER;
 use serde::{Deserialize, Serialize};
@@ -46,6 +48,18 @@ impl TemperatureSection {
     pub(super) fn orders(&self) -> [Option<usize>; 4] {
         [self.accelerometer_bias, self.accelerometer_scale, self.gyroscope_bias, self.gyroscope_scale]
             .map(|order| order.map(Count::size))
+    }
+
+    /// Refuses what is of a gyroscope.
+    pub(super) fn without_gyroscope(&self) -> Result<()> {
+        let keys = [("gyroscope_bias", self.gyroscope_bias), ("gyroscope_scale", self.gyroscope_scale)];
+        match keys.into_iter().find(|(_, order)| order.is_some()) {
+            Some((key, _)) => {
+                let help = "take this key out, or set kind = \"imu\" in [sensor]";
+                Err(refused(format!("temperature.{key}"), "only an IMU has a gyroscope", help))
+            }
+            None => Ok(()),
+        }
     }
 
     /// What is known of the thermometer.

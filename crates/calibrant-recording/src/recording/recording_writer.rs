@@ -25,25 +25,24 @@ fn names(letter: char, axes: &[Axis], unit: ReadingUnit) -> String {
 }
 
 /// Writes a recording of an IMU as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps` (or `_counts`), and
-/// `temp_c` where its temperature is known.
+/// `temp_c` where its temperature is known. Of an accelerometer alone there are no columns of a gyroscope.
 ///
 /// Numbers are written with the fewest digits that read back to the same bits.
 ///
 /// # Errors
-/// [`Error::Recording`] where a sensor is missing or the sensors' times differ: this file has no place for
+/// [`Error::Recording`] where there is no accelerometer, or where the sensors' times differ: this file has no place for
 /// them. [`Error::Output`] where it cannot be written.
 pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> {
-    let (Some(accelerometer), Some(gyroscope)) =
-        (&recording[SensorKind::Accelerometer], &recording[SensorKind::Gyroscope])
-    else {
+    let Some(accelerometer) = &recording[SensorKind::Accelerometer] else {
         let input_error = InputError::new(
             Refusal::SensorMissing,
-            "the recording has one sensor only",
-            "write that sensor's recording",
+            "the recording has no accelerometer",
+            "write the gyroscope's recording by itself",
         );
         return Err(Error::recording(input_error));
     };
-    if accelerometer.times_s() != gyroscope.times_s() {
+    let gyroscope = recording[SensorKind::Gyroscope].as_ref();
+    if gyroscope.is_some_and(|gyroscope| accelerometer.times_s() != gyroscope.times_s()) {
         let input_error = InputError::new(
             Refusal::RecordingsUnlike,
             "the sensors have different sample times",
@@ -55,13 +54,13 @@ pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> 
     let header = [
         "t_s",
         &names('a', &Axis::ALL, accelerometer.unit()),
-        &names('g', &Axis::ALL, gyroscope.unit()),
+        &gyroscope.map_or_else(String::new, |of| names('g', &Axis::ALL, of.unit())),
         if temperature.is_some() { ",temp_c" } else { "" },
     ];
-    let readings = accelerometer.readings().iter().zip(gyroscope.readings());
-    let rows = accelerometer.times_s().iter().zip(readings).enumerate().map(|(k, (t, (a, g)))| {
+    let rows = accelerometer.times_s().iter().zip(accelerometer.readings()).enumerate().map(|(k, (t, a))| {
+        let rates = gyroscope.and_then(|gyroscope| gyroscope.readings().get(k)).into_iter().flatten();
         let celsius = temperature.and_then(|values| values.get(k));
-        once(t).chain(a).chain(g).chain(celsius).copied()
+        once(t).chain(a).chain(rates).chain(celsius).copied()
     });
     write_numbers(path, &header.concat(), rows)
 }

@@ -13,7 +13,7 @@ use crate::session::{Outcome, Session, Source};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::progress::Progress;
-use calibrant_io::{Experiment, Finished, HashedFile, ResumeKey, write_text};
+use calibrant_io::{Finished, HashedFile, ResumeKey, write_text};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -55,7 +55,7 @@ impl Batch {
     /// As [`Session::calibrate_noting`]; where the records have the recording as one of another sensor; where a file cannot be written.
     pub fn calibrate(&self, source: &Source, notes: &mut Vec<Diagnostic>) -> Result<Outcome> {
         self.check_records(source, || source.hashed())?;
-        self.calibrate_into(self.options.directory.as_deref(), source, None, notes)
+        Ok(self.calibrate_into(self.options.directory.as_deref(), source, None, notes)?.0)
     }
 
     /// Calibrates from all recordings, several at the same time: as many as there are threads. The progress counts recordings. After an interruption of the
@@ -103,9 +103,8 @@ impl Batch {
         }
     }
 
-    /// Calibrates from one of the recordings once more, by another experiment of the same kind. `row` is what came of it before.
-    pub(crate) fn again(&self, number: usize, row: &BatchRow, experiment: Experiment) -> Result<BatchRow> {
-        let session = Session::with(experiment, self.session.options().clone())?;
+    /// Calibrates from one of the recordings once more, by another session of the same kind. `row` is what came of it before.
+    pub(crate) fn again(&self, number: usize, row: &BatchRow, session: Session) -> Result<BatchRow> {
         let (sources, records) = (vec![self.sources[number].clone()], RecordKeeper::open(None)?);
         let options = BatchOptions { resume: false, records: None, ..self.options.clone() };
         let other = Self { session, sources, options, records };
@@ -138,7 +137,7 @@ impl Batch {
             self.records.add(|| text.clone())?;
             return Ok(BatchResult { finished, json: keep(text), earlier: true });
         }
-        let outcome = self.calibrate_into(directory.as_deref(), source, Some(folder), told)?;
+        let (outcome, json) = self.calibrate_into(directory.as_deref(), source, Some(folder), told)?;
         told.extend(outcome.warnings().iter().cloned());
         let mut finished = Finished {
             summary: outcome.summary(),
@@ -152,25 +151,25 @@ impl Batch {
             finished.write(directory, key, self.session.options().report)?;
         }
         finished.told.append(&mut notes);
-        let json = if self.options.keep_json { outcome.json() } else { String::new() };
-        Ok(BatchResult { finished, json, earlier: false })
+        Ok(BatchResult { finished, json: json.unwrap_or_default(), earlier: false })
     }
 
-    /// `name`: that of the sensor among the others, where nobody names the sensors.
+    /// The outcome, and the text of its `calibration.json` where the options keep it. `name`: that of the sensor among the others, where nobody names the sensors.
     fn calibrate_into(
         &self,
         directory: Option<&Path>,
         source: &Source,
         name: Option<&str>,
         notes: &mut Vec<Diagnostic>,
-    ) -> Result<Outcome> {
+    ) -> Result<(Outcome, Option<String>)> {
         let mut outcome = self.session.calibrate_noting(source, notes)?;
         if let Some(name) = name.filter(|_| !self.session.options().naming.names_sensors()) {
             outcome.origin.sensor = Some(name.replace(char::is_control, "_"));
         }
-        directory.map_or(Ok(()), |directory| outcome.write(directory))?;
-        self.records.add(|| outcome.json())?;
-        Ok(outcome)
+        let json = self.options.keep_json.then(|| outcome.json());
+        directory.map_or(Ok(()), |directory| outcome.write_with(directory, json.as_deref()))?;
+        self.records.add(|| json.clone().unwrap_or_else(|| outcome.json()))?;
+        Ok((outcome, json))
     }
 
     /// Writes the page about a recording that could not be calibrated, where there is something to show. Is there one?

@@ -2,7 +2,7 @@
 
 use super::clean::take_out_repeats;
 use super::kind::Kind;
-use super::problem::Problem;
+use super::prepared::unsuited;
 use super::reader::Reader;
 use super::run::Session;
 use super::setup::Setup;
@@ -12,7 +12,7 @@ use crate::CampaignCalibration;
 use calibrant_campaign::fit::{SoakPath, paths};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{
-    ImuProblem, ImuSetup, SoakTemperature, Validation, validate_over_temperature,
+    HeldOutRecording, ImuSetup, SoakTemperature, Validation, validate_over_temperature,
 };
 use calibrant_core::motion::Hold;
 use calibrant_io::{Plan, file_name};
@@ -23,7 +23,7 @@ impl Session {
     ///
     /// # Errors
     /// [`Error::Recording`] where the recording cannot be read, has no temperature or no holds, or is another sensor's.
-    /// [`Error::Experiment`] where it is one of the soaks, or where the experiment has no gyroscope.
+    /// [`Error::Experiment`] where it is one of the soaks.
     pub(crate) fn on_held_out(
         &self,
         source: &Source,
@@ -41,20 +41,25 @@ impl Session {
         }
         let in_file = |found: calibrant_core::diagnostic::Diagnostic| found.in_file(file_name(path));
         let mut notes = other.findings.clone();
-        let (Plan::Holds(plan), Some(imu)) = (&experiment.plan, &experiment.imu) else {
-            return Err(without_gyroscope());
-        };
-        let mut setup = Kind::Imu(imu, plan).setup(source, &other.recording, &mut notes)?.of_other();
+        let Plan::Holds(plan) = &experiment.plan else { return Err(unsuited()) };
+        let kind = Kind::held(plan, experiment.imu.as_ref());
+        let mut setup = kind.setup(source, &other.recording, &mut notes)?.of_other();
         notes.extend(take_out_repeats(&mut other.recording).into_iter().map(in_file));
         notes.extend(setup.prepare(&experiment.sensor, &mut other.recording).into_iter().map(in_file));
         notes.extend(extrapolated(&of.fitted.imu.parameters.thermal, &other.recording)?.map(in_file));
         of.fitted.warnings.extend(notes);
-        let (Problem::Imu(problem), Setup::Imu(_, setup)) =
-            (setup.problem(&experiment.sensor, &other)?, &setup)
-        else {
-            return Err(without_gyroscope());
+        let (gyroscope, setup) = match setup {
+            Setup::Imu(gyroscope, setup) => (Some(gyroscope), *setup),
+            Setup::Holds(holds) => (None, ImuSetup { holds, ..ImuSetup::default() }),
+            Setup::Faces(_) | Setup::Motion(_) => return Err(unsuited()),
         };
-        let validations = branches(&problem, setup, of).map_err(|error| error.in_recording(path))?;
+        let held_out = HeldOutRecording {
+            accelerometer: &experiment.sensor,
+            gyroscope,
+            recording: &other.recording,
+            setup: &setup,
+        };
+        let validations = branches(&held_out, of).map_err(|error| error.in_recording(path))?;
         Ok(validations
             .into_iter()
             .map(|(branch, validation)| {
@@ -68,25 +73,16 @@ impl Session {
     }
 }
 
-fn without_gyroscope() -> Error {
-    let (message, help) = (
-        "only a campaign of a whole IMU can be validated on a recording",
-        "record the gyroscope too, and set kind = \"imu\" in [sensor]",
-    );
-    Error::experiment(InputError::new(Refusal::ValidationImpossible, message, help))
-}
-
 /// Holds by the direction from which they were reached, and what each direction is called.
 const BRANCHES: [(f64, &str); 3] = [(1.0, ", from below"), (-1.0, ", from above"), (0.0, "")];
 
 fn branches(
-    problem: &ImuProblem<'_>,
-    setup: &ImuSetup,
+    held_out: &HeldOutRecording<'_>,
     of: &CampaignCalibration,
 ) -> Result<Vec<(&'static str, Validation)>> {
-    let holds = setup.holds.found.as_deref().unwrap_or_default();
+    let holds = held_out.setup.holds.found.as_deref().unwrap_or_default();
     let spans = holds.iter().map(|hold| (hold.start_s, hold.end_s));
-    let temperatures = SoakTemperature::each(problem.recording, spans)?;
+    let temperatures = SoakTemperature::each(held_out.recording, spans)?;
     if temperatures.is_empty() {
         let (what, help) = match holds.is_empty() {
             true => ("it has no holds", "hold the sensor still in several orientations"),
@@ -113,7 +109,7 @@ fn branches(
         let holds: Vec<Hold> = chosen.into_iter().map(|(hold, _)| hold.clone()).collect();
         found.push((
             name,
-            validate_over_temperature(&of.fitted.on_path(&path), &of.scatter, problem, &holds)?,
+            validate_over_temperature(&of.fitted.on_path(&path), &of.scatter, held_out, &holds)?,
         ));
     }
     Ok(found)

@@ -89,8 +89,16 @@ impl Outcome {
     /// # Errors
     /// [`Error::Output`](crate::Error::Output) where a file cannot be written.
     pub fn write(&self, directory: &Path) -> Result<()> {
-        let (json, report) =
-            rayon::join(|| self.write_json(directory), || self.with_page.then(|| self.report_html()));
+        self.write_with(directory, None)
+    }
+
+    /// The same, where the text of `calibration.json` is there.
+    pub(crate) fn write_with(&self, directory: &Path, json: Option<&str>) -> Result<()> {
+        let write_json = || match json {
+            Some(text) => write_text(&directory.join("calibration.json"), text),
+            None => self.write_json(directory),
+        };
+        let (json, report) = rayon::join(write_json, || self.with_page.then(|| self.report_html()));
         json?;
         match report {
             Some(html) => write_text(&directory.join("report.html"), &html),

@@ -6,7 +6,7 @@ use super::recorded::Recorded;
 use super::source::Source;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
-use calibrant_io::{Experiment, ImuFile, ImuReadOptions};
+use calibrant_io::{AccelerometerOnly, Experiment, ImuFile, ImuReadOptions};
 
 /// How the recordings are read.
 pub(crate) enum Reader<'e> {
@@ -24,7 +24,12 @@ impl<'e> Reader<'e> {
                 let sensor = &experiment.sensor;
                 let given = ImuReadOptions {
                     counts_unless_stated: [sensor.unit == ReadingUnit::Counts, false],
-                    ..ImuReadOptions::accelerometer(sensor.axes, sensor.unit)
+                    accelerometer_only: Some(AccelerometerOnly {
+                        axes: sensor.axes,
+                        unit: sensor.unit,
+                        with_temperature: experiment.campaign_section().is_some(),
+                    }),
+                    ..ImuReadOptions::default()
                 };
                 let given = given.or(options.reading.clone()).or(experiment.columns.clone());
                 Self::Accelerometer(Box::new(given))

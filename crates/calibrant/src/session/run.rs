@@ -13,6 +13,7 @@ use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
+use calibrant_core::sensor::ImuParameters;
 use calibrant_io::{Experiment, HashedFile, ImuFile, Origin, Plan, ResumeKey, UrdfSource};
 
 /// From recordings to calibrations, in files or in memory. It holds what all recordings share, and can calibrate several at the same time.
@@ -23,6 +24,8 @@ pub struct Session {
     notes: Vec<Diagnostic>,
     /// What all results come from.
     origin: Origin,
+    /// What all soaks of a campaign say of the sensor.
+    over_temperature: Option<ImuParameters>,
 }
 
 impl Session {
@@ -48,7 +51,12 @@ impl Session {
             motion: options.motion.as_ref().and_then(MotionSource::hashed),
             ..Origin::default()
         };
-        Ok(Self { experiment, options, prepared, notes, origin })
+        Ok(Self { experiment, options, prepared, notes, origin, over_temperature: None })
+    }
+
+    /// The same for a soak of an accelerometer alone, whose calibration has no temperature terms: its holds are taken to their mean temperature by this sensor.
+    pub(crate) fn with_sensor_over_temperature(self, imu: ImuParameters) -> Self {
+        Self { over_temperature: Some(imu), ..self }
     }
 
     /// The experiment.
@@ -150,6 +158,7 @@ impl Session {
             (Plan::Motion(_), Prepared::Moved(command)) => Kind::Motion(command),
             (Plan::Motion(_) | Plan::Machine(_), _) => return Err(unsuited()),
         };
-        Task::new(experiment, kind, options).run(source, options, notes)
+        let over_temperature = self.over_temperature.as_ref();
+        Task::new(experiment, kind, options, over_temperature).run(source, options, notes)
     }
 }

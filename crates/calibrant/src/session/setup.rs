@@ -7,11 +7,11 @@ use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::estimate::{
-    CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Stimulus, WhiteNoise,
-    faces_found, recording_at,
+    CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, SoakTemperature, Stimulus,
+    WhiteNoise, faces_found, recording_at,
 };
 use calibrant_core::motion::{CommandedMotion, Hold};
-use calibrant_core::sensor::{ImuRecording, Recording, Sensor, SensorKind};
+use calibrant_core::sensor::{ImuParameters, ImuRecording, Recording, Sensor, SensorKind};
 use nalgebra::Vector3;
 
 /// The commanded motion, or what is known of holds, rotations and turns.
@@ -102,6 +102,33 @@ impl<'e> Setup<'e> {
         *directions = found.directions;
         set_found(holds, found.holds);
         Ok(found.unmatched)
+    }
+
+    /// Takes the holds of an accelerometer alone to their mean temperature, by what is known of the sensor over temperature. Gives that temperature; `None` where there is none to
+    /// be taken to. To be called with all holds found.
+    pub(crate) fn take_to_mean_temperature(
+        &mut self,
+        imu: &ImuParameters,
+        recording: &ImuRecording,
+    ) -> Result<Option<f64>> {
+        let Self::Holds(holds) = self else { return Ok(None) };
+        let Some(found) = &mut holds.found else { return Ok(None) };
+        let spans = found.iter().map(|hold| (hold.start_s, hold.end_s));
+        let temperatures = SoakTemperature::each(recording, spans)?;
+        let mean_c = temperatures.iter().map(|of| of.mean_c).sum::<f64>() / temperatures.len() as f64;
+        let (sensor, thermal) =
+            (imu[SensorKind::Accelerometer], imu.thermal.sensor(SensorKind::Accelerometer));
+        let at = |celsius: f64| {
+            let tau_k = imu.thermal.tau_k(celsius);
+            (sensor.bias + thermal.bias_change(tau_k), thermal.gain_factor(tau_k))
+        };
+        for (hold, of) in found.iter_mut().zip(&temperatures) {
+            let ((bias, gain), (mean_bias, mean_gain)) = (at(of.mean_c), at(mean_c));
+            hold.mean = mean_bias + (hold.mean - bias).component_mul(&mean_gain).component_div(&gain);
+        }
+        // between given times the means would be taken from the recording again
+        holds.intervals_s = None;
+        Ok((!temperatures.is_empty()).then_some(mean_c))
     }
 
     /// The uncertainty of the sample rate of these recordings, and where each further one begins.

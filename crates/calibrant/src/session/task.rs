@@ -21,7 +21,7 @@ use calibrant_core::estimate::{
     Calibration, CalibrationSettings, SoakTemperature, Validation, other_temperature,
 };
 use calibrant_core::noise::SensorNoise;
-use calibrant_core::sensor::{Sensor, SensorKind};
+use calibrant_core::sensor::{ImuParameters, Sensor, SensorKind};
 use calibrant_io::{Experiment, Prior, file_name};
 
 /// What all recordings share.
@@ -31,15 +31,23 @@ pub(crate) struct Task<'e> {
     reader: Reader<'e>,
     settings: CalibrationSettings,
     rows_are_holds: bool,
+    /// By which the holds are taken to their mean temperature.
+    over_temperature: Option<&'e ImuParameters>,
 }
 
 impl<'e> Task<'e> {
-    pub(crate) fn new(experiment: &'e Experiment, kind: Kind<'e>, options: &SessionOptions) -> Self {
+    pub(crate) fn new(
+        experiment: &'e Experiment,
+        kind: Kind<'e>,
+        options: &SessionOptions,
+        over_temperature: Option<&'e ImuParameters>,
+    ) -> Self {
         Self {
             accelerometer: &experiment.sensor,
             kind,
             reader: Reader::of(experiment, options),
             rows_are_holds: options.reading.rows_are_holds,
+            over_temperature,
             settings: CalibrationSettings {
                 datasheet_prior: experiment.imu.is_none() && experiment.calibrate.prior == Prior::Datasheet,
                 ..CalibrationSettings::default()
@@ -74,6 +82,10 @@ impl<'e> Task<'e> {
         };
         before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
         before.extend(setup.set_faces(self.accelerometer, &recorded.recording)?);
+        let taken_to_c = match self.over_temperature {
+            Some(imu) => setup.take_to_mean_temperature(imu, &recorded.recording)?,
+            None => None,
+        };
         let mut outcome = self.calibrate(source, &recorded, &setup, options.report);
         if let Some((gyroscope, samples, at_rest)) = knocks {
             let cut = recorded.recording[SensorKind::Gyroscope].replace(gyroscope);
@@ -92,7 +104,8 @@ impl<'e> Task<'e> {
         }
         let (mut calibration, noise) = outcome.inspect_err(|_| notes.extend(before.iter().cloned()))?;
         calibration.counts_per_unit = recorded.counts_per_unit;
-        calibration.soak = SoakTemperature::of(&recorded.recording, calibration.hold_results())?;
+        calibration.soak = SoakTemperature::of(&recorded.recording, calibration.hold_results())?
+            .map(|soak| SoakTemperature { mean_c: taken_to_c.unwrap_or(soak.mean_c), ..soak });
         if let Kind::Imu(imu, _) = self.kind {
             calibration.soak_prior.clone_from(&imu.soak_prior);
         }

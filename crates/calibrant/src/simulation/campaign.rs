@@ -6,6 +6,7 @@ use super::noise::one_for_all;
 use super::random::Random;
 use calibrant_campaign::{Campaign, Channel, Soak};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::estimate::ImuSetup;
 use calibrant_core::sensor::legendre::powers_of_legendre;
 use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, ImuRecording, Quantity, SensorKind, ThermalPart, ThermalTerm,
@@ -41,7 +42,7 @@ struct DrawnAxis<'a> {
 /// is left of the ramp.
 ///
 /// # Errors
-/// [`Error::Experiment`] where the experiment has no `[campaign]`, or no gyroscope.
+/// [`Error::Experiment`] where the experiment has no `[campaign]`.
 pub fn simulate_campaign(
     experiment: &Experiment,
     soaks: &[Soak],
@@ -54,20 +55,24 @@ pub fn simulate_campaign(
     let (Some(model), Some(section)) = (model, experiment.campaign_section()) else {
         return Err(missing("the experiment has no [campaign]", "see `calibrant init campaign`"));
     };
-    let (Plan::Holds(holds), Some(plan)) = (&experiment.plan, &experiment.imu) else {
-        return Err(missing("campaigns are simulated of a whole IMU", "set kind = \"imu\" in [sensor]"));
+    let Plan::Holds(holds) = &experiment.plan else {
+        return Err(missing("a campaign needs [holds]", "see `calibrant init campaign`"));
     };
+    // an accelerometer alone is that of an IMU whose perfect gyroscope nobody records
+    let is_imu = experiment.imu.is_some();
+    let gyroscope = experiment.imu.as_ref().map(|plan| plan.gyroscope.clone()).unwrap_or_default();
     let campaign = &model.campaign;
     let random = Random { seed: seed.unwrap_or(experiment.study.seed), recording: 1 };
     let [gain_a, gain_g] = gains(experiment)?;
     let mut rng = random.sensor();
-    let gyroscope = GyroscopeToDraw {
-        model: plan.gyroscope.model,
-        gain: gain_g,
-        g_sensitivity: plan.gyroscope.g_sensitivity,
-    };
-    let drawn = draw_imu(&experiment.sensor, &gyroscope, &mut rng);
-    let mut truth = in_gauge(&drawn, [experiment.sensor.unit, plan.gyroscope.unit], holds.gauge)?;
+    let to_draw =
+        GyroscopeToDraw { model: gyroscope.model, gain: gain_g, g_sensitivity: gyroscope.g_sensitivity };
+    let drawn = draw_imu(&experiment.sensor, &to_draw, &mut rng);
+    let units = [experiment.sensor.unit, gyroscope.unit];
+    let mut truth = in_gauge(&drawn, units, holds.gauge)?;
+    if !is_imu {
+        truth = ImuParameters::identity().with(SensorKind::Accelerometer, truth[SensorKind::Accelerometer]);
+    }
     truth.thermal.reference_c = model.reference_c;
     truth.thermal.range_c = Some(campaign.range_c);
     let axes = draw(campaign, [gain_a, gain_g], &mut rng);
@@ -75,7 +80,7 @@ pub fn simulate_campaign(
         add_polynomial(&mut truth, axis, campaign.range_c);
     }
     let usual = ImuSimulation::default();
-    let (noise_a, noise_g) = (experiment.sensor.noise(&gain_a), plan.gyroscope.noise);
+    let (noise_a, noise_g) = (experiment.sensor.noise(&gain_a), gyroscope.noise);
     let mut notes = Vec::new();
     let setup = ImuSimulation {
         hold_s: section.hold_s(),
@@ -93,8 +98,8 @@ pub fn simulate_campaign(
             &noise_g.unwrap_or_else(|| gain_g * usual.gyroscope_noise),
             &mut notes,
         ),
-        accelerometer_unit: experiment.sensor.unit,
-        gyroscope_unit: plan.gyroscope.unit,
+        accelerometer_unit: units[0],
+        gyroscope_unit: units[1],
         ..usual
     };
     let directions = section.block(experiment.sensor.model)?.directions;
@@ -110,21 +115,19 @@ pub fn simulate_campaign(
             * (ends[0] - ends[1]);
         let temperature_c = Some([-0.5, 0.5].map(|share| soak.temperature_c + share * change_c));
         let directions = Some(directions.repeat(soak.blocks));
-        simulate_imu(&at, &ImuSimulation { directions, temperature_c, ..setup.clone() }, &mut rng)
+        let setup = ImuSimulation { directions, temperature_c, ..setup.clone() };
+        let mut recording = simulate_imu(&at, &setup, &mut rng);
+        recording[SensorKind::Gyroscope] = recording[SensorKind::Gyroscope].take().filter(|_| is_imu);
+        recording
     });
     let soaks = recordings.collect();
-    let mut quantities = experiment
-        .of_one_soak()?
-        .imu
-        .as_ref()
-        .unwrap_or(plan)
-        .setup(holds)?
-        .quantities(experiment.sensor.model, &plan.gyroscope);
-    quantities.retain(|quantity| !matches!(quantity, ImuQuantity::Thermal(..)));
+    let (holds, directions) = (holds.setup()?, holds.directions());
+    let of_soak = ImuSetup { holds, directions, ..ImuSetup::default() };
+    let mut quantities = of_soak.quantities(experiment.sensor.model, &gyroscope);
+    quantities.retain(|quantity| is_imu || quantity.sensor_kind() == SensorKind::Accelerometer);
     quantities
         .extend(ImuQuantity::all_thermal(true, true).into_iter().filter(|term| term.value(&truth) != 0.0));
-    let truth =
-        Truth::of_imu(random.seed, &quantities, [experiment.sensor.unit, plan.gyroscope.unit], &truth);
+    let truth = Truth::of_imu(random.seed, &quantities, units, &truth);
     Ok(SimulatedCampaign { seed: random.seed, soaks, truth })
 }
 

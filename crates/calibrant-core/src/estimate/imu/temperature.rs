@@ -166,8 +166,8 @@ pub(crate) fn at_reference(
     let Some(recorded) = &temperature.recorded else { return adjusted };
     let temperatures = recorded.temperatures();
     let terms = thermal.sensor(sensor_kind);
-    for (reading, &time_s) in adjusted.readings.iter_mut().zip(&recording.times_s) {
-        let tau_k = thermal.tau_k(temperatures.at(time_s));
+    for (k, (reading, &time_s)) in adjusted.readings.iter_mut().zip(&recording.times_s).enumerate() {
+        let tau_k = thermal.tau_k(temperatures.near(time_s, k));
         let excess = *reading - sensor.bias - terms.bias_change(tau_k);
         *reading = sensor.bias + excess.component_div(&terms.gain_factor(tau_k));
     }

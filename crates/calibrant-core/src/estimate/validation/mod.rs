@@ -47,7 +47,7 @@ pub use covariance_verdict::CovarianceVerdict;
 pub use cross_validation::{cross_validate, cross_validate_imu};
 pub use explanations::other_temperature;
 pub use noise_comparison::{CoarseStep, NoiseRatio};
-pub use over_temperature::{HoldScatter, validate_over_temperature};
+pub use over_temperature::{HeldOutRecording, HoldScatter, validate_over_temperature};
 pub use result::*;
 pub use unused_error::{ErrorKind, UnusedError};
 pub use validate::{validate, validate_imu};

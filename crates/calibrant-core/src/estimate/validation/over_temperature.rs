@@ -7,11 +7,11 @@ use super::prediction_errors::Unused;
 use super::result::Validation;
 use super::statistics::Degrees;
 use super::validate::on_another;
-use crate::error::Result;
-use crate::estimate::ImuProblem;
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::{GyroscopeAtRest, TurnsInHolds, needed_temperatures, recordings};
+use crate::estimate::{CalibrationProblem, Gyroscope, ImuProblem, ImuSetup, Stimulus};
 use crate::motion::Hold;
-use crate::sensor::CalibratedImu;
+use crate::sensor::{CalibratedImu, ImuRecording, Recording, Sensor, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 
 /// How the holds of a sensor scatter beyond their noise.
@@ -48,45 +48,74 @@ impl HoldScatter {
     }
 }
 
+/// A recording that was not used, and what is known of it.
+#[derive(Debug, Clone, Copy)]
+pub struct HeldOutRecording<'a> {
+    /// The accelerometer's datasheet.
+    pub accelerometer: &'a Sensor,
+    /// The gyroscope's, of an IMU.
+    pub gyroscope: Option<&'a Gyroscope>,
+    /// The samples.
+    pub recording: &'a ImuRecording,
+    /// Its holds, and where it was made.
+    pub setup: &'a ImuSetup,
+}
+
+impl<'a> HeldOutRecording<'a> {
+    /// The readings of its sensors, checked.
+    fn sensors(&self) -> Result<(&'a Recording, Option<&'a Recording>)> {
+        let Self { accelerometer: sensor, gyroscope, recording, setup } = *self;
+        if let Some(gyroscope) = gyroscope {
+            let problem = ImuProblem { accelerometer: sensor, gyroscope, recording, setup };
+            return recordings(&problem).map(|(accelerometer, gyroscope)| (accelerometer, Some(gyroscope)));
+        }
+        let alone = recording[SensorKind::Accelerometer].as_ref().ok_or_else(|| {
+            let message = "the recording has no accelerometer";
+            Error::recording(InputError::new(Refusal::SensorMissing, message, "choose another file"))
+        })?;
+        CalibrationProblem { sensor, recording: alone, stimulus: Stimulus::Holds(&setup.holds) }
+            .validate()?;
+        Ok((alone, None))
+    }
+}
+
 /// Tries a sensor over temperature on holds of a recording that was not used for it. Its covariance contains all that another recording may differ by; the noise is that of
 /// the recording.
 ///
 /// # Errors
-/// [`Error::Recording`](crate::Error::Recording) where the recording lacks a sensor or its temperature, or is not one of this IMU.
+/// [`Error::Recording`](crate::Error::Recording) where the recording lacks a sensor or its temperature, or is not one of this sensor.
 pub fn validate_over_temperature(
     imu: &CalibratedImu,
     scatter: &HoldScatter,
-    problem: &ImuProblem<'_>,
+    of: &HeldOutRecording<'_>,
     holds: &[Hold],
 ) -> Result<Validation> {
-    let (accelerometer, gyroscope) = recordings(problem)?;
-    let temperatures = needed_temperatures(problem.recording)?;
-    with_gyroscope(holds, gyroscope)?;
+    let (accelerometer, gyroscope) = of.sensors()?;
+    let temperatures = needed_temperatures(of.recording)?;
+    gyroscope.map_or(Ok(()), |gyroscope| with_gyroscope(holds, gyroscope))?;
     let unused = Unused {
-        gyroscope: Some(gyroscope),
+        gyroscope,
         temperatures: Some(temperatures),
         ..Unused::of_accelerometer(accelerometer, holds)
     };
     let these: Vec<&Hold> = unused.holds.iter().map(|(_, hold)| *hold).collect();
     let mut still = Vector3::zeros();
-    GyroscopeAtRest::of(
-        gyroscope,
-        &these,
-        |_| false,
-        |found| {
+    if let Some(gyroscope) = gyroscope {
+        let keep = |found: &Vector3<f64>| {
             still = *found;
             still
-        },
-    );
+        };
+        GyroscopeAtRest::of(gyroscope, &these, |_| false, keep);
+    }
     let size = imu.quantities.len();
     let degrees = Degrees { of_scatter: scatter.degrees, unknowns: 0.0, share: None };
     let prediction = Prediction {
         imu: imu.parameters,
         quantities: imu.quantities.clone(),
         covariance: imu.covariance.clone().unwrap_or_else(|| DMatrix::zeros(size, size)),
-        gravity_mps2: problem.setup.holds.gravity.magnitude_mps2,
-        vertical_rate: problem.setup.vertical_rate(),
-        north_sd_radps: problem.setup.north_sd(),
+        gravity_mps2: of.setup.holds.gravity.magnitude_mps2,
+        vertical_rate: of.setup.vertical_rate(),
+        north_sd_radps: of.setup.north_sd(),
         between_holds_sd_mps2: scatter.between_holds_sd_mps2,
         holds_degrees: degrees,
         within: unused.within,

@@ -23,7 +23,7 @@ pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOption
         (FileFormat::Csv | FileFormat::ImuTk, true) => {
             imu_tk::in_order(head, SensorKind::Accelerometer, only.axes, options)?
         }
-        (FileFormat::Csv, false) => named(&head.names),
+        (FileFormat::Csv, false) => named(&head.names, only),
         _ => return Ok(None),
     };
     for column in &mut columns {
@@ -38,7 +38,7 @@ pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOption
 /// The layout of a table in memory, as [`plain`].
 pub(super) fn plain_columns(names: &[&str], options: &ImuReadOptions) -> Option<Draft> {
     let only = options.accelerometer_only.filter(|_| options.columns.is_empty())?;
-    laid_out(FileFormat::Columns, named(names), only)
+    laid_out(FileFormat::Columns, named(names, only), only)
 }
 
 fn laid_out(format: FileFormat, mut columns: Vec<ImuColumn>, only: AccelerometerOnly) -> Option<Draft> {
@@ -53,16 +53,17 @@ fn laid_out(format: FileFormat, mut columns: Vec<ImuColumn>, only: Accelerometer
     Some(Draft { plain: Some(only), ..Draft::new(format, columns) })
 }
 
-/// The columns that have names. Only those of the time and of the axes are looked at, and of times only
+/// The columns that have names. Only those of the time and of the axes are looked at, and of the temperature where it is wanted; of times only
 /// `t_s` where it is there.
-fn named(names: &[&str]) -> Vec<ImuColumn> {
+fn named(names: &[&str], only: AccelerometerOnly) -> Vec<ImuColumn> {
     let is_plain_time = |name: &&str| name.eq_ignore_ascii_case("t_s");
     let has_plain_time = names.iter().any(is_plain_time);
     let column = |name: &&str| {
         let column = column_names::column(name);
-        let is_needed = match is_time(&column) {
-            true => is_plain_time(name) || !has_plain_time,
-            false => column_names::is_plain_axis(name),
+        let is_needed = match column.meaning {
+            ColumnMeaning::Time => is_plain_time(name) || !has_plain_time,
+            ColumnMeaning::Temperature => only.with_temperature,
+            _ => column_names::is_plain_axis(name),
         };
         if is_needed { column } else { ImuColumn::new(name, ColumnMeaning::Other, None) }
     };
@@ -82,7 +83,8 @@ fn axis(column: &ImuColumn) -> Option<Axis> {
 
 /// Keeps the accelerometer alone, and of it the axes that are needed.
 pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -> Checked<ImuFile> {
-    let Some(AccelerometerOnly { axes, unit: expected }) = options.accelerometer_only else {
+    let Some(AccelerometerOnly { axes, unit: expected, with_temperature }) = options.accelerometer_only
+    else {
         return Ok(file);
     };
     let Some(recording) = file.recording[SensorKind::Accelerometer].take() else {
@@ -103,7 +105,8 @@ pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -
         found.push(UnitUnexpected { stated: recording.unit(), expected }.into());
     }
     file.findings.splice(0..0, found.into_iter().map(|found: Diagnostic| found.at_line(draft.line)));
-    // a temperature that nobody names says nothing of an accelerometer
-    let temperature_c = file.recording.temperature_c.take().filter(|_| options.columns.temperature.is_some());
+    // a temperature that nobody wants says nothing of an accelerometer
+    let is_wanted = with_temperature || options.columns.temperature.is_some();
+    let temperature_c = file.recording.temperature_c.take().filter(|_| is_wanted);
     Ok(ImuFile { recording: ImuRecording { temperature_c, ..recording.into() }, ..file })
 }

@@ -78,6 +78,8 @@ pub struct AccelerometerOnly {
     pub axes: usize,
     /// Unit of the readings. A plain text has it, unless its header or the user gives another.
     pub unit: ReadingUnit,
+    /// Is a temperature kept that nobody names in [`ImuReadOptions::columns`]?
+    pub with_temperature: bool,
 }
 
 impl ImuReadOptions {
@@ -97,7 +99,10 @@ impl ImuReadOptions {
     /// ```
     #[must_use]
     pub fn accelerometer(axes: usize, unit: ReadingUnit) -> Self {
-        Self { accelerometer_only: Some(AccelerometerOnly { axes, unit }), ..Self::default() }
+        Self {
+            accelerometer_only: Some(AccelerometerOnly { axes, unit, with_temperature: false }),
+            ..Self::default()
+        }
     }
 
     /// The unit that is given for a sensor.

@@ -33,8 +33,9 @@ fn dependence(evidence: &Evidence<'_>) -> Option<crate::diagnostic::Diagnostic> 
     let columns: Vec<usize> = (0..model.quantities.len())
         .filter(|k| model.quantities[*k].sensor_kind() == SensorKind::Gyroscope)
         .collect();
-    let counting: Vec<&RotationData<'_>> =
-        model.rotations.iter().filter(|data| data.counts && data.used).collect();
+    let rotations = model.rotations.iter().zip(&evidence.fit.residuals);
+    let (counting, residuals): (Vec<&RotationData<'_>>, Vec<_>) =
+        rotations.filter(|(data, _)| data.counts && data.used).unzip();
     let peaks_radps = peaks(&counting, state);
     let unknowns = columns.len() + 3;
     if 2 * counting.len() < unknowns + FEWEST || peaks_radps.min() <= 0.0 {
@@ -42,8 +43,8 @@ fn dependence(evidence: &Evidence<'_>) -> Option<crate::diagnostic::Diagnostic> 
     }
     let mut rows = DMatrix::zeros(2 * counting.len(), unknowns);
     let mut errors = DVector::zeros(2 * counting.len());
-    for (i, data) in counting.iter().enumerate() {
-        let residual = model.gravity_residual(data, state)?;
+    for (i, (data, residual)) in counting.iter().zip(residuals).enumerate() {
+        let residual = residual.as_ref()?;
         errors.fixed_rows_mut::<2>(2 * i).copy_from(&residual.error);
         for (place, column) in columns.iter().enumerate() {
             rows.view_mut((2 * i, place), (2, 1)).copy_from(&residual.by_parameters.column(*column));

@@ -52,5 +52,5 @@ fn what_is_not_there_or_out_of_range_is_said() {
     }
     let alone = format!("{}\n[temperature]\n", super::HOLDS);
     let error = Experiment::parse(&alone, None).expect_err("no IMU").to_string();
-    assert!(error.contains("[temperature] is read for an IMU only"), "{error}");
+    assert!(error.contains("[temperature] is read for an IMU, or with [campaign]"), "{error}");
 }
