@@ -5,7 +5,7 @@ use crate::experiment::Experiment;
 use crate::failure::raised;
 use crate::motion::Motion;
 use crate::options::{Calibrate, parsed};
-use crate::soaks::of_recordings;
+use crate::over_temperature::of_recordings;
 use crate::source::Source;
 use crate::work::{How, Run, run, run_as};
 use calibrant::diagnostic::Diagnostic;
@@ -75,7 +75,9 @@ pub(crate) fn calibrate(
             let held_out = options.validate.clone();
             let options = SessionOptions { validate: None, report: false, ..options };
             let progress = options.progress.clone();
-            return of_recordings(&experiment, vec![source], options, held_out.as_ref(), &progress);
+            let (found, notes) =
+                of_recordings(&experiment, vec![source], options, held_out.as_ref(), &progress)?;
+            return Ok(Outcome::over_temperature(found, notes));
         }
         notes.extend_from_slice(session.notes());
         match session.calibrate(&source) {

@@ -21,6 +21,7 @@ mod inspect;
 mod motion;
 mod noise;
 mod options;
+mod over_temperature;
 mod page;
 mod poses;
 mod recording;

@@ -62,7 +62,7 @@ fn missed(of: PlannedCampaign<'_>) -> Vec<String> {
 /// What would meet the goals that are missed; a proof where the bound says that no campaign does.
 fn out_of_reach(of: PlannedCampaign<'_>) -> String {
     let (bound, count) = (of.design.relaxed.lower_bound, of.campaign.channels.len() as f64);
-    // where they are met on average, another criterion or weight does
+    // the bound is of the mean of all goals: one may be missed where that is met
     if of.campaign.criterion != CampaignCriterion::I || bound <= count {
         return String::new();
     }

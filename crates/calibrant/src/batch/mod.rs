@@ -46,8 +46,5 @@ pub use copies::Copies;
 pub use folders::{folder_names, own_names};
 pub use options::BatchOptions;
 pub use parallel::in_parallel;
-pub use result::{BatchResult, BatchResults, BatchRow};
+pub use result::{BatchResult, BatchResults, BatchRow, RESULT_FILES};
 pub use run::Batch;
-
-/// The files of a result in its folder.
-pub const RESULT_FILES: [&str; 3] = ["calibration.json", "report.html", "resume.json"];

@@ -5,6 +5,9 @@ use calibrant_core::error::{Refusal, Result};
 use calibrant_io::{Finished, HashedFile, ResumeKey, SummaryRow, calibrations_json};
 use std::path::PathBuf;
 
+/// The files of a result in its folder.
+pub const RESULT_FILES: [&str; 3] = ["calibration.json", "report.html", "resume.json"];
+
 /// The results of a batch.
 #[derive(Debug)]
 pub struct BatchResults {

@@ -1,6 +1,5 @@
 //! The batch and its work.
 
-use super::RESULT_FILES;
 use super::checks::check;
 use super::copies::Copies;
 use super::folders::folder_names;
@@ -8,7 +7,7 @@ use super::options::BatchOptions;
 use super::parallel::in_parallel;
 use super::quality::cells;
 use super::record_keeper::RecordKeeper;
-use super::result::{BatchResult, BatchResults, BatchRow};
+use super::result::{BatchResult, BatchResults, BatchRow, RESULT_FILES};
 use crate::session::{Outcome, Session, Source};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, Refusal, Result};
