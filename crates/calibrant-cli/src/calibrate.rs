@@ -66,7 +66,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     // without orders of its own, a recording of a campaign is one soak
     let is_soak = experiment.campaign_section().is_some()
-        && experiment.imu.as_ref().is_some_and(|imu| imu.thermal.is_none())
+        && experiment.imu.as_ref().is_none_or(|imu| imu.thermal.is_none())
         && !arguments.together;
     let of_one = if is_soak { experiment.of_one_soak()? } else { experiment.clone() };
     let batch = job::batch(arguments, &of_one)?;

@@ -187,6 +187,20 @@ pub struct UndeterminedGroup {
     pub remedy: String,
 }
 
+/// The reasons of recordings with no hold, and with one.
+pub(crate) const HARDLY_A_HOLD: [&str; 2] = [
+    "no hold was found in the recording: the sensor was never still for long enough",
+    "only one hold was found",
+];
+
+impl NotIdentifiable {
+    /// Has the recording no hold, or only one?
+    #[must_use]
+    pub fn has_hardly_a_hold(&self) -> bool {
+        self.groups.iter().any(|group| HARDLY_A_HOLD.contains(&group.reason.as_str()))
+    }
+}
+
 impl fmt::Display for NotIdentifiable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the data cannot determine the parameters")?;

@@ -75,7 +75,7 @@ pub use results::design::{DesignFile, DesignSetting, EvaluationFile, SweepFile};
 pub use results::earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use results::earlier_machine::{EarlierMachine, parse_earlier_machine, read_earlier_machine};
 pub use results::heading::{Heading, JsonFile, Kind, RECORD_KIND};
-pub use results::input::Input;
+pub use results::input::{Input, PART};
 pub use results::json::{SCHEMA, to_json, write_json};
 pub use results::judgement::Judgement;
 pub use results::machine_calibration::{MachineCalibrationFile, MachineLogInput, MachineResult};

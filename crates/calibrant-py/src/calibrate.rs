@@ -64,7 +64,7 @@ pub(crate) fn calibrate(
         let options = SessionOptions { interruption, progress, ..options };
         // without orders of its own, a recording of a campaign is one soak
         let is_soak = experiment.read.campaign_section().is_some()
-            && experiment.read.imu.as_ref().is_some_and(|imu| imu.thermal.is_none());
+            && experiment.read.imu.as_ref().is_none_or(|imu| imu.thermal.is_none());
         let read = if is_soak && source.further.is_empty() {
             experiment.read.of_one_soak().map_err(Experiment::placed(&experiment.file))?
         } else {

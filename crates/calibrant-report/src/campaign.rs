@@ -62,9 +62,12 @@ fn missed(of: PlannedCampaign<'_>) -> Vec<String> {
 /// What would meet the goals that are missed; a proof where the bound says that no campaign does.
 fn out_of_reach(of: PlannedCampaign<'_>) -> String {
     let (bound, count) = (of.design.relaxed.lower_bound, of.campaign.channels.len() as f64);
-    // the bound is of the mean of all goals: one may be missed where that is met
-    if of.campaign.criterion != CampaignCriterion::I || bound <= count {
+    if of.campaign.criterion != CampaignCriterion::I || missed(of).is_empty() {
         return String::new();
+    }
+    // the bound is of the mean of all goals: one may be missed where that is met
+    if bound <= count {
+        return " More time helps, or larger goals of what is met easily: those that are missed then weigh more.".to_owned();
     }
     let more = of.time_needed_min.map_or_else(
         || {
@@ -74,7 +77,7 @@ fn out_of_reach(of: PlannedCampaign<'_>) -> String {
         },
         |minutes| {
             format!(
-                "About {} h meet them on average, and no campaign does in less: budget_min = {}.",
+                "On average they need at least {} h: try budget_min = {}.",
                 significant(minutes / 60.0, 3),
                 plain((1.02 * minutes).ceil(), 6)
             )

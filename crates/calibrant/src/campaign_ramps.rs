@@ -6,11 +6,12 @@ use crate::session::{Readings, Session, Source};
 use calibrant_campaign::Campaign;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::campaign::RampCut;
+use calibrant_core::error::Error;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::SoakTemperature;
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::ImuRecording;
-use calibrant_io::{Experiment, HashedFile, ImuFile, file_name, parse_soak};
+use calibrant_io::{Experiment, ImuFile, PART, file_name, parse_soak};
 
 /// A soak spans at most this share of the range of use: within, a parabola of the biases and a line of the gains are enough.
 const WIDEST: f64 = 0.2;
@@ -32,7 +33,13 @@ pub fn calibrate_soaks(
     let mut is_piece = vec![false; rows.len()];
     let ramps = match experiment.campaign()? {
         Some(campaign) => in_parallel(rows.len(), |k| {
-            is_wide(&rows[k], &campaign).then(|| pieces(batch.session(), &batch.sources()[k], &campaign))?
+            // no soak has the name of a piece
+            let mut name = format!("{}-part", rows[k].folder);
+            while rows.iter().any(|row| row.folder.to_lowercase().starts_with(&name.to_lowercase())) {
+                name += "-part";
+            }
+            is_wide(&rows[k], &campaign)
+                .then(|| pieces(batch.session(), &batch.sources()[k], (&campaign, &name)))?
         }),
         None => Vec::new(),
     };
@@ -43,14 +50,16 @@ pub fn calibrate_soaks(
         let (mut all, mut sources) = (Vec::new(), Vec::new());
         is_piece.clear();
         for ((row, source), ramp) in rows.into_iter().zip(batch.sources()).zip(ramps) {
-            let Some(Ramp { pieces, range_c: [from_c, to_c] }) = ramp else {
+            let Some(Ramp { pieces, range_c: [from_c, to_c], findings }) = ramp else {
                 all.push(row);
                 sources.push(source.clone());
                 is_piece.push(false);
                 continue;
             };
             batch.forget(&row);
-            notes.push(RampCut { recording: row.folder, from_c, to_c, pieces: pieces.len() }.into());
+            let recording = row.recording.display().to_string();
+            notes.push(RampCut { recording, from_c, to_c, pieces: pieces.len() }.into());
+            notes.extend(findings);
             all.extend(found.by_ref().take(pieces.len()));
             is_piece.extend(pieces.iter().map(|_| true));
             sources.extend(pieces);
@@ -58,20 +67,19 @@ pub fn calibrate_soaks(
         (rows, batch) = (all, batch.with_sources(sources)?);
     }
     notes.extend(calibrate_with_the_others(experiment, &batch, &mut rows)?);
-    // between two stops of the chamber there may be no hold
-    let has_result = rows.iter().zip(&is_piece).any(|(row, is_piece)| *is_piece && row.outcome.is_ok());
-    let kept = rows
-        .into_iter()
-        .zip(is_piece)
-        .filter(|(row, is_piece)| !(has_result && *is_piece && row.outcome.is_err()));
+    // between two stops of the chamber the sensor may rest in one pose, or move
+    let is_empty =
+        |row: &BatchRow| matches!(&row.outcome, Err(Error::NotIdentifiable(of)) if of.has_hardly_a_hold());
+    let kept = rows.into_iter().zip(is_piece).filter(|(row, is_piece)| !(*is_piece && is_empty(row)));
     Ok((kept.map(|(row, _)| row).collect(), notes))
 }
 
 /// A recording whose temperature goes over more than a soak's.
 struct Ramp {
     pieces: Vec<Source>,
-    /// From its first temperature to its last; of one there and back the extremes.
     range_c: [f64; 2],
+    /// What was noticed in its file.
+    findings: Vec<Diagnostic>,
 }
 
 /// May a recording be a ramp? Its holds say; where it has no result, it is looked at.
@@ -91,29 +99,31 @@ fn spans_widely([low, high]: [f64; 2], campaign: &Campaign) -> bool {
 /// Where it cannot be read.
 pub fn is_ramp(of_one: &Session, source: &Source) -> Result<bool> {
     let campaign = of_one.experiment().campaign()?;
-    let ramp = campaign.and_then(|campaign| pieces(of_one, source, &campaign));
-    Ok(ramp.is_some() && of_one.one_pose(source)?.is_none())
+    Ok(campaign.is_some_and(|campaign| pieces(of_one, source, (&campaign, "")).is_some()))
 }
 
-/// The pieces of a recording; `None` where its temperature stays, or cannot be read.
-fn pieces(of_one: &Session, source: &Source, campaign: &Campaign) -> Option<Ramp> {
+/// The pieces of a recording, with this name and a number; `None` where its temperature stays or cannot be read, and in one pose.
+fn pieces(of_one: &Session, source: &Source, (campaign, name): (&Campaign, &str)) -> Option<Ramp> {
     let file = of_one.read(source).ok().filter(|_| source.further.is_empty() && source.sections.is_none())?;
     let temperatures = temperatures(&file.recording)?;
     let range = temperatures.iter().map(|(_, t)| [*t; 2]).reduce(|[a, b], [t, _]| [a.min(t), b.max(t)]);
     let range_c = range.filter(|range| spans_widely(*range, campaign))?;
     let least = (60.0 * campaign.block_min, campaign.spacing_c);
     let spans = spans(&temperatures, least);
-    if spans.len() < 2 {
+    if spans.len() < 2 || of_one.one_pose(source).is_ok_and(|found| found.is_some()) {
         return None;
     }
     let digits = spans.len().to_string().len();
     let path = source.path();
     let piece = |(k, span): (usize, &(f64, f64))| {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let path = path.with_file_name(format!("{name}-{:0digits$}", k + 1));
-        Source::new(Readings::read_already(&path, part(&file, *span, (k == 0, &file_name(&path)))))
+        Source::new(Readings::read_already(&path, part(&file, *span)))
     };
-    Some(Ramp { pieces: spans.iter().enumerate().map(piece).collect(), range_c })
+    Some(Ramp {
+        pieces: spans.iter().enumerate().map(piece).collect(),
+        range_c,
+        findings: file.findings_in(&file_name(path), None),
+    })
 }
 
 /// Mean temperatures over equal times, and when each begins.
@@ -150,8 +160,8 @@ fn spans(temperatures: &[(f64, f64)], (least_s, least_k): (f64, f64)) -> Vec<(f6
     cuts.iter().zip(cuts[1..].iter().chain([&f64::INFINITY])).map(|(from, to)| (*from, *to)).collect()
 }
 
-/// The samples of a recording within these times, as a recording of its own. What was noticed in the file stays with the first.
-fn part(file: &ImuFile, (from_s, to_s): (f64, f64), (is_first, name): (bool, &str)) -> ImuFile {
+/// The samples of a recording within these times, as a recording of its own.
+fn part(file: &ImuFile, (from_s, to_s): (f64, f64)) -> ImuFile {
     let within = |time_s: &f64| (from_s..to_s).contains(time_s);
     let times = file.recording.sensors().next().map(|(_, sensor)| sensor.times_s());
     let with_times = times.zip(file.recording.temperature_c.as_ref());
@@ -163,12 +173,11 @@ fn part(file: &ImuFile, (from_s, to_s): (f64, f64), (is_first, name): (bool, &st
     for (kind, sensor) in file.recording.sensors() {
         recording[kind] = Some(sensor.only(|sample| within(&sensor.times_s()[sample])));
     }
-    let of_part = format!("{} {from_s} {to_s}", file.sha256.concat());
     ImuFile {
         rows: recording.sensors().map(|(_, sensor)| sensor.len()).max().unwrap_or(0),
         recording,
-        sha256: vec![HashedFile::of_bytes(name.to_owned(), of_part.as_bytes()).sha256],
-        findings: if is_first { file.all_findings().cloned().collect() } else { Vec::new() },
+        sha256: file.sha256.iter().map(|sha256| format!("{sha256}{PART}{from_s} to {to_s} s")).collect(),
+        findings: Vec::new(),
         second: None,
         format: file.format,
         columns: file.columns.clone(),

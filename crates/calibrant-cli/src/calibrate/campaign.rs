@@ -7,13 +7,15 @@ use crate::diagnostics::{rules, tell_all, tell_in};
 use crate::exit::Exit;
 use calibrant::Error;
 use calibrant::batch::{Batch, BatchResults, BatchRow, folder_names};
-use calibrant::diagnostic::Check;
 use calibrant::diagnostic::fit::{FewDegreesOfFreedom, NothingToCheck};
+use calibrant::diagnostic::samples::TemperatureExtrapolated;
+use calibrant::diagnostic::{Check, Severity};
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, write_summary};
 use calibrant::progress::Progress;
 use calibrant::session::{Session, SessionOptions};
 use calibrant::{CampaignCalibration, calibrate_soaks, is_ramp};
+use std::collections::HashSet;
 use std::path::Path;
 
 /// Are these the soaks of a campaign?
@@ -120,11 +122,13 @@ fn each(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<(So
     let (rows, notes) = calibrate_soaks(experiment, batch, results.rows, &Progress::default())?;
     let results = BatchResults { rows, ..results };
     tell_all(&notes);
-    let (mut exit, mut open_is_told) = (Exit::DONE, false);
+    let (mut exit, mut open_is_told, mut notes) = (Exit::DONE, false, HashSet::new());
     for row in &results.rows {
         // what checks a soak are the others
-        let of_one = [NothingToCheck::CODE, FewDegreesOfFreedom::CODE];
+        let of_one = [NothingToCheck::CODE, FewDegreesOfFreedom::CODE, TemperatureExtrapolated::CODE];
         let told = row.told().iter().filter(|found| !of_one.contains(&found.code()));
+        // what is said of one soak in the same words need not be said of all
+        let told = told.filter(|found| found.severity() > Severity::Note || notes.insert(found.to_string()));
         told.for_each(|found| tell_in(found, Some(&row.folder)));
         if let Err(error) = &row.outcome {
             // one of many that leave parameters open is enough here: all are named as left out

@@ -221,7 +221,7 @@ checks! {
         pieces: usize,
     }
     decided "Its temperature goes over more than 0.2 of the range of use."
-    remedy "Nothing: each piece is fitted as a soak at its temperature. Pieces without a hold are not used."
+    remedy "Nothing: each piece is fitted as a soak at its temperature. Pieces with no hold, or only one, are not used."
     says format!("{recording} goes from {from_c:.0} to {to_c:.0} °C: it is cut into {pieces} pieces, and each is a soak");
 
     /// Soaks are not used.

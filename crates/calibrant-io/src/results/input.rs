@@ -13,7 +13,7 @@ use std::path::Path;
 pub struct Input {
     /// Name of the file, without its directory, so that the result does not depend on the directory.
     pub file: String,
-    /// SHA-256 of the file, hexadecimal.
+    /// SHA-256 of the file, hexadecimal. Of a piece of a ramp its times follow, after a colon.
     pub sha256: String,
     /// Number of samples read.
     pub samples: usize,
@@ -21,7 +21,16 @@ pub struct Input {
     pub rate_hz: f64,
 }
 
+/// What stands between the SHA-256 of a file and the times of a part of it.
+pub const PART: char = ':';
+
 impl Input {
+    /// SHA-256 of the whole file.
+    #[must_use]
+    pub fn of_file(&self) -> &str {
+        self.sha256.split(PART).next().unwrap_or_default()
+    }
+
     /// Samples and rate, in words.
     #[must_use]
     pub fn samples_in_words(&self) -> String {

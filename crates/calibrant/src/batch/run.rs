@@ -98,7 +98,11 @@ impl Batch {
             let directory = directory.join(&row.folder);
             // what is not there need not go
             RESULT_FILES.iter().for_each(|name| drop(std::fs::remove_file(directory.join(name))));
-            drop(std::fs::remove_dir(directory));
+            let mut left = std::fs::read_dir(&directory).into_iter().flatten().flatten();
+            // the list of what was written there
+            if left.all(|file| file.file_name().to_string_lossy().starts_with(".calibrant")) {
+                drop(std::fs::remove_dir_all(directory));
+            }
         }
     }
 

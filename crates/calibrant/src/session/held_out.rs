@@ -33,7 +33,7 @@ impl Session {
         let mut other = Reader::of(experiment, self.options()).read(source)?;
         let inputs = other.origin(source).inputs;
         if let Some(same) =
-            inputs.iter().find(|one| of.origin.inputs.iter().any(|of| of.sha256 == one.sha256))
+            inputs.iter().find(|one| of.origin.inputs.iter().any(|of| of.of_file() == one.sha256))
         {
             let message = format!("{} is among the soaks; errors on it validate nothing", same.file);
             let help = "leave it out of the soaks, or give another recording of the sensor";

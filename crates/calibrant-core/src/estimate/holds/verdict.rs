@@ -6,7 +6,7 @@ use crate::diagnostic::holds::{
     GravityUnusual, HoldLeftOut, HoldsLeftOutInARow, HoldsScatter, HoldsSpreadLittle, OrientationMissing,
 };
 use crate::diagnostic::{Diagnostic, FacePointing, HoldSpan};
-use crate::error::UndeterminedGroup;
+use crate::error::{HARDLY_A_HOLD, UndeterminedGroup};
 use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::{Calibration, CalibrationStatus, HoldCalibration, HoldResult, Recovered};
 
@@ -44,8 +44,7 @@ pub(super) fn explain(
     let names = list.names_in_results();
     let every = parameters.is_empty();
     let reason = match holds.len() {
-        0 => "no hold was found in the recording: the sensor was never still for long enough".to_owned(),
-        1 => "only one hold was found".to_owned(),
+        few @ (0 | 1) => HARDLY_A_HOLD[few].to_owned(),
         count if count < list.len() => format!(
             "{count} holds give {count} equations (the magnitude of gravity in each) for {} parameters",
             list.len()
