@@ -77,7 +77,7 @@ fn out_of_reach(of: PlannedCampaign<'_>) -> String {
         },
         |minutes| {
             format!(
-                "On average they need at least {} h: try budget_min = {}.",
+                "On average they need at least about {} h: try budget_min = {}.",
                 significant(minutes / 60.0, 3),
                 plain((1.02 * minutes).ceil(), 6)
             )

@@ -6,8 +6,7 @@ use crate::session::{Readings, Session, Source};
 use calibrant_campaign::Campaign;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::diagnostic::campaign::RampCut;
-use calibrant_core::error::Error;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, Result};
 use calibrant_core::estimate::SoakTemperature;
 use calibrant_core::progress::Progress;
 use calibrant_core::sensor::ImuRecording;
@@ -15,7 +14,7 @@ use calibrant_io::{Experiment, ImuFile, PART, file_name, parse_soak};
 
 /// A soak spans at most this share of the range of use: within, a parabola of the biases and a line of the gains are enough.
 const WIDEST: f64 = 0.2;
-/// Temperatures are means over so many seconds.
+/// Time over which temperatures are averaged, s.
 const STEP_S: f64 = 10.0;
 
 /// Calibrates the soaks of a campaign from what came of each recording by itself: ramps are cut into pieces, and what leaves parameters open is fitted together with the
@@ -77,6 +76,7 @@ pub fn calibrate_soaks(
 /// A recording whose temperature goes over more than a soak's.
 struct Ramp {
     pieces: Vec<Source>,
+    /// Lowest and highest temperature, °C.
     range_c: [f64; 2],
     /// What was noticed in its file.
     findings: Vec<Diagnostic>,

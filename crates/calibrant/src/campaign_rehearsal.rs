@@ -20,15 +20,15 @@ pub struct CampaignStudy<'a> {
 }
 
 impl<'a> CampaignStudy<'a> {
-    /// Of so many sensors, 30 without a number, with the seed of the experiment where none is given.
+    /// Of this number of sensors (default 30), and with this seed (default: that of the experiment).
     #[must_use]
     pub fn new(experiment: &'a Experiment, sensors: Option<usize>, seed: Option<u64>) -> Self {
         let seed = seed.unwrap_or(experiment.study.seed);
         Self { experiment, sensors: sensors.unwrap_or(SENSORS), seed }
     }
 
-    /// Designs the best campaign, and fits it and the usual ones to sensors that are drawn from what the experiment says of them. `done` is told how many sensors are
-    /// finished.
+    /// Designs the best campaign, draws sensors from the priors of the experiment, and fits each of them by the best campaign and by the usual ones. `done` gets the
+    /// number of sensors that are finished.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the experiment has no `[campaign]`, or no time for a soak. As [`rehearse`] where a campaign leaves coefficients open.

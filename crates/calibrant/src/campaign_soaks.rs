@@ -11,13 +11,15 @@ use calibrant_core::estimate::{KnownTerm, SoakTemperature};
 use calibrant_core::sensor::ImuQuantity;
 use calibrant_io::{Experiment, parse_soak};
 
-/// The prior of a soak is so many times as wide as what the others say.
+/// Standard deviation of a soak's prior, over that of what the others say.
 const WIDER: f64 = 3.0;
 /// The temperature of an accelerometer alone changes in a soak where the means of its holds differ by so much, K.
 const CHANGES_K: f64 = 0.1;
 
-/// Calibrates the soaks that leave parameters open with what the others say of them: first with those that determine all, then with all. Without one of these, or where
-/// the experiment is no campaign, the rows stay as they are. Those of an accelerometer alone are taken to their mean temperatures by what all soaks say. `batch` is of one soak; its rows are in the order of its recordings.
+/// Calibrates soaks of an IMU that leave parameters open with what the others say of them: first with those that determine all, then with all. Without one of these, or
+/// where the experiment is no campaign, the rows stay as they are. `batch` is of one soak; its rows are in the order of its recordings.
+///
+/// Soaks of an accelerometer alone are taken to their mean temperatures by what all say; those that leave parameters open stay without a result.
 ///
 /// # Errors
 /// Where the experiment makes no sense.

@@ -3,7 +3,7 @@
 use super::relaxed::relaxed;
 use crate::{Campaign, CampaignCriterion};
 
-/// [`time_needed_min`] looks at so many times the stated time at most.
+/// The longest time that [`time_needed_min`] examines, over the stated one.
 pub const MOST_TIMES: f64 = 32.0;
 /// Steps of the bisection.
 const STEPS: usize = 12;

@@ -7,7 +7,7 @@ use calibrant::io::{Experiment, parse_soak, preset};
 use calibrant::sensor::ImuRecording;
 use calibrant::{Session, SessionOptions, Source, simulate_campaign};
 
-/// A prior is so many times as wide as what the others say, as `calibrate` takes it.
+/// Standard deviation of a prior, over that of what the others say: that of `calibrate`.
 const WIDER: f64 = 3.0;
 
 /// The campaign of the preset, with blocks that determine all.
