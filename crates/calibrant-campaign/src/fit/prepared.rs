@@ -158,9 +158,7 @@ impl<'a> Prepared<'a> {
                 .iter()
                 .zip(&self.scatters)
                 .filter(|(channel, _)| names.contains(&&*channel.name));
-            let degrees =
-                these.map(|(_, scatter)| if scatter.found { scatter.degrees } else { f64::INFINITY });
-            degrees.fold(f64::INFINITY, f64::min)
+            these.map(|(_, scatter)| scatter.degrees).fold(f64::INFINITY, f64::min)
         };
         CovarianceDegrees {
             accelerometer: of(&["accelerometer.bias", "accelerometer.scale"]),

@@ -6,6 +6,7 @@
 use super::soak::SoakPath;
 use crate::golden_section::least;
 use crate::{Campaign, Channel};
+use calibrant_core::sensor::legendre;
 use nalgebra::{DMatrix, DVector};
 
 /// The priors are so many times as wide as what is stated.
@@ -31,6 +32,8 @@ pub struct SoakScatter {
     /// Was `ω` found from the soaks? Otherwise it is as stated.
     pub found: bool,
     /// Residuals less coefficients over all axes.
+    pub residuals: f64,
+    /// Degrees of freedom of the polynomial's variance by what was found (`satterthwaite1946`); infinite where the scatter is as stated.
     pub degrees: f64,
 }
 
@@ -112,23 +115,24 @@ pub(super) fn scatter(
         soak_sd: channel.soak_sd,
         lag_scatter: channel.lag_scatter,
         found: false,
-        degrees: 0.0,
+        residuals: f64::INFINITY,
+        degrees: f64::INFINITY,
     };
     if axes.is_empty() {
-        return Some(SoakScatter { degrees: f64::INFINITY, ..stated });
+        return Some(stated);
     }
     let fits = |scatter: &SoakScatter| -> Option<Vec<AxisFit>> {
         let added: Vec<f64> =
             paths.iter().map(|path| added_variance(campaign, channel, scatter, path)).collect();
         axes.iter().map(|data| AxisFit::of(&rows, &known, data, &added)).collect()
     };
-    let degrees = |scatter: &SoakScatter| {
+    let residuals = |scatter: &SoakScatter| {
         let fits = fits(scatter)?;
         Some(fits.iter().map(|fit| paths.len() as f64 - fit.determined).sum::<f64>())
     };
     let others = channel.coefficients() - channel.polynomial();
     if paths.len() < channel.free() + others + MORE_SOAKS {
-        return Some(SoakScatter { degrees: degrees(&stated)?, ..stated });
+        return Some(SoakScatter { residuals: residuals(&stated)?, ..stated });
     }
     let half_normal =
         |value: f64, stated: f64| if stated > 0.0 { (value / (WIDER * stated)).powi(2) } else { 0.0 };
@@ -158,5 +162,48 @@ pub(super) fn scatter(
     if value(&none) <= value(&found) {
         found = none;
     }
-    Some(SoakScatter { degrees: degrees(&found)?, ..found })
+    let residuals = residuals(&found)?;
+    let degrees =
+        degrees_of_variance((campaign, channel), (&rows, &known, axes), (paths, &found), waits_differ);
+    Some(SoakScatter { residuals, degrees: degrees.unwrap_or(residuals), ..found })
+}
+
+/// `2 V²/Var V` of `V`, the mean variance of the polynomial over range and axes: `Var V = gᵀ I⁻¹ g` with the slopes `g` by `ω²` and `r²` and the information
+/// `I = ½ Σ tr(P D P D)` of the restricted likelihood, `P = V⁻¹ − V⁻¹ F M⁻¹ Fᵀ V⁻¹`.
+fn degrees_of_variance(
+    (campaign, channel): (&Campaign, &Channel),
+    (rows, known, axes): (&DMatrix<f64>, &DMatrix<f64>, &[AxisData]),
+    (paths, scatter): (&[SoakPath], &SoakScatter),
+    with_lag: bool,
+) -> Option<f64> {
+    let lag = |path: &SoakPath| channel.lag_sd.first().map_or(0.0, |sd| (sd * path.lag_left).powi(2));
+    let by_lag = with_lag.then(|| DVector::from_iterator(paths.len(), paths.iter().map(lag)));
+    let by: Vec<DVector<f64>> = std::iter::once(DVector::repeat(paths.len(), 1.0)).chain(by_lag).collect();
+    let size = by.len();
+    let (mut mean, mut slopes) = (0.0, DVector::<f64>::zeros(size));
+    let mut information = DMatrix::zeros(size, size);
+    for data in axes {
+        let variances = paths
+            .iter()
+            .enumerate()
+            .map(|(j, path)| data.variances[j] + added_variance(campaign, channel, scatter, path));
+        let weights = DVector::from_iterator(paths.len(), variances.map(f64::recip));
+        let weighted = DMatrix::from_fn(rows.nrows(), rows.ncols(), |j, k| rows[(j, k)] * weights[j]);
+        let covariance = (weighted.transpose() * rows + known).cholesky()?.inverse();
+        // what one soak adds to the coefficients
+        let gains = &weighted * &covariance;
+        let left = DMatrix::from_diagonal(&weights) - &gains * weighted.transpose();
+        let over_range = |of: &dyn Fn(usize) -> f64| -> f64 {
+            (0..channel.polynomial()).map(|m| legendre::mean_square(m) * of(m)).sum()
+        };
+        mean += over_range(&|m| covariance[(m, m)]);
+        for (a, one) in by.iter().enumerate() {
+            slopes[a] += over_range(&|m| (0..paths.len()).map(|j| gains[(j, m)].powi(2) * one[j]).sum());
+            for (b, other) in by.iter().enumerate() {
+                information[(a, b)] += 0.5 * one.dot(&(left.map(|of| of * of) * other));
+            }
+        }
+    }
+    let variance = slopes.dot(&information.cholesky()?.solve(&slopes));
+    Some(2.0 * mean * mean / variance)
 }

@@ -128,7 +128,7 @@ impl Prepared<'_> {
             .max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
         // Student's t: the scatter is found from the others
         let scatter = &others.scatters[self.entries[entry].channel];
-        let behind = if scatter.found { scatter.degrees } else { f64::INFINITY };
+        let behind = if scatter.found { scatter.residuals } else { f64::INFINITY };
         let p = f_p_value(deviations * deviations, 1, behind)? * f64::from(count);
         if p > RARE {
             return None;
