@@ -90,7 +90,7 @@ impl Campaign {
     /// Checks that there is time for a soak.
     ///
     /// # Errors
-    /// [`Error::Experiment`] with the least budget.
+    /// [`Error::Infeasible`] with the least budget.
     pub fn check(&self) -> Result<()> {
         let least_min = self.travel_min() + self.shortest_wait_min + self.block_min;
         if self.budget_min < least_min {
@@ -107,8 +107,8 @@ impl Campaign {
                 "give at least {} min, a smaller range, or a faster ramp",
                 plain(least_min.ceil(), 5)
             );
-            let error = InputError::new(Refusal::ExperimentUnsuited, message, help);
-            return Err(Error::experiment(error.about_key("campaign.budget_min")));
+            let error = InputError::new(Refusal::MotionInfeasible, message, help);
+            return Err(Error::infeasible(error.about_key("campaign.budget_min")));
         }
         Ok(())
     }

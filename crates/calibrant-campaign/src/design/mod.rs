@@ -39,7 +39,8 @@ impl CampaignDesign {
 /// Finds the best campaign of whole soaks.
 ///
 /// # Errors
-/// [`Error::Experiment`](calibrant_core::Error::Experiment) where there is no time for a soak, or where no campaign determines the coefficients.
+/// [`Error::Infeasible`](calibrant_core::Error::Infeasible) where there is no time for a soak; [`Error::Experiment`](calibrant_core::Error::Experiment) where no campaign
+/// determines the coefficients.
 pub fn design(campaign: &Campaign) -> Result<CampaignDesign> {
     let relaxed = relaxed(campaign)?;
     let soaks = whole::whole(campaign, &relaxed);

@@ -218,7 +218,7 @@ refusals! {
         "The samples do not determine the noise."
         "Record the sensor at rest for minutes.";
     MotionInfeasible "motion-infeasible"
-        "The limits admit no motion, or do not bound it."
+        "The limits admit no motion, or do not bound it; the time of a campaign does not suffice."
         "Change the limits that the message names.";
     ValidationImpossible "validation-impossible"
         "A validation with these data says nothing."
