@@ -87,6 +87,9 @@ fn one_sensor(campaign: &Campaign, soaks: &[SoakCalibration]) -> Result<()> {
                     (quantity.value(&soak.imu.parameters) / gain, variance / gain.powi(2))
                 };
                 let ((here, variance), (there, other_variance)) = (of(soak, place), of(other, before));
+                // by their own slopes, too
+                let slopes = [soak, other].map(|of| slope(&of.imu, *quantity).abs() / gain);
+                let allowed = allowed + apart_c * slopes.iter().sum::<f64>();
                 let sd = (variance + other_variance + 2.0 * soak_sd.powi(2)).sqrt();
                 let apart = (here - there).abs();
                 if apart > OF_TWO_SENSORS * sd + allowed {
@@ -126,6 +129,16 @@ fn differs_by(campaign: &Campaign, quantity: ImuQuantity, apart_c: f64) -> Optio
             Some((channel.unit, channel.soak_sd, (BY_SLOPE * by_slope).hypot(BY_PATH * by_path)))
         }
         _ => None,
+    }
+}
+
+/// The slope of a bias by temperature.
+fn slope(imu: &CalibratedImu, quantity: ImuQuantity) -> f64 {
+    match quantity {
+        ImuQuantity::Of(kind, Quantity::Bias(axis)) => {
+            imu.parameters.thermal.sensor(kind).bias[0][axis.index()]
+        }
+        _ => 0.0,
     }
 }
 

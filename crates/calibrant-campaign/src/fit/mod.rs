@@ -39,7 +39,7 @@ pub fn fit(model: &CampaignModel, soaks: &[SoakCalibration]) -> Result<FittedCam
     // the others are what they are by themselves
     let each = |soak: &SoakCalibration| {
         let rests = (!soak.prior.is_empty()).then(|| at_its_temperature(soak));
-        rests.transpose().map(|soak| soak.as_ref().map(one_by_one))
+        rests.transpose().map(|soak| soak.as_ref().and_then(one_by_one))
     };
     let each = soaks.iter().map(each).collect::<Result<Vec<_>>>()?;
     let prepared = Prepared::of(model, &at, &each, &quantities)?;

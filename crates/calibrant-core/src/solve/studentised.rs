@@ -6,6 +6,8 @@ use nalgebra::{Matrix2, Vector2};
 
 /// A residual that keeps less than this share of its variance decides the parameters by itself.
 const LEAST_SHARE: f64 = 1e-6;
+/// χ² per degree of freedom, at least: residuals far below their noise are what terms left that were fitted before.
+const LEAST_SCATTER: f64 = 0.1;
 
 /// χ² of a fit and the degrees of freedom behind it.
 #[derive(Clone, Copy)]
@@ -24,7 +26,7 @@ pub(crate) fn studentised(
     if !is_used {
         return residual / (own + from_parameters).sqrt();
     }
-    let scatter = if degrees > 0.0 { (chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
+    let scatter = if degrees > 0.0 { (chi2 / degrees).max(LEAST_SCATTER) } else { 1.0 };
     let left = (own - from_parameters).max(LEAST_SHARE * own);
     let internal = residual / left.sqrt() / scatter.sqrt();
     if degrees < 2.0 {

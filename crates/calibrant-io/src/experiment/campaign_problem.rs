@@ -133,24 +133,13 @@ impl Experiment {
                 };
                 // of counts whose gain nobody knows, none
                 let sd = sd.filter(|sd| *sd > 0.0);
-                imu.known.push(KnownTerm { quantity, value: 0.0, sd });
+                if imu.known.iter().all(|known| known.quantity != quantity) {
+                    imu.usual.push(KnownTerm { quantity, value: 0.0, sd });
+                }
             }
         }
         soak.stated_as_read();
         Ok(soak)
-    }
-}
-
-impl Experiment {
-    /// The experiment of a soak with what the others say of its parameters; what is known of them by `[known]` stays.
-    #[must_use]
-    pub fn with_soak_prior(&self, prior: Vec<KnownTerm>) -> Self {
-        let mut soak = self.clone();
-        if let Some(imu) = soak.imu.as_mut() {
-            let is_free = |of: &KnownTerm| imu.known.iter().all(|known| known.quantity != of.quantity);
-            imu.soak_prior = prior.into_iter().filter(is_free).collect();
-        }
-        soak
     }
 }
 

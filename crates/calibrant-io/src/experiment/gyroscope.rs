@@ -130,8 +130,8 @@ pub struct ImuPlan {
     pub section_angle_sd_rad: f64,
     /// Known quantities: fixed values and priors.
     pub known: Vec<KnownTerm>,
-    /// What other soaks of a campaign say of the parameters of one that does not determine them by itself.
-    pub soak_prior: Vec<KnownTerm>,
+    /// Priors of usual sensors.
+    pub usual: Vec<KnownTerm>,
     /// The part of the model that follows temperature.
     pub thermal: ThermalModel,
     /// The lag of the thermometer.
@@ -150,7 +150,8 @@ impl ImuPlan {
             directions: holds.directions(),
             face_sd_rad: holds.face_sd_rad(),
             turns: self.turns.clone(),
-            known: [self.known.clone(), self.soak_prior.clone()].concat(),
+            known: self.known.clone(),
+            usual: self.usual.clone(),
             thermal: self.thermal,
             thermometer: self.thermometer,
             ..ImuSetup::default()
@@ -209,7 +210,7 @@ impl GyroscopeSection {
             section_angle_rad: angle.transpose()?.unwrap_or_else(|| (-360.0_f64).to_radians()),
             section_angle_sd_rad: self.turn_sd_deg.map_or(TURN_SD_DEG, f64::from).to_radians(),
             known: known.map_or(Ok(Vec::new()), |section| known_terms(section, &thermal))?,
-            soak_prior: Vec::new(),
+            usual: Vec::new(),
             thermal,
             thermometer: temperature.map(TemperatureSection::thermometer).unwrap_or_default(),
         })

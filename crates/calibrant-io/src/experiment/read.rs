@@ -197,6 +197,15 @@ impl ExperimentFile {
         let calibrate = self.calibrate.clone().unwrap_or_default();
         if calibrate.prior == Prior::Datasheet {
             need_spreads("calibrate.prior", &sensor)?;
+            if self.campaign.is_some() {
+                let help =
+                    "leave it away: what the other soaks say is the prior of one that leaves parameters open";
+                return Err(refused(
+                    "calibrate.prior",
+                    "each soak of a campaign would count the datasheet once more",
+                    help,
+                ));
+            }
         }
         if let Some(machine) = &self.machine {
             machine.check_noise(&sensor, imu.as_ref())?;

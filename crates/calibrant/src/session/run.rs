@@ -5,6 +5,7 @@ use super::kind::Kind;
 use super::machine::MachineTask;
 use super::motion_source::MotionSource;
 use super::options::SessionOptions;
+use super::other_soaks::OtherSoaks;
 use super::outcome::Outcome;
 use super::prepared::{Prepared, unsuited};
 use super::reader::Reader;
@@ -13,7 +14,6 @@ use super::task::Task;
 use calibrant_core::acceptance::AcceptanceLimit;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
-use calibrant_core::sensor::ImuParameters;
 use calibrant_io::{Experiment, HashedFile, ImuFile, Origin, Plan, ResumeKey, UrdfSource};
 
 /// From recordings to calibrations, in files or in memory. It holds what all recordings share, and can calibrate several at the same time.
@@ -24,8 +24,7 @@ pub struct Session {
     notes: Vec<Diagnostic>,
     /// What all results come from.
     origin: Origin,
-    /// What all soaks of a campaign say of the sensor.
-    over_temperature: Option<ImuParameters>,
+    others: OtherSoaks,
 }
 
 impl Session {
@@ -51,12 +50,13 @@ impl Session {
             motion: options.motion.as_ref().and_then(MotionSource::hashed),
             ..Origin::default()
         };
-        Ok(Self { experiment, options, prepared, notes, origin, over_temperature: None })
+        Ok(Self { experiment, options, prepared, notes, origin, others: OtherSoaks::default() })
     }
 
-    /// The same for a soak of an accelerometer alone, whose calibration has no temperature terms: its holds are taken to their mean temperature by this sensor.
-    pub(crate) fn with_sensor_over_temperature(self, imu: ImuParameters) -> Self {
-        Self { over_temperature: Some(imu), ..self }
+    /// The same for a soak of a campaign of which other soaks are calibrated already.
+    #[must_use]
+    pub fn beside(self, others: OtherSoaks) -> Self {
+        Self { others, ..self }
     }
 
     /// The experiment.
@@ -158,7 +158,6 @@ impl Session {
             (Plan::Motion(_), Prepared::Moved(command)) => Kind::Motion(command),
             (Plan::Motion(_) | Plan::Machine(_), _) => return Err(unsuited()),
         };
-        let over_temperature = self.over_temperature.as_ref();
-        Task::new(experiment, kind, options, over_temperature).run(source, options, notes)
+        Task::new(experiment, kind, options, &self.others).run(source, options, notes)
     }
 }

@@ -2,16 +2,17 @@
 
 use super::clean::{take_out_motion_outliers, take_out_outliers};
 use super::holds::{are_means, holds_of, with_holds};
+use super::other_soaks::OtherSoaks;
 use super::problem::Problem;
 use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result, TaskOption};
 use calibrant_core::estimate::{
-    CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, SoakTemperature, Stimulus,
-    WhiteNoise, faces_found, recording_at,
+    CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, KnownTerm,
+    SoakTemperature, Stimulus, WhiteNoise, faces_found, recording_at,
 };
 use calibrant_core::motion::{CommandedMotion, Hold};
-use calibrant_core::sensor::{ImuParameters, ImuRecording, Recording, Sensor, SensorKind};
+use calibrant_core::sensor::{ImuParameters, ImuQuantity, ImuRecording, Recording, Sensor, SensorKind};
 use nalgebra::Vector3;
 
 /// The commanded motion, or what is known of holds, rotations and turns.
@@ -104,6 +105,25 @@ impl<'e> Setup<'e> {
         Ok(found.unmatched)
     }
 
+    /// What other soaks say: the means of temperature terms, and a prior. Gives what is used of the prior: not what is known already.
+    pub(crate) fn set_others(&mut self, others: &OtherSoaks) -> Vec<KnownTerm> {
+        let (known, usual) = match self {
+            Self::Holds(holds) => (&[][..], &mut holds.known),
+            Self::Imu(_, setup) => (&setup.known[..], &mut setup.usual),
+            Self::Motion(_) | Self::Faces(_) => return Vec::new(),
+        };
+        for term in usual.iter_mut().filter(|term| term.sd.is_some()) {
+            if let (ImuQuantity::Thermal(..), Some(sensor)) = (term.quantity, &others.sensor) {
+                term.value = term.quantity.value(sensor);
+            }
+        }
+        let is_free =
+            |of: &&KnownTerm| known.iter().chain(&*usual).all(|known| known.quantity != of.quantity);
+        let used: Vec<KnownTerm> = others.prior.iter().filter(is_free).copied().collect();
+        usual.extend(&used);
+        used
+    }
+
     /// Takes the holds of an accelerometer alone to their mean temperature, by what is known of the sensor over temperature. Gives that temperature; `None` where there is none to
     /// be taken to. To be called with all holds found.
     pub(crate) fn take_to_mean_temperature(
@@ -128,6 +148,8 @@ impl<'e> Setup<'e> {
         }
         // between given times the means would be taken from the recording again
         holds.intervals_s = None;
+        // temperature explains it
+        holds.bias_drift_sd_mps2 = 0.0;
         Ok((!temperatures.is_empty()).then_some(mean_c))
     }
 
@@ -235,5 +257,11 @@ fn set_found(holds: &mut HoldsSetup, chosen: Vec<Hold>) {
 
 /// Given intervals, found holds and further recordings belong to the first recording, and are dropped.
 fn of_other(holds: &HoldsSetup) -> HoldsSetup {
-    HoldsSetup { intervals_s: None, found: None, further_from_s: Vec::new(), ..holds.clone() }
+    HoldsSetup {
+        intervals_s: None,
+        found: None,
+        further_from_s: Vec::new(),
+        known: Vec::new(),
+        ..holds.clone()
+    }
 }

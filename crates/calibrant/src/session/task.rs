@@ -7,6 +7,7 @@ use super::kind::Kind;
 use super::left_out::negligible;
 use super::noise::NoiseInHold;
 use super::options::SessionOptions;
+use super::other_soaks::OtherSoaks;
 use super::outcome::Outcome;
 use super::reader::Reader;
 use super::recorded::Recorded;
@@ -21,7 +22,7 @@ use calibrant_core::estimate::{
     Calibration, CalibrationSettings, SoakTemperature, Validation, other_temperature,
 };
 use calibrant_core::noise::SensorNoise;
-use calibrant_core::sensor::{ImuParameters, Sensor, SensorKind};
+use calibrant_core::sensor::{Sensor, SensorKind};
 use calibrant_io::{Experiment, Prior, file_name};
 
 /// What all recordings share.
@@ -31,8 +32,7 @@ pub(crate) struct Task<'e> {
     reader: Reader<'e>,
     settings: CalibrationSettings,
     rows_are_holds: bool,
-    /// By which the holds are taken to their mean temperature.
-    over_temperature: Option<&'e ImuParameters>,
+    others: &'e OtherSoaks,
 }
 
 impl<'e> Task<'e> {
@@ -40,14 +40,14 @@ impl<'e> Task<'e> {
         experiment: &'e Experiment,
         kind: Kind<'e>,
         options: &SessionOptions,
-        over_temperature: Option<&'e ImuParameters>,
+        others: &'e OtherSoaks,
     ) -> Self {
         Self {
             accelerometer: &experiment.sensor,
             kind,
             reader: Reader::of(experiment, options),
             rows_are_holds: options.reading.rows_are_holds,
-            over_temperature,
+            others,
             settings: CalibrationSettings {
                 datasheet_prior: experiment.imu.is_none() && experiment.calibrate.prior == Prior::Datasheet,
                 ..CalibrationSettings::default()
@@ -82,7 +82,8 @@ impl<'e> Task<'e> {
         };
         before.extend(setup.prepare(self.accelerometer, &mut recorded.recording));
         before.extend(setup.set_faces(self.accelerometer, &recorded.recording)?);
-        let taken_to_c = match self.over_temperature {
+        let soak_prior = setup.set_others(self.others);
+        let taken_to_c = match &self.others.sensor {
             Some(imu) => setup.take_to_mean_temperature(imu, &recorded.recording)?,
             None => None,
         };
@@ -106,9 +107,7 @@ impl<'e> Task<'e> {
         calibration.counts_per_unit = recorded.counts_per_unit;
         calibration.soak = SoakTemperature::of(&recorded.recording, calibration.hold_results())?
             .map(|soak| SoakTemperature { mean_c: taken_to_c.unwrap_or(soak.mean_c), ..soak });
-        if let Kind::Imu(imu, _) = self.kind {
-            calibration.soak_prior.clone_from(&imu.soak_prior);
-        }
+        calibration.soak_prior = soak_prior;
         calibration.warnings.splice(0..0, before);
         calibration.warnings.extend(recorded.unused(calibration.hold_results()));
         calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));

@@ -257,7 +257,9 @@ impl Problem<'_> {
             (0..self.holds.len()).map(|j| all.contains(&j) && of(j)).collect()
         };
         let every = || chosen(&|_| true);
-        if all.len() < self.size() + 3 {
+        // of few holds beside a prior, some that agree with it would do
+        let fewest = if self.prior.is_some() { 2 * self.size() } else { self.size() + 3 };
+        if all.len() < fewest {
             return every();
         }
         let mut scale = 0.0;

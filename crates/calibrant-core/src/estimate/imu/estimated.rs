@@ -1,16 +1,15 @@
 //! The estimated quantities of an IMU, and their priors.
 
-use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::imu::model::Prior;
-use crate::estimate::imu::problem::ImuProblem;
-use crate::sensor::{ImuParameters, ImuQuantity};
+use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
+use crate::sensor::{ImuParameters, ImuQuantity, SensorKind, Thermal};
 
 /// The quantities that are estimated: all but the fixed ones.
 pub(crate) fn estimated_quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
     let setup = problem.setup;
     let mut quantities = setup.quantities(problem.accelerometer.model, problem.gyroscope);
     let fixed = |quantity: &ImuQuantity| {
-        setup.known.iter().any(|known| known.quantity == *quantity && known.sd.is_none())
+        setup.known_terms().any(|known| known.quantity == *quantity && known.sd.is_none())
     };
     quantities.retain(|quantity| !fixed(quantity));
     quantities
@@ -18,7 +17,7 @@ pub(crate) fn estimated_quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity>
 
 /// The priors of the estimated quantities: mean and inverse variance.
 pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<Prior> {
-    let of = |quantity: &ImuQuantity| problem.setup.known.iter().find(|known| known.quantity == *quantity);
+    let of = |quantity: &ImuQuantity| problem.setup.known_terms().find(|known| known.quantity == *quantity);
     if quantities.iter().all(|quantity| of(quantity).is_none()) {
         return None;
     }
@@ -32,9 +31,29 @@ pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> 
     )
 }
 
+/// The temperature terms as they are expected; `fixed`: the fixed ones alone.
+pub(crate) fn expected_terms(setup: &ImuSetup, fixed: Thermal) -> Thermal {
+    let mut imu = ImuParameters { thermal: fixed, ..ImuParameters::identity() };
+    for known in setup.known_terms().filter(|known| matches!(known.quantity, ImuQuantity::Thermal(..))) {
+        let now = known.quantity.value(&imu);
+        known.quantity.add_to(&mut imu, known.value - now);
+    }
+    imu.thermal
+}
+
+/// Sets the parameters of the gyroscope that other recordings tell: the rotations of this one need not.
+pub(crate) fn set_usual(imu: &mut ImuParameters, setup: &ImuSetup) {
+    for usual in &setup.usual {
+        if matches!(usual.quantity, ImuQuantity::Of(SensorKind::Gyroscope, _)) {
+            let now = usual.quantity.value(imu);
+            usual.quantity.add_to(imu, usual.value - now);
+        }
+    }
+}
+
 /// Sets the fixed quantities.
-pub(crate) fn set_fixed(imu: &mut ImuParameters, known: &[KnownTerm]) {
-    for known in known.iter().filter(|known| known.sd.is_none()) {
+pub(crate) fn set_fixed(imu: &mut ImuParameters, setup: &ImuSetup) {
+    for known in setup.known_terms().filter(|known| known.sd.is_none()) {
         let now = known.quantity.value(imu);
         known.quantity.add_to(imu, known.value - now);
     }

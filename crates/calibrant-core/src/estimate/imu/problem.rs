@@ -84,8 +84,10 @@ pub struct ImuSetup {
     pub face_sd_rad: Option<f64>,
     /// Turns of known angle.
     pub turns: Vec<Turn>,
-    /// Known quantities.
+    /// Known quantities, which are held against the recording.
     pub known: Vec<KnownTerm>,
+    /// Priors of others: what is usual, or what other recordings say. They are not held against the recording.
+    pub usual: Vec<KnownTerm>,
     /// The temperature terms.
     pub thermal: ThermalModel,
     /// What is known of the lag of the thermometer behind the sensor, beside these terms.
@@ -107,6 +109,7 @@ impl Default for ImuSetup {
             face_sd_rad: None,
             turns: Vec::new(),
             known: Vec::new(),
+            usual: Vec::new(),
             thermal: ThermalModel::default(),
             thermometer: ThermometerLag::default(),
             rate_sd: 0.0,
@@ -119,6 +122,11 @@ impl ImuSetup {
     /// A recording with known holds, and nothing else.
     pub(in crate::estimate) fn from_holds(holds: &HoldsSetup) -> Self {
         Self { holds: holds.clone(), ..Self::default() }
+    }
+
+    /// All that is known of quantities.
+    pub fn known_terms(&self) -> impl Iterator<Item = &KnownTerm> {
+        self.known.iter().chain(&self.usual)
     }
 
     /// The Earth's rate about the vertical over gravity, `Ω sin φ/g`, (rad/s)/(m/s²). An IMU at rest turns by this times the specific force. Zero at an

@@ -74,7 +74,7 @@ impl<'a> RecordingTemperature<'a> {
         start.range_c =
             of_holds.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
         let mut imu = ImuParameters { thermal: start, ..ImuParameters::identity() };
-        set_fixed(&mut imu, &problem.setup.known);
+        set_fixed(&mut imu, problem.setup);
         let temperature = Self { recorded: Some(recorded), start: imu.thermal };
         temperature.enough(problem, &of_holds)?;
         Ok(temperature)
@@ -115,7 +115,7 @@ impl<'a> RecordingTemperature<'a> {
             }
         }
         let known =
-            |quantity: &ImuQuantity| problem.setup.known.iter().any(|term| term.quantity == *quantity);
+            |quantity: &ImuQuantity| problem.setup.known_terms().any(|term| term.quantity == *quantity);
         let unknown: Vec<ImuQuantity> =
             problem.setup.thermal.quantities().into_iter().filter(|quantity| !known(quantity)).collect();
         // the terms of one polynomial, which need one temperature more than there are

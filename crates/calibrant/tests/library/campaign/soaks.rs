@@ -1,14 +1,11 @@
 //! Soaks of a campaign: what each says by itself, and together.
 
-use calibrant::campaign::fit::{FittedCampaign, SoakCalibration, SoakPath, fit};
+use calibrant::campaign::fit::{SoakCalibration, fit};
 use calibrant::campaign::{Direction, Soak};
-use calibrant::estimate::KnownTerm;
 use calibrant::io::{Experiment, parse_soak, preset};
 use calibrant::sensor::ImuRecording;
+use calibrant::session::OtherSoaks;
 use calibrant::{Session, SessionOptions, Source, simulate_campaign};
-
-/// Standard deviation of a prior, over that of what the others say: that of `calibrate`.
-const WIDER: f64 = 3.0;
 
 /// The campaign of the preset, with blocks that determine all.
 fn campaign() -> Experiment {
@@ -20,20 +17,17 @@ fn soak((temperature_c, direction, wait_min): (f64, Direction, f64)) -> Soak {
     Soak { temperature_c, direction, wait_min, blocks: 1 }
 }
 
-fn json(experiment: &Experiment, recording: &ImuRecording, name: &str) -> String {
-    let session = Session::with(experiment.clone(), SessionOptions::default()).expect("one");
+fn json(experiment: &Experiment, recording: &ImuRecording, (name, others): (&str, OtherSoaks)) -> String {
+    let session = Session::with(experiment.clone(), SessionOptions::default()).expect("one").beside(others);
     session.calibrate(&Source::from_recording(name, recording.clone())).expect("determined").json()
 }
 
-fn calibrated(experiment: &Experiment, recording: &ImuRecording, name: &str) -> SoakCalibration {
-    parse_soak(&json(experiment, recording, name), name).expect("a soak").calibration
-}
-
-fn known(others: &FittedCampaign, path: &SoakPath) -> Vec<KnownTerm> {
-    let imu = others.on_path(path).at(path.temperature_c).expect("within");
-    let sd = |k: usize| imu.covariance.as_ref().map(|of| WIDER * of[(k, k)].sqrt());
-    let terms = imu.quantities.iter().enumerate();
-    terms.map(|(k, of)| KnownTerm { quantity: *of, value: of.value(&imu.parameters), sd: sd(k) }).collect()
+fn calibrated(
+    experiment: &Experiment,
+    recording: &ImuRecording,
+    (name, others): (&str, OtherSoaks),
+) -> SoakCalibration {
+    parse_soak(&json(experiment, recording, (name, others)), name).expect("a soak").calibration
 }
 
 /// Fitted together, each with what the others say as its prior.
@@ -47,13 +41,15 @@ fn the_joint_fit_is_that_of_two_stages_where_each_soak_determines_all() {
     let soaks: Vec<Soak> = up.into_iter().chain(down).collect();
     let simulated = simulate_campaign(&experiment, &soaks, Some(1)).expect("simulated");
     let recordings = simulated.soaks.iter().enumerate();
-    let alone: Vec<SoakCalibration> =
-        recordings.clone().map(|(k, of)| calibrated(&of_one, of, &k.to_string())).collect();
+    let alone: Vec<SoakCalibration> = recordings
+        .clone()
+        .map(|(k, of)| calibrated(&of_one, of, (&k.to_string(), OtherSoaks::default())))
+        .collect();
     let two_stages = fit(&model, &alone).expect("determined");
     let together: Vec<SoakCalibration> = recordings
         .map(|(k, of)| {
-            let prior = known(&two_stages, &two_stages.soaks[k].path);
-            calibrated(&of_one.with_soak_prior(prior), of, &k.to_string())
+            let prior = two_stages.prior_on(&two_stages.soaks[k].path).expect("there");
+            calibrated(&of_one, of, (&k.to_string(), OtherSoaks { prior, sensor: None }))
         })
         .collect();
     let joint = fit(&model, &together).expect("determined");
@@ -83,6 +79,7 @@ fn holds_that_their_temperature_explains_are_not_said_to_be_left_out() {
     let up = [(25.0, 5.0), (30.0, 10.0), (35.0, 0.0), (50.0, 10.0)];
     let soaks = up.map(|(temperature_c, wait_min)| soak((temperature_c, Direction::Up, wait_min)));
     let simulated = simulate_campaign(&experiment, &soaks, Some(1)).expect("simulated");
-    let json = json(&experiment.of_one_soak().expect("one"), &simulated.soaks[3], "soak");
+    let json =
+        json(&experiment.of_one_soak().expect("one"), &simulated.soaks[3], ("soak", OtherSoaks::default()));
     assert!(!json.contains("holds-left-out-in-a-row"));
 }

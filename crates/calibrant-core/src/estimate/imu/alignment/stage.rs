@@ -6,7 +6,7 @@ use crate::estimate::imu::alignment::axes::Axes;
 use crate::estimate::imu::alignment::search::find_alignment;
 use crate::estimate::imu::checks::identifiability::undetermined;
 use crate::estimate::imu::checks::missed_gravity;
-use crate::estimate::imu::estimated::set_fixed;
+use crate::estimate::imu::estimated::{set_fixed, set_usual};
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::sensor::ReadingUnit;
@@ -32,6 +32,9 @@ pub(crate) fn align_sensors(
     let found = find_alignment(model, &state, problem.gyroscope.unit, nominal).ok_or_else(none)?;
     missed_gravity::check(model, &state, found.median_rad, problem.gyroscope.unit, holds)?;
     state.imu = found.imu;
-    set_fixed(&mut state.imu, &problem.setup.known);
+    if found.axes.is_none() {
+        set_usual(&mut state.imu, problem.setup);
+    }
+    set_fixed(&mut state.imu, problem.setup);
     Ok((state, found.axes))
 }

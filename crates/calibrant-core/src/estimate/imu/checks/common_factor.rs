@@ -51,10 +51,10 @@ pub(crate) fn of_fit(evidence: &Evidence<'_>) -> Diagnostics {
         ReadingUnit::Counts => problem.gyroscope.gain,
         _ => Some(Vector3::repeat(1.0)),
     };
-    let is_known =
-        problem.setup.known.iter().any(|known| {
-            matches!(known.quantity, ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(_)))
-        });
+    let is_known = problem
+        .setup
+        .known_terms()
+        .any(|known| matches!(known.quantity, ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(_))));
     let Some(nominal) = nominal.filter(|_| !is_known) else { return Vec::new() };
     let found = common_factor(matrix, &nominal);
     found.map(|factor| GyroscopeScaled { factor }.into()).into_iter().collect()

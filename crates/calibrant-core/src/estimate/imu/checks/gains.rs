@@ -21,7 +21,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let mut warnings: Diagnostics =
         beyond_datasheet(&parameters, &calibration.values, &sd).into_iter().collect();
     let is_known =
-        |quantity: ImuQuantity| evidence.problem.setup.known.iter().any(|known| known.quantity == quantity);
+        |quantity: ImuQuantity| evidence.problem.setup.known_terms().any(|known| known.quantity == quantity);
     let accelerometer = calibration.imu[SensorKind::Accelerometer];
     warnings.extend(implausible_bias(
         calibration.unit(SensorKind::Accelerometer),

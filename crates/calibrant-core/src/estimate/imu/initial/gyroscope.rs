@@ -123,7 +123,7 @@ fn start_values(
     if let Some(gain) = problem.gyroscope.gain {
         imu[SensorKind::Gyroscope].matrix = Matrix3::from_diagonal(&gain);
     }
-    set_fixed(&mut imu, &problem.setup.known);
+    set_fixed(&mut imu, problem.setup);
     imu
 }
 

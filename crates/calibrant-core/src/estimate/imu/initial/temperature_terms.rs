@@ -150,7 +150,7 @@ impl<'a> AccelerometerOnly<'a> {
         } else {
             temperature.start[SensorKind::Accelerometer]
         };
-        set_fixed(&mut imu, &problem.setup.known);
+        set_fixed(&mut imu, problem.setup);
         Self {
             first,
             face_sd_rad: problem.setup.face_sd_rad,

@@ -6,13 +6,14 @@ use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::initial::face_repeats::FaceRepeats;
+use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::stationary::intervals::find_clean_imu_holds;
 use crate::estimate::problem::{CalibrationProblem, Stimulus};
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::result::Recovered;
 use crate::estimate::settings::CalibrationSettings;
-use crate::sensor::{Recording, SensorKind, SensorThermal};
+use crate::sensor::{ImuQuantity, Recording, SensorKind, SensorThermal};
 use nalgebra::Vector3;
 use std::borrow::Cow;
 
@@ -42,8 +43,11 @@ pub(crate) fn from_unknown_directions(
     let as_read = problem.recording[SensorKind::Accelerometer].as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
     let mut found_alone = holds::calibrate(&alone, &setup, settings, as_read);
-    if matches!(found_alone, Err(Error::NotIdentifiable(_))) && !problem.setup.known.is_empty() {
-        let with_known = HoldsSetup { known: problem.setup.known.clone(), ..setup.clone() };
+    let of_accelerometer =
+        |known: &&KnownTerm| matches!(known.quantity, ImuQuantity::Of(SensorKind::Accelerometer, _));
+    let known: Vec<KnownTerm> = problem.setup.known_terms().filter(of_accelerometer).copied().collect();
+    if matches!(found_alone, Err(Error::NotIdentifiable(_))) && !known.is_empty() {
+        let with_known = HoldsSetup { known, ..setup.clone() };
         let stimulus = Stimulus::Holds(&with_known);
         let alone = CalibrationProblem { stimulus, ..alone };
         found_alone = holds::calibrate(&alone, &with_known, settings, as_read).or(found_alone);
