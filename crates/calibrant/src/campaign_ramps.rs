@@ -24,30 +24,39 @@ const STEP_S: f64 = 10.0;
 /// Where the experiment makes no sense.
 pub fn calibrate_soaks(
     experiment: &Experiment,
-    mut batch: Batch,
-    mut rows: Vec<BatchRow>,
+    batch: Batch,
+    rows: Vec<BatchRow>,
     progress: &Progress,
 ) -> Result<(Vec<BatchRow>, Vec<Diagnostic>)> {
-    let mut notes: Vec<Diagnostic> = Vec::new();
-    let mut is_piece = vec![false; rows.len()];
-    let ramps = match experiment.campaign()? {
-        Some(campaign) => in_parallel(rows.len(), |k| {
-            // no soak has the name of a piece
-            let mut name = format!("{}-part", rows[k].folder);
-            while rows.iter().any(|row| row.folder.to_lowercase().starts_with(&name.to_lowercase())) {
-                name += "-part";
-            }
-            is_wide(&rows[k], &campaign)
-                .then(|| pieces(batch.session(), &batch.sources()[k], (&campaign, &name)))?
-        }),
-        None => Vec::new(),
-    };
-    if ramps.iter().any(Option::is_some) {
+    let Some(campaign) = experiment.campaign()? else { return Ok((rows, Vec::new())) };
+    let (mut soaks, mut notes) = Soaks::with_ramps_cut((batch, rows), &campaign, progress)?;
+    notes.extend(calibrate_with_the_others(experiment, &soaks.batch, &mut soaks.rows)?);
+    Ok((soaks.rows(), notes))
+}
+
+/// The soaks of a campaign, pieces of ramps among them.
+struct Soaks {
+    batch: Batch,
+    rows: Vec<BatchRow>,
+    is_piece: Vec<bool>,
+}
+
+impl Soaks {
+    /// Pieces in place of each ramp.
+    fn with_ramps_cut(
+        (batch, rows): (Batch, Vec<BatchRow>),
+        campaign: &Campaign,
+        progress: &Progress,
+    ) -> Result<(Self, Vec<Diagnostic>)> {
+        let ramps = ramps(&batch, &rows, campaign);
+        if ramps.iter().all(Option::is_none) {
+            let is_piece = vec![false; rows.len()];
+            return Ok((Self { batch, rows, is_piece }, Vec::new()));
+        }
         let cut: Vec<Source> = ramps.iter().flatten().flat_map(|ramp| ramp.pieces.clone()).collect();
-        let of_pieces = batch.with_sources(cut)?;
-        let mut found = of_pieces.run(progress).rows.into_iter();
-        let (mut all, mut sources) = (Vec::new(), Vec::new());
-        is_piece.clear();
+        let mut found = batch.with_sources(cut)?.run(progress).rows.into_iter();
+        let (mut all, mut sources, mut is_piece) = (Vec::new(), Vec::new(), Vec::new());
+        let mut notes: Vec<Diagnostic> = Vec::new();
         for ((row, source), ramp) in rows.into_iter().zip(batch.sources()).zip(ramps) {
             let Some(Ramp { pieces, range_c: [from_c, to_c], findings }) = ramp else {
                 all.push(row);
@@ -63,14 +72,28 @@ pub fn calibrate_soaks(
             is_piece.extend(pieces.iter().map(|_| true));
             sources.extend(pieces);
         }
-        (rows, batch) = (all, batch.with_sources(sources)?);
+        Ok((Self { batch: batch.with_sources(sources)?, rows: all, is_piece }, notes))
     }
-    notes.extend(calibrate_with_the_others(experiment, &batch, &mut rows)?);
-    // between two stops of the chamber the sensor may rest in one pose, or move
-    let is_empty =
-        |row: &BatchRow| matches!(&row.outcome, Err(Error::NotIdentifiable(of)) if of.has_hardly_a_hold());
-    let kept = rows.into_iter().zip(is_piece).filter(|(row, is_piece)| !(*is_piece && is_empty(row)));
-    Ok((kept.map(|(row, _)| row).collect(), notes))
+
+    /// All but pieces without holds: between two stops of the chamber the sensor may rest in one pose, or move.
+    fn rows(self) -> Vec<BatchRow> {
+        let is_empty = |row: &BatchRow| matches!(&row.outcome, Err(Error::NotIdentifiable(of)) if of.has_hardly_a_hold());
+        let kept = self.rows.into_iter().zip(self.is_piece);
+        kept.filter(|(row, is_piece)| !(*is_piece && is_empty(row))).map(|(row, _)| row).collect()
+    }
+}
+
+/// The recordings that are ramps, each in its place.
+fn ramps(batch: &Batch, rows: &[BatchRow], campaign: &Campaign) -> Vec<Option<Ramp>> {
+    in_parallel(rows.len(), |k| {
+        // no soak has the name of a piece
+        let mut name = format!("{}-part", rows[k].folder);
+        while rows.iter().any(|row| row.folder.to_lowercase().starts_with(&name.to_lowercase())) {
+            name += "-part";
+        }
+        is_wide(&rows[k], campaign)
+            .then(|| pieces(batch.session(), &batch.sources()[k], (campaign, &name)))?
+    })
 }
 
 /// A recording whose temperature goes over more than a soak's.

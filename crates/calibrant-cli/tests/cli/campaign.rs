@@ -64,7 +64,7 @@ fn short_campaigns_and_other_rooms_fit_their_time() {
 #[test]
 fn what_cannot_be_designed_is_refused_with_what_to_do() {
     for (edit, status, says) in [
-        (("budget_min = 360.0", "budget_min = 80.0"), 2, "give at least 82 min"),
+        (("budget_min = 360.0", "budget_min = 80.0"), 4, "give at least 82 min"),
         (("range_c = [-20.0, 60.0]", "range_c = [60.0, -20.0]"), 2, "range_c = [-20.0, 60.0]"),
         (("ramp_k_per_min = 2.0 ", "ramp_k_per_min = 0.0 "), 2, "above 0 K/min"),
         (("# spacing_c = 5.0 ", "spacing_c = 100.0 "), 2, "give a smaller spacing"),
@@ -127,11 +127,11 @@ fn with_bias(text: &str, bias_mps2: f64) -> String {
 
 /// Design, simulation, one calibration over all soaks, and its exports.
 /// The truth lies within the stated standard deviations.
-fn finds_the_truth(bench: &Bench, truth: &str) {
-    let compared = bench.run(&format!("compare {truth} result/calibration.json --json")).json();
+fn finds_the_truth(bench: &Bench, truth: &str, result: &str) {
+    let compared = bench.run(&format!("compare {truth} {result}/calibration.json --json")).json();
     let off = compared["quantities"].as_array().expect("a list").iter();
     let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
-    assert!(off.len() > 30 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    assert!(off.len() > 20 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
 }
 
 /// Six faces determine no angle between axes; two soaks with corners do, and the others count with what they measured.
@@ -153,7 +153,7 @@ fn soaks_on_six_faces_are_fitted_together_with_those_that_determine_all() {
     assert!(outcome.stderr.contains("[soaks-together]"), "{}", outcome.stderr);
     let found = bench.json("result/calibration.json");
     assert_eq!(found["soaks"].as_array().map(Vec::len), Some(soaks));
-    finds_the_truth(&bench, "all/truth.json");
+    finds_the_truth(&bench, "all/truth.json", "result");
     // their own files say on what they rest, so that nothing counts twice
     let files: Vec<String> =
         (1..=soaks).map(|soak| format!("result/soak_{soak:02}/calibration.json")).collect();
@@ -163,6 +163,35 @@ fn soaks_on_six_faces_are_fitted_together_with_those_that_determine_all() {
     let faces: Vec<String> = (1..=soaks).map(|soak| format!("faces/soak_{soak:02}.csv")).collect();
     let refused = run("faces.toml", &faces, "none");
     assert!(refused.stderr.matches("[not-identifiable]").count() == 1, "{}", refused.stderr);
+}
+
+/// A published gyroscope changes by 8.5 mrad/s in each kelvin, ten times the spread of its kind: within a soak that is no scatter of its holds.
+#[test]
+fn a_sensor_far_steeper_than_usual_is_calibrated_by_its_own_slopes() {
+    let bench = bench(&SHORT);
+    // over this range; what is not stated is scaled to it
+    let steep = [
+        (
+            "# \"accelerometer.bias\" = { spread = [0.07, 0.03, 0.02], beyond_sd = [0.008, 0.004],",
+            "\"accelerometer.bias\" = { spread = [0.25, 7e-3, 2e-3], beyond_sd = [5e-4, 1e-4],",
+        ),
+        (
+            "# \"gyroscope.bias\" = { spread = [6e-3, 2e-3, 1.5e-3], beyond_sd = [6e-4, 3e-4],",
+            "\"gyroscope.bias\" = { spread = [0.1, 5e-4, 2e-4], beyond_sd = [4e-5, 1e-5],",
+        ),
+    ];
+    bench.preset("campaign", "steep.toml", &[&SHORT[..], &steep].concat());
+    bench.run("design campaign.toml -o plan").done();
+    bench.run("simulate steep.toml --campaign plan/campaign.csv --seed 3 -o sim").done();
+    let soaks = bench.read("plan/campaign.csv").lines().count() - 1;
+    let recordings: Vec<String> = (1..=soaks).map(|soak| format!("sim/soak_{soak:02}.csv")).collect();
+    bench.run(&format!("calibrate campaign.toml {} --no-report -o result", recordings.join(" "))).done();
+    for soak in 1..=soaks {
+        let found = bench.json(&format!("result/soak_{soak:02}/calibration.json"));
+        let scatter = found["still_gyroscope"]["between_holds_sd_radps"][0].as_f64().expect("there");
+        assert!(scatter < 5e-4, "{soak}: {scatter}");
+    }
+    finds_the_truth(&bench, "sim/truth.json", "result");
 }
 
 /// A ramp up and one down: a block of six faces every 4 K, in one recording, or in one each.
@@ -210,7 +239,7 @@ fn a_ramp_in_several_poses_is_cut_into_soaks() {
         assert_eq!(outcome.stderr.matches("[ramp-cut]").count(), cuts, "{}", outcome.stderr);
         let found = bench.json("result/calibration.json");
         assert!(found["soaks"].as_array().is_some_and(|soaks| soaks.len() > 24), "{}", found["soaks"]);
-        finds_the_truth(&bench, "blocks/truth.json");
+        finds_the_truth(&bench, "blocks/truth.json", "result");
     }
 }
 
@@ -229,7 +258,7 @@ fn a_campaign_is_rehearsed_from_its_design_to_the_firmware() {
     let found = bench.json("result/calibration.json");
     assert_eq!(found["kind"], "campaign-calibration");
     assert_eq!(found["soaks"].as_array().map(Vec::len), Some(soaks));
-    finds_the_truth(&bench, "sim/truth.json");
+    finds_the_truth(&bench, "sim/truth.json", "result");
     // from the calibrations of the soaks, the same
     let files: Vec<String> =
         (1..=soaks).map(|soak| format!("result/soak_{soak:02}/calibration.json")).collect();
@@ -324,16 +353,22 @@ fn an_accelerometer_alone_goes_from_its_design_to_the_firmware() {
     let names: Vec<_> =
         found["channels"].as_array().expect("a list").iter().map(|of| of["order"].clone()).collect();
     assert_eq!(names, [2, 2], "{found}");
-    let compared = bench.run("compare sim/truth.json result/calibration.json --json").json();
-    let off = compared["quantities"].as_array().expect("a list").iter();
-    let off: Vec<f64> = off.filter_map(|of| of["difference_in_sd"].as_f64()).collect();
-    assert!(off.len() > 20 && off.iter().all(|off| off.abs() < 4.5), "{off:?}");
+    finds_the_truth(&bench, "sim/truth.json", "result");
     // its holds are taken to one temperature: what it changes by in a soak is no scatter of them
     let scatter = |soak: usize| {
         bench.json(&format!("result/soak_{soak:02}/calibration.json"))["holds"]["between_holds_sd_mps2"]
             .as_f64()
     };
     assert!((1..=7).all(|soak| scatter(soak).expect("there") < 1e-3), "{:?}", [1, 4, 7].map(scatter));
+    // on six faces it leaves parameters open
+    bench.write("faces.toml", text(&bench).replace("poses = \"corners\" ", "poses = \"faces\" "));
+    bench.run("simulate faces.toml --campaign short.csv --seed 3 -o faces").done();
+    let mixed = [1, 7].map(|soak| format!("sim/soak_{soak:02}.csv")).into_iter();
+    let mixed: Vec<String> = mixed.chain((2..7).map(|soak| format!("faces/soak_{soak:02}.csv"))).collect();
+    let outcome = bench.run(&format!("calibrate faces.toml {} --no-report -o mixed", mixed.join(" "))).done();
+    assert!(outcome.stderr.contains("[soaks-together]"), "{}", outcome.stderr);
+    assert_eq!(bench.json("mixed/calibration.json")["soaks"].as_array().map(Vec::len), Some(7));
+    finds_the_truth(&bench, "sim/truth.json", "mixed");
     // another soak tries it, and one of a sensor that has changed
     let held_out = |file: &str| {
         let others = recordings[..6].join(" ");
