@@ -252,7 +252,7 @@ pub fn campaign_sweep_sheet<'a>(of: &'a CampaignSweep, about: &'a About) -> Shee
 #[must_use]
 pub fn campaign_study_sheet<'a>(of: &CampaignRehearsal, about: &'a About) -> Sheet<'a> {
     let mut errors = Section::new("Errors over the range").lead(
-        "Root mean square error of the mean of both branches over range, axes and sensors, the standard deviation that the calibrations state, and the share of their 95 % intervals that hold the truth. The intervals are of Student's t, with the degrees of freedom of the scatter between soaks; normal where too few soaks find that.",
+        "Root mean square error of the mean of both branches over range, axes and sensors, the standard deviation that the calibrations state, and the share of their 95 % intervals that hold the truth. The intervals are of Student's t, with the degrees of freedom of that variance; normal where too few soaks find the scatter between them.",
     );
     let mut table = Table::new([
         Column::new("quantity"),

@@ -1,5 +1,5 @@
-//! The soaks of a campaign that do not determine all parameters by themselves: with few holds, or on six faces. What the other soaks say of them is their prior, which
-//! the fit over all soaks takes out again, so that nothing counts twice.
+//! The soaks of a campaign that are calibrated once more with what the others say: those that leave parameters open, with few holds or on six faces, and those of a sensor
+//! that follows temperature unusually. The prior is taken out again by the fit over all soaks, so that nothing counts twice.
 
 use crate::batch::{Batch, BatchRow, in_parallel};
 use crate::session::{OtherSoaks, Session, Source};
@@ -39,46 +39,21 @@ pub(crate) fn calibrate_with_the_others(
     let of_spread = CampaignModel { orders: vec![0; model.orders.len()], ..model.clone() };
     let first = is_open.contains(&true).then_some(&of_spread);
     for model in first.into_iter().chain([&model]) {
-        let soaks: Vec<Option<ReadSoak>> = in_parallel(rows.len(), |k| soak_of(&rows[k]));
-        let Some(all) = fitted(model, soaks.iter().flatten()) else { break };
-        let path = |k: usize| {
-            let of_fit = all.soaks.iter().find(|soak| soak.name == rows[k].folder).map(|soak| soak.path);
-            let mean_c = soaks[k].as_ref().map(|soak| soak.calibration.temperature.mean_c);
-            let alone = |temperature_c| SoakPath { temperature_c, direction: 0.0, lag_left: 0.0 };
-            of_fit.or_else(|| mean_c.or(temperatures[k]).map(alone))
-        };
-        let leaves_open = |k: &usize| {
-            let prior = path(*k).and_then(|path| all.prior_on(&path));
-            soaks[*k].as_ref().zip(prior).is_some_and(|(soak, prior)| soak.calibration.leaves_open(&prior))
-        };
-        let weak: Vec<usize> = (0..rows.len()).filter(leaves_open).collect();
-        // what they say may be far off
-        let others = (0..rows.len()).filter(|k| !weak.contains(k)).filter_map(|k| soaks[k].as_ref());
-        let without = if weak.is_empty() { None } else { fitted(model, others) };
-        let found = without.as_ref().unwrap_or(&all);
+        let Some(round) = Round::of(model, of_one, rows, &temperatures) else { break };
         let again = in_parallel(rows.len(), |k| -> Option<(bool, Result<BatchRow>)> {
-            let soak = soaks[k].as_ref().map(|soak| &soak.calibration);
-            let path = path(k)?;
-            let prior = found.prior_on(&path)?;
-            let about = found.on_path(&path).at_reference_temperature(path.temperature_c);
-            let sensor = about.ok()?.parameters;
-            let is_open = is_open[k] || weak.contains(&k);
-            let is_unusual = match &of_one.imu {
-                Some(imu) => is_unusual(&imu.usual, &sensor),
-                None => soak.is_some_and(changes),
-            };
-            (is_open || is_unusual).then(|| {
-                let prior = if is_open { prior } else { Vec::new() };
-                let others = OtherSoaks { prior, sensor: Some(sensor) };
-                let session = Session::with(of_one.clone(), options.clone());
-                (is_open, session.and_then(|session| batch.again(k, &rows[k], session.beside(others))))
-            })
+            options.interruption.check().ok()?;
+            let (rests, others) = round.others(k, is_open[k])?;
+            if rows[k].outcome.is_ok() {
+                batch.forget(&rows[k]);
+            }
+            let session = Session::with(of_one.clone(), options.clone());
+            Some((rests, session.and_then(|session| batch.again(k, &rows[k], session.beside(others)))))
         });
         for (k, again) in again.into_iter().enumerate() {
             let Some((rests, row)) = again else { continue };
             let row = row?;
-            // why it failed by itself says more
-            if row.outcome.is_ok() || rows[k].outcome.is_ok() {
+            // what is missing by itself says more than what is missing still
+            if rows[k].outcome.is_ok() || !matches!(row.outcome, Err(Error::NotIdentifiable(_))) {
                 (is_open[k], rows[k]) = (rests, row);
             }
         }
@@ -86,6 +61,63 @@ pub(crate) fn calibrate_with_the_others(
     let done = rows.iter().zip(&is_open).filter(|(row, is_open)| **is_open && !is_open_alone(row));
     let soaks: Vec<String> = done.map(|(row, _)| row.folder.clone()).collect();
     Ok((!soaks.is_empty()).then(|| SoaksTogether { soaks }.into()))
+}
+
+/// What all soaks say before they are calibrated once more.
+struct Round<'e> {
+    of_one: &'e Experiment,
+    /// Those that have a result.
+    soaks: Vec<Option<ReadSoak>>,
+    /// From where each came to its temperature; `None` where nobody knows that.
+    paths: Vec<Option<SoakPath>>,
+    /// Does it hardly determine parameters?
+    is_weak: Vec<bool>,
+    /// The fit of those that are not weak: what these say may be far off.
+    found: FittedCampaign,
+}
+
+impl<'e> Round<'e> {
+    /// `temperatures`: of the recordings without a result. `None` where the soaks do not determine a fit.
+    fn of(
+        model: &CampaignModel,
+        of_one: &'e Experiment,
+        rows: &[BatchRow],
+        temperatures: &[Option<f64>],
+    ) -> Option<Self> {
+        let soaks: Vec<Option<ReadSoak>> = in_parallel(rows.len(), |k| soak_of(&rows[k]));
+        let all = fitted(model, soaks.iter().flatten())?;
+        let path = |k: usize| {
+            let of_fit = all.soaks.iter().find(|soak| soak.name == rows[k].folder).map(|soak| soak.path);
+            let mean_c = soaks[k].as_ref().map(|soak| soak.calibration.temperature.mean_c);
+            let alone = |temperature_c| SoakPath { temperature_c, direction: 0.0, lag_left: 0.0 };
+            of_fit.or_else(|| mean_c.or(temperatures[k]).map(alone))
+        };
+        let paths: Vec<Option<SoakPath>> = (0..rows.len()).map(path).collect();
+        let is_weak = |(soak, path): (&Option<ReadSoak>, &Option<SoakPath>)| {
+            let prior = path.as_ref().and_then(|path| all.prior_on(path));
+            soak.as_ref().zip(prior).is_some_and(|(soak, prior)| soak.calibration.leaves_open(&prior))
+        };
+        let is_weak: Vec<bool> = soaks.iter().zip(&paths).map(is_weak).collect();
+        let strong = soaks.iter().zip(&is_weak).filter(|(_, is_weak)| !**is_weak);
+        let without =
+            is_weak.contains(&true).then(|| fitted(model, strong.filter_map(|(soak, _)| soak.as_ref())));
+        Some(Self { of_one, soaks, paths, is_weak, found: without.flatten().unwrap_or(all) })
+    }
+
+    /// What the others say of a soak, and whether it rests on that; `None` where it need not be calibrated once more.
+    fn others(&self, k: usize, is_open: bool) -> Option<(bool, OtherSoaks)> {
+        let path = self.paths[k].as_ref()?;
+        let prior = self.found.prior_on(path)?;
+        let about = self.found.on_path(path).at_reference_temperature(path.temperature_c);
+        let sensor = about.ok()?.parameters;
+        let rests = is_open || self.is_weak[k];
+        let is_unusual = self.soaks[k].as_ref().is_some_and(|soak| match &self.of_one.imu {
+            Some(imu) => is_unusual(&imu.usual, &sensor),
+            None => changes(&soak.calibration),
+        });
+        let prior = if rests { prior } else { Vec::new() };
+        (rests || is_unusual).then(|| (rests, OtherSoaks { prior, sensor: Some(sensor) }))
+    }
 }
 
 /// Does its recording by itself not do?

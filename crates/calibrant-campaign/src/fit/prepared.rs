@@ -150,7 +150,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Those of the scatter between soaks; infinite where that is as stated.
+    /// Those of the polynomials' variances; infinite where the scatter between soaks is as stated.
     fn degrees(&self) -> CovarianceDegrees {
         let of = |names: &[&str]| {
             let these = self

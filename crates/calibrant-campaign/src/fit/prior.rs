@@ -6,13 +6,15 @@
 use super::result::FittedCampaign;
 use super::soak::{SoakCalibration, SoakPath};
 use calibrant_core::estimate::KnownTerm;
-use calibrant_core::sensor::{CalibratedImu, ImuQuantity, SharedErrors};
+use calibrant_core::sensor::{CalibratedImu, ImuQuantity, SensorKind, SharedErrors};
 use nalgebra::{DMatrix, DVector};
 
 /// Standard deviation of a soak's prior, over that of what the others say.
 pub(super) const WIDER: f64 = 3.0;
 /// A direction is open where a soak has less than this share of the prior's information.
 const OPEN: f64 = 1e-2;
+/// So many degrees of freedom are of more than a few rotations.
+const MANY: f64 = 20.0;
 /// The variance of an open direction, in that of the prior.
 const WIDE: f64 = 1e6;
 
@@ -32,15 +34,19 @@ impl FittedCampaign {
 }
 
 impl SoakCalibration {
-    /// Does it leave a parameter open beside this prior? Then it is far from where it is linear, too.
+    /// Does it leave a gain or an angle of the gyroscope open beside this prior? A few rotations determine these far from where they are linear. Where many scatter, something
+    /// happened, and that must be seen.
     #[must_use]
     pub fn leaves_open(&self, prior: &[KnownTerm]) -> bool {
         let Some(covariance) = &self.imu.covariance else { return false };
-        // what all share is no part of the prior
-        let shared = |k: usize| self.imu.shared.as_ref().map_or(0.0, |of| of.root.row(k).norm_squared());
+        let degrees = self.imu.degrees_of_freedom.map_or(f64::INFINITY, |of| of.gyroscope_matrix);
+        if (MANY..f64::INFINITY).contains(&degrees) {
+            return false;
+        }
         self.imu.quantities.iter().enumerate().any(|(k, quantity)| {
+            let is_of_rotations = quantity.sensor_kind() == SensorKind::Gyroscope && !quantity.is_of_bias();
             let sd = prior.iter().find(|term| term.quantity == *quantity).and_then(|term| term.sd);
-            sd.is_some_and(|sd| (covariance[(k, k)] - shared(k)) * OPEN > sd * sd)
+            is_of_rotations && sd.is_some_and(|sd| covariance[(k, k)] * OPEN > sd * sd)
         })
     }
 }
@@ -130,7 +136,7 @@ pub(super) fn without_prior(soak: &SoakCalibration) -> Option<SoakCalibration> {
 mod tests {
     use super::*;
     use calibrant_core::estimate::{KnownTerm, SoakTemperature};
-    use calibrant_core::sensor::{Axis, ImuParameters, Quantity, ReadingUnit, SensorKind};
+    use calibrant_core::sensor::{Axis, CovarianceDegrees, ImuParameters, Quantity, ReadingUnit};
 
     /// Two biases of which the soak measures the sum, 0.3 ± 0.01, with a prior of 0 ± 1 each.
     fn of_sum() -> SoakCalibration {
@@ -178,10 +184,18 @@ mod tests {
     }
 
     #[test]
-    fn a_soak_leaves_open_what_it_tells_less_of_than_the_others() {
-        let soak = of_sum();
-        let of = |sd: f64| vec![KnownTerm { quantity: soak.imu.quantities[0], value: 0.0, sd: Some(sd) }];
+    fn a_soak_leaves_open_gains_of_the_gyroscope_that_it_tells_less_of_than_the_others() {
+        let of_bias = of_sum();
+        let gain = ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(Axis::X));
+        let mut of_gain = of_bias.clone();
+        of_gain.imu.quantities[0] = gain;
+        let said = |quantity: ImuQuantity, sd: f64| vec![KnownTerm { quantity, value: 0.0, sd: Some(sd) }];
         // its own standard deviation is 0.7
-        assert!(soak.leaves_open(&of(0.07)) && !soak.leaves_open(&of(0.08)));
+        assert!(of_gain.leaves_open(&said(gain, 0.07)) && !of_gain.leaves_open(&said(gain, 0.08)));
+        assert!(!of_bias.leaves_open(&said(of_bias.imu.quantities[0], 0.07)));
+        // many rotations scatter: it was knocked
+        let degrees = CovarianceDegrees { gyroscope_matrix: 40.0, ..CovarianceDegrees::known() };
+        of_gain.imu.degrees_of_freedom = Some(degrees);
+        assert!(!of_gain.leaves_open(&said(gain, 0.07)));
     }
 }

@@ -109,7 +109,14 @@ impl<'e> Setup<'e> {
     pub(crate) fn set_others(&mut self, others: &OtherSoaks) -> Vec<KnownTerm> {
         let (known, usual) = match self {
             Self::Holds(holds) => (&[][..], &mut holds.known),
-            Self::Imu(_, setup) => (&setup.known[..], &mut setup.usual),
+            Self::Imu(_, setup) => {
+                if let Some(sensor) = &others.sensor {
+                    // what is said is about this temperature
+                    setup.thermal.reference_c = Some(sensor.thermal.reference_c);
+                }
+                let setup = &mut **setup;
+                (&setup.known[..], &mut setup.usual)
+            }
             Self::Motion(_) | Self::Faces(_) => return Vec::new(),
         };
         for term in usual.iter_mut().filter(|term| term.sd.is_some()) {

@@ -257,8 +257,9 @@ impl Problem<'_> {
             (0..self.holds.len()).map(|j| all.contains(&j) && of(j)).collect()
         };
         let every = || chosen(&|_| true);
-        // of few holds beside a prior, some that agree with it would do
-        let fewest = if self.prior.is_some() { 2 * self.size() } else { self.size() + 3 };
+        // of few holds beside what other recordings say, some that agree with it would do
+        let of_others = self.prior.is_some() && !self.settings.datasheet_prior;
+        let fewest = if of_others { 2 * self.size() } else { self.size() + 3 };
         if all.len() < fewest {
             return every();
         }

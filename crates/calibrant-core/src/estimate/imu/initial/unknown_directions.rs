@@ -50,7 +50,10 @@ pub(crate) fn from_unknown_directions(
         let with_known = HoldsSetup { known, ..setup.clone() };
         let stimulus = Stimulus::Holds(&with_known);
         let alone = CalibrationProblem { stimulus, ..alone };
-        found_alone = holds::calibrate(&alone, &with_known, settings, as_read).or(found_alone);
+        found_alone = match holds::calibrate(&alone, &with_known, settings, as_read) {
+            Err(Error::NotIdentifiable(_)) => found_alone,
+            found => found,
+        };
     }
     let mut first = found_alone.map_err(|error| match detected {
         true => {
