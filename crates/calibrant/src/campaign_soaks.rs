@@ -116,7 +116,7 @@ impl<'e> Round<'e> {
             None => changes(&soak.calibration),
         });
         let prior = if rests { prior } else { Vec::new() };
-        (rests || is_unusual).then(|| (rests, OtherSoaks { prior, sensor: Some(sensor) }))
+        (rests || is_unusual).then_some((rests, OtherSoaks { prior, sensor: Some(sensor) }))
     }
 }
 

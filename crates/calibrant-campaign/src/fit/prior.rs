@@ -19,7 +19,7 @@ const MANY: f64 = 20.0;
 const WIDE: f64 = 1e6;
 
 impl FittedCampaign {
-    /// The prior of another soak on this path: what these soaks predict, [`WIDER`] times as wide. `None` where there is no covariance.
+    /// The prior of another soak on this path: what these soaks predict, three times as wide. `None` where there is no covariance.
     #[must_use]
     pub fn prior_on(&self, path: &SoakPath) -> Option<Vec<KnownTerm>> {
         let imu = self.on_path(path).at(path.temperature_c).ok()?;
