@@ -125,7 +125,9 @@ def design_campaign(
     Raises
     ------
     ExperimentError
-        Where there is no ``[campaign]``, or no time for a soak.
+        Where there is no ``[campaign]``.
+    Infeasible
+        Where there is no time for a soak.
 
     Examples
     --------

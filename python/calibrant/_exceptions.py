@@ -104,7 +104,7 @@ class NotIdentifiable(CalibrantError):
 
 
 class Infeasible(CalibrantError):
-    """The limits admit no motion."""
+    """The limits admit no motion, or the time no campaign."""
 
 
 class OutputError(CalibrantError, OSError):

@@ -31,12 +31,12 @@ pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> 
     )
 }
 
-/// The temperature terms as they are expected; `fixed`: the fixed ones alone.
+/// The temperature terms as others say them; `fixed`: the fixed ones alone.
 pub(crate) fn expected_terms(setup: &ImuSetup, fixed: Thermal) -> Thermal {
     let mut imu = ImuParameters { thermal: fixed, ..ImuParameters::identity() };
-    for known in setup.known_terms().filter(|known| matches!(known.quantity, ImuQuantity::Thermal(..))) {
-        let now = known.quantity.value(&imu);
-        known.quantity.add_to(&mut imu, known.value - now);
+    for usual in setup.usual.iter().filter(|usual| matches!(usual.quantity, ImuQuantity::Thermal(..))) {
+        let now = usual.quantity.value(&imu);
+        usual.quantity.add_to(&mut imu, usual.value - now);
     }
     imu.thermal
 }
