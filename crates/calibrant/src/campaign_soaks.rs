@@ -13,7 +13,7 @@ use calibrant_io::{Experiment, ReadSoak, parse_soak};
 
 /// The temperature of an accelerometer alone changes in a soak where the means of its holds differ by so much, K.
 const CHANGES_K: f64 = 0.1;
-/// Temperature terms are unusual beyond so many standard deviations of usual sensors.
+/// A slope or a curvature over temperature is unusual beyond this multiple of the standard deviation over sensors.
 const UNUSUAL: f64 = 3.0;
 
 /// Calibrates soaks once more with what the others say of them:
@@ -32,7 +32,7 @@ pub(crate) fn calibrate_with_the_others(
 ) -> Result<Option<Diagnostic>> {
     let Some(model) = experiment.campaign_model()? else { return Ok(None) };
     let (of_one, options) = (batch.session().experiment(), batch.session().options());
-    let mut is_open: Vec<bool> = rows.iter().map(is_open_alone).collect();
+    let mut is_open: Vec<bool> = in_parallel(rows.len(), |k| is_open_alone(&rows[k]));
     let temperatures: Vec<Option<f64>> = in_parallel(rows.len(), |k| {
         rows[k].outcome.is_err().then(|| temperature_of(batch.session(), &batch.sources()[k])).flatten()
     });

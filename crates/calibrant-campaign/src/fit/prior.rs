@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 pub(super) const WIDER: f64 = 3.0;
 /// A direction is open where a soak has less than this share of the prior's information.
 const OPEN: f64 = 1e-2;
-/// So many degrees of freedom are of more than a few rotations.
+/// With at least this many degrees of freedom, the scatter of the rotations comes from more than a few of them.
 const MANY: f64 = 20.0;
 /// The variance of an open direction, in that of the prior.
 const WIDE: f64 = 1e6;
@@ -86,8 +86,8 @@ impl Scaled {
     }
 }
 
-/// Each parameter without its own prior, and with what the others say of the rest, no wider than they say it: what it tells of the scatter between soaks. The covariance of
-/// the soak alone has open directions, beside which the scatter would not be seen. `None` where the covariance is singular.
+/// Each parameter as the soak measures it, without its own prior. The other parameters keep their priors, with the standard deviations that the other soaks state. From these
+/// values and variances the scatter between soaks is found: in the covariance of the soak alone, open directions would hide it. `None` where the covariance is singular.
 pub(super) fn one_by_one(soak: &SoakCalibration) -> Option<SoakCalibration> {
     let Scaled { unit, known, off, with_prior, .. } = Scaled::of(soak)?;
     let sharper = DMatrix::from_diagonal(&known) * (WIDER * WIDER - 1.0);

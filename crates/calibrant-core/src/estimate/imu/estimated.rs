@@ -1,5 +1,6 @@
 //! The estimated quantities of an IMU, and their priors.
 
+use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::imu::model::Prior;
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
 use crate::sensor::{ImuParameters, ImuQuantity, SensorKind, Thermal};
@@ -34,27 +35,25 @@ pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> 
 /// The temperature terms as others say them; `fixed`: the fixed ones alone.
 pub(crate) fn expected_terms(setup: &ImuSetup, fixed: Thermal) -> Thermal {
     let mut imu = ImuParameters { thermal: fixed, ..ImuParameters::identity() };
-    for usual in setup.usual.iter().filter(|usual| matches!(usual.quantity, ImuQuantity::Thermal(..))) {
-        let now = usual.quantity.value(&imu);
-        usual.quantity.add_to(&mut imu, usual.value - now);
-    }
+    set(&mut imu, setup.usual.iter().filter(|usual| matches!(usual.quantity, ImuQuantity::Thermal(..))));
     imu.thermal
 }
 
 /// Sets the parameters of the gyroscope that other recordings tell: the rotations of this one need not.
 pub(crate) fn set_usual(imu: &mut ImuParameters, setup: &ImuSetup) {
-    for usual in &setup.usual {
-        if matches!(usual.quantity, ImuQuantity::Of(SensorKind::Gyroscope, _)) {
-            let now = usual.quantity.value(imu);
-            usual.quantity.add_to(imu, usual.value - now);
-        }
-    }
+    let of_gyroscope =
+        |usual: &&KnownTerm| matches!(usual.quantity, ImuQuantity::Of(SensorKind::Gyroscope, _));
+    set(imu, setup.usual.iter().filter(of_gyroscope));
 }
 
 /// Sets the fixed quantities.
 pub(crate) fn set_fixed(imu: &mut ImuParameters, setup: &ImuSetup) {
-    for known in setup.known_terms().filter(|known| known.sd.is_none()) {
-        let now = known.quantity.value(imu);
-        known.quantity.add_to(imu, known.value - now);
+    set(imu, setup.known_terms().filter(|known| known.sd.is_none()));
+}
+
+fn set<'k>(imu: &mut ImuParameters, terms: impl Iterator<Item = &'k KnownTerm>) {
+    for term in terms {
+        let now = term.quantity.value(imu);
+        term.quantity.add_to(imu, term.value - now);
     }
 }

@@ -6,11 +6,12 @@ use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::initial::known_faces::from_faces;
 use crate::estimate::imu::initial::temperature_terms::with_temperature_terms;
 use crate::estimate::imu::initial::unknown_directions::from_unknown_directions;
+use crate::estimate::imu::known_term::KnownTerm;
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
-use crate::sensor::{Recording, SensorKind, SensorParameters};
+use crate::sensor::{ImuQuantity, Recording, SensorKind, SensorParameters};
 
 /// The recording at one temperature by the terms that are expected, and its holds as they are; `None` where nothing is expected. Far from what is usual, holds without
 /// these terms would look like outliers.
@@ -18,13 +19,14 @@ fn as_expected<'a>(
     problem: &ImuProblem<'a>,
     recording: &Recording,
 ) -> Result<Option<(Recording, &'a [Hold])>> {
-    let Some(holds) = problem.setup.holds.found.as_deref() else { return Ok(None) };
-    let temperature = RecordingTemperature::of(problem, holds)?;
     let kind = SensorKind::Accelerometer;
+    let is_term = |usual: &KnownTerm| {
+        matches!(usual.quantity, ImuQuantity::Thermal(of, _) if of == kind) && usual.value != 0.0
+    };
+    let holds = problem.setup.holds.found.as_deref().filter(|_| problem.setup.usual.iter().any(is_term));
+    let Some(holds) = holds else { return Ok(None) };
+    let temperature = RecordingTemperature::of(problem, holds)?;
     let thermal = expected_terms(problem.setup, temperature.start);
-    if thermal[kind] == temperature.start[kind] {
-        return Ok(None);
-    }
     let nominal = problem.accelerometer.nominal().unwrap_or(SensorParameters::identity());
     Ok(Some((at_reference(recording, kind, &nominal, &thermal, &temperature), holds)))
 }
